@@ -10,18 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studies.claims.plausible import FACTORS, Factor, Sample
+from studies.claims.conditions import dependence
+from studies.claims.plausible import FACTORS, NEW, Factor, Sample
 from studies.claims.verdicts import Ruling, percent
 from studies.common.data import rows
 from studies.common.words import TextTable
 
-# data that were not varied before, or not so far
-NEW = ("contact", "backing", "stroke_time", "bulk_modulus", "oil_damping")
 HEAVIER = "mass_"  # how the names of data begin whose range is wider
 CHANCE = (
     0.05  # shares of two lots of machines differ by more than chance if it would do so less often than that
 )
-TELLING = 0.01  # the same of a datum: some are tried
 NOTICED = 0.02  # by which averages over the rise change a share to be named
 Judged = Sequence[tuple[Sample, bool]]
 
@@ -119,35 +117,10 @@ def differ(one: Judgements, other: Judgements) -> bool:
 
 
 def _because(judged: Judged) -> str:
-    """The new datum on which a claim depends most, with the shares; empty if on none more than by chance."""
-    found = min((_split(factor, judged) for factor in FACTORS if _is_new(factor)), key=lambda one: one[0])
-    return f" ({found[1]})" if found[0] < TELLING else ""
+    """The new datum on which a claim depends most, with the shares, in brackets; empty if on none."""
+    found = dependence(judged, [factor for factor in FACTORS if _is_new(factor)])
+    return f" ({found})" if found else ""
 
 
 def _is_new(factor: Factor) -> bool:
     return factor.name in NEW or factor.name.startswith(HEAVIER)
-
-
-def _split(factor: Factor, judged: Judged) -> tuple[float, str]:
-    """How often chance alone would part the machines so by a datum, and the shares of the parts in words."""
-    from scipy.stats import chi2_contingency  # takes a second to import
-
-    if factor.choices:
-        parts = {
-            factor.chosen(one): [holds for s, holds in judged if s[factor.name] == one]
-            for one in factor.choices
-        }
-    else:
-        middle = float(factor.at(0.5))
-        parts = {
-            factor.bound(side, middle): [
-                holds for s, holds in judged if (float(s[factor.name]) >= middle) == (side == "above")
-            ]
-            for side in ("below", "above")
-        }
-    counts = [Judgements(sum(of), len(of) - sum(of)) for of in parts.values()]
-    columns = list(zip(*(one[:2] for one in counts), strict=True))
-    if not all(sum(one[:2]) for one in counts) or not all(sum(column) for column in columns):
-        return 1.0, ""
-    chance = float(chi2_contingency(np.array([one[:2] for one in counts])).pvalue)
-    return chance, ", ".join(f"{text}: {one.said}" for text, one in zip(parts, counts, strict=True))

@@ -12,6 +12,8 @@ CUTS = 24  # bounds tried on a range
 OTHER_THAN = "machines other than those with "
 PAIR_GAIN = 0.03  # by how much two bounds together must beat the best one alone
 
+TELLING = 0.01  # how often chance alone would part the machines so by a datum that is named
+
 Mask = npt.NDArray[np.bool_]
 
 
@@ -103,3 +105,31 @@ def _bounds_on(factor: Factor, samples: Sequence[Sample]) -> list[tuple[str, Mas
         found.append((factor.bound("below", cut), numbers < cut))
         found.append((factor.bound("above", cut), numbers >= cut))
     return found
+
+
+def dependence(decided: Sequence[tuple[Sample, bool]], factors: Sequence[Factor]) -> str:
+    """The datum by which machines part most, with the share of each part; empty if by none beyond chance."""
+    chance, text = min((_split(factor, decided) for factor in factors), key=lambda one: one[0])
+    return text if chance < TELLING else ""
+
+
+def _split(factor: Factor, decided: Sequence[tuple[Sample, bool]]) -> tuple[float, str]:
+    """How often chance alone would part the machines so by a datum, and the shares of the parts in words.
+
+    By its choices, or by the middle of its range; by Pearson's test of independence.
+    """
+    from scipy.stats import chi2_contingency  # takes a second to import
+
+    texts = [factor.chosen(choice) for choice in factor.choices] or [
+        factor.bound(side, float(factor.at(0.5))) for side in ("below", "above")
+    ]
+    counts = np.zeros((len(texts), 2), dtype=np.int64)
+    for sample, holds in decided:
+        value = sample[factor.name]
+        place = factor.choices.index(value) if isinstance(value, str) else int(value >= float(factor.at(0.5)))
+        counts[place, int(not holds)] += 1
+    if not (counts.any(axis=0).all() and counts.any(axis=1).all()):
+        return 1.0, ""
+    shares = counts[:, 0] / counts.sum(axis=1)
+    told = ", ".join(f"{text} {100.0 * share:.0f} %" for text, share in zip(texts, shares, strict=True))
+    return float(chi2_contingency(counts).pvalue), told

@@ -94,7 +94,11 @@ def force_figure(reference: Evidence, machines: Machines) -> Figure:
             lines = [_against_first([m.value for m in e.row(name, CLEARANCES)]) for e in chosen]
             every += lines
             for n, line in enumerate(lines):
-                label = f"plausible machine, {contact}" if n == 0 and name == "mean_force" else None
+                label = (
+                    f"machine, {paper_machine.CONTACT_TITLES[contact]}"
+                    if n == 0 and name == "mean_force"
+                    else None
+                )
                 axes.plot(SIZES_MM, line, color=colour, lw=0.5, alpha=0.6, label=label)
         ours = _against_first([m.value for m in reference.row(name, CLEARANCES)])
         printed = _against_first(list(paper.values()))

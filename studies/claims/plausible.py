@@ -15,32 +15,25 @@ from studies.common import paper_machine
 from studies.common.data import rows
 from studies.contact_laws.catalogue import POWER_LAWS
 from support_exudyn import ClearancePin, HydraulicSupport, OilColumn, Part, bore_area, reference_support
-from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
 from user_forces import (
-    STEEL,
-    STEEL_35CRMO,
     Ambrosio,
     ImpactVelocity,
     IndentationVelocity,
     JournalBearing,
     JournalContact,
     NormalLaw,
-    PinInBore,
-    effective_modulus,
-    external_contact_stiffness,
-    internal_contact_stiffness,
 )
-from user_forces.backing import in_series, pin_stiffness
 from user_forces.values.value import InputError, Vector2
 
 Choice = str | float
 Sample = Mapping[str, Choice]  # a value of every factor, by name
 
 REFERENCE_SCALE = 0.65  # of the support whose pivots the reference support has
-HERTZ = {"paper": external_contact_stiffness, "internal": internal_contact_stiffness}
+# data that came to be varied last
+NEW = ("contact", "backing", "stroke_time", "bulk_modulus", "oil_damping")
 COLUMNS = "columns"  # what a sample says besides its factors: whether it is asked on columns of oil, too
 RIGID, ON_OIL = "rigid", "rigid and oil"
-ON_OIL_EVERY = 4  # machine: a run on oil costs ten times one on rigid columns
+ON_OIL_EVERY = 3  # machine: a run on oil costs ten times one on rigid columns
 
 
 @dataclass(frozen=True)
@@ -202,34 +195,16 @@ def pin(sample: Sample, clearance_mm: float, support: HydraulicSupport) -> Clear
 
 
 def _normal(sample: Sample, bearing: JournalBearing, support: HydraulicSupport) -> NormalLaw:
-    """The law of the contact: K depth^1.5 of either kind, or cylinders as long as the machine's pin."""
-    law: type[Any] = POWER_LAWS[str(sample["law"])]
-    given: dict[str, Any] = {
-        "restitution": number(sample, "restitution"),
-        "damping_speed": ImpactVelocity(floor=1e-3)
+    return paper_machine.normal_law(
+        str(sample["contact"]),
+        bearing,
+        support,
+        POWER_LAWS[str(sample["law"])],
+        number(sample, "backing"),
+        restitution=number(sample, "restitution"),
+        damping_speed=ImpactVelocity(floor=1e-3)
         if sample["damping_speed"] == "last impact"
         else IndentationVelocity(),
-    }
-    form = HERTZ.get(str(sample["contact"]))
-    if form is not None:
-        made: NormalLaw = law(stiffness=form(bearing, STEEL, STEEL_35CRMO), **given)
-        return made
-    length = contact_length(support, paper_machine.CLEARANCE_PIN)
-    if length is None:
-        raise InputError("machine.width.lengths: has no rear_base; allowed: the length of every pin")
-    estimated = in_series(
-        [
-            pin_stiffness(bearing.journal_radius, length, STEEL_35CRMO),
-            links_stiffness(support, paper_machine.CLEARANCE_PIN, STEEL),
-        ]
-    )
-    return PinInBore(
-        bearing=bearing,
-        length=length,
-        effective_modulus=effective_modulus(STEEL, STEEL_35CRMO),
-        backing_stiffness=number(sample, "backing") * estimated,
-        damping=law.__name__,
-        **given,
     )
 
 

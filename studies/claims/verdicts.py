@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from studies.claims.claim_list import Claim, Judge, Varied
-from studies.claims.conditions import best_condition
+from studies.claims.conditions import best_condition, dependence
 from studies.claims.evidence import Evidence, NotedEvidence, Verdict
-from studies.claims.plausible import Sample
+from studies.claims.plausible import FACTORS, NEW, Sample
 from studies.claims.plausible_runs import OIL
 
 KINDS = ("holds", "holds only", "not supported", "cannot be judged")
@@ -116,7 +116,11 @@ def rule(claim: Claim, reference: Evidence, machines: Machines) -> Ruling:
     ours, verdict = claim.tell(noted), _words(on_reference, judged)
     others = _thresholds(claim.judge, those) if isinstance(claim.judge, Varied) else ()
     found = Ruling(claim, on_reference, holds, fails, left, ours, verdict, noted.largest_error, others)
-    return replace(found, verdict=f"{verdict}; hangs on the threshold") if found.hangs else found
+    if claim.on_oil and found.kind == "holds only":
+        decided = [(sample, one) for sample, one in judged if one is not None]
+        depends = dependence(decided, [factor for factor in FACTORS if factor.name in NEW])
+        found = replace(found, verdict=f"{verdict}: {depends}" if depends else verdict)
+    return replace(found, verdict=f"{found.verdict}; hangs on the threshold") if found.hangs else found
 
 
 def _thresholds(judge: Varied, machines: Machines) -> tuple[AtThreshold, ...]:

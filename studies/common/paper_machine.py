@@ -1,12 +1,14 @@
 """The paper's case: the reference support with a rear-link clearance pin, and what the paper prints of it."""
 
 from dataclasses import replace
+from typing import Any
 
 from support_exudyn import (
     ClearancePin,
     CubicStep,
     Held,
     HydraulicCylinder,
+    HydraulicSupport,
     Inlet,
     OilColumn,
     RampedOpening,
@@ -16,6 +18,7 @@ from support_exudyn import (
     bore_area,
     reference_support,
 )
+from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
@@ -25,11 +28,22 @@ from user_forces import (
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
+    NormalLaw,
+    PinInBore,
+    effective_modulus,
     external_contact_stiffness,
+    internal_contact_stiffness,
 )
+from user_forces.backing import in_series, pin_stiffness
+from user_forces.values.value import InputError
 
 CLEARANCE_PIN = "rear_base"
 BORE_RADIUS = 0.0655  # [m], implied by Table 2
+PAPER, INTERNAL, CYLINDERS = CONTACTS = ("paper", "internal", "cylinders")  # of pin and bore
+HERTZ = {PAPER: external_contact_stiffness, INTERNAL: internal_contact_stiffness}
+CONTACT_TITLES = {  # for readers
+    PAPER: "Eq. 5, two spheres", INTERNAL: "sphere in a hollow sphere", CYLINDERS: "along the pin's length",
+}  # fmt: skip
 RESTITUTION = 0.9  # assumed; the paper gives none
 SLIDING_COEFFICIENT = 0.25  # assumed: dry steel on steel
 # oil of the columns, assumed: four columns of 250 mm bore (380 mm of the ZF18000 times 0.65), two to a pair;
@@ -78,19 +92,63 @@ def stiffness(clearance_mm: float, bore_radius: float = BORE_RADIUS) -> float:
     return external_contact_stiffness(bearing(clearance_mm, bore_radius), STEEL, STEEL_35CRMO)
 
 
+def normal_law(
+    contact: str,
+    bearing: JournalBearing,
+    support: HydraulicSupport,
+    law: type[Any] = LankaraniNikravesh,
+    backing: float = 1.0,
+    **given: Any,
+) -> NormalLaw:
+    """The law of the rear-link pin's contact, a bore in steel and a pin of 35CrMo.
+
+    Arguments:
+        contact: one of CONTACTS: Eq. 5, a sphere in a hollow sphere, or cylinders as long as the machine's pin.
+        bearing: of the pin.
+        support: whose pin it is.
+        law: of K depth^1.5, whose damping factor cylinders have, too.
+        backing: stiffness of pin and link behind cylinders, times estimated.
+        given: restitution and damping_speed of the law.
+    """
+    if contact in HERTZ:
+        made: NormalLaw = law(stiffness=HERTZ[contact](bearing, STEEL, STEEL_35CRMO), **given)
+        return made
+    length = contact_length(support, CLEARANCE_PIN)
+    if contact != CYLINDERS or length is None:
+        allowed = ", ".join(CONTACTS)
+        raise InputError(
+            f"contact = {contact!r}: allowed: {allowed}, the last if the machine knows its pin's length"
+        )
+    estimated = in_series(
+        [
+            pin_stiffness(bearing.journal_radius, length, STEEL_35CRMO),
+            links_stiffness(support, CLEARANCE_PIN, STEEL),
+        ]
+    )
+    return PinInBore(
+        bearing=bearing,
+        length=length,
+        effective_modulus=effective_modulus(STEEL, STEEL_35CRMO),
+        backing_stiffness=backing * estimated,
+        damping=law.__name__,
+        **given,
+    )
+
+
 def clearance_joint(
-    clearance_mm: float, sliding_coefficient: float, bore_radius: float = BORE_RADIUS
+    clearance_mm: float, sliding_coefficient: float, bore_radius: float = BORE_RADIUS, contact: str = PAPER
 ) -> ClearancePin:
-    """The rear-link pin as a clearance pin; the bore is in the base. bore_radius: [m]."""
-    normal = LankaraniNikravesh(
-        stiffness=stiffness(clearance_mm, bore_radius),
+    """The rear-link pin as a clearance pin; the bore is in the base. bore_radius: [m]; contact: of CONTACTS."""
+    of_pin = bearing(clearance_mm, bore_radius)
+    normal = normal_law(
+        contact,
+        of_pin,
+        reference_support(),
         restitution=RESTITUTION,
         damping_speed=ImpactVelocity(floor=1e-3),
     )
     friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
-    return ClearancePin(
-        contact=JournalContact(bearing=bearing(clearance_mm, bore_radius), normal=normal, friction=friction)
-    )
+    return ClearancePin(contact=JournalContact(bearing=of_pin, normal=normal, friction=friction))
 
 
 def ideal_rise(step: float) -> Scenario:

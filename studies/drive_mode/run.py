@@ -12,7 +12,7 @@ from studies.common.numbers import Found, by_case
 from studies.common.options import Options
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
-from studies.drive_mode import cases, tables
+from studies.drive_mode import assumed, cases, tables
 from studies.drive_mode.cases import MODES, ModePlan, case_name, naive_peaks
 from studies.drive_mode.figures import LIVE, figures
 from studies.drive_mode.measures import measure
@@ -23,12 +23,15 @@ def work(chosen: Options) -> StudyOutcome:
     """Both modes on all kinds of columns, and the peaks of the recipe that has no limit."""
     plan = ModePlan(chosen.subject)
     results = runs.run_with_errors(plan.scenarios, chosen)
+    is_paper = plan.subject.is_paper
+    bands = assumed.bands(runs.run_cases(assumed.scenarios(plan), chosen)) if is_paper else {}
     numbers = measure(plan, results)
     found = by_case(numbers)
-    naive = tables.naive_said(naive_peaks()) if plan.subject.is_paper else None
+    naive = tables.naive_said(naive_peaks()) if is_paper else None
     cylinders = {"table_valves": tables.valve_table(found, plan)} if "cylinder" in plan.columns else {}
     sheets = {
         "drive_modes": tables.key_table(found, plan),
+        **({"assumed": assumed.band_table(bands)} if bands else {}),
         "table_saving": tables.saving_table(found, plan),
         **{f"table_{columns}": tables.mode_table(found, plan, columns) for columns in plan.columns},
         **cylinders,
@@ -38,7 +41,12 @@ def work(chosen: Options) -> StudyOutcome:
     drawings = figures(plan, results)
     live = {name: LIVE[name] for name in drawings}
     return StudyOutcome(
-        numbers, _words(plan, found, results, naive, sheets), drawings, sheets, results, live=live
+        numbers,
+        _words(plan, found, results, naive, sheets) | {"bands": bands},
+        drawings,
+        sheets,
+        results,
+        live=live,
     )
 
 

@@ -1,0 +1,96 @@
+"""What assumptions on oil and contact do to the peak of the sudden inlet: a band beside the numerical error.
+
+The start of mode 1 on columns of oil, over bulk modulus and damping of the oil and over the contact of the pin.
+It starts as soon as the journal rests, and ends when the first swings are over.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+from studies.common import paper_machine, rise
+from studies.common.paper_machine import CONTACT_TITLES, CYLINDERS, PAPER
+from studies.common.words import TextTable
+from studies.drive_mode.cases import CLEARANCE_MM, PINS, ModePlan, case_name
+from support_exudyn import ClearancePin, Result, Scenario, UniformSpeed
+
+MODULI = (1.5e9, 2.2e9)  # of the oil [Pa]; four published shields give 1.96 GPa
+DAMPING_TIMES = (4e-4, 1e-3, 2.4e-3)  # [s]: 5 to 30 % of the critical damping at 40 Hz
+START, AFTER = 0.8, 0.4  # of mode 1, when the journal rests; and how long is looked at [s]
+PEAK = rise.Peak(rise.FORCE, 1e-3, START, START + AFTER)  # [kN]
+USUAL_DAMPING = 1e-3  # of the columns in the rest of the study [s]
+
+
+class Band(NamedTuple):
+    """The peak of a pin [kN]: as assumed in the rest of the study, the lowest and the highest of the grid."""
+
+    usual: float
+    low: float
+    high: float
+
+    @property
+    def said(self) -> str:
+        """From where to where, in words."""
+        return f"{self.low:.0f} to {self.high:.0f} kN"
+
+
+def pins() -> dict[str, str]:
+    """The pins, by name, with what they are called: ideal, and 1.5 mm by two contacts."""
+    return {PINS[0]: PINS[0]} | {one: f"{PINS[1]}, {CONTACT_TITLES[one]}" for one in (PAPER, CYLINDERS)}
+
+
+def scenarios(plan: ModePlan) -> dict[str, Scenario]:
+    """Every run of the grid, by name."""
+    return {
+        _name(pin, modulus, damping): _run(plan, pin, modulus, damping)
+        for pin in pins()
+        for modulus in MODULI
+        for damping in DAMPING_TIMES
+    }
+
+
+def _name(pin: str, modulus: float, damping: float) -> str:
+    return f"start of mode 1, {pin}, {modulus / 1e9:g} GPa, {1e3 * damping:g} ms"
+
+
+def _run(plan: ModePlan, pin: str, modulus: float, damping: float) -> Scenario:
+    ideal = pin == PINS[0]
+    base = plan.scenarios[case_name("mode 1", PINS[0] if ideal else PINS[1], "oil")]
+    own = base.drive
+    assert isinstance(own, UniformSpeed)
+    drive = replace(own, start=START, end=START + own.end - own.start)
+    columns = {
+        name: replace(column, bulk_modulus=modulus, damping_time=damping)
+        for name, column in paper_machine.oil_columns().items()
+    }
+    loose = {} if ideal else {paper_machine.CLEARANCE_PIN: _joint(plan, pin)}
+    return replace(base, drive=drive, duration=START + AFTER, actuators=columns, pins=loose)
+
+
+def _joint(plan: ModePlan, contact: str) -> ClearancePin:
+    return paper_machine.clearance_joint(CLEARANCE_MM, plan.subject.friction, contact=contact)
+
+
+def bands(results: Mapping[str, Result]) -> dict[str, Band]:
+    """The peak of each pin over the grid, by the pin's name."""
+    found = {}
+    for pin in pins():
+        peaks = {
+            (modulus, damping): PEAK(results[_name(pin, modulus, damping)])
+            for modulus in MODULI
+            for damping in DAMPING_TIMES
+        }
+        usual = peaks[paper_machine.BULK_MODULUS, USUAL_DAMPING]
+        found[pin] = Band(usual, min(peaks.values()), max(peaks.values()))
+    return found
+
+
+def band_table(found: Mapping[str, Band]) -> TextTable:
+    """A row a pin: its peak as assumed, and from where to where it may lie."""
+    rows = []
+    ideal = found[PINS[0]]
+    for pin, title in pins().items():
+        band = found[pin]
+        against = "" if pin == PINS[0] else f"{100.0 * (band.usual / ideal.usual - 1.0):+.0f} %"
+        rows.append((title, f"{band.usual:.0f}", against, f"{band.low:.0f} to {band.high:.0f}"))
+    return TextTable(("pin", "peak [kN]", "against ideal", "over oil and damping [kN]"), tuple(rows))
