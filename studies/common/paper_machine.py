@@ -23,6 +23,7 @@ from user_forces import (
     STEEL,
     STEEL_35CRMO,
     Ambrosio,
+    DampingSpeed,
     Frictionless,
     ImpactVelocity,
     JournalBearing,
@@ -135,8 +136,15 @@ def normal_law(
     )
 
 
+LAST_IMPACT = ImpactVelocity(floor=1e-3)  # by whose speed the paper damps a contact that does not part
+
+
 def clearance_joint(
-    clearance_mm: float, sliding_coefficient: float, bore_radius: float = BORE_RADIUS, contact: str = PAPER
+    clearance_mm: float,
+    sliding_coefficient: float,
+    bore_radius: float = BORE_RADIUS,
+    contact: str = PAPER,
+    damping_speed: DampingSpeed = LAST_IMPACT,
 ) -> ClearancePin:
     """The rear-link pin as a clearance pin; the bore is in the base. bore_radius: [m]; contact: of CONTACTS."""
     of_pin = bearing(clearance_mm, bore_radius)
@@ -145,7 +153,7 @@ def clearance_joint(
         of_pin,
         reference_support(),
         restitution=RESTITUTION,
-        damping_speed=ImpactVelocity(floor=1e-3),
+        damping_speed=damping_speed,
     )
     friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
     return ClearancePin(contact=JournalContact(bearing=of_pin, normal=normal, friction=friction))

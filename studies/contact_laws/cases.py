@@ -135,13 +135,19 @@ class Joint:
         To the accuracy of studies; at chosen steps where the redundant formulation alone covers a law. There an
         accuracy would never be met: such laws stick and slip without end.
         """
+        return {name: self._run(normal, friction) for name, (normal, friction) in self.laws.items()}
+
+    @cached_property
+    def rubbing(self) -> dict[str, Scenario]:
+        """The motion under every law with hysteresis damping and one stiffness, with friction, by law."""
+        friction = catalogue.friction_laws(self.subject.friction)["ambrosio"]
+        return {name: self._run(self.laws[name][0], friction) for name in POWER_LAWS}
+
+    def _run(self, normal: forces.NormalLaw, friction: forces.FrictionLaw) -> Scenario:
         motion = self.subject.motion
-        cases = {}
-        for name, (normal, friction) in self.laws.items():
-            pin = replace(self.pin, contact=replace(self.pin.contact, normal=normal, friction=friction))
-            case = to_accuracy(replace(motion, pins={**motion.pins, self.subject.pin: pin}))
-            cases[name] = self._at_steps(case) if cheapest(case) == "redundant" else case
-        return cases
+        pin = replace(self.pin, contact=replace(self.pin.contact, normal=normal, friction=friction))
+        case = to_accuracy(replace(motion, pins={**motion.pins, self.subject.pin: pin}))
+        return self._at_steps(case) if cheapest(case) == "redundant" else case
 
     def _at_steps(self, case: Scenario) -> Scenario:
         if not self.subject.is_paper:

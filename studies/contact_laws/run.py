@@ -27,6 +27,7 @@ from studies.contact_laws.figures import (
 )
 from support_exudyn import Result
 
+RUBBING = ", with friction"  # what cases of laws with hysteresis damping are called
 DELIVERED, LOST = "delivered_restitution", "energy_error"
 
 
@@ -144,9 +145,11 @@ def work(chosen: Options) -> StudyOutcome:
     made_anew = replace(chosen, kept=None)  # sooner than read: each takes a twentieth of a second
     done = run_with_errors(impacts, made_anew) | run_cases(loops, made_anew)
     done |= run_with_errors(joint.runs, chosen)
+    rubbed = run_with_errors({f"{name}{RUBBING}": case for name, case in joint.rubbing.items()}, chosen)
     restitutions = restitution_numbers(done, {case: expected for case, (_, expected) in laws.items()})
     risen = {name: done[name] for name in joint.runs}
     numbers = rise_numbers(subject.watched, risen)
+    with_friction = rise_numbers(subject.watched, rubbed)
     found = by_case([*restitutions, *numbers])
     drawings = {
         "laws_at_a_glance": answer_figure(found),
@@ -163,6 +166,7 @@ def work(chosen: Options) -> StudyOutcome:
     words = (
         _of_impacts(joint, restitutions)
         | _of_rises(numbers)
+        | {"rubbing": _spreads(by_case(with_friction), [f"{name}{RUBBING}" for name in POWER_LAWS])}
         | {
             "joint": joint,
             "at_steps": at_steps,
@@ -170,7 +174,7 @@ def work(chosen: Options) -> StudyOutcome:
         }
     )
     live = {"permanent_contact": (0, 1)}
-    return StudyOutcome([*restitutions, *numbers], words, drawings, tables, risen, live=live)
+    return StudyOutcome([*restitutions, *numbers, *with_friction], words, drawings, tables, risen, live=live)
 
 
 def _of_impacts(joint: Joint, numbers: Sequence[Number]) -> dict[str, object]:
@@ -205,19 +209,24 @@ def _of_rises(numbers: Sequence[Number]) -> dict[str, object]:
         case: found["largest_pin_force_any_step", case].value for case in all_cases if case not in frictions
     }
 
-    def spread(name: str) -> float:
-        values = [found[name, case].value for case in hysteresis]
-        return max(values) / min(values) - 1.0
-
     return {
         "risen": found,
         "frictions": frictions,
         "hysteresis": hysteresis,
-        "spread": {name: spread(name) for name in ("mean_pin_force", "std_pin_force")},
+        "spread": _spreads(found, hysteresis),
         "softest": min(peaks, key=peaks.__getitem__),
         "stiffest": max(peaks, key=peaks.__getitem__),
         "lost": max(found["energy_error", c].value / found["energy_dissipated", c].value for c in hysteresis),
     }
+
+
+def _spreads(found: Found, cases_of: Sequence[str]) -> dict[str, float]:
+    """By what share the largest of some cases exceeds the smallest: mean pin force and standard deviation."""
+    spreads = {}
+    for name in ("mean_pin_force", "std_pin_force"):
+        values = [found[name, case].value for case in cases_of]
+        spreads[name] = max(values) / min(values) - 1.0
+    return spreads
 
 
 study = Study("contact_laws", __doc__, work, seconds=30.0, own_machine=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 from collections.abc import Callable, Mapping
 
@@ -9,7 +10,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from studies.claims.conditions import CUTS, OTHER_THAN, PAIR_GAIN, best_condition
+from studies.claims.conditions import CUTS, OTHER_THAN, PAIR_GAIN, best_condition, dependence
 from studies.claims.plausible import FACTORS, Choice, samples
 
 MACHINES = samples(256, 7)
@@ -139,3 +140,31 @@ def test_the_share_that_is_right_is_counted_on_the_machines() -> None:
     # bounds in words are rounded: machines between a bound and its rounding, for either of two bounds
     assert again == pytest.approx(condition.right, abs=2.0 / CUTS)
     assert condition.right > 2 / 3  # better than "never"
+
+
+# --- the datum by which machines part ---
+
+
+def test_the_datum_by_which_machines_part_is_named_with_its_shares() -> None:
+    few = MACHINES[:27]
+    judged = [(machine, machine["contact"] != "paper") for machine in few]
+    assert dependence(judged, FACTORS) == (
+        "the contact paper 0 %, the contact internal 100 %, the contact cylinders 100 %"
+    )
+    judged = [(machine, number(machine, "stroke_time") < 6.0) for machine in MACHINES]
+    said = dependence(judged, FACTORS)
+    assert said.startswith("stroke time below 6.32 s 9")
+    assert said.endswith("above 6.32 s 0 %")
+
+
+def test_machines_that_all_judge_alike_part_by_nothing() -> None:
+    assert dependence([(machine, True) for machine in MACHINES], FACTORS) == ""
+
+
+def test_chance_parts_machines_by_nothing() -> None:
+    contact = [factor for factor in FACTORS if factor.name == "contact"]
+    named = 0
+    for seed in range(40):
+        coin = random.Random(seed)
+        named += bool(dependence([(machine, coin.random() < 0.6) for machine in MACHINES[:80]], contact))
+    assert named <= 2  # by 1 % each

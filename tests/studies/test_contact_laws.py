@@ -114,6 +114,19 @@ def test_the_way_a_resting_contact_is_damped_matters(numbers: dict[tuple[str, st
         assert math.isfinite(number["value"])
 
 
+def test_with_friction_the_choice_of_a_law_changes_more(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+    def between(name: str, case: str) -> float:
+        values = [numbers[name, case.format(law)]["value"] for law in catalogue.POWER_LAWS]
+        return float(max(values) / min(values) - 1.0)
+
+    rubbing = f"{{}}{study.RUBBING}"
+    # 0.15 % and 2.2 %
+    assert between("std_pin_force", "{}") < 0.005 < 0.015 < between("std_pin_force", rubbing) < 0.03
+    # 0.001 % and 0.003 %
+    assert between("mean_pin_force", "{}") < 1e-4
+    assert between("mean_pin_force", rubbing) < 1e-4
+
+
 def test_every_file_is_there(out: Path) -> None:
     for stem in (
         "laws_at_a_glance",

@@ -1,0 +1,70 @@
+"""The contact of pin and bore: what the paper's, two spheres, does not know of a pin along its length.
+
+The rise with 1.5 mm by each contact, with friction and without. A contact that does not part is damped by the
+depth it reaches, the program's usual way, for all: by the speed of the last impact a stiff pin shakes
+differently in every run.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from studies.common import paper_machine
+from studies.common.numbers import Found, Number, cell, measured_all
+from studies.common.paper_machine import CONTACT_TITLES, CONTACTS
+from studies.common.subject import Subject, to_accuracy
+from studies.common.words import TextTable
+from support_exudyn import Result, Scenario
+from user_forces import IndentationVelocity
+
+SIZE_MM = 1.5
+SHOWN = {"mean": "mean_pin_force", "ripple": "rms_pin_force", "fall": "largest_pin_force_any_step"}
+
+
+def case_name(contact: str, friction: float) -> str:
+    """Name of a case."""
+    return f"{SIZE_MM} mm, {contact}, mu_d = {friction:g}"
+
+
+def scenarios(subject: Subject) -> dict[str, Scenario]:
+    """The rise by each contact, with friction and without; none for a machine of one's own."""
+    if not subject.is_paper:
+        return {}
+    return {
+        case_name(contact, friction): _rise(subject, contact, friction)
+        for contact in CONTACTS
+        for friction in (subject.friction, 0.0)
+    }
+
+
+def _rise(subject: Subject, contact: str, friction: float) -> Scenario:
+    pin = paper_machine.clearance_joint(SIZE_MM, friction, contact=contact, damping_speed=IndentationVelocity())
+    return to_accuracy(replace(subject.motion, pins={subject.pin: pin}))
+
+
+def measure(subject: Subject, results: Mapping[str, Result]) -> list[Number]:
+    """Mean force and fluctuation in the rise, and the largest force of the fall into the bore."""
+    watched = subject.watched
+    return measured_all(
+        results,
+        {
+            SHOWN["mean"]: ("N", lambda r: watched.mean(r, r[watched.force])),
+            SHOWN["ripple"]: ("N", lambda r: watched.rms_fluctuation(r, r[watched.force])),
+            SHOWN["fall"]: ("N", lambda r: float(r.largest_force[watched.pin])),
+        },
+    )
+
+
+def contact_table(found: Found, frictions: Sequence[float]) -> TextTable:
+    """A row a contact and a friction coefficient."""
+    rows = []
+    for contact in CONTACTS:
+        for friction in frictions:
+            cells = [in_kilonewtons(found[name, case_name(contact, friction)]) for name in SHOWN.values()]
+            rows.append((CONTACT_TITLES[contact], f"{friction:g}", *(cell(one) for one in cells)))
+    header = ("contact", "mu_d", "mean force [kN]", "fluctuation [kN]", "largest force [kN]")
+    return TextTable(header, tuple(rows), left=2)
+
+
+def in_kilonewtons(number: Number) -> Number:
+    """A force in kN."""
+    return replace(number, value=1e-3 * number.value, numerical_error=1e-3 * number.numerical_error, unit="kN")
