@@ -12,7 +12,7 @@ import numpy as np
 
 from studies.claims.conditions import dependence
 from studies.claims.plausible import FACTORS, NEW, Factor, Sample
-from studies.claims.verdicts import Ruling, percent
+from studies.claims.verdicts import Ruling, kind_of, percent
 from studies.common.data import rows
 from studies.common.words import TextTable
 
@@ -56,6 +56,11 @@ class Former:
     counts: Judgements | None = None
     rise: Judgements | None = None
 
+    @property
+    def kind(self) -> str:
+        """Which of KINDS the verdict is."""
+        return kind_of(self.verdict)
+
 
 def _former(
     claim: int, verdict: str, holds: int = 0, fails: int = 0, left: int = 0, rise: Sequence[int] = ()
@@ -95,14 +100,16 @@ def reason(former: Former, ruling: Ruling, judged: Judged) -> str:
     if former.counts is None or former.rise is None:
         if now.share is None:
             return "none: a closed form"
-        return f"asked of machines now, with contact and oil varied{_because(judged)}"
+        said = "holds" if ruling.reference else "fails"
+        now_asked = "asked of machines now, contact and oil varied"
+        return f"{now_asked}; before on the reference support alone, where it {said}"
     parts = []
     was, alone = former.counts.share, former.rise.share
     if was is not None and alone is not None and abs(was - alone) > NOTICED:
         parts.append(f"averages over the rise alone make it {former.rise.said}")
     if differ(former.rise, now):
         parts.append(f"the new data make it {now.said}{_because(judged)}")
-    elif was is not None and now.share is not None and abs(now.share - was) > NOTICED and not parts:
+    elif not parts and (former.kind != ruling.kind or abs((now.share or 0.0) - (was or 0.0)) > NOTICED):
         parts.append("none beyond the chance of other machines")
     if now.share is None:
         parts.append("the numerical error leaves all machines open")

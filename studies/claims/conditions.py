@@ -113,6 +113,14 @@ def dependence(decided: Sequence[tuple[Sample, bool]], factors: Sequence[Factor]
     return text if chance < TELLING else ""
 
 
+def shares_by(name: str, decided: Sequence[tuple[Sample, bool]]) -> str:
+    """The share for which it holds, by the choices or halves of a datum, whatever chance does to them.
+
+    Empty if all judge alike or a choice has no machine.
+    """
+    return next(_split(factor, decided)[1] for factor in FACTORS if factor.name == name)
+
+
 def _split(factor: Factor, decided: Sequence[tuple[Sample, bool]]) -> tuple[float, str]:
     """How often chance alone would part the machines so by a datum, and the shares of the parts in words.
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from studies.claims.claim_list import Claim, Judge, Varied
-from studies.claims.conditions import best_condition, dependence
+from studies.claims.conditions import best_condition, shares_by
 from studies.claims.evidence import Evidence, NotedEvidence, Verdict
-from studies.claims.plausible import FACTORS, NEW, Sample
+from studies.claims.plausible import Sample
 from studies.claims.plausible_runs import OIL
 
 KINDS = ("holds", "holds only", "not supported", "cannot be judged")
@@ -71,7 +71,7 @@ class Ruling:
     @property
     def kind(self) -> str:
         """Which of KINDS the verdict is; the longest that it begins with."""
-        return _kind(self.verdict)
+        return kind_of(self.verdict)
 
     @property
     def too_few(self) -> bool:
@@ -88,7 +88,8 @@ def _interval(holds: int, decided: int) -> tuple[float, float] | None:
     return float(found.low), float(found.high)
 
 
-def _kind(verdict: str) -> str:
+def kind_of(verdict: str) -> str:
+    """Which of KINDS a verdict is, the longest that it begins with."""
     return max((kind for kind in KINDS if verdict.startswith(kind)), key=len)
 
 
@@ -118,8 +119,8 @@ def rule(claim: Claim, reference: Evidence, machines: Machines) -> Ruling:
     found = Ruling(claim, on_reference, holds, fails, left, ours, verdict, noted.largest_error, others)
     if claim.on_oil and found.kind == "holds only":
         decided = [(sample, one) for sample, one in judged if one is not None]
-        depends = dependence(decided, [factor for factor in FACTORS if factor.name in NEW])
-        found = replace(found, verdict=f"{verdict}: {depends}" if depends else verdict)
+        shares = shares_by("contact", decided)
+        found = replace(found, verdict=f"{verdict}: {shares}" if shares else verdict)
     return replace(found, verdict=f"{found.verdict}; hangs on the threshold") if found.hangs else found
 
 
@@ -130,7 +131,9 @@ def _thresholds(judge: Varied, machines: Machines) -> tuple[AtThreshold, ...]:
         decided = [verdict for _, verdict in judged if verdict is not None]
         if decided:
             found.append(
-                AtThreshold(threshold, sum(decided) / len(decided), _kind(_words(None, judged, of_data=False)))
+                AtThreshold(
+                    threshold, sum(decided) / len(decided), kind_of(_words(None, judged, of_data=False))
+                )
             )
         else:
             found.append(AtThreshold(threshold, None, "cannot be judged"))

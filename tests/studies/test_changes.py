@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 
@@ -26,7 +27,7 @@ def by(rule: Callable[[Sample], bool]) -> list[tuple[Sample, bool]]:
 
 def told(before: Judgements, rise: Judgements, judged: list[tuple[Sample, bool]]) -> str:
     holds = sum(verdict for _, verdict in judged)
-    return reason(Former(1, "", before, rise), ruling(holds, len(judged) - holds), judged)
+    return reason(Former(1, "holds only", before, rise), ruling(holds, len(judged) - holds), judged)
 
 
 def test_every_claim_has_its_former_verdict() -> None:
@@ -50,6 +51,19 @@ def test_what_is_not_asked_of_machines_has_a_reason_too() -> None:
     unasked = Ruling(Claim("section 0", "It is.", "cannot be judged: no measure"), None, 0, 0, 0, "", "")
     assert reason(Former(1, ""), unasked, []) == "none: it has no measure"
     assert reason(Former(1, ""), ruling(0, 0, CLOSED), []) == "none: a closed form"
+
+
+def test_what_was_asked_of_the_reference_support_alone_says_so() -> None:
+    on_oil = Claim("section 0", "It is.", "m > 0", lambda e: True, on_oil=True)
+    said = reason(Former(1, "not supported"), replace(ruling(8, 4, on_oil), reference=False), [])
+    assert said.startswith("asked of machines now")
+    assert said.endswith("on the reference support alone, where it fails")
+
+
+def test_another_kind_of_verdict_by_fewer_machines_is_chance() -> None:
+    former = Former(1, "holds", Judgements(126, 2), Judgements(126, 2))
+    said = reason(former, ruling(78, 2, verdict="cannot be judged (80 machines: holds for 91 to 99 %)"), [])
+    assert said == "none beyond the chance of other machines"
 
 
 def test_the_same_share_has_no_reason() -> None:

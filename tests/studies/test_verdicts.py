@@ -12,9 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studies.claims.claim_list import Claim
+from studies.claims.claim_list import Claim, Varied
 from studies.claims.evidence import Evidence, Measured, Verdict
 from studies.claims.plausible import Choice, samples
+from studies.claims.plausible_runs import OIL
 from studies.claims.verdicts import ENOUGH, TELLING, Ruling, rule
 
 Sample = Mapping[str, Choice]
@@ -179,3 +180,54 @@ def test_the_error_is_the_largest_of_the_numbers_told() -> None:
     assert rule(claim, evidence, []).error == pytest.approx(0.02)
     closed = replace(claim, tell=lambda e: "exact")
     assert rule(closed, evidence, []).error is None
+
+
+# --- on oil ---
+
+ON_OIL = replace(CLAIM, on_oil=True)
+
+
+def on_oil(rule_: Callable[[Sample], Verdict]) -> list[tuple[Sample, Evidence]]:
+    """27 machines of which one in three was run on oil."""
+    found = []
+    for n, machine in enumerate(MACHINES[:81]):
+        known = dict(evidence(rule_(machine)).measures)
+        found.append((machine, Evidence(known if n % 3 else known | {OIL: {}})))
+    return found
+
+
+def test_a_claim_on_oil_asks_those_that_were_run_on_oil_and_says_what_the_contact_does() -> None:
+    found = rule(ON_OIL, evidence(False), on_oil(lambda m: m["contact"] != "paper"))
+    assert found.holds + found.fails == 27
+    assert found.verdict.startswith(f"holds only for {100 * (found.share or 0.0):.0f} % of the machines: ")
+    assert "the contact paper 0 %, the contact internal 100 %, the contact cylinders 100 %" in found.verdict
+    assert rule(ON_OIL, evidence(True), on_oil(lambda m: True)).kind == "cannot be judged"  # 27 are few
+
+
+# --- thresholds ---
+
+
+def by_threshold(values: Sequence[float]) -> Ruling:
+    """Of a claim that m is above a threshold, of machines with these values."""
+    judge = Varied(lambda bound: lambda e: e["run", "m"].above(bound), 5.0, (2.0, 5.0, 10.0))
+    known = [Evidence({"run": {"m": Measured(value)}}) for value in values]
+    return rule(replace(CLAIM, judge=judge), known[0], list(zip(MACHINES, known, strict=False)))
+
+
+def test_a_verdict_that_hangs_on_its_threshold_says_so() -> None:
+    found = by_threshold([7.0] * 80)
+    assert [one.kind for one in found.thresholds] == ["holds", "holds", "not supported"]
+    assert [one.share for one in found.thresholds] == [1.0, 1.0, 0.0]
+    assert found.verdict == "holds; hangs on the threshold"
+
+
+def test_a_verdict_that_does_not_hang_on_it_says_nothing() -> None:
+    found = by_threshold([20.0] * 80)
+    assert not found.hangs
+    assert found.verdict == "holds"
+
+
+def test_too_few_machines_are_no_reason_to_hang() -> None:
+    found = by_threshold([7.0] * 8)
+    assert {one.kind for one in found.thresholds} == {"cannot be judged"}
+    assert not found.hangs
