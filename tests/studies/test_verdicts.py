@@ -189,7 +189,7 @@ ON_OIL = replace(CLAIM, on_oil=True)
 
 def on_oil(rule_: Callable[[Sample], Verdict]) -> list[tuple[Sample, Evidence]]:
     """27 machines of which one in three was run on oil."""
-    found = []
+    found: list[tuple[Sample, Evidence]] = []
     for n, machine in enumerate(MACHINES[:81]):
         known = dict(evidence(rule_(machine)).measures)
         found.append((machine, Evidence(known if n % 3 else known | {OIL: {}})))
