@@ -124,9 +124,9 @@ def differ(one: Judgements, other: Judgements) -> bool:
 
 
 def _because(judged: Judged) -> str:
-    """The new datum on which a claim depends most, with the shares, in brackets; empty if on none."""
+    """The new datum on which a claim depends most, with the shares, in brackets."""
     found = dependence(judged, [factor for factor in FACTORS if _is_new(factor)])
-    return f" ({found})" if found else ""
+    return f" ({found or 'none of them alone'})"
 
 
 def _is_new(factor: Factor) -> bool:

@@ -19,7 +19,7 @@ from studies.claims.evidence import Evidence, Measured
 from studies.claims.figures import figures
 from studies.claims.plausible import FACTORS, ON_OIL_EVERY, REFERENCE, Sample, samples
 from studies.claims.plausible_runs import CASES, LARGEST_FORCE, TOLERANCE, evidence, measures, oil_scenarios
-from studies.claims.verdicts import KINDS, Ruling, asked, judgements, percent, rule
+from studies.claims.verdicts import KINDS, Ruling, asked, judgements, known_to, percent, rule
 from studies.common.chapter import JudgedClaim
 from studies.common.numbers import Number, measured
 from studies.common.options import Options
@@ -249,6 +249,8 @@ def words(rulings: Sequence[Ruling], rows: Sequence[hypercube.MachineRow]) -> di
         "kinds": {kind: [n for n, ruling in told if ruling.kind == kind] for kind in KINDS},
         "on_oil": ON_OIL_EVERY,
         "former_machines": FORMER_MACHINES,
+        "known_to": 100.0 * known_to(len(rows)),
+        "formerly_known_to": 100.0 * known_to(FORMER_MACHINES),
         "hanging": [n for n, ruling in told if ruling.hangs],
         "too_few": [n for n, ruling in told if ruling.too_few],
         "messages": {

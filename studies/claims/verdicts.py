@@ -79,6 +79,12 @@ class Ruling:
         return self.kind == "cannot be judged" and self.share is not None
 
 
+def known_to(machines: int) -> float:
+    """Half of the interval in which a share of one half lies, if so many machines are decided."""
+    low, high = _interval(machines // 2, machines) or (0.0, 1.0)
+    return 0.5 * (high - low)
+
+
 def _interval(holds: int, decided: int) -> tuple[float, float] | None:
     if not decided:
         return None

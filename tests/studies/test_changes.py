@@ -90,7 +90,9 @@ def test_the_new_datum_that_decides_is_named_with_its_shares() -> None:
 
 def test_an_old_datum_is_not_taken_for_the_reason() -> None:
     few = Judgements(0, 128)
-    assert told(few, few, by(lambda machine: machine["bore"] == "base")) == "the new data make it 50 %"
+    assert told(few, few, by(lambda machine: machine["bore"] == "base")) == (
+        "the new data make it 50 % (none of them alone)"
+    )
 
 
 def test_fishers_test_knows_what_chance_does() -> None:

@@ -16,7 +16,7 @@ from studies.claims.claim_list import Claim, Varied
 from studies.claims.evidence import Evidence, Measured, Verdict
 from studies.claims.plausible import Choice, samples
 from studies.claims.plausible_runs import OIL
-from studies.claims.verdicts import ENOUGH, TELLING, Ruling, rule
+from studies.claims.verdicts import ENOUGH, TELLING, Ruling, known_to, rule
 
 Sample = Mapping[str, Choice]
 MACHINES = samples(256, 7)
@@ -70,6 +70,11 @@ def test_the_interval_is_wilsons(holds: int, fails: int) -> None:
     half = z / (1 + z * z / n) * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
     # rounding alone
     assert found.interval == pytest.approx((centre - half, centre + half), abs=1e-12)
+
+
+def test_a_share_of_one_half_is_known_to_so_many_points() -> None:
+    assert known_to(128) == pytest.approx(0.0854, abs=1e-4)  # Wilson: 1.96 / 2 / sqrt(128 + 1.96^2)
+    assert known_to(80) == pytest.approx(0.107, abs=1e-3)
 
 
 # --- verdicts by share; below ENOUGH machines no condition is looked for ---
