@@ -8,6 +8,7 @@ import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
 
+from studies.clearance_influence import contacts
 from studies.clearance_influence.figures import CASES, CLEARANCE_MM, DRY, IDEAL, LIVE, SMOOTH, figures
 from studies.common import paper_machine, rise
 from studies.common.chapter import Tile
@@ -23,6 +24,7 @@ from studies.common.numbers import (
     measured,
     printed,
     rounded,
+    short,
 )
 from studies.common.options import Options
 from studies.common.runs import impacts, run_cases
@@ -197,16 +199,20 @@ def tiles(found: Found) -> tuple[Tile, ...]:
     mean, ideal_mean = found["mean_pin_force", DRY], found["mean_pin_force", IDEAL]
     shaking, ideal_shaking = found["rms_pin_force", DRY], found["rms_pin_force", IDEAL]
     times = f"{peak.value / ideal_peak.value:.1f} times"
+    along = [
+        short(found[n, contacts.along_the_length()], 1e-3, "kN")
+        for n in ("largest_pin_force_any_step", "rms_pin_force")
+    ]
     alone = f"{in_rise.value / 1e3:.1f} kN ({against(in_rise, ideal_peak)})"
     way = "to the rear" if shift.value < 0.0 else "forward"
     return (
         Tile("mean force in the pin", in_tile(ideal_mean, 1e-3, "kN"), in_tile(mean, 1e-3, "kN"),
              against(mean, ideal_mean)),
         Tile("peak force", in_tile(ideal_peak, 1e-3, "kN"), in_tile(peak, 1e-3, "kN"),
-             f"{times}, in the fall into the bore; in the rise alone {alone}"),
+             f"{times}, in the fall; in the rise {alone}; pin along its length: {along[0]}"),
         Tile("canopy tip, mean place", "0", in_tile(shift, 1.0, "mm"), f"{way}, against the ideal pin"),
         Tile("fluctuation of the force", in_tile(ideal_shaking, 1e-3, "kN"), in_tile(shaking, 1e-3, "kN"),
-             "root mean square of what is faster than 0.1 s"),
+             f"root mean square of what is faster than 0.1 s; pin along its length: {along[1]}"),
     )  # fmt: skip
 
 
@@ -215,16 +221,28 @@ def tiles(found: Found) -> tuple[Tile, ...]:
 
 def work(chosen: Options) -> StudyOutcome:
     """The three rises, their numbers, figures and tables."""
-    cases = scenarios()
-    results = run_cases(cases, chosen)
+    cases, subject = scenarios(), paper_subject()
+    by_contact = contacts.scenarios(subject)
+    made = run_cases(cases | by_contact, chosen)
+    results = {name: made[name] for name in cases}
     numbers = measure(results)
-    found = by_case(numbers)
-    words = {"found": found, "goal": cases[DRY].goal, "run": sys.modules[__name__], "paper": paper_machine}
-    tables = {"key_numbers": key_table(found), "table": full_table(numbers)}
+    of_contacts = contacts.measure(subject, {name: made[name] for name in by_contact})
+    found = by_case([*numbers, *of_contacts])
+    words = {
+        "found": found, "goal": cases[DRY].goal, "run": sys.modules[__name__], "paper": paper_machine,
+        "contacts": contacts,
+    }  # fmt: skip
+    tables = {
+        "key_numbers": key_table(found),
+        "table": full_table(numbers),
+        "by_contact": contacts.contact_table(found, (subject.friction, 0.0)),
+    }
     drawings = figures(results)
     drawings["machine"] = machine_drawing(cases[DRY], marked=(paper_machine.CLEARANCE_PIN,))
-    return StudyOutcome(numbers, words, drawings, tables, results, live=LIVE, tiles=tiles(found))
+    return StudyOutcome(
+        [*numbers, *of_contacts], words, drawings, tables, results, live=LIVE, tiles=tiles(found)
+    )
 
 
-study = Study("clearance_influence", __doc__, work, seconds=6.0)
+study = Study("clearance_influence", __doc__, work, seconds=10.0)
 main = study.main

@@ -6,7 +6,6 @@ the canopy's tip, angles of the columns.
 
 from collections.abc import Sequence
 
-from studies.clearance_size import contacts
 from studies.clearance_size.figures import figures, live
 from studies.clearance_size.measures import IDEAL, measure
 from studies.common import paper_machine
@@ -91,21 +90,18 @@ def work(chosen: Options) -> StudyOutcome:
     frictions = (subject.friction, 0.0)
     cases = scenarios(subject)
     results = run_cases(cases, chosen)
-    by_contact = contacts.measure(subject, run_cases(contacts.scenarios(subject), chosen))
-    numbers = [*measure(subject, results), *by_contact]
+    numbers = measure(subject, results)
     found = by_case(numbers)
     measures = {f"table_mu{friction:g}".replace(".", "p"): friction for friction in frictions}
     tables = {
         "by_clearance": key_table(found, subject.friction),
         **({"table_2": stiffness_table(numbers)} if subject.is_paper else {}),
-        **({"by_contact": contacts.contact_table(found, frictions)} if by_contact else {}),
         "table_3": force_table(found, frictions),
         **{name: number_table(found, friction) for name, friction in measures.items()},
     }
     words = {
         "found": found, "goal": cases[IDEAL].goal, "mu": subject.friction, "frictions": frictions,
         "sizes": SIZES_MM, "case_name": case_name, "all_measures": measures,
-        "contact_case": contacts.case_name,
         "has_tip": ("mean_tip_shift", IDEAL) in found, "watched": subject.watched,
     }  # fmt: skip
     drawings = figures(subject, results, found)

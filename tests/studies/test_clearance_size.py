@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import shutil
-from dataclasses import replace
 from importlib import resources
 from itertools import pairwise
 from pathlib import Path
@@ -13,7 +12,6 @@ from typing import Any
 
 import pytest
 
-from studies.clearance_size import contacts
 from studies.clearance_size import run as study
 from studies.clearance_size.measures import measure
 from studies.common import rise
@@ -174,23 +172,3 @@ def test_it_is_about_the_users_machine_and_leaves_the_paper_out(tmp_path: Path) 
     assert "table_2" not in [sheet.name for sheet in chapter.sheets]
     run = Result.load(out / "runs" / "1p0mm_mu0p25.h5")
     assert run.scenario.pins.keys() == {"rear_base"}
-
-
-def test_a_pin_along_its_length_shakes_thirty_times_as_much(numbers: Numbers) -> None:
-    def shown(contact: str, friction: float) -> list[float]:
-        names = ("mean_pin_force", "rms_pin_force", "largest_pin_force_any_step")
-        return [float(numbers[name, contacts.case_name(contact, friction)]["value"]) for name in names]
-
-    # by an independent program from a settled start: 0.93, 35 and, with 3e9 N/m in series, 31 kN
-    for contact, ripple in (("paper", 930.0), ("internal", 35e3), ("cylinders", 31e3)):
-        assert shown(contact, 0.25)[1] == pytest.approx(ripple, rel=0.03)
-        assert shown(contact, 0.0)[1] < 150.0  # without friction it comes to rest
-    # the same program: 0.44, 0.96 and 0.75 MN
-    for contact, peak in (("paper", 0.44e6), ("internal", 0.96e6), ("cylinders", 0.75e6)):
-        assert shown(contact, 0.0)[2] == pytest.approx(peak, rel=0.015)
-
-
-def test_a_machine_of_ones_own_is_not_asked_by_contact() -> None:
-    paper = paper_subject()
-    assert len(contacts.scenarios(paper)) == 6
-    assert contacts.scenarios(replace(paper, name="my machine")) == {}

@@ -25,10 +25,13 @@ def case_name(contact: str, friction: float) -> str:
     return f"{SIZE_MM} mm, {contact}, mu_d = {friction:g}"
 
 
+def along_the_length() -> str:
+    """The case of a pin that touches along its length, with friction."""
+    return case_name(paper_machine.CYLINDERS, paper_machine.SLIDING_COEFFICIENT)
+
+
 def scenarios(subject: Subject) -> dict[str, Scenario]:
-    """The rise by each contact, with friction and without; none for a machine of one's own."""
-    if not subject.is_paper:
-        return {}
+    """The rise by each contact, with friction and without."""
     return {
         case_name(contact, friction): _rise(subject, contact, friction)
         for contact in CONTACTS
