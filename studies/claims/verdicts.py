@@ -17,7 +17,7 @@ NEARLY_ALL = 0.95
 # share that a condition must get right, of machines not used to find it, to be the one that decides
 TELLING = 0.85
 GAIN = 0.05  # by how much it must beat the same answer for all to be named at all
-ENOUGH = 80  # machines from which conditions are looked for; with fewer chance looks like one
+ENOUGH = 60  # machines from which conditions are looked for; with fewer chance looks like one
 
 
 Machines = Sequence[tuple[Sample, Evidence]]
