@@ -108,5 +108,5 @@ def work(chosen: Options) -> StudyOutcome:
     return StudyOutcome(numbers, words, drawings, tables, results, live=live(drawings))
 
 
-study = Study("clearance_size", __doc__, work, seconds=12.0, own_machine=True)
+study = Study("clearance_size", __doc__, work, seconds=10.0, own_machine=True)
 main = study.main
