@@ -10,8 +10,8 @@ from user_forces.journal import JournalBearing
 # support meets 1 % of it.
 DEEPEST = 0.2
 
-# Springs that centre free journals while a static equilibrium is looked for, as shares of the weight over the
-# clearance, until they are taken away.
+# While a static equilibrium is looked for, springs centre free journals, and contacts give way: these are
+# shares of the weight that a spring holds at the wall, and of the clearance by which it may press a contact.
 CENTRING = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 0.0)
 
 SOFT = (

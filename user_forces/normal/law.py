@@ -60,6 +60,17 @@ class NormalLaw(Value, ABC):
         """Depth [m] up to which the law is valid."""
         return math.inf
 
+    def force_in_search(self, depth: float, load: float = 0.0, allowed: float = 0.0) -> float:
+        """Elastic force [N] at a depth [m] > 0, for the search of an equilibrium.
+
+        Beyond the largest depth it goes on in proportion to the depth, for trials may lie there. Of a stiff law
+        the search finds the end only from an equilibrium that is nearly so: if a depth is allowed [m], the law
+        is softened until it holds the load [N] there, unless it is as soft by itself.
+        """
+        valid = min(depth, (1.0 - 1e-9) * self.largest_depth)
+        force = self.elastic_force(valid) * (depth / valid)
+        return force * min(1.0, load / self.force_in_search(allowed)) if allowed > 0.0 else force
+
     def resting_depth(self, force: float) -> float:
         """Depth [m] at which a constant force [N] >= 0 is held at rest.
 

@@ -66,7 +66,7 @@ def settled(tree: Tree, scenario: Scenario, forces: Forces) -> Matrix:
     def left(trial: Matrix, share: float) -> Matrix:
         forces(None, 0.0, 0, trial.tolist(), [0.0] * trial.size)
         for pin in forces.pins.values():
-            _press(forces, pin, share * weight / pin.clearance)
+            _press(forces, pin, weight, share)
         still = TreePosture(tree, trial[None], 0.0 * trial[None])
         return np.asarray(forces.moments() + mass_moment(still, scenario.gravity)[0])
 
@@ -81,12 +81,17 @@ def settled(tree: Tree, scenario: Scenario, forces: Forces) -> Matrix:
     return position
 
 
-def _press(forces: Forces, pin: TreeClearanceJoint, centring: float) -> None:
-    """Add the elastic force of a clearance pin and that of a spring [N/m] to its middle."""
+def _press(forces: Forces, pin: TreeClearanceJoint, load: float, share: float) -> None:
+    """Add the elastic force of a clearance pin and that of a spring to its middle.
+
+    load: that is to be held [N]. share: of the clearance by which the load may press the contact, and of the
+    load that the spring holds at the wall.
+    """
     place = pin.place()
-    pull = centring
+    pull = share * load / pin.clearance
     if place.depth > 0.0:
-        pull += pin.contact.normal.elastic_force(place.depth) / (place.depth + pin.clearance)
+        pressed = pin.contact.normal.force_in_search(place.depth, load, share * pin.clearance)
+        pull += pressed / (place.depth + pin.clearance)
     x, y = pin.bore_centre()
     push(forces.links, forces.points, forces.work, pin.pair, x, y, -pull * place.x, -pull * place.y)
 

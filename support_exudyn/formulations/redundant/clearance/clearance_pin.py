@@ -129,16 +129,19 @@ class ClearanceJoint:
         self.frames.start(turn, bore)
 
     @contextmanager
-    def settling(self, stiffness: Callable[[], float]) -> Iterator[None]:
+    def settling(self, load: float, share: Callable[[], float]) -> Iterator[None]:
         """Replace the contact by its elastic part and a spring that pulls a free journal to the middle.
 
-        stiffness: of the spring [N/m], asked at every evaluation.
+        load: that is to be held [N].
+        share: of the clearance by which the load may press the contact, and of the load that the spring holds
+            at the wall; asked at every evaluation.
         """
+        clearance, law = self.contact.bearing.clearance, self.contact.normal
 
         def held(eccentricity: float) -> float:
             depth = self.contact.bearing.depth(eccentricity)
-            pressed = self.contact.normal.elastic_force(depth) / eccentricity if depth > 0.0 else 0.0
-            return stiffness() + pressed
+            pressed = law.force_in_search(depth, load, share() * clearance) if depth > 0.0 else 0.0
+            return share() * load / clearance + (pressed / eccentricity if depth > 0.0 else 0.0)
 
         self.connector.set_spring(held)
         try:

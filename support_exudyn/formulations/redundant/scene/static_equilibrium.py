@@ -1,7 +1,6 @@
 """Static equilibrium with clearance pins, so that a run can start settled."""
 
 import math
-from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any
 
@@ -38,15 +37,12 @@ def find_static_equilibrium(scene: EngineScene) -> None:
     weight = sum(item.body.mass for item in scene.bodies.values()) * _norm(scene.scenario.gravity)
     share = CENTRING[0]
 
-    def stiffness(clearance: float) -> Callable[[], float]:
-        return lambda: share * weight / clearance
-
     load_suspension = _load_suspension(scene)
     with ExitStack() as for_a_while:
         for load, pull in load_suspension.values():
             for_a_while.enter_context(load.hung(pull))
         for pin in scene.clearance_joints.values():
-            for_a_while.enter_context(pin.settling(stiffness(pin.contact.bearing.clearance)))
+            for_a_while.enter_context(pin.settling(weight, lambda: share))
         for cylinder in scene.cylinders.values():
             for_a_while.enter_context(cylinder.settling())
         for share in CENTRING:  # noqa: B007
