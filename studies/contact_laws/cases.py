@@ -112,7 +112,10 @@ class Joint:
         """Normal and friction law of every case: normal laws without friction, friction on the exact law."""
         bore, none = self.pin.contact.bearing.bore_radius, forces.Frictionless()
         own = self.pin.contact.normal
-        stiffness = own.stiffness if isinstance(own, forces.PowerLaw) and own.exponent == 1.5 else None
+        if isinstance(own, forces.PowerLaw) and own.exponent == 1.5:
+            stiffness = own.stiffness
+        else:  # with which they are pressed as deep as the pin's own law by what it holds
+            stiffness = self.load / own.resting_depth(self.load) ** 1.5
         normal = catalogue.normal_laws(
             self.clearance_mm, self.restitution, bore_radius=bore, stiffness=stiffness, load=self.load
         )

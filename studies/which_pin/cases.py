@@ -13,7 +13,7 @@ from support_exudyn import ClearancePin, CubicStep, Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.simulation.automatic_settings import cheapest, settings_for
-from user_forces import IndentationVelocity, LankaraniNikravesh
+from user_forces import IndentationVelocity
 from user_forces.values.value import InputError
 
 CLEARANCE_MM = 1.5
@@ -43,13 +43,9 @@ def clearance_pin(
     With the textbook's, which remembers it, a pin that was settled gently shakes eight times as much in the
     same rise as one that was dropped: pins could not be compared.
     """
-    pin = paper_machine.clearance_joint(clearance_mm, friction, bore_radius)
-    law = LankaraniNikravesh(
-        stiffness=paper_machine.stiffness(clearance_mm, bore_radius),
-        restitution=paper_machine.RESTITUTION,
-        damping_speed=IndentationVelocity(),
+    return paper_machine.clearance_joint(
+        clearance_mm, friction, bore_radius, damping_speed=IndentationVelocity()
     )
-    return replace(pin, contact=replace(pin.contact, normal=law))
 
 
 def case_name(
