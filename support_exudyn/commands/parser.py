@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Protocol, cast
 
 from support_exudyn.commands.command_line import CommandParser, Parser, say
+from support_exudyn.files.own_modules import OURS
 from support_exudyn.formulations.contract import SimulationError, told
 from support_exudyn.simulation.provenance import versions
-from support_exudyn.sweeps.key import OURS
 from support_exudyn.sweeps.workers import NoProcessError, ProcessEndedError
 from user_forces.values.value import InputError, Value, kinds_of, short
 

@@ -10,6 +10,18 @@ from user_forces.values.value import InputError, Value, cleaned, kinds_of, short
 
 OURS = ("user_forces", "support_exudyn")
 SCRIPT = "__main__"
+NAMING = ("type", "damping")  # keys of plain data whose texts are names of classes
+
+
+def classes_in(data: Any) -> Iterator[str]:
+    """Names of all classes in the plain data of a value, some of them more than once."""
+    if isinstance(data, Mapping):
+        yield from (data[key] for key in NAMING if isinstance(data.get(key), str))
+        for item in data.values():
+            yield from classes_in(item)
+    elif isinstance(data, (list, tuple)):
+        for item in data:
+            yield from classes_in(item)
 
 
 def modules_of(data: Any) -> dict[str, dict[str, str]]:
@@ -21,7 +33,7 @@ def modules_of(data: Any) -> dict[str, dict[str, str]]:
         For each class by name its `module` and the absolute `path` of that ("" if it has no file).
     """
     found = {}
-    for name in dict.fromkeys(_types(data)):
+    for name in dict.fromkeys(classes_in(data)):
         module = kinds_of(Value)[name].__module__
         if module.partition(".")[0] not in OURS:
             path = getattr(sys.modules.get(module), "__file__", None)
@@ -62,14 +74,3 @@ def _called(module: str, path: Path) -> tuple[str, Path]:
     if "." not in module and not package:
         return str(path), path.parent
     return module, path.parents[module.count(".") + package]
-
-
-def _types(data: Any) -> Iterator[str]:
-    if isinstance(data, Mapping):
-        if "type" in data:
-            yield data["type"]
-        for item in data.values():
-            yield from _types(item)
-    elif isinstance(data, (list, tuple)):
-        for item in data:
-            yield from _types(item)

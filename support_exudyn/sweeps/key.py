@@ -8,13 +8,13 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from support_exudyn.files.own_modules import OURS, classes_in
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.provenance import versions
 from user_forces.values.value import Value
 
 MAKES_NO_NUMBERS = ("matplotlib", "meshio", "h5py", "pydantic")  # a run's numbers do not depend on these
 LOOKS = ("postprocessing", "commands", "sweeps")  # rooms of ours that compute no number of a run
-OURS = ("user_forces", "support_exudyn")
 LENGTH = 32  # hexadecimal digits: 128 bits, no two runs will ever share one
 
 
@@ -40,15 +40,8 @@ def key(scenario: Scenario, errors: bool = False) -> str:
 
 def _own(data: Any) -> dict[str, str]:
     """Digests of the modules of one's own whose classes these data are of, by name."""
-    modules = {Value.of_name(kind).__module__ for kind in _kinds(data)}
+    modules = {Value.of_name(kind).__module__ for kind in classes_in(data)}
     return {name: _source(name) for name in modules if name.partition(".")[0] not in OURS}
-
-
-def _kinds(data: Any) -> set[str]:
-    """Names of all classes in plain data."""
-    inside = data.values() if isinstance(data, dict) else data if isinstance(data, list) else ()
-    found = set().union(*map(_kinds, inside))
-    return found | {data["type"]} if isinstance(data, dict) and "type" in data else found
 
 
 @cache

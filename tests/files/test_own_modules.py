@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import pickle
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from support_exudyn import ClearancePin
 from support_exudyn.files.own_modules import import_modules_of, modules_of
+from support_exudyn.sweeps.key import _source, key
 from tests.cases.run_cases import loose_support
-from user_forces import InputError
+from user_forces import InputError, PinInBore
 from user_forces.values.value import Value, kinds_of
 
 LAW = """
@@ -20,6 +24,39 @@ from user_forces.values.value import value
 class {name}(Hertz):
     pass
 """
+
+
+LENT = """
+from user_forces import PowerLaw
+from user_forces.values.value import value
+
+@value
+class LentByMe(PowerLaw):
+    def factor(self, restitution):
+        return 1.0 - restitution
+"""
+
+
+def test_a_law_that_lends_its_damping_to_a_pin_along_its_length_is_noted_and_sent(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    path = tmp_path / "lending_laws.py"
+    path.write_text(LENT)
+    place = {"LentByMe": {"module": "lending_laws", "path": str(path)}}
+    import_modules_of(place)
+    law = sys.modules["lending_laws"].LentByMe
+    pin = ClearancePin.simple(clearance=1e-3, bore_radius=0.05, length=0.1, restitution=0.7, law=law)
+    assert isinstance(pin.contact.normal, PinInBore)
+    assert pin.contact.normal.damping_factor == pytest.approx(0.3)
+    assert modules_of(pin.to_data()) == place
+    assert b"lending_laws" in pickle.dumps(pin)  # by which another process knows what to import
+    scenario = replace(loose_support(1.5, 0.25), pins={"rear_base": pin})
+    before = key(scenario)
+    path.write_text(LENT.replace("1.0", "1.1"))
+    _source.cache_clear()
+    assert key(scenario) != before
+    _source.cache_clear()
 
 
 def test_a_run_without_classes_of_ones_own_notes_nothing() -> None:

@@ -69,13 +69,20 @@ class PinInBore(CylinderLaw):
     def _damping_is_known(self) -> PinInBore:
         known = {name: law for name, law in kinds_of(PowerLaw).items() if lends_damping(law)}
         if self.damping not in known:
-            raise ValueError(f"damping = {self.damping!r}: allowed: {', '.join(sorted(known))}")
+            raise ValueError(
+                f"damping = {self.damping!r}: allowed: {', '.join(sorted(known))}; one's own is imported first"
+            )
+        _ = self._lender  # held, so that another process that is sent the law imports a class of one's own
         return self
 
     def factor(self, restitution: float) -> float:
         """The damping factor of the law that `damping` names."""
-        law: type[Any] = kinds_of(PowerLaw)[self.damping]
-        return float(law(stiffness=1.0, restitution=restitution).damping_factor)
+        return float(self._lender(stiffness=1.0, restitution=restitution).damping_factor)
+
+    @cached_property
+    def _lender(self) -> type[Any]:
+        """The class that `damping` names."""
+        return kinds_of(PowerLaw)[self.damping]
 
     @property
     def largest_depth(self) -> float:

@@ -12,7 +12,7 @@ from typing import Any
 from support_exudyn.files.toml.faults import Faults, Place, said, said_place
 from user_forces.values.value import DEEPEST, InputError, Value, kinds_of
 
-KEYS = ("type", "law", "friction_law")  # whose texts are names of classes
+KEYS = ("type", "law", "friction_law", "damping")  # whose texts are names of classes
 NAMED = re.compile(r"(?P<module>[^:]+):(?P<name>\w+)")
 ENDING = ".py"
 
