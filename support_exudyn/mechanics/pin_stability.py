@@ -41,6 +41,7 @@ Matrix = npt.NDArray[np.float64]
 NEAR = 1e-4  # of the depth: distance over which slopes are taken
 SLOW = 1e-6  # [m/s] likewise of velocities
 CLOSED = 1e-11  # of the load: what may be left of it at an equilibrium
+ROUNDINGS = 4.0  # of the place: a shorter step changes nothing
 ITERATIONS = 60
 NEGLIGIBLE = 1e-4  # growth rate as a share of the angular frequency, up to which nothing is said to grow
 OSCILLATES = 1e-9  # imaginary part of a root, as a share of its size, from which on it is a vibration
@@ -305,6 +306,8 @@ def _equilibrium(journal: LoadedJournal, contact: JournalContact, near: Matrix) 
             step = np.linalg.solve(pushes.slopes(place)[0], missing)
         except np.linalg.LinAlgError:
             break
+        if np.abs(step).max() <= ROUNDINGS * np.spacing(np.abs(place).max()):
+            return place
         normal = place / np.linalg.norm(place)
         inwards = -float(normal @ step)
         place = place + step * min(1.0, 0.5 * depth / inwards if inwards > 0.0 else 1.0)

@@ -26,6 +26,7 @@ from user_forces import (
     JournalContact,
     KelvinVoigt,
     LankaraniNikravesh,
+    PinInBore,
 )
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=1.5e-3)
@@ -233,3 +234,11 @@ def test_another_coefficient_keeps_the_rest_of_the_law() -> None:
 def test_without_a_load_nothing_slides() -> None:
     with pytest.raises(NoEquilibriumError, match="load = 0 N"):
         sliding_pin(journal(np.eye(2), np.zeros(2)), contact(0.1))
+
+
+def test_a_light_load_has_an_equilibrium_though_its_place_is_known_less_well_than_its_depth() -> None:
+    """A depth of some nanometres beyond a clearance of 1.5 mm, with the friction by hand."""
+    line = PinInBore(bearing=BEARING, length=0.02, effective_modulus=1.1e11, restitution=0.9)
+    for mu in np.linspace(0.01, 0.5, 50):
+        found = sliding_pin(journal(INVERSE_MASS * np.eye(2), np.array([0.0, 1.0])), contact(mu, line))
+        assert found.normal_force == pytest.approx(1.0 / math.hypot(1.0, mu), rel=1e-6)
