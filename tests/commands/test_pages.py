@@ -19,6 +19,7 @@ from tests.pages import README, ROOT, Listing, links, listings, named, pages
 
 LONGEST = 160  # lines of the README
 SHOWN = [one for page in pages() for one in listings(page)]
+A_RISE = next(listings(ROOT / "support_exudyn" / "scenario" / "in_python.md"))
 PROGRAM = re.compile(r"^(?:support-exudyn|python -m support_exudyn)\s+")
 
 
@@ -66,7 +67,9 @@ def check_printed(one: Listing, printed: list[str]) -> None:
             assert line.startswith(promise.partition(":")[0])
 
 
-@pytest.mark.parametrize("one", [one for one in of_kind("python") if not extends(one)], ids=told)
+@pytest.mark.parametrize(
+    "one", [one for one in of_kind("python") if not extends(one) and one != A_RISE], ids=told
+)
 def test_python_prints_what_its_comments_say(
     one: Listing, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -137,13 +140,17 @@ def test_toml_is_read(one: Listing, tmp_path: Path) -> None:
         assert read_scenario(path)
 
 
+@pytest.mark.parametrize(
+    "seconds", [pytest.param(2.0, id="whole", marks=pytest.mark.slow), pytest.param(0.1, id="its beginning")]
+)
 def test_the_example_of_a_scenario_is_a_sound_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    seconds: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    one = next(listings(ROOT / "support_exudyn" / "scenario" / "in_python.md"))
-    exec(compile(one.text, told(one), "exec"), {})
+    assert A_RISE.text.count("duration=2.0") == 1
+    exec(compile(A_RISE.text.replace("duration=2.0", f"duration={seconds}"), told(A_RISE), "exec"), {})
     lines = capsys.readouterr().out.splitlines()
+    check_printed(A_RISE, lines)
     assert float(lines[0].split()[0]) > 58000.0  # the static force in the low posture
     assert float(lines[1].split()[0]) < 1e-3
     assert (tmp_path / "pin_1mm.h5").stat().st_size > 0
