@@ -51,6 +51,7 @@ from support_exudyn import (
     reference_support,
 )
 from tests.cases.machine_cases import contact
+from tests.often import often
 from user_forces import CubicCoulomb, InputError, LuGre, Value
 from user_forces.values.value import DEEPEST
 
@@ -88,15 +89,12 @@ EXAMPLES = {
     "drive tables": 60,
     "all studies": 40,
 }
-OFTEN = (
-    60  # examples of the profile that the tests run with; of the one that is asked for by hand, see conftest
-)
 
 
 def tried(name: str) -> Callable[[Any], Any]:
     """Hypothesis's settings of a property, tried as often as `EXAMPLES` says, or more in a longer profile."""
     return settings(
-        max_examples=EXAMPLES[name] * settings.default.max_examples // OFTEN,
+        max_examples=often(EXAMPLES[name]),
         deadline=None,
         suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large],
     )

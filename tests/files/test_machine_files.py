@@ -18,6 +18,7 @@ from support_exudyn.files.machines import SHIPPED, load_machine, machine_schema,
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.linkage import lumped
 from tests.machine_files import OURS, written
+from tests.often import often
 from user_forces import InputError
 
 if sys.version_info >= (3, 11):
@@ -246,7 +247,7 @@ def test_other_kinds_are_no_four_column_supports(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", SHIPPED)
 @given(data=st.data())
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=often(40), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_changed_files_are_read_or_refused(tmp_path: Path, name: str, data: st.DataObject) -> None:
     lines = text_of(name).splitlines()
     at = data.draw(st.integers(0, len(lines) - 1))

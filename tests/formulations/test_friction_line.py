@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support_exudyn.formulations.redundant.clearance.steep_friction import TRIES, FrictionLine
+from tests.often import often
 from user_forces import Ambrosio
 from user_forces.friction.brown_mcphee import BrownMcPhee
 from user_forces.friction.cubic_coulomb import CubicCoulomb
@@ -37,7 +38,7 @@ def solved(line: FrictionLine, free: float, softness: float, guess: float, force
 
 
 @pytest.mark.parametrize("law", LAWS, ids=str)
-@settings(max_examples=40)
+@settings(max_examples=often(40))
 @given(
     free=st.floats(-2.0, 2.0),
     softness=st.floats(1e-6, 10.0),

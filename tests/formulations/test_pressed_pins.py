@@ -37,6 +37,7 @@ from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.pressed_pins import GIVES, EffectiveMasses, inverse_masses, normal
 from support_exudyn.model.linkage import GROUND, PinPlace, pinned
 from tests.cases.run_cases import paper_contact, support
+from tests.often import often
 from user_forces import Exact, Hertz, IndentationVelocity, JournalBearing, JournalContact, NormalLaw, value
 
 CLEARANCE = 1e-4  # [m]
@@ -114,7 +115,7 @@ def test_a_stop_pressed_along_its_surface_holds_nothing() -> None:
 angles = st.floats(-math.pi, math.pi)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=often(60))
 @given(
     name=st.sampled_from(PINS),
     turns=st.tuples(*[angles] * 5),

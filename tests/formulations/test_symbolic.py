@@ -36,6 +36,7 @@ from tests.cases.law_cases import (
     one_of_a_formula,
 )
 from tests.cases.run_cases import PIN, Pair, loose_support
+from tests.often import often
 from user_forces import (
     AdamsImpact,
     Ambrosio,
@@ -230,7 +231,7 @@ grounds = st.sampled_from(["bore", "journal", None])
 
 
 @pytest.mark.parametrize("normal", one_of_a_formula(NORMAL_LAWS), ids=kind_of)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=often(40), deadline=None)
 @given(state=states(), ground=grounds)
 @example(state=MIDDLE, ground=None)
 @example(state=PRESSED, ground=None)
@@ -239,7 +240,7 @@ def test_normal_law_is_the_same_in_all(normal: NormalLaw, state: State, ground: 
 
 
 @pytest.mark.parametrize("friction", FRICTION_LAWS, ids=kind_of)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=often(60), deadline=None)
 @given(state=states(), ground=grounds)
 @example(state=MIDDLE, ground=None)
 @example(state=PRESSED, ground=None)
@@ -249,7 +250,7 @@ def test_friction_law_is_the_same_in_all(friction: FrictionLaw, state: State, gr
 
 @pytest.mark.parametrize("normal", [TEXTBOOK, NORMAL_LAWS[-1]], ids=kind_of)
 @pytest.mark.parametrize("friction", STATELESS_FRICTION[:2], ids=kind_of)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=often(40), deadline=None)
 @given(state=states(), ground=grounds)
 def test_other_damping_is_the_same_in_all(
     normal: NormalLaw, friction: FrictionLaw, state: State, ground: Ground
@@ -258,7 +259,7 @@ def test_other_damping_is_the_same_in_all(
 
 
 @pytest.mark.parametrize("friction", FRICTION_LAWS, ids=kind_of)
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=often(20), deadline=None)
 @given(state=states(), ground=grounds)
 def test_nothing_acts_while_the_surfaces_are_apart(friction: FrictionLaw, state: State, ground: Ground) -> None:
     apart = replace(state, memory=state.memory._replace(in_contact=False))

@@ -13,6 +13,7 @@ from support_exudyn import CubicStep, HydraulicSupport, Part, reference_support
 from support_exudyn.machines.four_column_support import Posture
 from support_exudyn.model.linkage import lumped
 from tests.cases.machine_cases import PARTS, PIVOTS, PIVOTS_MM, support
+from tests.often import often
 from user_forces import InputError
 
 SUPPORT = support()
@@ -159,7 +160,7 @@ def test_turns_in_a_posture_are_those_of_the_bars(turn: float) -> None:
         assert math.remainder(turned - math.degrees(told), 360.0) == pytest.approx(0.0, abs=1e-12)
 
 
-@settings(max_examples=30)
+@settings(max_examples=often(30))
 @given(height=st.floats(1.0, 2.7))
 def test_start_is_level_at_the_height_asked_for(height: float) -> None:
     machine = support(start_hinge_height=height)
@@ -193,7 +194,7 @@ def changed(point: Point, dx: float, dy: float, sense: float) -> Point:
     return sense * point[0] + dx, point[1] + dy
 
 
-@settings(max_examples=20)
+@settings(max_examples=often(20))
 @given(dx=st.floats(-2.0, 2.0), dy=st.floats(0.0, 2.0), sense=st.sampled_from([1.0, -1.0]))
 def test_a_moved_or_mirrored_support_has_a_moved_or_mirrored_start(dx: float, dy: float, sense: float) -> None:
     pivots = {name: changed(point, dx, dy, sense) for name, point in PIVOTS.items()}
@@ -207,7 +208,7 @@ def test_a_moved_or_mirrored_support_has_a_moved_or_mirrored_start(dx: float, dy
 # --- extension ---
 
 
-@settings(max_examples=30)
+@settings(max_examples=often(30))
 @given(extension=st.floats(-0.4, 0.7))
 def test_columns_get_longer_by_what_is_asked_for(extension: float) -> None:
     front, rear = SUPPORT.column_lengths(extended(extension))

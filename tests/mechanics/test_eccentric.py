@@ -15,6 +15,7 @@ from support_exudyn.mechanics.initial_eccentricity import eccentric
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.model.linkage import Linkage
 from tests.cases.run_cases import PIN, SLIDER_PIN, paper_contact, slider_crank_contact
+from tests.often import often
 from user_forces import InputError
 
 CLOSE = 1e-12  # [m]: iterated to 1e-13, some roundings of metres
@@ -54,7 +55,7 @@ def assert_laid_out(linkage: Linkage, of: Linkage, offsets: Offsets) -> None:
         assert body.mass == of.bodies[name].mass
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=often(30), deadline=None)
 @given(offsets=st.dictionaries(st.sampled_from(PINS), st.tuples(inside, inside), max_size=len(PINS)))
 def test_any_pins_of_the_support_are_as_eccentric_as_asked(offsets: Offsets) -> None:
     assert_laid_out(eccentric(SUPPORT, offsets), SUPPORT, offsets)

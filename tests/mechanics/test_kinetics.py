@@ -27,9 +27,10 @@ from support_exudyn.mechanics.contact_state import HEAVIEST, InverseMass
 from support_exudyn.mechanics.kinetics import Kinetics
 from support_exudyn.model.linkage import GROUND, pinned
 from tests.cases.run_cases import PIN, Pair, paper_contact, slider_crank_contact, support
+from tests.often import often
 from user_forces.values.value import Vector2
 
-sometimes = settings(deadline=None, max_examples=40)
+sometimes = settings(deadline=None, max_examples=often(40))
 
 coordinates = st.floats(-1.0, 1.0)
 points = st.tuples(coordinates, coordinates)

@@ -18,7 +18,7 @@ from hypothesis import Phase, assume, settings
 from support_exudyn import Result, Scenario, SimulationError, simulate
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.metamorphic.moving import FROM_THE_START
-from tests.strategies import OFTEN
+from tests.often import OFTEN
 
 FEW = 20  # scenes of each relation in a run of the tests; in a longer profile as many as that says
 TELLING = (

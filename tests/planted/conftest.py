@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-from tests.strategies import OFTEN
+from tests.often import OFTEN
 
 HERE = Path(__file__).parent
 

@@ -24,6 +24,7 @@ from support_exudyn.postprocessing.page.live import (
     thinned,
 )
 from support_exudyn.postprocessing.page.live_html import html
+from tests.often import often
 from user_forces import InputError
 
 MOST = 60
@@ -46,7 +47,7 @@ def drawing() -> Figure:
 
 
 @given(arrays.arrays(float, st.tuples(st.integers(1, 3), st.integers(1, 800)), elements=VALUES))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=often(60), deadline=None)
 def test_every_bin_keeps_its_extremes_and_its_ends(curves: Series) -> None:
     kept = thinned(curves, MOST)
     number = curves.shape[1]

@@ -21,6 +21,7 @@ from support_exudyn.postprocessing.look.looks import look
 from support_exudyn.postprocessing.look.shapes import cylinder_and_rod, lengths
 from support_exudyn.postprocessing.look.shield_support import canopy_top
 from support_exudyn.postprocessing.look.solid import Look, Role
+from tests.often import often
 from user_forces import InputError
 
 RISE = 0.5  # [m]
@@ -248,7 +249,7 @@ def test_a_larger_machine_looks_the_same(exponent: float, wide: bool) -> None:
 SHIFT = st.tuples(st.floats(-0.08, 0.08), st.floats(-0.08, 0.08))
 
 
-@settings(deadline=None, max_examples=15)
+@settings(deadline=None, max_examples=often(15))
 @given(shifts=st.fixed_dictionaries(dict.fromkeys(PIVOTS, SHIFT)))
 def test_other_pivots_give_closed_surfaces_too(shifts: dict[str, tuple[float, float]]) -> None:
     try:

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from studies.claims.conditions import CUTS, OTHER_THAN, PAIR_GAIN, best_condition, dependence
 from studies.claims.plausible import FACTORS, Choice, samples
+from tests.often import often
 
 MACHINES = samples(256, 7)
 RANGES = [factor for factor in FACTORS if not factor.choices]
@@ -101,7 +102,7 @@ def test_the_second_bound_is_named_only_if_it_tells_something() -> None:
     assert right == 1.0 - len(strangers) / len(MACHINES)
 
 
-@settings(max_examples=25)
+@settings(max_examples=often(25))
 @given(place=st.integers(0, len(RANGES) - 1), share=st.floats(0.1, 0.9), above=st.booleans())
 def test_any_bound_on_any_range_is_found(place: int, share: float, above: bool) -> None:
     factor = RANGES[place]
@@ -111,7 +112,7 @@ def test_any_bound_on_any_range_is_found(place: int, share: float, above: bool) 
     assert right >= 1.0 - NEAR
 
 
-@settings(max_examples=25)
+@settings(max_examples=often(25))
 @given(place=st.integers(0, len(RANGES) - 1), share=st.floats(0.1, 0.9))
 @example(place=START_HEIGHT, share=0.75)  # a narrow range about 1
 def test_a_bound_is_worded_so_that_it_can_be_applied(place: int, share: float) -> None:

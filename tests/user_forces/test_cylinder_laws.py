@@ -24,6 +24,7 @@ from tests.cases.law_cases import (
     kind_of,
     law_rebound,
 )
+from tests.often import often
 from user_forces import (
     CylinderLaw,
     DubowskyFreudenstein,
@@ -461,7 +462,7 @@ def test_pereira_delivers_what_lankarani_and_nikravesh_do() -> None:
 
 
 @pytest.mark.parametrize("kind", [Johnson, Liu], ids=kind_of)
-@settings(max_examples=15)
+@settings(max_examples=often(15))
 @given(e=st.floats(0.05, 1.0), mass=st.floats(1.0, 1e4), speed=st.floats(0.01, 1.0))
 def test_free_impact_delivers_what_was_asked_for(
     kind: type[CylinderLaw], e: float, mass: float, speed: float

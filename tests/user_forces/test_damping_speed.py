@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from tests.cases.law_cases import NORMAL_LAWS, kind_of, law_rebound
+from tests.often import often
 from user_forces import (
     DampingSpeed,
     Exact,
@@ -91,7 +92,7 @@ def test_force_does_not_jump_where_the_depth_takes_over(
     assert normal(depth, rate, Impact(speed * (1.0 - 1e-9), mass)) == pytest.approx(at, abs=1e-8 * size)
 
 
-@settings(max_examples=30)
+@settings(max_examples=often(30))
 @given(e=restitutions, n=exponents, stiffness=st.floats(1e7, 1e11), mass=masses, speed=st.floats(0.01, 2.0))
 def test_free_impact_is_the_same_with_either_speed(
     e: float, n: float, stiffness: float, mass: float, speed: float
@@ -143,7 +144,7 @@ def decay(normal: NormalLaw, depth: float, mass: float) -> float:
     return decrement / math.hypot(2.0 * math.pi, decrement)
 
 
-@settings(max_examples=20)
+@settings(max_examples=often(20))
 @given(depth=st.floats(1e-6, 1e-3), n=exponents, mass=masses, e=st.floats(0.6, 0.95))
 def test_small_vibrations_of_a_loaded_contact_decay_alike_at_any_load(
     depth: float, n: float, mass: float, e: float

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from tests.analytic import adams_step, contact_time, greatest_depth
 from tests.cases.law_cases import NORMAL_LAWS, kind_of, law_rebound
+from tests.often import often
 from tests.ranges import from_zero
 from user_forces import AdamsImpact, Anagnostopoulos, Hertz, Impact, InputError, KelvinVoigt, NormalLaw
 from user_forces.normal.kelvin_voigt import cut_dashpot_restitution
@@ -97,7 +98,7 @@ def test_stronger_dashpot_delivers_less(zeta: float, more: float) -> None:
     assert cut_dashpot_restitution(zeta + more) < cut_dashpot_restitution(zeta)
 
 
-@settings(max_examples=30)
+@settings(max_examples=often(30))
 @given(zeta=from_zero(3.0).filter(damps), stiffness=stiffnesses, mass=masses, speed=speeds)
 def test_kelvin_voigt_delivers_in_an_impact_what_it_says(
     zeta: float, stiffness: float, mass: float, speed: float
@@ -156,7 +157,7 @@ def test_anagnostopoulos_is_a_dashpot_for_the_mass_that_moves(
     )
 
 
-@settings(max_examples=20)
+@settings(max_examples=often(20))
 @given(e=st.floats(0.01, 1.0), stiffness=stiffnesses, mass=masses, speed=speeds)
 def test_anagnostopoulos_delivers_in_an_impact_what_it_says(
     e: float, stiffness: float, mass: float, speed: float
@@ -235,7 +236,7 @@ def test_restitution_of_the_common_set(mass: float, speed: float, e: float) -> N
     assert law_rebound(COMMON, mass, speed) == pytest.approx(e, abs=5.1e-4)
 
 
-@settings(max_examples=20)
+@settings(max_examples=often(20))
 @given(mass=masses, speed=speeds)
 def test_impact_function_never_returns_more_than_came(mass: float, speed: float) -> None:
     # the integrator's tolerance

@@ -10,6 +10,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.cases.law_cases import BEARING, FRICTION_LAWS, NORMAL_LAWS, kind_of, power_law
+from tests.often import often
 from user_forces import (
     Exact,
     FrictionLaw,
@@ -65,7 +66,7 @@ def assert_same(contact: JournalContact, state: Arguments) -> None:
 
 
 @pytest.mark.parametrize("normal", NORMAL_LAWS, ids=kind_of)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=often(60), deadline=None)
 @given(state=states())
 @example(state=MIDDLE)
 def test_every_normal_law(normal: NormalLaw, state: Arguments) -> None:
@@ -73,14 +74,14 @@ def test_every_normal_law(normal: NormalLaw, state: Arguments) -> None:
 
 
 @pytest.mark.parametrize("friction", FRICTION_LAWS, ids=kind_of)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=often(60), deadline=None)
 @given(state=states())
 @example(state=MIDDLE)
 def test_every_friction_law(friction: FrictionLaw, state: Arguments) -> None:
     assert_same(JournalContact(bearing=BEARING, normal=EXACT, friction=friction), state)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=often(100), deadline=None)
 @given(states=st.lists(states(), min_size=2, max_size=5))
 def test_nothing_is_kept_from_call_to_call(states: list[Arguments]) -> None:
     friction = LuGre(static_coefficient=0.3, sliding_coefficient=0.2)
@@ -146,7 +147,7 @@ class BranchingFriction(FrictionLaw):
 BRANCHING = Branching(stiffness=1e9, restitution=0.7)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=often(60), deadline=None)
 @given(state=states())
 @example(state=MIDDLE)
 def test_a_law_that_branches_is_called(state: Arguments) -> None:

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from tests.cases.law_cases import FRICTION_LAWS, LUGRE, STATELESS_FRICTION, kind_of
+from tests.often import often
 from user_forces import (
     Ambrosio,
     BengisuAkay,
@@ -266,7 +267,7 @@ def test_force_is_bristles_their_rate_and_viscosity(slip: float, force: float, z
     assert LUGRE.deflection_rate(z, slip) == pytest.approx(rate, abs=1e-14 * (abs(slip) + abs(rate)) + 1e-300)
 
 
-@settings(max_examples=30)
+@settings(max_examples=often(30))
 @given(slip=slips, z=st.floats(-3e-6, 3e-6), lengths=st.floats(0.0, 20.0), stribeck=st.floats(1e-3, 1e-1))
 def test_next_deflection_is_exact_for_constant_slip(
     slip: float, z: float, lengths: float, stribeck: float

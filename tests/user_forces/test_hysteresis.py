@@ -25,6 +25,7 @@ from tests.cases.law_cases import (
     power_law,
     rebound,
 )
+from tests.often import often
 from user_forces import (
     CarvalhoMartins,
     Exact,
@@ -118,7 +119,7 @@ def test_delivered_restitution_is_a_root_at_large_damping(chi: float) -> None:
     assert 1.0 - chi * e == pytest.approx((1.0 + chi) * math.exp(-chi * (1.0 + e)), abs=1e-15)
 
 
-@settings(max_examples=30)
+@settings(max_examples=often(30))
 @given(
     chi=st.floats(0.0, 20.0),
     n=st.floats(1.0, 3.0),

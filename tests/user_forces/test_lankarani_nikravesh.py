@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
 from tests.analytic import contact_time, delivered_restitution, greatest_depth, reduced_mass
+from tests.often import often
 from user_forces import (
     DampingSpeed,
     Impact,
@@ -74,7 +75,7 @@ def impact(normal: LankaraniNikravesh, one: float, two: float, speed: float) -> 
     return float(end[3] - end[1]), float(found.t_events[0][0]) * time_scale, float(deepest)
 
 
-@settings(max_examples=40)
+@settings(max_examples=often(40))
 @given(
     restitution=st.floats(0.0, 0.99),
     n=exponents,

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from studies.contact_laws import catalogue
+from tests.often import often
 from user_forces import (
     Ambrosio,
     Frictionless,
@@ -41,7 +42,7 @@ masses = st.floats(-1.0, 5.0).map(lambda x: 10.0**x)
 @pytest.mark.parametrize(
     "name", [pytest.param(n, marks=pytest.mark.slow) if n.endswith("0.9") else n for n in NORMAL]
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=often(60), deadline=None)
 @given(depth=depths, rate=rates, impact=st.builds(Impact, speeds, masses))
 def test_no_normal_law_of_ours_is_refused(name: str, depth: float, rate: float, impact: Impact) -> None:
     law = NORMAL[name]
@@ -56,7 +57,7 @@ def test_no_normal_law_of_ours_is_refused(name: str, depth: float, rate: float, 
 
 
 @pytest.mark.parametrize("name", FRICTION)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=often(60), deadline=None)
 @given(
     slip=rates,
     normal=st.floats(0.0, 1e7),

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, ImpactStand, Result, Scenario, SolverSettings, simulate
 from tests.analytic import delivered_restitution
+from tests.often import often
 from user_forces import (
     Anagnostopoulos,
     CarvalhoMartins,
@@ -113,7 +114,7 @@ speeds = st.floats(-3.0, 1.0).map(lambda x: 10.0**x)
 stiffnesses = st.floats(5.0, 12.0).map(lambda x: 10.0**x)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=often(60), deadline=None)
 @given(
     law=st.sampled_from(LAWS),
     asked=st.floats(0.05, 0.999),  # where the closed form of the tests keeps its digits
@@ -147,7 +148,7 @@ def test_any_mass_stiffness_speed_and_step(
     assert delivered(simulate(tried)) == pytest.approx(expected, abs=2e-5)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=often(40), deadline=None)
 @given(
     law=st.sampled_from(
         [
