@@ -18,9 +18,9 @@ from hypothesis import Phase, assume, settings
 from support_exudyn import Result, Scenario, SimulationError, simulate
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.metamorphic.moving import FROM_THE_START
-from tests.often import OFTEN
+from tests.often import OFTEN, often
 
-FEW = 20  # scenes of each relation in a run of the tests; in a longer profile as many as that says
+FEW = 20  # scenes of each relation in CI, a third by hand; in a longer profile as many as that says
 TELLING = (
     0.05  # distance of the coarse run, as a share of a channel's largest value, above which nothing is told
 )
@@ -45,7 +45,7 @@ EvaluationContext = Mapping[str, np.ndarray]
 def scenes(few: int = FEW) -> Callable[[Any], Any]:
     """Hypothesis's settings of a relation: a few scenes, or as many as a longer profile asks for."""
     asked = settings.default.max_examples
-    return settings(max_examples=few if asked <= OFTEN else asked, deadline=None, phases=PHASES)
+    return settings(max_examples=often(few) if asked <= OFTEN else asked, deadline=None, phases=PHASES)
 
 
 def told(scenario: Scenario) -> Result:

@@ -156,7 +156,9 @@ def test_of_256_machines_every_claim_that_has_a_measure_is_stored(judged: dict[s
     assert {len(marks) for marks in judged.values()} == {256}
 
 
-@pytest.mark.parametrize("number", [2, 8, 16, 64])
+@pytest.mark.parametrize(
+    "number", [2, 8, *(pytest.param(number, marks=pytest.mark.slow) for number in (16, 64))]
+)
 def test_fewer_machines_say_less_and_nothing_else(judged: dict[str, str], number: int) -> None:
     chance = random.Random(number)
     drawings, wrong, covered, all_shares = 10, 0, 0, 0

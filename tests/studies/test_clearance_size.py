@@ -158,6 +158,7 @@ def test_every_file_is_there_and_the_chapter_can_be_read(out: Path) -> None:
     assert "52" in next(text for text in chapter.findings if "mean force" in text)
 
 
+@pytest.mark.slow  # test_drive_mode.py has the quick one
 def test_it_is_about_the_users_machine_and_leaves_the_paper_out(tmp_path: Path) -> None:
     shutil.copy(MACHINES / "zf18000.toml", tmp_path / "mine.toml")
     own = own_subject(tmp_path / "mine.toml", "rear_base")

@@ -432,6 +432,7 @@ def test_a_process_that_is_killed_is_a_silent_failure_of_its_case_alone(
 # --- what is kept ---
 
 
+@pytest.mark.slow  # a process, and all runs twice
 @posix_only
 def test_after_a_kill_in_mid_work_what_was_judged_is_not_run_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

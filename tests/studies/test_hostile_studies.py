@@ -75,6 +75,7 @@ def story(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Story]:
                 os.kill(pid, signal.SIGKILL)
 
 
+@pytest.mark.slow  # four processes, two of them at work
 @linux_only
 class TestInterrupted:
     """By the console: all its processes at once."""

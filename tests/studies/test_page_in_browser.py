@@ -29,6 +29,8 @@ from support_exudyn.postprocessing.page.live import LiveCurve, LiveFigure, LiveP
 from support_exudyn.postprocessing.page.pieces import Sheet
 from tests.studies.test_report import chapter, put
 
+pytestmark = pytest.mark.slow  # seconds of a browser
+
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 FLAGS = (
     "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",

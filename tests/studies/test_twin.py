@@ -103,6 +103,7 @@ def twin() -> list[EvaluationContext]:
     return twin_onsets()
 
 
+@pytest.mark.slow  # 130 000 steps of the engine's own contact
 @pytest.mark.parametrize("backend", ["python", "symbolic"])
 def test_onsets_are_those_of_the_engines_own_contact(twin: list[EvaluationContext], backend: str) -> None:
     scenario = loose_slider_crank(

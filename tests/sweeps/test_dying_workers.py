@@ -159,6 +159,7 @@ with worker_pool(1) as pool:
 """
 
 
+@pytest.mark.slow  # a script whose processes import all
 def test_a_script_that_starts_itself_again_is_told_what_is_missing(tmp_path: Path) -> None:
     script = tmp_path / "unguarded.py"
     script.write_text(UNGUARDED, encoding="utf-8")
@@ -220,7 +221,7 @@ if __name__ == "__main__":
 
 
 @linux_only
-@pytest.mark.parametrize("when", ["at work", "starting"])
+@pytest.mark.parametrize("when", [pytest.param("at work", marks=pytest.mark.slow), "starting"])
 def test_workers_say_nothing_when_the_console_interrupts_all(tmp_path: Path, when: str) -> None:
     script, marks = tmp_path / "script.py", tmp_path / "marks"
     script.write_text(INTERRUPTED, encoding="utf-8")

@@ -49,6 +49,7 @@ def test_a_run_whose_process_is_killed_is_a_row_and_is_tried_again(
     assert (outcome.done, outcome.found) == (3, 2)
 
 
+@pytest.mark.slow  # three sweeps of three processes
 def test_interrupted_killed_and_hurt_it_ends_as_if_left_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

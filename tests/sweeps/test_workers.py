@@ -132,6 +132,7 @@ def test_a_block_that_raises_ends_its_processes_in_mid_work(pool: Workers) -> No
     assert {process for *_, process in pool.run([(n,) for n in range(8)], squared, silent)} <= others
 
 
+@pytest.mark.slow  # three processes
 @linux_only
 def test_processes_end_with_a_parent_that_is_killed() -> None:
     script = (
