@@ -15,8 +15,8 @@ from support_exudyn.files.machines import SHIPPED
 from support_exudyn.files.starters import starter
 from tests.machine_files import written
 
-# of the kind of the reference support, too
-ALIKE = ("zf18000",)
+# shields as the reference support is one
+ALIKE = ("zf18000", "two_leg_shield")
 
 
 @pytest.mark.parametrize(

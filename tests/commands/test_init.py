@@ -33,7 +33,13 @@ def test_files_are_written_once_and_nothing_is_replaced(
     assert written[-1].read_text(encoding="utf-8") == "mine"
 
 
-@pytest.mark.parametrize("kind", sorted(KINDS.keys() - MODULES.keys()))
+@pytest.mark.parametrize(
+    "kind",
+    [
+        pytest.param(kind, marks=[pytest.mark.slow] * (kind == "four_column_support"))
+        for kind in sorted(KINDS.keys() - MODULES.keys())
+    ],
+)
 def test_files_are_what_they_say(kind: str, tmp_path: Path) -> None:
     assert main(["init", kind, "--out", str(tmp_path)]) == 0
     assert main(["check", str(tmp_path / "machine.toml"), "--out", str(tmp_path)]) == 0

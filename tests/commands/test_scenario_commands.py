@@ -82,7 +82,12 @@ def again(result: Result, folder: Path) -> Result:
     return Result.load(folder / "b.h5")
 
 
-@pytest.mark.parametrize("name", SCENARIOS)
+LONGER = ("apart", "jumps", "load", "tail beam")
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in LONGER)) for name in SCENARIOS]
+)
 def test_the_scenario_of_a_run_makes_it_again_to_the_bit(name: str, tmp_path: Path) -> None:
     result = simulate(SCENARIOS[name])
     same(again(result, tmp_path), result)

@@ -291,7 +291,7 @@ def test_formulations_agree_on_two_pins_in_series(way: str) -> None:
     ("pins", "friction"),
     [
         *(((name,), 0.0) for name in PINS),
-        (("front_base", "front_shield"), 0.0),
+        pytest.param(("front_base", "front_shield"), 0.0, marks=pytest.mark.slow),
         (("rear_base", "front_shield"), 0.1),
         pytest.param(PINS, 0.1, marks=pytest.mark.slow),
     ],

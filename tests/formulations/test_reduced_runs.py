@@ -156,7 +156,7 @@ DAMPING = {"impact": ImpactVelocity(floor=1e-3), "depth": IndentationVelocity()}
     [
         ("impact", 0.0, "first"),
         ("impact", 0.25, "second"),
-        ("depth", 0.0, "second"),
+        pytest.param("depth", 0.0, "second", marks=pytest.mark.slow),
         ("depth", 0.25, "first"),
         pytest.param("impact", 0.0, "second", marks=pytest.mark.slow),
         pytest.param("impact", 0.25, "first", marks=pytest.mark.slow),

@@ -219,7 +219,7 @@ def test_a_canopy_on_actuators_driven_apart_rolls_as_far_as_its_oil_lets_it() ->
         assert left == pytest.approx(0.5 * oil.stiffness(apart) * (static + apart - run_of_steps), rel=1e-3)
 
 
-@pytest.mark.parametrize("beside", [0.05, -0.12])
+@pytest.mark.parametrize("beside", [pytest.param(0.05, marks=pytest.mark.slow), -0.12])
 def test_a_loaded_plate_on_a_loose_hinge_and_two_actuators_comes_to_rest_where_forces_balance(
     beside: float,
 ) -> None:

@@ -424,7 +424,7 @@ def test_earlier_frames_are_replaced_and_nothing_else(bouncing: Result, tmp_path
     assert (folder / "frame_0000.png").read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize("share", [0.2, 0.9])
+@pytest.mark.parametrize("share", [pytest.param(0.2, marks=pytest.mark.slow), 0.9])
 def test_an_interruption_leaves_all_as_it_was(bouncing: Result, tmp_path: Path, share: float) -> None:
     render(bouncing, tmp_path / "run_frames", until=0.04, size=SIZE)
     before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}

@@ -112,7 +112,9 @@ OTHERS = [pytest.param(name, marks=pytest.mark.slow) for name in ("gbk", "cp932"
 
 
 @pytest.mark.parametrize("encoding", ["ascii", *OTHERS])
-@pytest.mark.parametrize("words", [*STARTS[:2], STARTS[6]], ids=lambda words: words[1])
+@pytest.mark.parametrize(
+    "words", [*STARTS[:2], pytest.param(STARTS[6], marks=pytest.mark.slow)], ids=lambda words: words[1]
+)
 def test_commands_speak_on_every_console(tmp_path: Path, words: list[str], encoding: str) -> None:
     done = started(words, tmp_path, {"PYTHONIOENCODING": encoding})
     assert (done.returncode, done.stderr) == (0, "")

@@ -75,7 +75,13 @@ def whole(scene: str) -> Result:
     return simulate(SCENES[scene])
 
 
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize(
+    "scene",
+    [
+        pytest.param(scene, marks=[pytest.mark.slow] * (scene == "clearance, friction with a state"))
+        for scene in SCENES
+    ],
+)
 @settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(data=st.data())
 def test_any_choice_has_the_numbers_of_all(scene: str, data: st.DataObject) -> None:

@@ -165,7 +165,7 @@ def test_few_decided_machines_name_no_condition_either() -> None:
 
 
 @pytest.mark.parametrize("share", [0.5, 0.7, 0.8, 0.9])
-@pytest.mark.parametrize("number", [ENOUGH, 128, 256])
+@pytest.mark.parametrize("number", [ENOUGH, pytest.param(128, marks=pytest.mark.slow), 256])
 def test_judgements_by_chance_have_no_condition(number: int, share: float) -> None:
     # thousands of bounds are tried, and the best of them foretells some of what is mere chance; of five
     # drawings one at most may be taken in

@@ -90,7 +90,9 @@ def test_the_rule_is_where_the_loads_of_hertz_and_persson_part_by_2_percent() ->
     assert (near.conformal, far.conformal) == (False, True)
 
 
-@pytest.mark.parametrize("degrees", [5.0, 20.0, 45.0, 70.0])
+@pytest.mark.parametrize(
+    "degrees", [5.0, *(pytest.param(at, marks=pytest.mark.slow) for at in (20.0, 45.0)), 70.0]
+)
 def test_the_pressure_carries_the_load_and_gives_the_depth(degrees: float) -> None:
     """Fourier's sum over both bodies of the pressure as Persson prints it, integrated by a library."""
     angle = math.radians(degrees)
