@@ -19,6 +19,12 @@ from tests.machine_files import written
 ALIKE = ("zf18000", "two_leg_shield")
 
 
+@pytest.fixture
+def _words_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Figures are not saved, which takes longer than all that is told."""
+    monkeypatch.setattr("support_exudyn.postprocessing.figures.style.save", lambda *_: [])
+
+
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.slow] * (name in ALIKE)) for name in SHIPPED]
 )
@@ -48,6 +54,7 @@ def test_a_file_of_ones_own_gets_its_figure_beside_it(
     assert all(Path(figure).exists() for figure in told["figures"])
 
 
+@pytest.mark.usefixtures("_words_alone")
 def test_warnings_are_no_failure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = written(tmp_path, "canopy = 5200", "canopy = 52000")
     assert main(["check", str(path)]) == 0
@@ -108,6 +115,7 @@ def test_a_scenario_has_its_own_machine_checked(
     assert (tmp_path / "ideal_check.png").exists()
 
 
+@pytest.mark.usefixtures("_words_alone")
 def test_a_scenario_of_a_known_machine_is_checked_as_that(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -129,6 +137,7 @@ stiffness = "paper"
 """
 
 
+@pytest.mark.usefixtures("_words_alone")
 def test_a_scenario_is_told_which_pins_shake(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "rise.toml"
     path.write_text(SCENARIO, "utf-8")
@@ -143,6 +152,7 @@ def test_a_scenario_is_told_which_pins_shake(tmp_path: Path, capsys: pytest.Capt
     assert told["rear_base"].split()[-1].startswith("0.02")
 
 
+@pytest.mark.usefixtures("_words_alone")
 def test_a_scenario_is_told_how_hard_its_pins_are_pressed(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -163,6 +173,7 @@ def test_a_scenario_is_told_how_hard_its_pins_are_pressed(
     assert "bears before it yields: an elastic contact is too stiff there" in told
 
 
+@pytest.mark.usefixtures("_words_alone")
 def test_a_scenario_with_errors_is_told_its_machine_alone(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -176,6 +187,7 @@ def test_a_scenario_with_errors_is_told_its_machine_alone(
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("_words_alone")
 def test_a_machine_alone_is_told_with_what_is_assumed(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
