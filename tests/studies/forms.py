@@ -3,7 +3,8 @@
 The rough form does all that the whole one does, but runs each case once where that has it at half and at a
 quarter of its steps, too: the three are then the same run. Findings are there; of the errors one sees only that
 there are some. Tests of a study of the paper are made on the rough form by default, on both with the marker
-`slow`; those of the other studies only with it.
+`slow`; those of the other studies only with it, and those of drive_mode, whose study of one's own machine is
+made by default.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ from studies.drive_mode import assumed
 from studies.drive_mode.cases import COLUMNS, MODES, PINS, ModePlan, case_name, naive_peaks
 from studies.drive_mode.tables import CONVERGES, verdict
 from support_exudyn import OilColumn
-from tests.studies.forms import FORMS, on_the_whole_form, written
+from tests.studies.forms import ONLY_SLOW, on_the_whole_form, written
 from user_forces.values.value import InputError
 
 IDEAL, WITH_CLEARANCE = PINS
@@ -25,7 +25,7 @@ IDEAL, WITH_CLEARANCE = PINS
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
-@pytest.fixture(scope="module", params=FORMS)
+@pytest.fixture(scope="module", params=ONLY_SLOW)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written("drive_mode", request.param, tmp_path_factory.mktemp("results"))
 
