@@ -46,7 +46,12 @@ class PressedPin:
 
     @property
     def warning(self) -> str | None:
-        """That the pin yields, in one sentence; None if it does not, or nobody knows."""
+        """That the law does not hold the force, or that the pin yields, in one sentence; None: neither."""
+        if math.isnan(self.depth):
+            return (
+                f"{self.name}: its law does not hold {self.force / 1e3:.4g} kN; allowed: a larger clearance or "
+                "length, or another law"
+            )
         if not self.yield_share > 1.0 or self.line is None or self.softest is None:
             return None
         return (

@@ -37,6 +37,10 @@ from user_forces.normal.law import LoadError
 
 SAMPLES = 24  # postures between two breaks of the drives
 PARTS = 64  # into which the way between two postures is divided, at most
+NOT_TOLD = (
+    "nothing is told; allowed: a scenario in the plane with a clearance pin, whose drives move it and leave "
+    "nothing free, without hydraulic cylinders"
+)
 
 
 @dataclass(frozen=True)

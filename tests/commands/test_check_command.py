@@ -153,6 +153,18 @@ def test_a_scenario_is_told_which_pins_shake(tmp_path: Path, capsys: pytest.Capt
 
 
 @pytest.mark.usefixtures("_words_alone")
+def test_a_scenario_in_space_is_told_why_nothing_is_said_of_shaking(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "rise.toml"
+    path.write_text(f"dimensions = 3\n{SCENARIO}", "utf-8")
+    assert main(["check", str(path)]) == 0
+    assert (
+        "whether its pins shake: nothing is told; allowed: a scenario in the plane" in capsys.readouterr().out
+    )
+
+
+@pytest.mark.usefixtures("_words_alone")
 def test_a_scenario_is_told_how_hard_its_pins_are_pressed(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -8,9 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import SymLogNorm
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
+from support_exudyn.scenario.pin_stability import NOT_TOLD, PinOutlook, pin_outlooks
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
 
@@ -18,6 +19,7 @@ FRICTIONS = tuple(np.linspace(0.0, 0.5, 26).tolist())  # that are drawn
 COLOURS = "RdBu_r"
 LINEAR, LARGEST = 1.0, 1000.0  # [1/s] up to which the colours are linear, and to which they go
 PAINLEVE = "Painlevé's threshold"
+NOWHERE = "0.6"  # grey, where the journal has no equilibrium; white is a growth rate of 0
 
 
 def stability_map(scenario: Scenario, pins: Sequence[str] = ()) -> Figure:
@@ -27,10 +29,7 @@ def stability_map(scenario: Scenario, pins: Sequence[str] = ()) -> Figure:
     """
     outlooks = pin_outlooks(scenario, pins=pins or None)
     if not outlooks:
-        raise InputError(
-            "stability: nothing is told; allowed: a scenario in the plane with a clearance pin, whose drives "
-            "move it and leave nothing free, without hydraulic cylinders"
-        )
+        raise InputError(f"stability: {NOT_TOLD}")
     columns = min(3, len(outlooks))
     rows = math.ceil(len(outlooks) / columns)
     drawing = style.begin(max(60 * columns + 20, 100), 58 * rows + 22, "Do pins shake as they slide?")
@@ -63,6 +62,7 @@ def draw_map(axes: Axes, outlook: PinOutlook, frictions: Sequence[float] = FRICT
     for values, dashes in ((margin, "-"), (mobility, "--")):
         if np.nanmin(values) < 0.0 < np.nanmax(values):
             axes.contour(stroke, frictions, values, levels=[0.0], colors=["black"], linestyles=[dashes])
+    axes.set_facecolor(NOWHERE)
     axes.grid(visible=False)
     return colours
 
@@ -80,4 +80,5 @@ def finish(drawing: Figure, panels: Sequence[Axes], colours: ScalarMappable, *, 
     bar.set_label("growth rate [1/s]")
     (edge,) = panels[0].plot([], [], color="black", label="grows beyond")
     (threshold,) = panels[0].plot([], [], color="black", ls="--", label=PAINLEVE)
-    drawing.legend(handles=[edge, threshold], loc="outside lower center", ncols=2, fontsize=7)
+    nowhere = Patch(color=NOWHERE, label="nowhere at rest")
+    drawing.legend(handles=[edge, threshold, nowhere], loc="outside lower center", ncols=3, fontsize=7)
