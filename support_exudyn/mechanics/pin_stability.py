@@ -212,7 +212,8 @@ def critical_friction(
 ) -> float:
     """The smallest sliding coefficient of friction with which it shakes [-]; infinite: none up to `largest`.
 
-    A journal that has no equilibrium with a coefficient counts as one that shakes.
+    A journal that has no equilibrium with a coefficient counts as one that shakes, and so does one whose law
+    does not hold it there.
     """
     return _crossing(journal, contact, largest, lambda pin: pin.margin)
 
@@ -233,7 +234,7 @@ def _crossing(
     def at(coefficient: float) -> float:
         try:
             pin = sliding_pin(journal, with_friction(contact, coefficient), places[-1] if places else None)
-        except NoEquilibriumError:
+        except LoadError:
             return -math.inf
         places.append(pin.place)
         return margin(pin)

@@ -34,7 +34,7 @@ def rows(outlooks: Sequence[PinOutlook]) -> list[tuple[str, ...]]:
         found.append(
             (
                 pin,
-                "stable" if told["stable"] else "shakes",
+                _verdict(one),
                 f"{_growth(told):.{DIGITS}g} /s",
                 said(told["frequency_Hz"], "Hz", DIGITS) if told["frequency_Hz"] else "none",
                 at,
@@ -43,6 +43,13 @@ def rows(outlooks: Sequence[PinOutlook]) -> list[tuple[str, ...]]:
             )
         )
     return found
+
+
+def _verdict(outlook: PinOutlook) -> str:
+    """What small motions do at the postures at which they are about an equilibrium."""
+    if any(pin is not None and not pin.stable for pin in outlook.found):
+        return "shakes"
+    return "stable" if outlook.stable else "in part nowhere at rest"
 
 
 def _growth(told: Mapping[str, Any]) -> float:

@@ -22,6 +22,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.mechanics.pin_stability import painleve_friction
+from support_exudyn.postprocessing.pin_shaking import rows
 from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from tests.metamorphic.moving import MIRROR, Move, moved, turn
 from tests.metamorphic.scaling import Scale
@@ -167,6 +168,13 @@ def test_a_slider_crank_over_one_turn() -> None:
     )
     loads = np.array([one.load for one in found["slider_pin"].journals])
     assert np.abs(loads - force).max() < 0.02 * np.abs(force).max()
+
+
+def test_a_pin_that_is_nowhere_at_rest_at_one_posture_is_not_told_to_shake() -> None:
+    (front,) = pin_outlooks(rise("front_base"), TIMES, ("front_base",))
+    assert rows([front])[0][1] == "stable"
+    assert rows([replace(front, found=[None, *front.found[1:]])])[0][1] == "in part nowhere at rest"
+    assert rows([replace(front, found=[None] * 3)])[0][1] == "nowhere at rest"
 
 
 def test_nothing_is_told_of_what_is_not_known_beforehand() -> None:
