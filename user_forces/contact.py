@@ -73,8 +73,10 @@ class JournalContact(Value):
     def _law_is_of_this_bearing(self) -> JournalContact:
         own = getattr(self.normal, "bearing", self.bearing)
         if own != self.bearing:
+            here, there = (f"({one.bore_radius}, {one.clearance}) m" for one in (own, self.bearing))
             raise ValueError(
-                f"normal.bearing = {own}: is another than that of the contact; allowed: {self.bearing}"
+                f"normal.bearing = {here} of bore radius and clearance: is another than that of the contact; "
+                f"allowed: {there}"
             )
         return self
 

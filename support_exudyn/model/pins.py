@@ -181,7 +181,7 @@ class ClearancePin(Pin):
         Raises InputError that names what does not fit, its value and what is allowed.
         """
         bearing = JournalBearing(bore_radius=bore_radius, clearance=clearance)
-        if stiffness is None and length is not None and (law is None or lends_damping(law)):
+        if on_cylinders(stiffness, length, law):
             stiffness = CYLINDERS
         if not isinstance(friction, FrictionLaw):
             friction = Ambrosio(sliding_coefficient=friction) if friction != 0.0 else Frictionless()
@@ -208,6 +208,13 @@ class ClearancePin(Pin):
             journal_material=journal_material,
         )
 
+    @model_validator(mode="after")
+    def _length_is_that_of_the_law(self) -> ClearancePin:
+        own = getattr(self.contact.normal, "length", self.length)
+        if self.length not in (None, own):
+            raise ValueError(f"length = {self.length} m: its law has {own} m; allowed: to leave it out")
+        return self
+
     @property
     def offset(self) -> Vector2:
         """The second body's point minus that of the first at the start [m]."""
@@ -229,6 +236,15 @@ class ClearancePin(Pin):
     def losses(self) -> dict[str, object]:
         """A clearance pin loses energy by the damping and the friction of its contact."""
         return {"damping_loss": self.contact.normal, "friction_loss": self.contact.friction}
+
+
+def on_cylinders(
+    stiffness: Stiffness | float | None, length: float | None, law: type[NormalLaw] | None
+) -> bool:
+    """Whether a pin touches along its length: that is asked for, or nothing is, and length and law allow it."""
+    if stiffness is None:
+        return length is not None and (law is None or lends_damping(law))
+    return stiffness == CYLINDERS
 
 
 def _on_cylinders(

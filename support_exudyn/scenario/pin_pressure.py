@@ -73,10 +73,11 @@ def pressed_pin(machine: Machine, name: str, pin: ClearancePin, force: float) ->
     law_length = getattr(pin.contact.normal, "length", None)
     length = pin.length or law_length or contact_length(machine, name)
     materials = (pin.bore_material, pin.journal_material)
+    modulus = getattr(pin.contact.normal, "effective_modulus", None) or effective_modulus(*materials)
     line = None
     if length is not None:
         try:
-            line = line_contact(pin.contact.bearing, length, effective_modulus(*materials), force)
+            line = line_contact(pin.contact.bearing, length, modulus, force)
         except InputError:  # beyond the theory
             line = None
     depth, stiffness = _under(pin, force)

@@ -140,6 +140,18 @@ def test_a_pin_tells_pressure_angle_depth_and_slope() -> None:
     assert paper.stiffness == pytest.approx(5.04e8, rel=0.01)
 
 
+def test_the_pressure_is_that_of_the_laws_own_modulus_and_length() -> None:
+    pin = pin_of()
+    softer = replace(law_of(), effective_modulus=0.25 * law_of().effective_modulus)
+    soft = replace(pin, contact=replace(pin.contact, normal=softer))
+    hard, found = (pressed_pin(reference_support(), "rear_base", one, 1e4).line for one in (pin, soft))
+    assert hard is not None
+    assert found is not None
+    assert found.peak_pressure == pytest.approx(0.5 * hard.peak_pressure, rel=1e-2)
+    with pytest.raises(InputError, match=r"length = 0.35 m: its law has 0.7 m; allowed: to leave it out"):
+        replace(pin, length=0.35)
+
+
 def test_a_pin_that_yields_is_told_in_a_sentence() -> None:
     pin = pin_of()
     found = pressed_pin(reference_support(), "rear_base", pin, 3e7)

@@ -14,13 +14,12 @@ from pydantic import model_validator
 from support_exudyn.files.toml.shapes import GroupShape, Names
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
-from support_exudyn.model.pins import CYLINDERS, ClearancePin, Stiffness
+from support_exudyn.model.pins import CYLINDERS, ClearancePin, Stiffness, on_cylinders
 from user_forces.backing import in_series, pin_stiffness
 from user_forces.friction.law import FrictionLaw
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
 from user_forces.normal.damping_speed import DampingSpeed
 from user_forces.normal.law import NormalLaw
-from user_forces.normal.pin_in_bore import lends_damping
 from user_forces.normal.power_law import ElasticPower
 from user_forces.values.units import Metres, NewtonsPerMetre, NewtonsPerMetreToN
 from user_forces.values.value import InputError, NonNegative, Positive, Restitution, Value, Vector2, value
@@ -166,15 +165,13 @@ class ShortPin(Value):
                 "allowed: > 0, here or there"
             )
         bore, journal = _material(self.bore_material, STEEL), _material(self.journal_material, STEEL_35CRMO)
-        on_cylinders = self.stiffness == CYLINDERS or (
-            self.stiffness is None and length is not None and (law is None or lends_damping(law))
-        )
-        if self.backing_stiffness is not None and not on_cylinders:
+        along = on_cylinders(self.stiffness, length, law)
+        if self.backing_stiffness is not None and not along:
             raise InputError(
                 'backing_stiffness: is of stiffness = "cylinders" alone; allowed without it: to leave this out'
             )
         backing = None
-        if on_cylinders and length is not None:
+        if along and length is not None:
             backing = self._backing(radius, length, journal, links(bore))
         return ClearancePin.simple(
             clearance=self.clearance,
@@ -184,7 +181,7 @@ class ShortPin(Value):
             law=law,
             damping_speed=self.damping_speed,
             stiffness=self.stiffness,
-            length=length if on_cylinders else self.length,
+            length=length if along else self.length,
             backing_stiffness=backing,
             bore_material=bore,
             journal_material=journal,
