@@ -16,6 +16,7 @@ from jsonschema import Draft7Validator, Draft202012Validator
 from support_exudyn import Scenario
 from support_exudyn.__main__ import main
 from support_exudyn.files import load_toml, parsed, scenario_of, scenario_schema, scenario_text
+from support_exudyn.files.own_modules import OURS
 from tests import strategies as some
 from tests.files.test_fuzz_scenario_files import FOLDER, SHORT
 from user_forces import InputError
@@ -143,7 +144,7 @@ def test_every_field_of_every_class_is_described() -> None:
     bare = [
         f"{name}.{key}"
         for name, table in scenario_schema()["$defs"].items()
-        if not Value._register[name].__module__.startswith("tests")  # of other tests in this process
+        if Value._register[name].__module__.startswith(OURS)  # others are of other tests in this process
         for key, one in table["properties"].items()
         if key != "type" and not one.get("description")
     ]
