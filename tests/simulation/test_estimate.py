@@ -406,8 +406,8 @@ def test_a_run_without_an_accuracy_says_what_to_do() -> None:
 @pytest.mark.parametrize(
     ("number", "text"),
     [
-        (Estimate(51503.8323, 0.0088, "N"), "51503.8323 ± 0.009 N"),
-        (Estimate(0.0174475432, 2e-9, "s"), "0.0174475432 ± 2e-09 s"),
+        (Estimate(51503.8323, 0.0088, "N"), "51503.832 ± 0.009 N"),
+        (Estimate(0.0174475432, 2e-9, "s"), "0.017447543 ± 2e-09 s"),
         (Estimate(1.0, math.inf, "m/s"), "1 ± inf m/s"),
     ],
 )

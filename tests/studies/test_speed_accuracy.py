@@ -266,7 +266,9 @@ def test_scenes_are_of_the_users_machine(own: Subject) -> None:
         for share in variants.FIXED_STEPS:
             each = scene.scenario.record_period / (share * scene.step)
             assert each == pytest.approx(round(each))
-        assert {"reduced", STOCK} <= {way.family for way in ways(scene)}
+        families = {way.family for way in ways(scene)}
+        assert "reduced" in families
+        assert STOCK not in families  # which knows no contact along a pin's length
 
 
 @pytest.mark.slow
