@@ -282,5 +282,5 @@ def _run(chosen_samples: Sequence[Sample], chosen: Options) -> list[hypercube.Ma
         return hypercube.run(chosen_samples, chosen.out, chosen.workers, show)
 
 
-study = Study("claims", __doc__, work, seconds=50.0)
+study = Study("claims", __doc__, work, seconds=70.0)
 main = study.main

@@ -64,7 +64,9 @@ def _run(plan: ModePlan, pin: str, modulus: float, damping: float) -> Scenario:
         for name, column in paper_machine.oil_columns().items()
     }
     loose = {} if ideal else {paper_machine.CLEARANCE_PIN: _joint(plan, pin)}
-    return replace(base, drive=drive, duration=START + AFTER, actuators=columns, pins=loose)
+    return replace(
+        base, drive=drive, duration=START + AFTER, actuators=columns, pins=loose, channels=(rise.FORCE,)
+    )
 
 
 def _joint(plan: ModePlan, contact: str) -> ClearancePin:

@@ -91,5 +91,5 @@ def _struck(plan: ModePlan) -> str:
     return case_name("mode 1", plan.pins[1], "rigid")
 
 
-study = Study("drive_mode", __doc__, work, seconds=25.0, own_machine=True)
+study = Study("drive_mode", __doc__, work, seconds=35.0, own_machine=True)
 main = study.main
