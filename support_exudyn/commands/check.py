@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -75,6 +76,7 @@ def run(given: argparse.Namespace) -> None:
     if scenario and scenario.clearance_pins and not outlooks:
         told.append(f"whether its pins shake: {NOT_TOLD}")
     pressed = statically_pressed(scenario) if scenario else []
+    report = replace(report, warnings=[*report.warnings, *pin_contact.warnings(pressed)])
     if given.json:
         more = {
             "pins_under_static_load": pin_contact.data(pressed),
@@ -89,7 +91,7 @@ def run(given: argparse.Namespace) -> None:
         say("")
         for line in table.lines():
             say(line)
-    for said in (*told, *(f"warning: {one}" for one in pin_contact.warnings(pressed))):
+    for said in told:
         say(f"  {said}")
     say("")
     for one in written:

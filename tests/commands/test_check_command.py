@@ -181,7 +181,7 @@ def test_a_scenario_is_told_how_hard_its_pins_are_pressed(
     path.write_text(SCENARIO.replace("rear_base]", "rear_base]\nlength_mm = 0.7"), "utf-8")
     assert main(["check", str(path)]) == 0
     told = " ".join(capsys.readouterr().out.split())
-    assert "warning: rear_base: " in told
+    assert "- rear_base: " in told
     assert "bears before it yields: an elastic contact is too stiff there" in told
 
 

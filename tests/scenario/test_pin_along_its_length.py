@@ -94,6 +94,7 @@ def test_in_python_the_length_makes_the_choice() -> None:
         ),
         ({"law": "Hertz", "stiffness": "cylinders"}, "law = Hertz: has a force of its own; allowed with"),
         ({"stiffness": "paper", "length_mm": -1}, "length_mm"),
+        ({"length_mm": 7e5}, "length_mm = 7"),
     ],
 )
 def test_what_does_not_fit_is_told(keys: dict[str, object], told: str) -> None:

@@ -9,7 +9,7 @@ from functools import partial
 from types import MappingProxyType
 from typing import Annotated, Any, Literal
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from support_exudyn.files.toml.shapes import GroupShape, Names
 from support_exudyn.model.machine import Machine
@@ -75,6 +75,7 @@ def _in_full(name: str, base: type[Value], key: str, takes: str, place: str) -> 
     )
 
 
+Length = Annotated[Positive, Field(le=10.0)]  # of any pin [m]: in a wrong unit it would be longer
 NamedMaterial = Annotated[str, Names(MATERIALS)]
 
 
@@ -96,7 +97,7 @@ class ShortPin(Value):
         stiffness: "cylinders": the pin along its length; the rest are K of K depth^1.5: "paper": Eq. 5 of the
             paper, two spheres; "internal": a sphere in a hollow sphere; or a number [N/m^1.5], > 0. "cylinders"
             where the length is known and the law allows it, else "paper", if nothing is said.
-        length: of the contact, along the pin's axis [m], > 0; the machine's file may say it for the pin.
+        length: of the contact, along the pin's axis [m], > 0 and <= 10; the machine's file may say it for the pin.
         backing_stiffness: of pin and link behind the contact of cylinders: "rigid", a number [N/m], > 0, or
             "estimated" from the pin's bending and shear and the links' sections; so if nothing is said.
         bore_material, journal_material: names or tables; steel and 35CrMo if nothing is said.
@@ -112,7 +113,7 @@ class ShortPin(Value):
     law: Annotated[str, Names(simple_laws, instead=_law_in_full)] | None = None
     damping_speed: DampingSpeed | None = None
     stiffness: Stiffness | NewtonsPerMetreToN[Positive] | None = None
-    length: Metres[Positive] | None = None
+    length: Metres[Length] | None = None
     backing_stiffness: Literal["estimated", "rigid"] | NewtonsPerMetre[Positive] | None = None
     bore_material: NamedMaterial | Material | None = None
     journal_material: NamedMaterial | Material | None = None
