@@ -97,7 +97,8 @@ class ShortPin(Value):
         stiffness: "cylinders": the pin along its length; the rest are K of K depth^1.5: "paper": Eq. 5 of the
             paper, two spheres; "internal": a sphere in a hollow sphere; or a number [N/m^1.5], > 0. "cylinders"
             where the length is known and the law allows it, else "paper", if nothing is said.
-        length: of the contact, along the pin's axis [m], > 0 and <= 10; the machine's file may say it for the pin.
+        length: of the contact, along the pin's axis [m], > 0 and <= 10; the machine's file may say it for the
+            pin.
         backing_stiffness: of pin and link behind the contact of cylinders: "rigid", a number [N/m], > 0, or
             "estimated" from the pin's bending and shear and the links' sections; so if nothing is said.
         bore_material, journal_material: names or tables; steel and 35CrMo if nothing is said.
