@@ -153,16 +153,14 @@ def test_the_sweep_is_a_straight_line(folder: Path) -> None:
     tips = [float(row["tip.x.mean_m"]) for row in table]
     assert sizes == [0.5, 1.0, 1.5, 2.0]
     assert {row["status"] for row in table} == {'"done"'}
-    line = np.polyfit(sizes[:3], tips[:3], 1)
+    line = np.polyfit(sizes, tips, 1)
     # geometry is linear in so small a shift: what is left is of its second order and of the depth's change
-    np.testing.assert_allclose(tips[:3], np.polyval(line, sizes[:3]), atol=2e-6)
+    np.testing.assert_allclose(tips, np.polyval(line, sizes), atol=2e-6)
     assert -2.4e-3 < line[0] < -1.8e-3
-    # at 2 mm friction sets the pin vibrating: its force swings, and the mean place moves
-    # by less than a hundredth of the shift
+    # from 1 mm on friction sets the pin vibrating: its force swings by a quarter, but it does not part
     peaks = [float(row["pin.rear_base.largest_force_N"]) for row in table]
-    assert max(peaks[:3]) < 26e3
-    assert peaks[3] > 1.5 * peaks[2]
-    assert tips[3] == pytest.approx(np.polyval(line, sizes[3]), abs=4e-5)
+    assert peaks[0] < 26e3
+    assert all(30e3 < peak < 34e3 for peak in peaks[1:])
 
 
 @pytest.mark.slow  # the runs of the page take half a minute
