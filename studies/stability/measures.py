@@ -40,7 +40,7 @@ class Growth:
 
     @property
     def scale(self) -> float:
-        """By what a difference of growth rates is judged [1/s]."""
+        """The size by which a difference of growth rates is judged [1/s]."""
         return max(abs(self.predicted), RESOLVED * 2.0 * math.pi * self.frequency_predicted)
 
     @property

@@ -26,11 +26,8 @@ if TYPE_CHECKING:
 
 HELP = "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong"
 FARTHEST = 1e5  # [mm]
-PLAY_MM, FRICTION, RISE_TIME = (
-    1.0,
-    0.25,
-    2.0,
-)  # assumed of a machine alone: clearance, friction, [s] for its stroke
+# assumed of a machine alone: the clearance and the friction of its pins, and the time for its stroke [s]
+PLAY_MM, FRICTION, RISE_TIME = 1.0, 0.25, 2.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

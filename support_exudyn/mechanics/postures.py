@@ -71,7 +71,7 @@ def posture(
 
 
 def turn(closed: Kinetics, position: Matrix, body: str) -> float:
-    """By what angle a body has turned since the start [rad]."""
+    """Angle by which a body has turned since the start [rad]."""
     return 0.0 if body == GROUND else float(position[closed.bodies[body].first + 2])
 
 

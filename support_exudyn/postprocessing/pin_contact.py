@@ -51,7 +51,7 @@ def rows(pins: Sequence[PressedPin]) -> list[tuple[str, ...]]:
 
 
 def data(pins: Sequence[PressedPin]) -> list[dict[str, Any]]:
-    """The same as plain data, SI; what is not known is None."""
+    """How hard each pin is pressed, as plain data in SI; what is not known is None."""
     return [
         {
             "pin": one.name,

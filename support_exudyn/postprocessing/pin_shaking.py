@@ -59,7 +59,7 @@ def _growth(told: Mapping[str, Any]) -> float:
 
 
 def data(outlooks: Sequence[PinOutlook]) -> list[dict[str, Any]]:
-    """The same as plain data, SI; what there is not is None."""
+    """Whether each pin shakes, as plain data in SI; what there is not is None."""
     return [_data(one) for one in outlooks]
 
 
