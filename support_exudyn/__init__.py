@@ -61,7 +61,17 @@ from support_exudyn.model.hydraulic_cylinder import (
     RampedOpening,
     SuddenOpening,
 )
-from support_exudyn.model.linkage import Body, Crank, LinearActuator, Linkage, Part, PinPlace, Slide, TracePoint
+from support_exudyn.model.linkage import (
+    Body,
+    Crank,
+    Gear,
+    LinearActuator,
+    Linkage,
+    Part,
+    PinPlace,
+    Slide,
+    TracePoint,
+)
 from support_exudyn.model.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
@@ -104,6 +114,7 @@ __all__ = [
     "Failure",
     "FallingBlock",
     "FrictionLaw",
+    "Gear",
     "Held",
     "HydraulicCylinder",
     "HydraulicSupport",

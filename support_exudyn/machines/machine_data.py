@@ -15,7 +15,8 @@ class MachineData:
     """A machine as its file describes it.
 
     machine: bodies, pivots, masses. name: what it is called. bore_radii: of pins [m], by name, for scenarios
-    that give a pin a clearance. actuators: masses of linear actuators, by name, for scenarios that model them
+    that give a pin a clearance. blocks: length along and height across of what slides in a guide [m], by guide.
+    actuators: masses of linear actuators, by name, for scenarios that model them
     as two bodies. stroke: by how much its actuators extend from the start posture on in use [m], None if it is
     not said.
     sources: where the data come from, by what they are of. kind: as the file says. assumed: what was assumed
@@ -26,6 +27,7 @@ class MachineData:
     machine: Machine
     name: str = ""
     bore_radii: Mapping[str, float] = field(default_factory=dict)
+    blocks: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     actuators: Mapping[str, CylinderAndRod] = field(default_factory=dict)
     stroke: float | None = None
     sources: Mapping[str, str] = field(default_factory=dict)

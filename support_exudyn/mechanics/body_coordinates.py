@@ -59,7 +59,7 @@ class CrankItem:
 
 @dataclass(frozen=True)
 class SlideItem:
-    """A straight guide in the engine: its object and the first of its two multipliers."""
+    """A straight guide in the engine: its object and the first of its multipliers."""
 
     object: Any
     first: int

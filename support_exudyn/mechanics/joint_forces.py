@@ -23,11 +23,13 @@ class JointForces:
     """Forces of joints at all records, in the units of `Trajectory`.
 
     pins: of the first body on the second (n, 2). cranks (n,). slides: magnitudes of force and moment (n, 2).
+    gears: moment on the second body (n,).
     """
 
     pins: dict[str, Series] = field(default_factory=dict)
     cranks: dict[str, Series] = field(default_factory=dict)
     slides: dict[str, Series] = field(default_factory=dict)
+    gears: dict[str, Series] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Masses and constraints of a scene as matrices, for what happens at an instant.
 
-Mass matrix M and constraint Jacobian C (ideal pins, rigid actuators, cranks, slides) give the change of
+Mass matrix M and constraint Jacobian C (ideal pins, rigid actuators, cranks, slides, gears) give the change of
 velocities dv and the impulses L under generalised impulses b and a change c of the constraints' rates:
 
     M dv + C^T L = b,    C dv = c
@@ -63,7 +63,7 @@ class Kinetics:
         return self.mass() * along
 
     def rows(self, position: Matrix) -> Matrix:
-        """Jacobian C, shape (m, n): two rows an ideal pin, one a rigid actuator, one a crank, two a slide."""
+        """Jacobian C, (m, n): two rows an ideal pin, one an actuator, crank or gear, one or two a slide."""
         rows: list[Matrix] = []
         for name in self.ideal:
             rows += list(self.relative(position, self.linkage.pins[name])[1])
@@ -75,6 +75,9 @@ class Kinetics:
         rows += [self.turning(position.size, crank.body) for crank in self.linkage.cranks.values()]
         for slide in self.linkage.slides.values():
             rows += self._guided(position, slide)
+        for gear in self.linkage.gears.values():
+            first, second = (self.turning(position.size, body) for body in (gear.first, gear.second))
+            rows.append(second - gear.ratio * first)
         return np.array(rows).reshape(-1, position.size)
 
     def _guided(self, position: Matrix, slide: Slide) -> list[Matrix]:
@@ -87,7 +90,8 @@ class Kinetics:
         along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
         # as the line turns, what is along it comes to lie across it
         distance = across @ (rate - origin_rate) - (along @ (point - origin)) * carrier
-        return [distance, self.turning(position.size, slide.body) - carrier]
+        turning = self.turning(position.size, slide.body) - carrier
+        return [distance, turning][: slide.conditions]
 
     def turning(self, size: int, body: str) -> Matrix:
         """The row that gives a body's angular velocity; that of the ground is none."""
@@ -103,7 +107,8 @@ class Kinetics:
 
     def rates(self, speed: Callable[[str], float]) -> Matrix:
         """Rates of all rows, (m,): of rigid actuators and cranks as told by name [m/s], [rad/s], else 0."""
-        rates = np.zeros(self.driven().stop + 2 * len(self.linkage.slides))
+        guided = sum(slide.conditions for slide in self.linkage.slides.values())
+        rates = np.zeros(self.driven().stop + guided + len(self.linkage.gears))
         rates[self.driven()] = [speed(name) for name in (*self.actuators, *self.linkage.cranks)]
         return rates
 

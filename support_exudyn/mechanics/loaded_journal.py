@@ -36,6 +36,7 @@ def loaded_journals(
         tuple(linkage.actuators.values()),
         tuple(linkage.cranks.values()),
         tuple(linkage.slides.values()),
+        tuple(linkage.gears.values()),
     )
     motion = BodyMotion(linkage, position, velocity, np.zeros_like(position))
     multipliers = equations(motion, held, driven).solve(forces)[1]

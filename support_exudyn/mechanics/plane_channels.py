@@ -51,6 +51,8 @@ def channel_definitions(
         found |= _of_crank(name)
     for name in linkage.slides:
         found |= _of_slide(name)
+    for name in linkage.gears:
+        found |= _of_gear(name)
     for name in linkage.pins:
         found |= pin_channels(pins.get(name, IdealPin()), name)
     for name, load in loads.items():
@@ -172,6 +174,13 @@ def _of_slide(name: str) -> ChannelDefinitions:
             "N m", "magnitude of the guide's moment", joints, lambda context: context.run.slides[name][:, 1]
         ),
     }
+
+
+def _of_gear(name: str) -> ChannelDefinitions:
+    moment = ChannelDefinition(
+        "N m", "of the gear on its second body", DataNeeds.JOINTS, lambda context: context.run.gears[name]
+    )
+    return {f"{name}.moment": moment}
 
 
 def _of_load(name: str, load: Load) -> ChannelDefinitions:

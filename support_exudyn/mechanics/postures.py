@@ -45,7 +45,10 @@ def missing(
         angle = slide.direction + carrier
         ends = (closed.point(position, body, slide.point)[0] for body in (slide.body, slide.against))
         x, y = np.subtract(*ends)
-        short += [math.sin(angle) * x - math.cos(angle) * y, carrier - turn(closed, position, slide.body)]
+        turned = carrier - turn(closed, position, slide.body)
+        short += [math.sin(angle) * x - math.cos(angle) * y, turned][: slide.conditions]
+    for gear in linkage.gears.values():
+        short.append(gear.ratio * turn(closed, position, gear.first) - turn(closed, position, gear.second))
     return np.array(short)
 
 

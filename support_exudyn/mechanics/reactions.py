@@ -1,4 +1,4 @@
-"""Accelerations, and forces of ideal pins, rigid actuators, cranks and guides at all records, from the motion.
+"""Accelerations and forces of all that is held (pins, actuators, cranks, guides, gears), from the motion.
 
 Mass matrix M and constraint Jacobian C of one instant give both from the forces f that are applied and from
 what drives do to the lengths and angles that are held, c:
@@ -13,12 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import accumulate, pairwise
 
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND, Crank, LinearActuator, PinPlace, Slide
+from support_exudyn.model.linkage import GROUND, Crank, Gear, LinearActuator, PinPlace, Slide
 from user_forces.values.value import Vector2
 
 SHIFT = 1e-5  # [m], [rad] by which bodies go on, at most, where it is looked how rows turn with them
@@ -30,12 +31,16 @@ ROUNDS = 2
 
 @dataclass(frozen=True)
 class HeldJoints:
-    """What is held, in the order of its rows: two an ideal pin, one an actuator, one a crank, two a guide."""
+    """What is held, in the order of its rows.
+
+    Two rows an ideal pin, one an actuator, one a crank, one or two a guide, one a gear.
+    """
 
     pins: Sequence[PinPlace]
     actuators: Sequence[LinearActuator]
     cranks: Sequence[Crank]
     slides: Sequence[Slide]
+    gears: Sequence[Gear] = ()
 
     @property
     def driven(self) -> slice:
@@ -44,9 +49,16 @@ class HeldJoints:
         return slice(first, first + len(self.actuators) + len(self.cranks))
 
     @property
-    def guided(self) -> slice:
-        """The rows of guides: the distance from the line, and the angle."""
-        return slice(self.driven.stop, self.driven.stop + 2 * len(self.slides))
+    def guided(self) -> tuple[slice, ...]:
+        """The rows of each guide: the distance from the line, and the angle of a block."""
+        stops = accumulate((slide.conditions for slide in self.slides), initial=self.driven.stop)
+        return tuple(slice(first, stop) for first, stop in pairwise(stops))
+
+    @property
+    def geared(self) -> slice:
+        """The rows of gears, which are the last."""
+        first = self.driven.stop + sum(slide.conditions for slide in self.slides)
+        return slice(first, first + len(self.gears))
 
 
 class _Rows:
@@ -96,7 +108,7 @@ class _Rows:
         distance = self.point(slide.body, slide.point, across) - self.point(slide.against, slide.point, across)
         # as the line turns, what is along it comes to lie across it
         distance -= np.einsum("ni,ni->n", along, apart)[:, None] * carrier
-        return [distance, self.turn(slide.body) - carrier]
+        return [distance, self.turn(slide.body) - carrier][: slide.conditions]
 
 
 def direction(motion: BodyMotion, actuator: LinearActuator) -> Series:
@@ -117,6 +129,7 @@ def matrix(motion: BodyMotion, held: HeldJoints) -> Series:
     rows += [of.actuator(actuator) for actuator in held.actuators]
     rows += [of.turn(crank.body) for crank in held.cranks]
     rows += [row for slide in held.slides for row in of.slide(slide)]
+    rows += [of.turn(gear.second) - gear.ratio * of.turn(gear.first) for gear in held.gears]
     return np.stack(rows, axis=1) if rows else np.zeros((len(motion.position), 0, motion.position.shape[1]))
 
 

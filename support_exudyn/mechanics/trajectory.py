@@ -87,7 +87,8 @@ class Trajectory:
     contacts: clearance pins by name. actuators: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all actuators (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
-    (n,) [J]. loads: by name. cylinders: of actuators, by name. compliant_pins: by name.
+    (n,) [J]. loads: by name. cylinders: of actuators, by name. compliant_pins: by name. gears: moment on the
+    second body (n,) [N m].
     """
 
     time: Series
@@ -107,6 +108,7 @@ class Trajectory:
     loads: Mapping[str, LoadSeries] = field(default_factory=dict)
     cylinders: Mapping[str, CylinderSeries] = field(default_factory=dict)
     compliant_pins: Mapping[str, CompliantSeries] = field(default_factory=dict)
+    gears: Mapping[str, Series] = field(default_factory=dict)
 
     def contacts_of(self, pin: str) -> list[ContactSeries]:
         """Histories of the contacts of a clearance pin: in the plane one."""

@@ -1,4 +1,4 @@
-"""A linkage: bodies, pins, linear actuators, cranks and slides."""
+"""A linkage: bodies, pins, linear actuators, cranks, slides and gears."""
 
 from __future__ import annotations
 
@@ -190,19 +190,48 @@ class Crank(Value):
 
 @value
 class Slide(Value):
-    """A straight guide: a point of a body stays on a line of another, against which the body does not turn.
+    """A straight guide: a point of a body stays on a line of another.
 
     Arguments:
         body: name of the body.
         point: the point, start posture [m].
         direction: of the line [rad], from +x, start posture.
         against: name of the body that carries the line, which moves and turns with it; or "ground".
+        turns: whether the body may turn about the point, as a pin does in a slot; a block does not.
     """
 
     body: str
     point: Metres[Vector2]
     direction: Radians[Real] = 0.0
     against: str = GROUND
+    turns: Annotated[bool, Field(strict=True)] = False
+
+    @property
+    def conditions(self) -> int:
+        """How many conditions it puts on the motion: one across the line, and one on the angle of a block."""
+        return 1 if self.turns else 2
+
+
+@value
+class Gear(Value):
+    """A pair of gears, or a belt or parallel crank: the second body turns in proportion to the first.
+
+        turn of the second body = ratio * turn of the first, both from the start on and against the ground
+
+    Arguments:
+        first, second: names of the bodies, which pins or guides hold in their places.
+        ratio: [-], not 0; negative for gears that mesh outside, 1 for equal angles.
+    """
+
+    first: str
+    second: str
+    ratio: Real = 1.0
+
+    @model_validator(mode="after")
+    def _turns_both(self) -> Gear:
+        if self.ratio == 0.0:
+            raise ValueError("ratio = 0: allowed: any other number")
+        return self
 
 
 @value
@@ -236,6 +265,7 @@ class Linkage(Value):
         points: traced points by name.
         cranks: driven cranks by name.
         slides: straight guides by name.
+        gears: pairs of bodies that turn in proportion, by name.
     """
 
     bodies: Mapping[str, Body]
@@ -244,6 +274,7 @@ class Linkage(Value):
     points: Mapping[str, TracePoint] = field(default_factory=dict)
     cranks: Mapping[str, Crank] = field(default_factory=dict)
     slides: Mapping[str, Slide] = field(default_factory=dict)
+    gears: Mapping[str, Gear] = field(default_factory=dict)
 
     @property
     def farthest(self) -> float:
@@ -269,6 +300,7 @@ class Linkage(Value):
         used += [(f"points.{k}", p.body) for k, p in self.points.items()]
         moving = [(f"cranks.{k}", c.body) for k, c in self.cranks.items()]
         moving += [(f"slides.{k}", s.body) for k, s in self.slides.items()]
+        moving += [(f"gears.{k}", body) for k, gear in self.gears.items() for body in (gear.first, gear.second)]
         check_bodies(used, self.bodies)
         for where, body in moving:
             if body not in self.bodies:
@@ -276,4 +308,7 @@ class Linkage(Value):
         for name, slide in self.slides.items():
             if slide.body == slide.against:
                 raise ValueError(f"slides.{name} = {slide.body!r} twice: allowed: two different bodies")
+        for name, gear in self.gears.items():
+            if gear.first == gear.second:
+                raise ValueError(f"gears.{name} = {gear.first!r} twice: allowed: two different bodies")
         return self

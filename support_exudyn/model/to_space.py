@@ -109,6 +109,8 @@ def copies(half_distance: float | None) -> list[Copy]:
 def _check(linkage: Linkage, width: Width, pairs: Mapping[str, float]) -> None:
     for name in linkage.cranks:
         raise InputError(f"cranks.{name}: not covered in space; allowed: pins and actuators")
+    for name in linkage.gears:
+        raise InputError(f"gears.{name}: not covered in space; allowed: none")
     for name, slide in linkage.slides.items():
         if slide.body not in pairs or slide.against not in pairs:
             raise InputError(f"slides.{name}: not covered in space; allowed: guides of actuators in two bodies")

@@ -138,7 +138,7 @@ def _check_motion(scenario: ScenarioData, drives: Mapping[str, Drive]) -> None:
 def _check_loads(scenario: ScenarioData) -> None:
     linkage = scenario.unloaded
     taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.actuators}
-    taken |= {*linkage.pins, *linkage.slides}
+    taken |= {*linkage.pins, *linkage.slides, *linkage.gears}
     for name, load in scenario.loads.items():
         if scenario.dimensions == 3:
             raise ValueError(f"loads.{name}: acts in the plane; allowed with dimensions = 3: no loads")

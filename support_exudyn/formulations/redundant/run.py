@@ -179,6 +179,7 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         actuators={**found.actuators, **compliant_actuators},
         cranks=found.joints.cranks,
         slides=found.joints.slides,
+        gears=found.joints.gears,
         oil_energy=sum((series.energy for series in (oil | cylinders).values()), np.zeros_like(history.time)),
         work=history.work,
         damping_loss=history.damping_loss,

@@ -46,7 +46,7 @@ def check(scenario: Scenario) -> None:
         if part.jack.oil is None:
             _refuse(f"parts.{name}.jack", "rigid, a constraint that closes a loop", "OilColumn")
     linkage = scenario.linkage
-    for kind, items in (("slides", linkage.slides), ("cranks", linkage.cranks)):
+    for kind, items in (("slides", linkage.slides), ("cranks", linkage.cranks), ("gears", linkage.gears)):
         for name in items:
             _refuse(f"{kind}.{name}", "a constraint that ties a branch to the ground", f"no {kind}")
     for name in linkage.actuators:

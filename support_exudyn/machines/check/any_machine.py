@@ -211,11 +211,14 @@ def _told(moved: Sequence[Moved]) -> list[Moved]:
 
 def _sheet(report: MachineReport) -> CheckTable:
     linkage, unit = report.linkage, "degrees" if report.turns else "mm"
-    held = (*linkage.actuators, *linkage.cranks, *linkage.slides)
-    title = "static forces [N]; of actuators their push, of cranks the moment [N m], of guides the force across"
+    held = (*linkage.actuators, *linkage.cranks, *linkage.slides, *linkage.gears)
+    title = (
+        "static forces [N]; of actuators their push, of cranks and gears the moment [N m], of guides the force "
+        "across"
+    )
     rows = []
     for one in _told(report.moved):
-        forces = {**one.forces.actuators, **one.forces.cranks, **one.forces.slides}
+        forces = {**one.forces.actuators, **one.forces.cranks, **one.forces.slides, **one.forces.gears}
         rows.append(
             (
                 f"{math.degrees(one.travel) if report.turns else 1e3 * one.travel:.1f}",
@@ -235,4 +238,5 @@ def _data(one: Moved) -> dict[str, Any]:
         "actuators_N": forces.actuators,
         "cranks_N_m": forces.cranks,
         "guides_N": forces.slides,
+        "gears_N_m": forces.gears,
     }

@@ -1,6 +1,7 @@
 """Degrees of freedom of a linkage, and the forces that hold its weight: ideal pins, massless actuators."""
 
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +23,7 @@ class Statics:
         actuators: pushes of actuators, by name; negative: it pulls.
         cranks: moments that hold cranks [N m], by name.
         slides: force across the guide, by name.
+        gears: moments on their second bodies [N m], by name.
         error: bound of the numerical error of any of them.
     """
 
@@ -29,6 +31,7 @@ class Statics:
     actuators: dict[str, float]
     cranks: dict[str, float]
     slides: dict[str, float]
+    gears: dict[str, float]
     error: float
 
 
@@ -52,7 +55,8 @@ def statics(linkage: Linkage, position: Array, gravity: Vector2 = GRAVITY) -> St
         pins,
         {name: next(taken) for name in linkage.actuators},
         {name: next(taken) for name in linkage.cranks},
-        {name: (next(taken), next(taken))[0] for name in linkage.slides},
+        {name: list(islice(taken, one.conditions))[0] for name, one in linkage.slides.items()},  # noqa: RUF015 - takes both
+        {name: next(taken) for name in linkage.gears},
         error,
     )
 
@@ -62,15 +66,18 @@ class DegreesOfFreedom:
     """Degrees of freedom of a linkage.
 
     Arguments:
-        bodies, pins, guides, driven: how many there are.
-        counted: by Gruebler's formula, 3 a body less 2 a pin and 2 a guide.
+        bodies, pins, blocks, slots, gears, driven: how many there are; a block does not turn in its guide, a
+            pin in a slot does.
+        counted: by Gruebler's formula, 3 a body less 2 a pin or block and 1 a slot or gear.
         free: by the rank of the constraints' Jacobian.
         left: likewise with the driven parts held.
     """
 
     bodies: int
     pins: int
-    guides: int
+    blocks: int
+    slots: int
+    gears: int
     driven: int
     counted: int
     free: int
@@ -84,7 +91,9 @@ class DegreesOfFreedom:
         """The count and the rank in a sentence."""
         return (
             f"degrees of freedom: 3 x {self.bodies} bodies - 2 x {self.pins} pins"
-            + (f" - 2 x {self.guides} guides" if self.guides else "")
+            + (f" - 2 x {self.blocks} guides" if self.blocks else "")
+            + (f" - {self.slots} slots" if self.slots else "")
+            + (f" - {self.gears} gears" if self.gears else "")
             + f" = {self.counted} (by the rank of the constraints: {self.free}); driven: {self.driven}; "
             f"left: {self.left}"
         )
@@ -92,7 +101,9 @@ class DegreesOfFreedom:
 
 def mobility(linkage: Linkage) -> DegreesOfFreedom:
     """The degrees of freedom of a linkage in its start posture."""
-    bodies, pins, guides = len(linkage.bodies), len(linkage.pins), len(linkage.slides)
+    bodies, pins, gears = len(linkage.bodies), len(linkage.pins), len(linkage.gears)
+    slots = sum(slide.turns for slide in linkage.slides.values())
+    blocks = len(linkage.slides) - slots
     kinetics = kinetics_of(linkage)
     rows = kinetics.rows(np.zeros(3 * bodies))
     driven = kinetics.driven()
@@ -100,9 +111,11 @@ def mobility(linkage: Linkage) -> DegreesOfFreedom:
     return DegreesOfFreedom(
         bodies=bodies,
         pins=pins,
-        guides=guides,
+        blocks=blocks,
+        slots=slots,
+        gears=gears,
         driven=driven.stop - driven.start,
-        counted=3 * bodies - 2 * pins - 2 * guides,
+        counted=3 * bodies - 2 * pins - 2 * blocks - slots - gears,
         free=3 * bodies - _rank(undriven, kinetics),
         left=3 * bodies - _rank(rows, kinetics),
     )

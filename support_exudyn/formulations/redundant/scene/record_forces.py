@@ -57,6 +57,7 @@ def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) 
         [linkage.actuators[name] for name in scene.rigid_actuators],
         [linkage.cranks[name] for name in scene.cranks],
         [linkage.slides[name] for name in scene.slides],
+        [linkage.gears[name] for name in scene.gears],
     )
     drives = [scenario.drive_of(name) for name in (*scene.rigid_actuators, *scene.cranks)]
     driven = [accelerations(drive, time, scenario.duration) for drive in drives]
@@ -77,12 +78,22 @@ def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) 
         # rows of pins are second minus first, so that what holds them acts on the second reversed
         pins={name: -reactions[:, 2 * n : 2 * n + 2] for n, name in enumerate(scene.ideal_pins)},
         slides={
-            name: np.abs(reactions[:, held.guided][:, 2 * n : 2 * n + 2]) for n, name in enumerate(scene.slides)
+            name: _force_and_moment(reactions[:, rows])
+            for name, rows in zip(scene.slides, held.guided, strict=True)
         },
+        # what holds the second body turns it against its row
+        gears=dict(zip(scene.gears, -reactions[:, held.geared].T, strict=True)),
     )
     pushed = dict(zip((*scene.rigid_actuators, *scene.cranks), -reactions[:, held.driven].T, strict=True))
     joints.cranks |= {name: pushed.pop(name) for name in scene.cranks}
     return Following(acceleration, joints, pushed, moments)
+
+
+def _force_and_moment(multipliers: Series) -> Series:
+    """Sizes of a guide's force across and of its moment (n, 2), which is 0 where the body may turn."""
+    found = np.zeros((len(multipliers), 2))
+    found[:, : multipliers.shape[1]] = np.abs(multipliers)
+    return found
 
 
 def _applied_forces(scene: Scene, motion: BodyMotion, applied: Applied) -> Series:

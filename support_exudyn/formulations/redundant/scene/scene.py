@@ -50,6 +50,7 @@ class Scene(EngineScene):
     cylinders: dict[str, CylinderItem]
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
+    gears: tuple[str, ...]
     loads: dict[str, LoadItem]
     weights: dict[str, Any]  # loads of the engine, by body; none without gravity
     driven: tuple[DrivenParts, ...]  # all actuators and cranks, by the drive that they follow

@@ -33,7 +33,7 @@ from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, Cr
 from support_exudyn.mechanics.cylinder_chambers import fill_cylinders
 from support_exudyn.mechanics.oil_column import fill
 from support_exudyn.model.bushing_pin import BushingPin
-from support_exudyn.model.linkage import GROUND, Body, Crank, Slide
+from support_exudyn.model.linkage import GROUND, Body, Crank, Gear, Slide
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
@@ -153,8 +153,17 @@ class PlaneBuilder(EngineBuilder):
                 markerNumbers=markers,
                 axisMarker0=[math.cos(along), math.sin(along), 0.0],
                 normalMarker1=[math.cos(across), math.sin(across), 0.0],
+                constrainRotation=not slide.turns,
             )
         )
+
+    def add_gear(self, gear: Gear) -> None:
+        """Add what holds the turns of two bodies in proportion."""
+        markers = [
+            self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=self.bodies[body].node, coordinate=2))
+            for body in (gear.second, gear.first)
+        ]
+        self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers, factor1=gear.ratio))
 
     def build(self) -> Scene:
         """The whole scene."""
@@ -171,6 +180,8 @@ class PlaneBuilder(EngineBuilder):
         }
         cranks = {name: self.add_crank(crank) for name, crank in linkage.cranks.items()}
         slides = {name: self.add_slide(slide) for name, slide in linkage.slides.items()}
+        for gear in linkage.gears.values():
+            self.add_gear(gear)
         loads = {
             name: add_load(
                 mbs, load, *(self.marker(body, load.point) for body in (load.against(name), load.body))
@@ -209,6 +220,7 @@ class PlaneBuilder(EngineBuilder):
             cylinders=cylinders,
             cranks=crank_items,
             slides={name: SlideItem(o, multiplier(o)) for name, o in slides.items()},
+            gears=tuple(linkage.gears),
             loads=loads,
             weights=weights,
             driven=by_drive(mbs, scenario.drive_of, rigid_actuators, oil_columns, crank_items),
