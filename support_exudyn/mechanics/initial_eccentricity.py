@@ -1,13 +1,12 @@
 """A linkage whose clearance journals do not start in the middle of their bores."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 
-from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
-from support_exudyn.mechanics.postures import posture, turn
-from support_exudyn.model.linkage import Linkage, turned_moments
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.postures import laid_out, posture
+from support_exudyn.model.linkage import Linkage
 from user_forces.values.value import InputError, Vector2
 
 
@@ -28,46 +27,8 @@ def eccentric(linkage: Linkage, offsets: Mapping[str, Vector2]) -> Linkage:
     closed = kinetics_of(linkage)
     position = posture(closed, np.zeros(3 * len(linkage.bodies)), moved, {})
     if position is not None:
-        return _laid_out(closed, position)
+        return laid_out(closed, position)
     raise InputError(
         f"eccentricity of {', '.join(moved)} = {', '.join(map(str, moved.values()))} m: the linkage cannot be "
         "laid out so; allowed: what actuators, guides and the other pins leave free, such as (0, 0)"
-    )
-
-
-def _laid_out(closed: Kinetics, position: Matrix) -> Linkage:
-    """The linkage with its bodies at another position, which is its start posture from then on."""
-    linkage = closed.linkage
-
-    def at(body: str, point: Vector2) -> Vector2:
-        x, y = closed.point(position, body, point)[0].tolist()
-        return x, y
-
-    bodies = {}
-    for name, body in linkage.bodies.items():
-        turned = turn(closed, position, name)
-        moments = None if body.moments is None else turned_moments(body.moments, turned)
-        bodies[name] = replace(body, centre=at(name, body.centre), angle=body.angle + turned, moments=moments)
-    return replace(
-        linkage,
-        bodies=bodies,
-        pins={
-            name: replace(
-                pin, first_point=at(pin.first, pin.first_point), second_point=at(pin.second, pin.second_point)
-            )
-            for name, pin in linkage.pins.items()
-        },
-        actuators={
-            name: replace(one, foot_point=at(one.foot, one.foot_point), head_point=at(one.head, one.head_point))
-            for name, one in linkage.actuators.items()
-        },
-        points={name: replace(one, point=at(one.body, one.point)) for name, one in linkage.points.items()},
-        slides={
-            name: replace(
-                one,
-                point=at(one.body, one.point),
-                direction=one.direction + turn(closed, position, one.against),
-            )
-            for name, one in linkage.slides.items()
-        },
     )

@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
-from support_exudyn.model.linkage import GROUND, PinPlace
+from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, turned_moments
 from support_exudyn.model.plane_geometry import minus
 from user_forces.values.value import Vector2
 
@@ -76,6 +77,44 @@ def posture(
 def turn(closed: Kinetics, position: Matrix, body: str) -> float:
     """Angle by which a body has turned since the start [rad]."""
     return 0.0 if body == GROUND else float(position[closed.bodies[body].first + 2])
+
+
+def laid_out(closed: Kinetics, position: Matrix) -> Linkage:
+    """The linkage with its bodies at another position, which is its start posture from then on."""
+    linkage = closed.linkage
+
+    def at(body: str, point: Vector2) -> Vector2:
+        x, y = closed.point(position, body, point)[0].tolist()
+        return x, y
+
+    bodies = {}
+    for name, body in linkage.bodies.items():
+        turned = turn(closed, position, name)
+        moments = None if body.moments is None else turned_moments(body.moments, turned)
+        bodies[name] = replace(body, centre=at(name, body.centre), angle=body.angle + turned, moments=moments)
+    return replace(
+        linkage,
+        bodies=bodies,
+        pins={
+            name: replace(
+                pin, first_point=at(pin.first, pin.first_point), second_point=at(pin.second, pin.second_point)
+            )
+            for name, pin in linkage.pins.items()
+        },
+        actuators={
+            name: replace(one, foot_point=at(one.foot, one.foot_point), head_point=at(one.head, one.head_point))
+            for name, one in linkage.actuators.items()
+        },
+        points={name: replace(one, point=at(one.body, one.point)) for name, one in linkage.points.items()},
+        slides={
+            name: replace(
+                one,
+                point=at(one.body, one.point),
+                direction=one.direction + turn(closed, position, one.against),
+            )
+            for name, one in linkage.slides.items()
+        },
+    )
 
 
 def _offset(place: PinPlace, asked: Vector2 | None) -> Vector2:

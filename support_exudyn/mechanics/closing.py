@@ -1,0 +1,193 @@
+"""What a drawn linkage has to meet to be closed, and the ways that lead there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
+from support_exudyn.mechanics.postures import CLOSED, ROUNDINGS, missing
+from support_exudyn.model.linkage import GROUND, Linkage, PinPlace
+from user_forces.values.value import Vector2
+
+JOINTS = ("pins", "actuators", "cranks", "slides")  # fields of a linkage that hold its parts together
+STEPS = 600  # of a search
+FARTHEST_STEP = 0.05  # of the drawing's size
+LARGEST_TURN = 0.2  # [rad] in a step
+CURVED = 0.25  # of what a step closes: by how much it may miss that
+SHORTEST = 2.0**-16  # share of what is open that a step closes
+REPEATED = 1e-9  # of the largest singular value: below, conditions repeat each other
+STUCK = 1e-6  # of what is open: less is closed by no step
+LEAST_ARM = 0.1  # of the drawing's size: by this the turn of a small body is counted
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """What a linkage has to meet: its joints, and the angles and lengths that are asked for.
+
+    Arguments:
+        linkage: the drawing; its cranks and actuators are those whose angle or length is asked for.
+        travels: by actuator and crank, how far it has to move from where it is drawn [m], [rad].
+        origins: by guide, where its line passes on the body that carries it [m], as drawn.
+    """
+
+    linkage: Linkage
+    travels: Mapping[str, float]
+    origins: Mapping[str, Vector2]
+
+    @cached_property
+    def kinetics(self) -> Kinetics:
+        """Matrices of what holds it together."""
+        return kinetics_of(self.linkage)
+
+    @cached_property
+    def size(self) -> float:
+        """The larger of length and height of the drawing [m]."""
+        places = [body.centre for body in self.linkage.bodies.values()]
+        places += [place for _, place in joints_of(self.linkage)]
+        return max(float(np.ptp(np.array(places), axis=0).max()), 1e-9)
+
+    @cached_property
+    def arms(self) -> Matrix:
+        """By which movements are counted (n,): 1 for distances, for a turn a body's largest arm [m]."""
+        least = LEAST_ARM * self.size
+        arms = dict.fromkeys(self.linkage.bodies, least)
+        for name, place in joints_of(self.linkage):
+            if name != GROUND:
+                arms[name] = max(arms[name], math.dist(place, self.linkage.bodies[name].centre))
+        return np.array([count for arm in arms.values() for count in (1.0, 1.0, arm)])
+
+    @cached_property
+    def shift(self) -> Matrix:
+        """By how much the line of each guide misses its point in the drawing, beside zeros (m,) [m]."""
+        shift = np.zeros(len(self.kinetics.owners()))
+        seen = set()
+        for row, (kind, name) in enumerate(self.kinetics.owners()):
+            if kind == "slides" and name in self.origins and name not in seen:
+                seen.add(name)
+                slide = self.linkage.slides[name]
+                x, y = np.subtract(slide.point, self.origins[name])
+                shift[row] = math.cos(slide.direction) * y - math.sin(slide.direction) * x
+        return shift
+
+    @cached_property
+    def counts(self) -> Matrix:
+        """Factor of each condition (m,) [m]: angles count by the size of the drawing."""
+        rows = self.kinetics.rows(np.zeros(3 * len(self.linkage.bodies)))
+        only_turns = ~np.any(np.delete(rows, np.s_[2::3], axis=1), axis=1)
+        return np.where(only_turns, self.size, 1.0)
+
+    @cached_property
+    def enough(self) -> float:
+        """How far open counts as closed [m]: some roundings."""
+        return max(CLOSED, ROUNDINGS * math.ulp(self.linkage.farthest))
+
+    def short(self, moved: Matrix) -> Matrix:
+        """What each condition is short of (m,) [m], angles by the size of the drawing.
+
+        moved: coordinates counted by `arms` (n,) [m].
+        """
+        together = dict.fromkeys(self.linkage.pins, (0.0, 0.0))
+        found = missing(self.kinetics, moved / self.arms, together, self.travels)
+        return self.counts * (found - self.shift)
+
+    def rows(self, moved: Matrix) -> Matrix:
+        """Rates of the conditions (m, n), of coordinates counted by `arms`."""
+        rows: Matrix = self.counts[:, None] * self.kinetics.rows(moved / self.arms) / self.arms
+        return rows
+
+    def closed(self, moved: Matrix) -> bool:
+        """Whether all conditions are met."""
+        return bool(np.abs(self.short(moved)).max(initial=0.0) < self.enough)
+
+    def of(self, names: Collection[tuple[str, str]]) -> Conditions:
+        """Those of some joints and driven parts alone, each by its field of the linkage and its name."""
+        kept = {
+            kind: {name: one for name, one in getattr(self.linkage, kind).items() if (kind, name) in names}
+            for kind in JOINTS
+        }
+        return replace(self, linkage=replace(self.linkage, **kept))
+
+    @property
+    def names(self) -> list[tuple[str, str]]:
+        """All driven parts and joints, each by its field of the linkage and its name."""
+        kinds = ("cranks", "actuators", "slides", "pins")
+        return [(kind, name) for kind in kinds for name in getattr(self.linkage, kind)]
+
+    @property
+    def driven(self) -> list[tuple[str, str]]:
+        """Those whose angle or length is asked for."""
+        return [(kind, name) for kind, name in self.names if kind in ("cranks", "actuators")]
+
+
+def gradually(conditions: Conditions, start: Matrix) -> tuple[Matrix, bool]:
+    """Coordinates (n,) where conditions are met, on a continuous way from a start, and whether they are.
+
+    Each step closes a share of what is open, by the least movement that does so to first order. Else the
+    coordinates at which the way ends: at a fold, or where no movement closes any more.
+    """
+    moved, share = start, 1.0
+    short = conditions.short(moved)
+    turns = np.arange(moved.size) % 3 == 2
+    for _ in range(STEPS):
+        if np.abs(short).max(initial=0.0) < conditions.enough:
+            return moved, True
+        rows = conditions.rows(moved)
+        step = np.linalg.lstsq(rows, short, rcond=REPEATED)[0]
+        closes = rows @ step
+        if not np.linalg.norm(closes) > STUCK * np.linalg.norm(short):
+            break
+        far = np.abs(step).max() / (FARTHEST_STEP * conditions.size)
+        far = max(far, np.abs(step / conditions.arms)[turns].max() / LARGEST_TURN)
+        share = min(1.0, 2.0 * share, 1.0 / far)
+        while True:
+            after = conditions.short(moved + share * step)
+            if np.linalg.norm(after - short + share * closes) <= CURVED * share * np.linalg.norm(closes):
+                break
+            share /= 2.0
+            if share < SHORTEST / max(1.0, far):
+                return moved, False
+        moved, short = moved + share * step, after
+    return moved, False
+
+
+def nearest(conditions: Conditions, start: Matrix) -> Matrix:
+    """Coordinates (n,) in which the least is open, in the sum of squares, near a start."""
+    from scipy.optimize import least_squares  # slow to import
+
+    if not conditions.names:
+        return start
+
+    def open_by(moved: Matrix) -> Matrix:
+        return -conditions.short(moved)
+
+    found = least_squares(
+        open_by, start, conditions.rows, x_scale=conditions.size,
+        ftol=1e-14, xtol=1e-14, gtol=1e-14, max_nfev=200,
+    ).x  # fmt: skip
+    before = math.inf
+    for _ in range(STEPS):  # to rounding
+        short = conditions.short(found)
+        if not np.abs(short).max() < before:
+            break
+        best, before = found, float(np.abs(short).max())
+        found = found + np.linalg.lstsq(conditions.rows(found), short, rcond=REPEATED)[0]
+    return best
+
+
+def joints_of(linkage: Linkage) -> list[tuple[str, Vector2]]:
+    """Bodies with the points at which something is joined to them, the ground among them."""
+    found = [(body, point) for one in linkage.pins.values() for body, point in _ends(one)]
+    for actuator in linkage.actuators.values():
+        found += [(actuator.foot, actuator.foot_point), (actuator.head, actuator.head_point)]
+    for slide in linkage.slides.values():
+        found += [(slide.body, slide.point), (slide.against, slide.point)]
+    return found
+
+
+def _ends(pin: PinPlace) -> list[tuple[str, Vector2]]:
+    return [(pin.first, pin.first_point), (pin.second, pin.second_point)]

@@ -1,0 +1,249 @@
+"""Linkages closed from rough drawings: against the exact ones, closed forms and the triangle inequality."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from support_exudyn.mechanics.closure import assembled
+from support_exudyn.model.linkage import (
+    GROUND,
+    Body,
+    LinearActuator,
+    Linkage,
+    PinPlace,
+    Slide,
+    TracePoint,
+    pinned,
+)
+from tests.linkages import apex, bar_of, chain, drawn_roughly, four_bar, lengthened, sides, towards
+from tests.often import often
+from user_forces import InputError
+
+CLOSE = 1e-11  # [m], [rad]
+seeds = st.integers(0, 2**32 - 1)
+
+
+def assert_same(found: Linkage, exact: Linkage) -> None:
+    """Bodies and pins of two linkages lie at the same places."""
+    for name, body in exact.bodies.items():
+        np.testing.assert_allclose(found.bodies[name].centre, body.centre, rtol=0, atol=CLOSE)
+        turned = math.remainder(found.bodies[name].angle - body.angle, 2.0 * math.pi)
+        assert turned == pytest.approx(0.0, abs=CLOSE)
+    for name, pin in exact.pins.items():
+        np.testing.assert_allclose(found.pins[name].first_point, pin.first_point, rtol=0, atol=CLOSE)
+        assert found.pins[name].first_point == found.pins[name].second_point
+
+
+def said(drawing: Linkage, **asked: object) -> str:
+    with pytest.raises(InputError) as raised:
+        assembled(drawing, **asked)  # type: ignore[arg-type]
+    return str(raised.value)
+
+
+@settings(max_examples=often(20), deadline=None)
+@given(seed=seeds, pairs=st.integers(1, 3))
+def test_a_rough_drawing_closes_to_the_linkage_that_it_is_of(seed: int, pairs: int) -> None:
+    rng = np.random.default_rng(seed)
+    exact = chain(rng, pairs)
+    rough = drawn_roughly(exact, rng, shift=0.01, turn=0.02)
+    assert_same(assembled(rough, {"crank": exact.bodies["crank"].angle}), exact)
+
+
+def test_a_closed_drawing_stays_as_it_is() -> None:
+    exact = four_bar(0.1, 0.4, 0.3, 0.35)
+    assert assembled(exact) == exact
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("degrees", [10.0, 60.0, 170.0, 185.0, -100.0])
+def test_the_branch_is_that_of_the_drawing(degrees: float, side: float) -> None:
+    sizes = 0.1, 0.4, 0.3, 0.35
+    rough = drawn_roughly(four_bar(*sizes, 60.0, side), np.random.default_rng(3), shift=0.1, turn=0.2)
+    found = assembled(rough, {"crank": math.radians(degrees)})
+    assert_same(found, four_bar(*sizes, degrees, side))
+    assert found.bodies["crank"].angle == math.radians(degrees)
+
+
+@settings(max_examples=often(5), deadline=None)
+@given(seed=seeds, pairs=st.integers(1, 3))
+def test_a_loop_that_does_not_close_is_named_with_its_gap(seed: int, pairs: int) -> None:
+    rng = np.random.default_rng(seed)
+    exact = chain(rng, pairs)
+    last = 3 * (pairs - 1)
+    names = f"P{last}", f"P{last + 1}", f"P{last + 2}"
+    # the last pair's first bar made longer than all that the loop could span
+    one, far = f"link_{2 * pairs - 2}", 20.0
+    text = said(drawn_roughly(lengthened(exact, {names[2]: one}, far), rng, 0.01))
+    assert "does not close" in text
+    assert all(f"pin {name}" in text for name in names)
+    gap = re.search(r"([\d.e+]+) mm stay open", text)
+    assert gap is not None
+    assert float(gap[1]) > 0.0
+    loop = text.partition("the loop ")[2].partition(" does not close")[0].split(" - ")
+    if loop != [""]:
+        # bodies and pins in turn: the longest side exceeds the others by the gap
+        bodies, pins = loop[0:-1:2], [name.removeprefix("pin ") for name in loop[1::2]]
+        around = {body: (pins[n - 1], pins[n]) for n, body in enumerate(bodies)}
+        lengths = sorted(sides(lengthened(exact, {names[2]: one}, far), around).values())
+        assert 1e3 * (lengths[-1] - sum(lengths[:-1])) == pytest.approx(float(gap[1]), rel=6e-3)
+
+
+def test_the_gap_of_a_four_bar_is_what_its_longest_side_is_too_long() -> None:
+    exact = four_bar(0.1, 0.4, 0.3, 0.35)
+    far = replace(exact.pins["C"], first_point=(0.95, 0.0))
+    text = said(replace(exact, pins={**exact.pins, "C": far}))
+    assert "ground - pin O - crank - pin A - coupler - pin B - rocker - pin C - ground does not close" in text
+    assert "150 mm stay open" in text
+    assert "ground is longer than the others together, 800 mm" in text
+
+
+def test_a_part_that_is_not_in_the_loop_is_not_named() -> None:
+    exact = four_bar(0.1, 0.4, 0.3, 0.35)
+    more = replace(
+        exact,
+        bodies={**exact.bodies, "arm": bar_of((0.5, 0.0), (0.5, 1.0))},
+        pins={
+            **exact.pins,
+            "C": replace(exact.pins["C"], first_point=(0.95, 0.0)),
+            "D": pinned(GROUND, "arm", (0.5, 0.0)),
+        },
+    )
+    assert "arm" not in said(more)
+
+
+def test_an_angle_out_of_reach_is_told_with_its_limit() -> None:
+    # the rocker is lowest where crank and coupler lie in line, (0.5, 0.3, 0.35)
+    limit = 180.0 - math.degrees(math.acos((0.3**2 + 0.35**2 - 0.5**2) / (2.0 * 0.3 * 0.35)))
+    text = said(four_bar(0.1, 0.4, 0.3, 0.35), angles={"rocker": math.radians(40.0)})
+    assert "angle of rocker = 40 degrees: the loop ground" in text
+    assert f"as far as {limit:.4g} degrees" in text
+
+
+def test_two_angles_that_fight_are_named() -> None:
+    exact = four_bar(0.1, 0.4, 0.3, 0.35, 50.0)
+    fit = {name: exact.bodies[name].angle for name in ("crank", "rocker")}
+    assert_same(assembled(drawn_roughly(exact, np.random.default_rng(1), 0.01), fit), exact)
+    text = said(exact, angles={**fit, "rocker": math.radians(100.0)})
+    assert "angle of crank = 50 degrees and angle of rocker = 100 degrees fight" in text
+    assert f"rocker comes to {math.degrees(fit['rocker']):.4g} degrees" in text
+
+
+def test_bodies_that_hang_in_the_air_are_named() -> None:
+    exact = four_bar(0.1, 0.4, 0.3, 0.35)
+    one = replace(exact, bodies={**exact.bodies, "plate": bar_of((1.0, 0.0), (1.0, 1.0))})
+    assert said(one).startswith("bodies.plate: hangs in the air")
+    assert assembled(one, held=("plate",)) == one
+
+
+def test_a_drawing_in_line_does_not_say_its_branch() -> None:
+    o, a, b, c = (0.0, 0.0), (0.1, 0.0), (0.5, 0.0), (0.35, 0.0)
+    flat = Linkage(
+        bodies={"crank": bar_of(o, a), "coupler": bar_of(a, b), "rocker": bar_of(c, (0.65, 0.0))},
+        pins={
+            "O": pinned(GROUND, "crank", o),
+            "A": pinned("crank", "coupler", a),
+            "B": PinPlace(first="coupler", second="rocker", first_point=b, second_point=(0.65, 0.0)),
+            "C": pinned(GROUND, "rocker", c),
+        },
+    )
+    assert "does not say which posture is meant" in said(flat)
+
+
+@pytest.mark.parametrize("degrees", [30.0, 180.0, -90.0])
+def test_a_crank_in_its_dead_centre_moves_on(degrees: float) -> None:
+    """A slider-crank drawn in line: driven by its crank it is no dead centre."""
+    o, a, c = (0.0, 0.0), (0.05, 0.0), (0.17, 0.0)
+    drawing = Linkage(
+        bodies={
+            "crank": bar_of(o, a),
+            "rod": bar_of(a, c),
+            "slider": Body(mass=1.0, inertia=1e-3, centre=c),
+        },
+        pins={
+            "O": pinned(GROUND, "crank", o),
+            "A": pinned("crank", "rod", a),
+            "B": pinned("rod", "slider", c),
+        },
+        slides={"guide": Slide(body="slider", point=c)},
+    )
+    found = assembled(drawing, {"crank": math.radians(degrees)})
+    y = 0.05 * math.sin(math.radians(degrees))
+    x = 0.05 * math.cos(math.radians(degrees)) + math.sqrt(0.12**2 - y**2)
+    np.testing.assert_allclose(found.slides["guide"].point, (x, 0.0), atol=CLOSE)
+
+
+def test_a_guide_on_a_moving_body_is_followed() -> None:
+    """A Whitworth quick return: a block on the crank slides along a lever, which points at the crank's end."""
+    pivot, o = (0.0, -0.2), (0.0, 0.0)
+    lever_end, pin = towards(80.0, 0.4, pivot), (0.1, 0.0)
+    drawing = Linkage(
+        bodies={
+            "crank": bar_of(o, pin),
+            "lever": bar_of(pivot, lever_end),
+            "block": Body(mass=1.0, inertia=1e-3, centre=(0.03, 0.03), angle=math.radians(80.0)),
+        },
+        pins={
+            "O": pinned(GROUND, "crank", o),
+            "A": PinPlace(first="crank", second="block", first_point=pin, second_point=(0.03, 0.03)),
+            "P": pinned(GROUND, "lever", pivot),
+        },
+        slides={"slot": Slide(body="block", point=(0.03, 0.03), direction=math.radians(80.0), against="lever")},
+        points={"end": TracePoint(body="lever", point=lever_end)},
+    )
+    for degrees in (0.0, 30.0, 90.0, 170.0):
+        found = assembled(drawing, {"crank": math.radians(degrees)}, origins={"slot": pivot})
+        tip = towards(degrees, 0.1)
+        lever = math.atan2(tip[1] + 0.2, tip[0])
+        assert found.bodies["lever"].angle == pytest.approx(lever, abs=CLOSE)
+        assert found.bodies["block"].angle == pytest.approx(lever, abs=CLOSE)
+        assert found.slides["slot"].direction == pytest.approx(lever, abs=CLOSE)
+        np.testing.assert_allclose(found.slides["slot"].point, tip, atol=CLOSE)
+        np.testing.assert_allclose(
+            found.points["end"].point, towards(math.degrees(lever), 0.4, pivot), atol=CLOSE
+        )
+
+
+def boom() -> Linkage:
+    """A boom on a cylinder, and an arm that hangs on it."""
+    pivot, foot, head, tip = (0.0, 0.0), (0.5, -0.5), (1.0, 0.6), (2.0, 1.0)
+    return Linkage(
+        bodies={"boom": bar_of(pivot, tip)},
+        pins={"P": pinned(GROUND, "boom", pivot)},
+        actuators={"lift": LinearActuator(foot=GROUND, head="boom", foot_point=foot, head_point=head)},
+    )
+
+
+def test_an_actuator_has_the_length_that_is_asked_for() -> None:
+    for length in (0.8, 1.2, 1.7):
+        found = assembled(boom(), lengths={"lift": length})
+        head = apex((0.0, 0.0), (0.5, -0.5), math.hypot(1.0, 0.6), length)
+        assert head is not None
+        np.testing.assert_allclose(found.actuators["lift"].head_point, head, atol=CLOSE)
+
+
+def test_a_length_out_of_reach_is_told_with_its_limit() -> None:
+    longest = 1e3 * (math.hypot(1.0, 0.6) + math.hypot(0.5, 0.5))
+    text = said(boom(), lengths={"lift": 2.5})
+    assert "length of lift = 2500 mm: the loop ground - pin P - boom - actuator lift - ground" in text
+    assert f"as far as {longest:.4g} mm" in text
+    assert f"{2500 - longest:.3g} mm stay open" in text
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ({"angles": {"bom": 1.0}}, "angle of 'bom': no such part; allowed: boom"),
+        ({"lengths": {"P": 1.0}}, "length of 'P': no such part; allowed: lift"),
+        ({"lengths": {"lift": 0.0}}, "length of lift = 0 mm: allowed: > 0 mm"),
+        ({"origins": {"slot": (0.0, 0.0)}}, "line of 'slot': no such part; allowed: none"),
+    ],
+)
+def test_what_is_asked_of_parts_that_are_not_there(asked: dict[str, object], told: str) -> None:
+    assert said(boom(), **asked) == told
