@@ -29,6 +29,7 @@ from support_exudyn.files.machines import (
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.free_impact import ImpactStand
+from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.machines.slider_crank import SliderCrank, ravn_slider_crank
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.mechanics.contact_state import Onset
@@ -139,6 +140,7 @@ __all__ = [
     "PartModel",
     "Pin",
     "PinPlace",
+    "PlanarLinkage",
     "RampedOpening",
     "Reciprocating",
     "Recommendation",

@@ -14,7 +14,7 @@ from support_exudyn.mechanics.postures import CLOSED, ROUNDINGS, missing
 from support_exudyn.model.linkage import GROUND, Linkage, PinPlace
 from user_forces.values.value import Vector2
 
-JOINTS = ("pins", "actuators", "cranks", "slides")  # fields of a linkage that hold its parts together
+JOINTS = ("pins", "actuators", "cranks", "slides", "gears")  # fields of a linkage that hold its parts together
 STEPS = 600  # of a search
 FARTHEST_STEP = 0.05  # of the drawing's size
 LARGEST_TURN = 0.2  # [rad] in a step
@@ -115,7 +115,7 @@ class Conditions:
     @property
     def names(self) -> list[tuple[str, str]]:
         """All driven parts and joints, each by its field of the linkage and its name."""
-        kinds = ("cranks", "actuators", "slides", "pins")
+        kinds = ("cranks", "actuators", "gears", "slides", "pins")
         return [(kind, name) for kind in kinds for name in getattr(self.linkage, kind)]
 
     @property

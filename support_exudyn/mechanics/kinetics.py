@@ -95,13 +95,12 @@ class Kinetics:
 
     def owners(self) -> list[tuple[str, str]]:
         """Of each of the rows, the field of the linkage and the name of the part that it is of."""
-        still = np.zeros(3 * len(self.bodies))
         owners = [("pins", name) for name in self.ideal for _ in range(2)]
         owners += [("actuators", name) for name in self.actuators]
         owners += [("cranks", name) for name in self.linkage.cranks]
         for name, slide in self.linkage.slides.items():
-            owners += [("slides", name) for _ in self._guided(still, slide)]
-        return owners
+            owners += [("slides", name) for _ in range(slide.conditions)]
+        return [*owners, *(("gears", name) for name in self.linkage.gears)]
 
     def turning(self, size: int, body: str) -> Matrix:
         """The row that gives a body's angular velocity; that of the ground is none."""

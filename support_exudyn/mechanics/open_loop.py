@@ -89,6 +89,7 @@ def _edges(conditions: Conditions) -> dict[str, tuple[str, str]]:
     linkage = conditions.linkage
     edges = {f"pin {name}": (one.first, one.second) for name, one in linkage.pins.items()}
     edges |= {f"guide {name}": (one.body, one.against) for name, one in linkage.slides.items()}
+    edges |= {f"gear {name}": (one.first, one.second) for name, one in linkage.gears.items()}
     return edges | {f"actuator {name}": (one.foot, one.head) for name, one in linkage.actuators.items()}
 
 

@@ -204,7 +204,7 @@ MISTAKES = {
     "wrong kind": (
         '"four_column_support"',
         '"four_colum_support"',
-        "kind = 'four_colum_support': allowed: 'four_column_support', 'two_leg_shield', 'slider_crank'; did "
+        "kind = 'four_colum_support': allowed: 'four_column_support', 'two_leg_shield', 'slider_crank', 'linkage'; did "
         "you mean 'four_column_support'?",
     ),
     "height": (

@@ -12,6 +12,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, cast
 
+from support_exudyn.files.machines.linkage import LinkageFile
 from support_exudyn.files.machines.slider_crank import SliderCrankFile
 from support_exudyn.files.machines.supports import FourColumnSupportFile, TwoLegShieldFile
 from support_exudyn.files.toml.reading import read_value
@@ -25,12 +26,13 @@ from support_exudyn.model.machine import Machine
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.value import InputError, short
 
-FILES: Mapping[str, type[FourColumnSupportFile | TwoLegShieldFile | SliderCrankFile]] = {
+FILES: Mapping[str, type[FourColumnSupportFile | TwoLegShieldFile | SliderCrankFile | LinkageFile]] = {
     "four_column_support": FourColumnSupportFile,
     "two_leg_shield": TwoLegShieldFile,
     "slider_crank": SliderCrankFile,
+    "linkage": LinkageFile,
 }
-SHIPPED = ("reference", "zf18000", "two_leg_shield", "slider_crank")  # each a data file
+SHIPPED = ("reference", "zf18000", "two_leg_shield", "slider_crank", "crank_rocker")  # each a data file
 REMEMBERED = 8  # machines that are not read again as long as their text is the same
 
 
@@ -38,7 +40,7 @@ def read_machine(name: str, folder: Path | None = None) -> MachineData:
     """A machine from its data file.
 
     name: a path that ends in .toml, from `folder` on (the working directory); or the name of a machine that
-    comes with the package: "reference", "zf18000", "two_leg_shield" or "slider_crank".
+    comes with the package, one of `SHIPPED`.
 
     Raises InputError that names file, key, value and what is allowed; OSError if there is no such file.
     """

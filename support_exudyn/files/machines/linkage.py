@@ -1,0 +1,172 @@
+"""Files of planar linkages of any kind: a drawing, bodies, joints and drives."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from typing import Annotated, Literal
+
+from support_exudyn.files.machines.linkage_bodies import LinkageBodyData, drawn_body
+from support_exudyn.files.machines.linkage_joints import (
+    LinkageActuatorData,
+    LinkageGearData,
+    LinkageGuideData,
+    LinkagePinData,
+    DrawnPoints,
+    missing_masses,
+)
+from support_exudyn.files.machines.parts import ColumnData
+from support_exudyn.files.toml.shapes import Names
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.machines.planar_linkage import PlanarLinkage
+from support_exudyn.mechanics.closure import assembled
+from support_exudyn.mechanics.start_rates import set_moving
+from support_exudyn.model.actuators import CylinderAndRod
+from support_exudyn.model.linkage import Crank, Linkage, TracePoint
+from user_forces.values.units import Metres, Radians, RadiansPerSecond
+from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
+
+PIN_WIDTH = {"pins": "length of the contact in pins, along their axes"}
+
+
+@value
+class LinkageStart(Value):
+    """Where a linkage starts, if not as it is drawn, and how fast.
+
+    Arguments:
+        angle: of bodies [rad], from +x: of the line of their bar, or of x of their frame.
+        length: of actuators [m], > 0.
+        angular_velocity: of bodies that move by themselves at the start [rad/s]; a driven crank has that of its
+            drive.
+    """
+
+    angle: Radians[Mapping[str, Real]] = field(default_factory=dict)
+    length: Metres[Mapping[str, Positive]] = field(default_factory=dict)
+    angular_velocity: RadiansPerSecond[Mapping[str, Real]] = field(default_factory=dict)
+
+
+@value
+class LinkageFile(Value):
+    """Any planar linkage: bodies on pins, in guides, on actuators, cranks and gears.
+
+    Arguments:
+        kind: what the machine is.
+        name: what it is called.
+        sources: where the data come from: texts, by what they are of.
+        drawing: places of points at the start [m], [x, y], x to the right, y up. Those of the ground are exact;
+            those of bodies with lengths of their own say roughly where they lie, and so which way they are put
+            together where there are two.
+        bodies: that move, by name.
+        pins: by name: two bodies that are pinned together at the point of that name, or a table.
+        guides: along which something slides, by name.
+        gears: pairs of bodies that turn in proportion, by name.
+        actuators: that hold two points apart, by name.
+        cranks: driven bodies that turn, by the name of the crank.
+        traced_points: points whose paths are recorded, by name: body and point.
+        start: where it starts, if not as it is drawn.
+        stroke: by how much its actuators extend from the start on, in use [m], > 0.
+        bore_radius: radii of the bores of pins, for pins with clearance [m], > 0.
+        width: across the plane [m]: the lengths of pins.
+    """
+
+    kind: Literal["linkage"]
+    name: str = ""
+    sources: Mapping[str, str] = field(default_factory=dict)
+    drawing: Metres[Mapping[str, Vector2]]
+    bodies: Mapping[str, LinkageBodyData]
+    pins: Mapping[str, tuple[str, str] | LinkagePinData] = field(default_factory=dict)
+    guides: Mapping[str, LinkageGuideData] = field(default_factory=dict)
+    gears: Mapping[str, LinkageGearData] = field(default_factory=dict)
+    actuators: Mapping[str, LinkageActuatorData] = field(default_factory=dict)
+    cranks: Mapping[str, str] = field(default_factory=dict)
+    traced_points: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    start: LinkageStart = field(default_factory=LinkageStart)
+    stroke: Metres[Positive] | None = None
+    bore_radius: Metres[Mapping[str, Positive]] = field(default_factory=dict)
+    width: Metres[Annotated[Mapping[str, Mapping[str, Positive]], Names(PIN_WIDTH)]] = field(
+        default_factory=dict
+    )
+
+    def data(self) -> MachineData:
+        """The machine. Raises InputError if it cannot be built."""
+        if not self.bodies:
+            raise InputError("bodies: there are none; allowed: one or more, [bodies.NAME]")
+        bodies = {name: drawn_body(name, body, self.drawing) for name, body in self.bodies.items()}
+        places = DrawnPoints(bodies, self.drawing)
+        guides = {name: places.guide(name, guide) for name, guide in self.guides.items()}
+        drawing = Linkage(
+            bodies={name: body.body() for name, body in bodies.items()},
+            pins={name: places.pin(name, pin) for name, pin in self.pins.items()},
+            actuators={name: places.actuator(name, one) for name, one in self.actuators.items()},
+            points={name: self._traced(name, places) for name in self.traced_points},
+            cranks={
+                name: Crank(body=places.moving(body, f"cranks.{name}")) for name, body in self.cranks.items()
+            },
+            slides={name: guide for name, (guide, _) in guides.items()},
+            gears={name: places.gear(name, gear) for name, gear in self.gears.items()},
+        )
+        self._check_names(drawing)
+        origins = {name: origin for name, (_, origin) in guides.items()}
+        closed = assembled(drawing, self.start.angle, self.start.length, origins=origins)
+        lengths = self.width.get("pins", {})
+        return MachineData(
+            PlanarLinkage(drawing=set_moving(closed, self.start.angular_velocity), pin_lengths=lengths),
+            self.name,
+            bore_radii=self.bore_radius,
+            blocks={name: one.block for name, one in self.guides.items() if one.block is not None},
+            actuators=self._columns(),
+            stroke=self.stroke,
+            sources=self.sources,
+            kind=self.kind,
+            assumed=tuple(body.assumed for body in bodies.values() if body.assumed),
+        )
+
+    def _traced(self, name: str, places: DrawnPoints) -> TracePoint:
+        body, point = self.traced_points[name]
+        where = f"traced_points.{name}"
+        return TracePoint(body=places.moving(body, where), point=places.place(body, point, where))
+
+    def _check_names(self, linkage: Linkage) -> None:
+        """Raise InputError where something is said of what is not there, or two things share a name."""
+        of_pins = {"bore_radius_mm": self.bore_radius, "width_mm.pins": self.width.get("pins", {})}
+        for where, named in of_pins.items():
+            _check_known(where, named, linkage.pins, "pin")
+        _check_known("start.angle_deg", self.start.angle, linkage.bodies, "body")
+        _check_known("start.angular_velocity", self.start.angular_velocity, linkage.bodies, "body")
+        _check_known("start.length_mm", self.start.length, linkage.actuators, "actuator")
+        taken: dict[str, str] = {}
+        for what in (
+            "bodies",
+            "traced_points",
+            "actuators",
+            "guides",
+            "gears",
+        ):  # channels begin with these names
+            for name in getattr(self, what):
+                if name in taken:
+                    raise InputError(f"{what}.{name}: {taken[name]}.{name} has this name; allowed: another")
+                taken[name] = what
+
+    def _columns(self) -> dict[str, CylinderAndRod]:
+        """Masses of the actuators that say them, by name."""
+        found = {}
+        for name, one in self.actuators.items():
+            if missing := list(missing_masses(one)):
+                raise InputError(
+                    f"actuators.{name}.{missing[0]}: missing; allowed: masses and lengths of both, or none"
+                )
+            if one.cylinder_mass and one.rod_mass and one.cylinder_length and one.rod_length:
+                column = ColumnData(
+                    cylinder_mass=one.cylinder_mass,
+                    cylinder_length=one.cylinder_length,
+                    rod_mass=one.rod_mass,
+                    rod_length=one.rod_length,
+                )
+                found[name] = column.column()
+        return found
+
+
+def _check_known(where: str, named: Mapping[str, object], known: Mapping[str, object], what: str) -> None:
+    for name in named:
+        if name not in known:
+            raise InputError(f"{where}.{name}: there is no such {what}; allowed: {', '.join(known) or 'none'}")

@@ -1,0 +1,341 @@
+"""Files of `kind = "linkage"`: where the start posture comes from, and what is said of mistakes."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    CubicStep,
+    Linkage,
+    Machine,
+    PlanarLinkage,
+    Scenario,
+    Steady,
+    load_machine,
+    machine,
+    ravn_slider_crank,
+    read_scenario,
+    simulate,
+)
+from support_exudyn.files.machines import shipped
+from support_exudyn.files.scenarios.scenario_file import scenario_text
+from tests.cases.linkage_text import linkage_text
+from user_forces import InputError
+
+CRANK_ROCKER = """
+kind = "linkage"
+name = "crank-rocker"
+
+[drawing_mm]
+O = [0, 0]
+A = [100, 0]
+B = [365, 300]
+C = [350, 0]
+
+[bodies.crank]
+bar = ["O", "A"]
+length_mm = 100
+mass_kg = 1
+
+[bodies.coupler]
+bar = ["A", "B"]
+length_mm = 400
+mass_kg = 3
+
+[bodies.rocker]
+bar = ["C", "B"]
+length_mm = 300
+mass_kg = 2.5
+
+[pins]
+O = ["ground", "crank"]
+A = ["crank", "coupler"]
+B = { at = "B", bodies = ["coupler", "rocker"] }
+C = ["ground", "rocker"]
+
+[cranks]
+motor = "crank"
+
+[traced_points]
+tip = ["coupler", "B"]
+
+[start]
+angle_deg = { crank = 0 }
+
+[bore_radius_mm]
+B = 10
+
+[width_mm.pins]
+B = 30
+"""
+
+TERNARY = """
+[bodies.ternary]
+bar = ["C", "B"]
+length_mm = 300
+points_mm = { D = [160.697, -191.511] }
+mass_kg = 4
+centre_mm = [140, -60]
+inertia_kg_m2 = 0.05
+"""
+
+ON_A_GUIDE = """
+kind = "linkage"
+
+[drawing_mm]
+A = [0, 0]
+B = [40, 30]
+C = [160, 5]
+
+[bodies.crank]
+bar = ["A", "B"]
+length_mm = 50
+mass_kg = 0.3
+
+[bodies.rod]
+bar = ["B", "C"]
+length_mm = 120
+mass_kg = 0.21
+
+[bodies.slider]
+centre_mm = [160, 5]
+mass_kg = 0.14
+inertia_kg_m2 = 1e-5
+
+[pins]
+A = ["ground", "crank"]
+B = ["crank", "rod"]
+C = ["slider", "rod"]
+
+[guides.guide]
+body = "slider"
+at = "C"
+through = "A"
+block_mm = [40, 20]
+
+[start]
+angle_deg = { crank = 30 }
+"""
+
+
+def built(folder: Path, text: str) -> PlanarLinkage:
+    path = folder / "machine.toml"
+    path.write_text(text, encoding="utf-8")
+    found = load_machine(path).machine
+    assert isinstance(found, PlanarLinkage)
+    return found
+
+
+def refusal(folder: Path, old: str, new: str, text: str = CRANK_ROCKER) -> str:
+    assert text.count(old) == 1, old
+    path = folder / "machine.toml"
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    with pytest.raises(InputError, match=re.escape(str(path))) as caught:
+        load_machine(path)
+    return str(caught.value).removeprefix(f"{path}: ")
+
+
+def test_lengths_are_exact_where_the_drawing_is_rough(tmp_path: Path) -> None:
+    linkage = built(tmp_path, CRANK_ROCKER).linkage()
+    crank, coupler, rocker = linkage.bodies.values()
+    assert crank.angle == 0.0
+    assert crank.centre == pytest.approx((0.05, 0.0), abs=1e-15)
+    # closed form: the triangle of 250, 400 and 300 mm
+    apex = math.acos((0.25**2 + 0.4**2 - 0.3**2) / (2 * 0.25 * 0.4))
+    assert coupler.angle == pytest.approx(apex, abs=1e-12)
+    assert rocker.angle == pytest.approx(
+        math.atan2(0.4 * math.sin(apex), 0.4 * math.cos(apex) - 0.25), abs=1e-12
+    )
+    assert coupler.inertia == pytest.approx(3 * 0.4**2 / 12)
+    assert linkage.points["tip"].point == pytest.approx(linkage.pins["B"].first_point, abs=1e-13)
+
+
+def test_the_drawing_says_which_way_it_is_put_together(tmp_path: Path) -> None:
+    above = built(tmp_path, CRANK_ROCKER).linkage()
+    below = built(tmp_path, CRANK_ROCKER.replace("B = [365, 300]", "B = [365, -300]")).linkage()
+    assert below.bodies["coupler"].angle == pytest.approx(-above.bodies["coupler"].angle, abs=1e-13)
+
+
+def test_a_body_with_points_of_its_own_lies_by_the_drawing(tmp_path: Path) -> None:
+    text = CRANK_ROCKER.replace('[bodies.rocker]\nbar = ["C", "B"]\nlength_mm = 300\nmass_kg = 2.5\n', TERNARY)
+    text = text.replace('"rocker"', '"ternary"').replace("B = 10\n", "").replace("B = 30\n", "")
+    text = text.replace('tip = ["coupler", "B"]', 'tip = ["ternary", "D"]')
+    linkage = built(tmp_path, text).linkage()
+    body, angle = linkage.bodies["ternary"], linkage.bodies["ternary"].angle
+    pivot = np.array([0.35, 0.0])
+    turned = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    np.testing.assert_allclose(body.centre, pivot + turned @ [0.14, -0.06], atol=1e-15)
+    np.testing.assert_allclose(linkage.points["tip"].point, pivot + turned @ [0.160697, -0.191511], atol=1e-15)
+    assert (body.mass, body.inertia) == (4.0, 0.05)
+
+
+def test_a_slider_crank_from_a_file_is_the_slider_crank(tmp_path: Path) -> None:
+    linkage = built(tmp_path, ON_A_GUIDE).linkage()
+    closed_form = replace(ravn_slider_crank(), start_angle=math.radians(30.0)).linkage()
+    assert linkage.bodies["slider"].centre == pytest.approx(closed_form.bodies["slider"].centre, abs=1e-13)
+    assert linkage.bodies["rod"].angle == pytest.approx(closed_form.bodies["rod"].angle, abs=1e-12)
+    assert load_machine(tmp_path / "machine.toml").blocks == {"guide": (0.04, 0.02)}
+
+
+def test_velocities_at_the_start_belong_to_each_other(tmp_path: Path) -> None:
+    text = ON_A_GUIDE.replace("crank = 30 }", "crank = 30 }\nangular_velocity_rad_per_s = { crank = 150 }")
+    linkage, closed_form = built(tmp_path, text).linkage(), ravn_slider_crank()
+    expected = closed_form.slider_speed(math.radians(30.0), 150.0)
+    assert linkage.bodies["slider"].velocity == pytest.approx((expected, 0.0), abs=1e-11)
+    assert linkage.bodies["crank"].spin == pytest.approx(150.0, rel=1e-13)
+
+
+def test_velocities_that_the_joints_do_not_allow_are_refused(tmp_path: Path) -> None:
+    text = ON_A_GUIDE + "angular_velocity_rad_per_s = { crank = 150, rod = 7 }\n"
+    assert "crank = 150 rad/s, rod = 7 rad/s: the joints do not allow them" in refusal(
+        tmp_path, "[bodies.crank]", "[bodies.crank]", text
+    )
+
+
+# --- machines of other kinds as linkages ---
+
+
+@pytest.mark.parametrize("name", ["reference", "zf18000", "two_leg_shield", "slider_crank"])
+def test_every_shipped_machine_can_be_written_as_a_linkage(name: str, tmp_path: Path) -> None:
+    own: Machine = shipped(name).machine
+    linkage = own.linkage()
+    linkage = replace(linkage, points={f"{name}_path": one for name, one in linkage.points.items()})
+    written = built(tmp_path, linkage_text(linkage))
+    drive = Steady(rate=30.0) if name == "slider_crank" else CubicStep(stroke=0.02, start=0.001, end=0.02)
+    drives = {follower: own.coupled_drive(follower, drive, 0.02) for follower in own.leaders}
+    runs = [
+        simulate(Scenario(machine=one, drive=drive, drives=drives, duration=0.02, step=1e-4))
+        for one in (own, written)
+    ]
+    both = [channel for channel in runs[1].channels if channel in runs[0].channels]
+    for channel in [channel for channel in both if not channel.startswith("energy")]:
+        one, other = (run[channel] - (run[channel][0] if channel.endswith(".angle") else 0.0) for run in runs)
+        np.testing.assert_allclose(other, one, atol=1e-7 * np.abs(one).max() + 1e-9)
+
+
+def test_a_scenario_holds_the_whole_linkage(tmp_path: Path) -> None:
+    scenario = Scenario(machine=built(tmp_path, CRANK_ROCKER), drive=Steady(rate=60.0), duration=0.01)
+    path = tmp_path / "whole.toml"
+    path.write_text(scenario_text(scenario), encoding="utf-8")
+    assert read_scenario(path) == scenario
+
+
+def test_pins_know_their_bores_and_lengths(tmp_path: Path) -> None:
+    (tmp_path / "machine.toml").write_text(CRANK_ROCKER, encoding="utf-8")
+    text = 'machine = "machine.toml"\nduration_s = 0.01\n[drive]\ntype = "Steady"\nrate_rad_per_s = 60\n'
+    (tmp_path / "run.toml").write_text(f"{text}[pins.B]\nclearance_mm = 0.5\n", encoding="utf-8")
+    pin = read_scenario(tmp_path / "run.toml").clearance_pins["B"]
+    assert pin.contact.bearing.bore_radius == 0.01
+    assert pin.contact.normal.length == 0.03  # along its length, as steel is
+
+
+# --- what is refused ---
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('bar = ["O", "A"]', 'bar = ["O", "Q"]', "bodies.crank.bar = 'Q': drawing_mm has no such point"),
+        ('bar = ["O", "A"]', 'bar = ["O", "O"]', "bodies.crank.bar = ['O', 'O']: allowed: two points at diff"),
+        ('bar = ["O", "A"]\nlength_mm = 100\n', "", "bodies.crank.centre_mm: missing"),
+        ('bar = ["O", "A"]\n', "", "bodies.crank.length_mm: is of a bar"),
+        ("mass_kg = 3", "", "bodies.coupler.mass_kg: missing"),
+        ("mass_kg = 3", "mass_kg = 3\ncentre_mm = [200, 0]", "bodies.coupler.inertia_kg_m2: missing"),
+        ('O = ["ground", "crank"]', 'O = ["floor", "crank"]', "pins.O = 'floor': there is no such body"),
+        ('O = ["ground", "crank"]', 'O = ["crank", "crank"]', "two different bodies"),
+        ('at = "B"', 'at = "C"', "pins.B.at = 'C': bodies.coupler, which has a frame of its own, has no such"),
+        ('motor = "crank"', 'motor = "ground"', "cranks.motor = 'ground': no moving body"),
+        ('tip = ["coupler", "B"]', 'tip = ["coupler", "C"]', "traced_points.tip = 'C'"),
+        (
+            'tip = ["coupler", "B"]',
+            'crank = ["coupler", "B"]',
+            "traced_points.crank: bodies.crank has this name",
+        ),
+        ("{ crank = 0 }", "{ krank = 0 }", "start.angle_deg.krank: there is no such body"),
+        ("B = 10", "Z = 10", "bore_radius_mm.Z: there is no such pin"),
+        ("length_mm = 400", "length_mm = 40", "does not close"),
+        ('O = ["ground", "crank"]\n', "", "start.angle_deg"),
+    ],
+)
+def test_files_that_do_not_fit_are_refused_by_key(tmp_path: Path, old: str, new: str, said: str) -> None:
+    if said == "start.angle_deg":  # without its pin the crank hangs on the coupler alone, which is legal
+        assert built(tmp_path, CRANK_ROCKER.replace(old, new)).linkage().bodies["crank"].angle == 0.0
+        return
+    assert said in refusal(tmp_path, old, new)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('body = "slider"', 'body = "ground"', "guides.guide.body = 'ground': no moving body"),
+        ('body = "slider"', 'body = "slider"\non = "slider"', "guides.guide.on = 'slider': is what slides"),
+        ('through = "A"', 'through = "Z"', "guides.guide.through = 'Z': drawing_mm has no such point"),
+        ('through = "A"', 'through = "A"\nalong = ["A", "C"]', "guides.guide.along and guides.guide.through"),
+        ('through = "A"', 'along = ["A", "A"]', "guides.guide.along = ['A', 'A']: allowed: two points"),
+        ("block_mm = [40, 20]", "block_mm = [40, 0]", "guides.guide.block_mm[1] = 0: allowed: > 0"),
+    ],
+)
+def test_guides_that_do_not_fit_are_refused_by_key(tmp_path: Path, old: str, new: str, said: str) -> None:
+    assert said in refusal(tmp_path, old, new, ON_A_GUIDE)
+
+
+def test_linkages_without_bodies_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "machine.toml").write_text('kind = "linkage"\n[bodies]\n[drawing_mm]\n', encoding="utf-8")
+    with pytest.raises(InputError, match="bodies: there are none"):
+        machine(tmp_path / "machine.toml")
+
+
+def test_a_linkage_is_a_value(tmp_path: Path) -> None:
+    one = built(tmp_path, CRANK_ROCKER)
+    assert PlanarLinkage.from_data(one.to_data()) == one
+    assert isinstance(one.drawing, Linkage)
+
+
+GEARED = """
+kind = "linkage"
+
+[drawing_mm]
+A = [0, 0]
+B = [100, 0]
+
+[bodies.wheel]
+centre_mm = [0, 0]
+mass_kg = 2
+inertia_kg_m2 = 0.01
+
+[bodies.pinion]
+centre_mm = [100, 0]
+mass_kg = 1
+inertia_kg_m2 = 0.001
+
+[pins]
+A = ["ground", "wheel"]
+B = ["ground", "pinion"]
+
+[gears.mesh]
+bodies = ["wheel", "pinion"]
+ratio = -3
+
+[cranks]
+motor = "wheel"
+
+[start]
+angle_deg = { wheel = 10 }
+"""
+
+
+def test_gears_turn_both_bodies_to_the_start(tmp_path: Path) -> None:
+    bodies = built(tmp_path, GEARED).linkage().bodies
+    assert [math.degrees(body.angle) for body in bodies.values()] == pytest.approx([10.0, -30.0])
+
+
+def test_gears_and_angles_that_contradict_are_refused(tmp_path: Path) -> None:
+    said = refusal(tmp_path, "{ wheel = 10 }", "{ wheel = 10, pinion = 10 }", GEARED)
+    assert "wheel" in said
+    assert "pinion" in said
