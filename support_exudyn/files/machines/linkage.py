@@ -8,11 +8,11 @@ from typing import Annotated, Literal
 
 from support_exudyn.files.machines.linkage_bodies import LinkageBodyData, drawn_body
 from support_exudyn.files.machines.linkage_joints import (
+    DrawnPoints,
     LinkageActuatorData,
     LinkageGearData,
     LinkageGuideData,
     LinkagePinData,
-    DrawnPoints,
     missing_masses,
 )
 from support_exudyn.files.machines.parts import ColumnData
