@@ -19,6 +19,7 @@ KINDS: Mapping[str, tuple[str, Path | None]] = MappingProxyType(
         "four_column_support": ("a hydraulic support with front and rear columns", None),
         "two_leg_shield": ("a shield with two legs and a ram", MACHINES / "two_leg_shield.toml"),
         "slider_crank": ("a slider-crank whose slider pin has clearance", MACHINES / "slider_crank.toml"),
+        "linkage": ("any planar linkage: a crank-rocker to change", MACHINES / "crank_rocker.toml"),
         "own_law": ("a contact law and a friction law of your own, in Python", None),
         "own_machine": ("a machine of your own, in Python: a four-bar crank-rocker", None),
     }
