@@ -33,11 +33,13 @@ class Conditions:
         linkage: the drawing; its cranks and actuators are those whose angle or length is asked for.
         travels: by actuator and crank, how far it has to move from where it is drawn [m], [rad].
         origins: by guide, where its line passes on the body that carries it [m], as drawn.
+        together: whether the two points of pins coincide; else they stay as far apart as drawn.
     """
 
     linkage: Linkage
     travels: Mapping[str, float]
     origins: Mapping[str, Vector2]
+    together: bool = True
 
     @cached_property
     def kinetics(self) -> Kinetics:
@@ -86,13 +88,15 @@ class Conditions:
         """How far open counts as closed [m]: some roundings."""
         return max(CLOSED, ROUNDINGS * math.ulp(self.linkage.farthest))
 
-    def short(self, moved: Matrix) -> Matrix:
+    def short(self, moved: Matrix, travels: Mapping[str, float] | None = None) -> Matrix:
         """What each condition is short of (m,) [m], angles by the size of the drawing.
 
-        moved: coordinates counted by `arms` (n,) [m].
+        Arguments:
+            moved: coordinates counted by `arms` (n,) [m].
+            travels: in place of those of these conditions.
         """
-        together = dict.fromkeys(self.linkage.pins, (0.0, 0.0))
-        found = missing(self.kinetics, moved / self.arms, together, self.travels)
+        offsets = dict.fromkeys(self.linkage.pins, (0.0, 0.0)) if self.together else {}
+        found = missing(self.kinetics, moved / self.arms, offsets, self.travels if travels is None else travels)
         return self.counts * (found - self.shift)
 
     def rows(self, moved: Matrix) -> Matrix:

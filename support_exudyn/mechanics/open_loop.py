@@ -88,6 +88,7 @@ def _edges(conditions: Conditions) -> dict[str, tuple[str, str]]:
     """The two bodies of each joint, by what it is called."""
     linkage = conditions.linkage
     edges = {f"pin {name}": (one.first, one.second) for name, one in linkage.pins.items()}
+    edges |= {f"gear {name}": (one.first, one.second) for name, one in linkage.gears.items()}
     edges |= {f"guide {name}": (one.body, one.against) for name, one in linkage.slides.items()}
     edges |= {f"gear {name}": (one.first, one.second) for name, one in linkage.gears.items()}
     return edges | {f"actuator {name}": (one.foot, one.head) for name, one in linkage.actuators.items()}
@@ -125,7 +126,12 @@ def _gap(conditions: Conditions) -> str:
 def _sides(conditions: Conditions) -> str:
     """The bodies of a loop of pins with their lengths [mm] in it; nothing of another."""
     edges = _edges(conditions)
-    if conditions.linkage.slides or len(edges) != len(set(edges.values())) or len(edges) < 2:
+    if (
+        conditions.linkage.slides
+        or conditions.linkage.gears
+        or len(edges) != len(set(edges.values()))
+        or len(edges) < 2
+    ):
         return ""
     points: dict[str, list[tuple[float, float]]] = {}
     for pin in conditions.linkage.pins.values():

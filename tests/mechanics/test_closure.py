@@ -15,6 +15,7 @@ from support_exudyn.mechanics.closure import assembled
 from support_exudyn.model.linkage import (
     GROUND,
     Body,
+    Gear,
     LinearActuator,
     Linkage,
     PinPlace,
@@ -208,6 +209,52 @@ def test_a_guide_on_a_moving_body_is_followed() -> None:
         np.testing.assert_allclose(
             found.points["end"].point, towards(math.degrees(lever), 0.4, pivot), atol=CLOSE
         )
+
+
+def test_gears_hold() -> None:
+    """A five-bar whose cranks turn against each other stays symmetric."""
+    o, c = (-0.3, 0.0), (0.3, 0.0)
+    a, b = towards(60.0, 0.2, o), towards(120.0, 0.2, c)
+    drawing = Linkage(
+        bodies={
+            "left": bar_of(o, a),
+            "right": bar_of(c, b),
+            "one": bar_of(a, (0.0, 0.5)),
+            "two": bar_of(b, (0.0, 0.5)),
+        },
+        pins={
+            "O": pinned(GROUND, "left", o),
+            "C": pinned(GROUND, "right", c),
+            "A": pinned("left", "one", a),
+            "B": pinned("right", "two", b),
+            "T": pinned("one", "two", (0.0, 0.5)),
+        },
+        gears={"pair": Gear(first="left", second="right", ratio=-1.0)},
+    )
+    long = math.dist(a, (0.0, 0.5))
+    for degrees in (20.0, 60.0, 100.0):
+        found = assembled(drawing, {"left": math.radians(degrees)})
+        assert math.degrees(found.bodies["right"].angle) == pytest.approx(180.0 - degrees, abs=1e-9)
+        x, y = towards(degrees, 0.2, o)
+        np.testing.assert_allclose(
+            found.pins["T"].first_point, (0.0, y + math.sqrt(long**2 - x**2)), atol=CLOSE
+        )
+
+
+def test_a_pin_follows_its_slot() -> None:
+    """An elliptic trammel: both ends of a bar in slots on the axes."""
+    ends = (0.31, 0.02), (-0.01, 0.39)
+    drawing = Linkage(
+        bodies={"bar": bar_of(*ends)},
+        slides={
+            "across": Slide(body="bar", point=ends[0], turns=True),
+            "up": Slide(body="bar", point=ends[1], direction=0.5 * math.pi, turns=True),
+        },
+    )
+    found = assembled(drawing, {"bar": math.radians(150.0)}, origins={"across": (0.0, 0.0), "up": (0.0, 0.0)})
+    x, y = towards(150.0, math.dist(*ends))
+    np.testing.assert_allclose(found.slides["across"].point, (-x, 0.0), atol=CLOSE)
+    np.testing.assert_allclose(found.slides["up"].point, (0.0, y), atol=CLOSE)
 
 
 def boom() -> Linkage:

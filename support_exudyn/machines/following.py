@@ -1,0 +1,143 @@
+"""Whether a linkage can follow its drives."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from support_exudyn.machines.drive_path import times
+from support_exudyn.mechanics.closing import Conditions
+from support_exudyn.mechanics.continuation import conditions_of, moved_on
+from support_exudyn.mechanics.kinetics import Matrix
+from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.linkage import Linkage
+from user_forces.values.value import InputError
+
+TURN = 2.0 * math.pi
+MOST_TURNS = 64  # of a crank that moves the linkage alone, until all has come back to where it was
+EVERY = 4  # samples of a run of several drives: in each such one a crank that turns fast turns right round
+SAME = 1e-7  # of the size: how near all has to come back
+DETERMINED = 1e-9  # singular values below this are of movements that no drive determines
+Travels = Mapping[str, float]
+
+
+def follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> None:
+    """Raise InputError unless the linkage closes from the start posture on, as the drives go.
+
+    If one drive alone moves, all that it does within its span is looked at, of a crank no more than until the
+    linkage has come back to its start. If several move, postures are looked at in order of time; of a crank
+    that turns over and over, whole revolutions are left out.
+
+    A linkage that can move with all drives held is not looked at: forces decide where it goes.
+
+    Arguments:
+        linkage: in its start posture.
+        drives: of its driven parts, by name; one that has none is held.
+        duration: of the run [s].
+    """
+    conditions = conditions_of(linkage)
+    start = np.zeros(3 * len(linkage.bodies))
+    values = np.linalg.svd(conditions.rows(start), compute_uv=False)
+    if np.count_nonzero(values > DETERMINED) < start.size:
+        return
+    moving = {name: drive for name, drive in drives.items() if drive.span(duration) != (0.0, 0.0)}
+    if len(moving) == 1:
+        ((name, drive),) = moving.items()
+        _alone(conditions, name, drive, duration)
+    elif moving:
+        _together(conditions, moving, duration)
+
+
+def _alone(conditions: Conditions, name: str, drive: Drive, duration: float) -> None:
+    """Follow the only drive that moves, over its span."""
+    low, high = drive.span(duration)
+    crank = name in conditions.linkage.cranks
+    start = np.zeros(3 * len(conditions.linkage.bodies))
+    for goal in (high, low):
+        moved, reached = start, 0.0
+        for _ in range(MOST_TURNS):
+            following = reached + math.copysign(min(abs(goal - reached), TURN), goal) if crank else goal
+            moved, share = moved_on(conditions, moved, {name: reached}, {name: following})
+            if share < 1.0:
+                _refuse(conditions.linkage, drive, name, reached + share * (following - reached), duration)
+            reached = following
+            if crank and _has_come_back(conditions, moved):
+                return
+            if reached == goal:
+                break
+
+
+def _has_come_back(conditions: Conditions, moved: Matrix) -> bool:
+    """Whether all bodies lie as at the start, turned by whole revolutions or not at all."""
+    off = moved.copy()
+    off[2::3] = np.mod(off[2::3] / conditions.arms[2::3] + math.pi, TURN) - math.pi
+    return bool(np.abs(off).max() < SAME * conditions.size)
+
+
+def _refuse(linkage: Linkage, drive: Drive, name: str, limit: float, duration: float) -> None:
+    """Name the drive, and when it comes to its limit."""
+    beyond = math.copysign(1.0, limit) if limit else 0.0
+    last, first = 0.0, duration
+    for time in times((drive,), duration):
+        extension = drive.extension(time)
+        if beyond * (extension - limit) > 0.0 if beyond else extension != 0.0:
+            first = time
+            break
+        last = time
+    for _ in range(60):
+        middle = 0.5 * (last + first)
+        extension = drive.extension(middle)
+        if beyond * (extension - limit) > 0.0 if beyond else extension != 0.0:
+            first = middle
+        else:
+            last = middle
+    raise InputError(_said([name], {name: limit}, linkage, last))
+
+
+def _together(conditions: Conditions, drives: Mapping[str, Drive], duration: float) -> None:
+    """Follow several drives in order of time."""
+    linkage = conditions.linkage
+    moved = np.zeros(3 * len(linkage.bodies))
+    last, gone = 0.0, dict.fromkeys(drives, 0.0)
+    true = {name: drive.extension(0.0) for name, drive in drives.items()}
+    for number, time in enumerate(times(tuple(drives.values()), duration)):
+        following = {name: drive.extension(time) for name, drive in drives.items()}
+        goal = {}
+        for name, extension in following.items():
+            step = extension - true[name]
+            if name in linkage.cranks:  # whole revolutions beyond the first are left out
+                whole = math.trunc(step / TURN)
+                step -= TURN * (whole - math.copysign(min(abs(whole), number % EVERY == 0), whole))
+            goal[name] = gone[name] + step
+        reached, share = moved_on(conditions, moved, gone, goal)
+        if share < 1.0:
+            stuck = [
+                one for one in drives if goal[one] != gone[one] and _locks(conditions, moved, gone, goal, one)
+            ]
+            told = stuck if len(stuck) == 1 else list(drives)
+            when = last + share * (time - last)
+            raise InputError(
+                _said(told, {name: drive.extension(when) for name, drive in drives.items()}, linkage, when)
+            )
+        last, moved, gone, true = time, reached, goal, following
+
+
+def _locks(conditions: Conditions, moved: Matrix, before: Travels, after: Travels, name: str) -> bool:
+    """Whether one drive cannot go on by itself."""
+    return moved_on(conditions, moved, before, {**before, name: after[name]})[1] < 1.0
+
+
+def _said(stuck: list[str], extensions: Travels, linkage: Linkage, time: float) -> str:
+    """The message on drives that cannot be followed beyond a time [s]."""
+    reached = ", ".join(
+        f"{name} turned by {math.degrees(extension):.4f} degrees"
+        if name in linkage.cranks
+        else f"{name} extended by {extension:.4f} m"
+        for name, extension in extensions.items()
+    )
+    return (
+        f"drives.{' and drives.'.join(stuck)}: {' and '.join(stuck)} cannot follow beyond {time:.4g} s "
+        f"({reached}): the linkage locks or opens there; allowed: motions that keep the linkage closed"
+    )
