@@ -73,7 +73,20 @@ from support_exudyn.model.linkage import (
     Slide,
     TracePoint,
 )
-from support_exudyn.model.loads import AppliedForce, FallingBlock, Load, LoadedPoint, Roof
+from support_exudyn.model.loads import (
+    AppliedForce,
+    AppliedTorque,
+    FallingBlock,
+    HarmonicCourse,
+    Load,
+    LoadedPoint,
+    MomentLoad,
+    Roof,
+    SpringDamper,
+    TableCourse,
+    TorsionSpring,
+    TurnedBody,
+)
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.model.to_space import Width
@@ -102,6 +115,7 @@ if TYPE_CHECKING:
 __all__ = [
     "ActuatorModel",
     "AppliedForce",
+    "AppliedTorque",
     "Body",
     "BushingPin",
     "Channel",
@@ -116,6 +130,7 @@ __all__ = [
     "FallingBlock",
     "FrictionLaw",
     "Gear",
+    "HarmonicCourse",
     "Held",
     "HydraulicCylinder",
     "HydraulicSupport",
@@ -132,6 +147,7 @@ __all__ = [
     "LoadedPoint",
     "Lumped",
     "Machine",
+    "MomentLoad",
     "NormalLaw",
     "OilColumn",
     "Onset",
@@ -153,11 +169,15 @@ __all__ = [
     "Slide",
     "SliderCrank",
     "SolverSettings",
+    "SpringDamper",
     "Steady",
     "Stroke",
     "SuddenOpening",
+    "TableCourse",
     "TableDrive",
+    "TorsionSpring",
     "TracePoint",
+    "TurnedBody",
     "TwoLegShield",
     "UniformSpeed",
     "Width",

@@ -18,7 +18,7 @@ from support_exudyn.mechanics.channels import (
 from support_exudyn.mechanics.pin_channels import pin_channels
 from support_exudyn.mechanics.trajectory import CylinderSeries, Series
 from support_exudyn.model.linkage import Body, Linkage
-from support_exudyn.model.loads.load import Load, LoadChannel
+from support_exudyn.model.loads.load import ActingLoad, LoadChannel
 from support_exudyn.model.pins import IdealPin, Pin
 
 
@@ -26,7 +26,7 @@ def channel_definitions(
     linkage: Linkage,
     pins: Mapping[str, Pin],
     oil: Collection[str],
-    loads: Mapping[str, Load],
+    loads: Mapping[str, ActingLoad],
     cylinders: Collection[str] = (),
 ) -> ChannelDefinitions:
     """All channels of a linkage by name.
@@ -35,7 +35,7 @@ def channel_definitions(
         linkage: the mechanism.
         pins: all that are not ideal, by name.
         oil: names of the actuators that no constraint holds.
-        loads: what presses on the machine, by name.
+        loads: what acts on the machine besides its weight, by name.
         cylinders: names of those columns of oil that have a valve and pressures.
     """
     found = {"time": ChannelDefinition("s", "time", DataNeeds.NOTHING, lambda context: context.run.time)}
@@ -183,7 +183,7 @@ def _of_gear(name: str) -> ChannelDefinitions:
     return {f"{name}.moment": moment}
 
 
-def _of_load(name: str, load: Load) -> ChannelDefinitions:
+def _of_load(name: str, load: ActingLoad) -> ChannelDefinitions:
     def said(what: str, channel: LoadChannel) -> ChannelDefinition:
         return ChannelDefinition(
             channel.unit, channel.meaning, LOADED, lambda context: context.run.loads[name].observed[what]

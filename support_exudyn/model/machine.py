@@ -5,6 +5,7 @@ from collections.abc import Collection, Mapping
 
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.model.to_space import Width, lift
 from user_forces.values.value import InputError, Value
@@ -20,6 +21,14 @@ class Machine(Value, ABC):
     @abstractmethod
     def linkage(self) -> Linkage:
         """The mechanism in its start posture."""
+
+    @property
+    def loads(self) -> Mapping[str, ActingLoad]:
+        """What acts on it by its own making besides its weight, such as its springs, by name; here nothing.
+
+        A scenario's own loads come on top, see `ScenarioData.acting_loads`.
+        """
+        return {}
 
     def widths(self) -> Width | None:
         """The machine's lateral dimensions; None if it is known in its plane only."""

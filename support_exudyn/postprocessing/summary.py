@@ -43,7 +43,7 @@ def what_is_run(scenario: Scenario) -> list[Row]:
     rows += [(f"pin {name}", _pin(scenario, name, pin)) for name, pin in scenario.pins.items()]
     if others:
         rows.append(("ideal pins", ", ".join(others)))
-    parts = {**scenario.actuators, **scenario.parts, **scenario.loads}
+    parts = {**scenario.actuators, **scenario.parts, **scenario.acting_loads}
     rows += [(name, words(part)) for name, part in parts.items()]
     rows += [("drive", words(scenario.drive))]
     rows += [(f"drive of {name}", words(drive)) for name, drive in scenario.drives.items()]

@@ -12,6 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from support_exudyn.mechanics.acting_loads import add_load, load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.drive_acceleration import accelerations
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
@@ -25,11 +26,10 @@ from support_exudyn.mechanics.pin_stability import (
     without_state,
 )
 from support_exudyn.mechanics.postures import posture
-from support_exudyn.mechanics.reactions import push, weight_of
+from support_exudyn.mechanics.reactions import weight_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.drives.drive import Reciprocating
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.loads.load import LoadedPoint
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
@@ -257,19 +257,10 @@ def _moving_times(scenario: Scenario) -> list[float]:
 
 
 def _loaded(scenario: Scenario, motion: BodyMotion, times: Series) -> Series:
-    """Forces of loads that stand on the ground, on all coordinates (n, 3 bodies)."""
+    """Forces of loads between what the machine has and the ground, on all coordinates (n, 3 bodies)."""
     forces = np.zeros_like(motion.position)
-    for name, load in scenario.loads.items():
-        if load.against(name) != GROUND or load.body not in motion.linkage.bodies:
-            continue
-        point = motion.point(load.body, load.point)
-        way = point.position - np.array(load.point)
-        states = np.column_stack([times, way, point.velocity]).tolist()
-        push(
-            forces,
-            motion,
-            load.body,
-            np.array([load.force(LoadedPoint(*one)) for one in states]),
-            point.position,
-        )
+    known = (GROUND, *motion.linkage.bodies)
+    for name, load in scenario.acting_loads.items():
+        if load.against(name) in known:  # a block that falls is followed by runs only
+            add_load(forces, motion, name, load, load_series(load, name, motion, times))
     return forces

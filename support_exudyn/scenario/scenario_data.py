@@ -25,7 +25,7 @@ from support_exudyn.model.actuators import (
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.linkage import Linkage
-from support_exudyn.model.loads.load import Load
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.model.spatial_linkage import SpatialLinkage
@@ -53,7 +53,8 @@ class ScenarioData(Value, ABC):
         drives: for each driven part, an actuator or crank, that moves otherwise, how it does, by name. A part
             that follows another by the machine's making, such as the ram of a two-leg shield, does so unless it
             is named here.
-        loads: what presses on the machine besides its weight, by name; in the plane, redundant formulation.
+        loads: what acts on the machine besides its weight and what it has of its own making (`Machine.loads`),
+            by name; in the plane, redundant formulation.
         duration: end time [s], > 0; the run starts at 0.
         dimensions: 2: in the plane, both sides of a machine lumped; 3: in space, for machines that know their
             lateral dimensions. Parts that there are two of are then driven by names such as `front_column_left`
@@ -88,7 +89,7 @@ class ScenarioData(Value, ABC):
     parts: Mapping[str, PartModel] = field(default_factory=dict)
     drive: Drive = field(default_factory=Held)
     drives: Mapping[str, Drive] = field(default_factory=dict)
-    loads: Mapping[str, Load] = field(default_factory=dict)
+    loads: Mapping[str, ActingLoad] = field(default_factory=dict)
     duration: Seconds[Positive]
     dimensions: Literal[2, 3] = 2
     start: Literal["concentric", "settled"] = "concentric"
@@ -115,10 +116,15 @@ class ScenarioData(Value, ABC):
         return any(drive.speed_jump(t) != 0.0 for drive in self.drives_in_use for t in drive.breaks)
 
     @cached_property
+    def acting_loads(self) -> dict[str, ActingLoad]:
+        """All loads by name: those that the machine has of its own making, then those of the scenario."""
+        return {**self.machine.loads, **self.loads}
+
+    @cached_property
     def linkage(self) -> Linkage:
         """The mechanism in its start posture, as far as it is modelled, with what loads bring along."""
         linkage = self.unloaded
-        for name, load in self.loads.items():
+        for name, load in self.acting_loads.items():
             linkage = load.joined(linkage, name)
         return linkage
 
@@ -212,7 +218,7 @@ class ScenarioData(Value, ABC):
         """Breaks of all drives in use, of loads and of valves [s], sorted."""
         of_drives = {t for drive in self.drives_in_use for t in drive.breaks}
         of_valves = (cylinder.inlet.breaks for cylinder in self.cylinders.values())
-        return tuple(sorted(of_drives.union(*(load.breaks for load in self.loads.values()), *of_valves)))
+        return tuple(sorted(of_drives.union(*(load.breaks for load in self.acting_loads.values()), *of_valves)))
 
     @property
     def channel_definitions(self) -> dict[str, ChannelDefinition]:
@@ -220,7 +226,7 @@ class ScenarioData(Value, ABC):
         if self.dimensions == 3:
             return spatial_channel_definitions(self.space, self.clearance_pins, self.oil_columns)
         return channel_definitions(
-            self.linkage, self.pins, self.compliant_actuators, self.loads, self.cylinders
+            self.linkage, self.pins, self.compliant_actuators, self.acting_loads, self.cylinders
         )
 
     @property

@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from support_exudyn.mechanics.acting_loads import load_rate
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.model.drives.drive import Reciprocating, Stroke
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.linkage import Linkage
-from support_exudyn.model.loads.load import Load
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
 from user_forces.friction.law import FrictionLaw
@@ -34,8 +34,9 @@ class Timescales:
 
     flight: of a journal across its clearance. resting: of the vibration of a loaded contact, of what friction
     holds in it, of a compliant pin, or of what a load presses on, one over its angular frequency. drive: of the
-    drive, its stroke, a valve's ramp, or one over a crank's speed, or one over the angular frequency of what
-    rises and falls. rubbing: in which friction, where it is steepest, stops what slides under the load.
+    drive, its stroke, the course of a load, a valve's ramp, or one over a crank's speed, or one over the
+    angular frequency of what rises and falls. rubbing: in which friction, where it is steepest, stops what
+    slides under the load.
     """
 
     flight: float
@@ -151,10 +152,10 @@ def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, list[Matrix
     """What puts the weight, and weight and largest loads, on every pin in the start posture, all ideal [N]."""
     weight = closed.weight(scenario.gravity)
     still, forces = np.zeros(weight.size), [weight]
-    if scenario.loads:
+    if scenario.acting_loads:
         loaded = weight.copy()
-        for name, load in scenario.loads.items():
-            rate = _loaded_rate(closed, name, load)
+        for name, load in scenario.acting_loads.items():
+            rate = load_rate(closed, name, load)
             loaded += np.array(load.largest(scenario.duration)) @ rate
         forces.append(loaded)
     reactions = [closed.respond(still, force, 0.0)[1] for force in forces]
@@ -164,13 +165,6 @@ def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, list[Matrix
     }
 
 
-def _loaded_rate(system: Kinetics, name: str, load: Load) -> Matrix:
-    """What turns all velocities into that of a loaded point in the start posture (2, n)."""
-    still = np.zeros(3 * len(system.bodies))
-    point, origin = (system.point(still, body, load.point)[1] for body in (load.body, load.against(name)))
-    return point - origin
-
-
 def _compliant(scenario: Scenario) -> list[float]:
     """One over the angular frequency of what stiff loads and compliant pins hold, in the start posture [s]."""
     linkage = scenario.linkage
@@ -178,7 +172,7 @@ def _compliant(scenario: Scenario) -> list[float]:
     free = kinetics_of(linkage, scenario.held_pins, rigid)
     still, found = np.zeros(3 * len(linkage.bodies)), []
     springs: list[tuple[tuple[float, ...], Matrix]]
-    springs = [(load.steepness, _loaded_rate(free, name, load)) for name, load in scenario.loads.items()]
+    springs = [(load.steepness, load_rate(free, name, load)) for name, load in scenario.acting_loads.items()]
     springs += [
         (pin.steepness, free.pin_rate(still, linkage.pins[name]))
         for name, pin in scenario.pins.items()
@@ -218,7 +212,8 @@ def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
     times = [math.inf]
     cranks = bool(linkage.cranks)
     driving = [(drive, cranks) for drive in scenario.drives_in_use]
-    driving += [(drive, False) for load in scenario.loads.values() for drive in load.drives]
+    driving += [(drive, False) for load in scenario.acting_loads.values() for drive in load.drives]
+    times += [load.shortest_time for load in scenario.acting_loads.values()]
     times += [cylinder.inlet.shortest_time for cylinder in scenario.cylinders.values()]
     for drive, turns in driving:
         speed = abs(drive.initial_speed)

@@ -1,12 +1,13 @@
 """What of a scenario has to fit its machine."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from support_exudyn.mechanics.channels import ALL_CHANNELS, check_patterns
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
-from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.scenario_data import ScenarioData
 from user_forces.values.value import InputError
@@ -139,19 +140,31 @@ def _check_loads(scenario: ScenarioData) -> None:
     linkage = scenario.unloaded
     taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.actuators}
     taken |= {*linkage.pins, *linkage.slides, *linkage.gears}
+    own = scenario.machine.loads
+    for name, load in own.items():
+        _check_load(scenario, f"machine.loads.{name}", name, load, taken)
     for name, load in scenario.loads.items():
-        if scenario.dimensions == 3:
-            raise ValueError(f"loads.{name}: acts in the plane; allowed with dimensions = 3: no loads")
-        if name in taken:
-            raise ValueError(
-                f"loads.{name}: the machine has something of this name; "
-                f"allowed: all but {', '.join(sorted(taken))}"
-            )
-        if load.body not in linkage.bodies:
-            raise ValueError(
-                f"loads.{name}.body = {load.body!r}: no such body; allowed: {', '.join(linkage.bodies)}"
-            )
-        try:
-            load.check(scenario.gravity)
-        except InputError as error:
-            raise ValueError(f"loads.{name}.{error}") from None
+        _check_load(scenario, f"loads.{name}", name, load, {*taken, *own})
+
+
+def _check_load(
+    scenario: ScenarioData, where: str, name: str, load: ActingLoad, taken: Collection[str]
+) -> None:
+    """Raise ValueError unless a load goes with the machine; taken: names that it cannot have."""
+    linkage, against = scenario.unloaded, load.against(name)
+    if scenario.dimensions == 3:
+        raise ValueError(f"{where}: acts in the plane; allowed with dimensions = 3: no loads")
+    if name in taken:
+        raise ValueError(
+            f"{where}: the machine has something of this name; allowed: all but {', '.join(sorted(taken))}"
+        )
+    if load.body not in linkage.bodies:
+        raise ValueError(f"{where}.body = {load.body!r}: no such body; allowed: {', '.join(linkage.bodies)}")
+    if against not in (GROUND, name, *linkage.bodies):  # a body that it brings along has its own name
+        raise ValueError(
+            f"{where}.other = {against!r}: no such body; allowed: {GROUND}, {', '.join(linkage.bodies)}"
+        )
+    try:
+        load.check(scenario.gravity)
+    except InputError as error:
+        raise ValueError(f"{where}.{error}") from None

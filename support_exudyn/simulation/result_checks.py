@@ -99,7 +99,7 @@ def _who_loses(scenario: Scenario, kind: str) -> str:
     laws = {name: pin.losses()[kind] for name, pin in scenario.pins.items() if kind in pin.losses()}
     found = [f"pins.{name} = {type(law).__name__}" for name, law in laws.items()]
     if kind == "damping_loss":
-        found += [f"loads.{name} = {type(load).__name__}" for name, load in scenario.loads.items()]
+        found += [f"loads.{name} = {type(load).__name__}" for name, load in scenario.acting_loads.items()]
         found += [f"actuators.{name}" for name in scenario.compliant_actuators]
     return "of " + ", ".join(found)
 

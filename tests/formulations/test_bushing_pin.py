@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import support_exudyn
 from support_exudyn import (
@@ -27,6 +28,7 @@ from support_exudyn.files.scenarios.scenario_file import read_scenario
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.timescales import timescales
 from tests.cases.run_cases import support
+from tests.linkage_cases import LENGTHS, MASSES, CrankRocker, closed, rates
 from user_forces.values.value import InputError, Vector2, value
 
 MASS, INERTIA, ARM = 3.0, 0.2, 0.25
@@ -218,3 +220,44 @@ def test_no_stage_asks_which_kind_a_pin_is() -> None:
         "postprocessing/summary.py",
     }
     assert IdealPin().holds
+
+
+def test_a_crank_rocker_with_a_bushing_moves_as_its_equations() -> None:
+    # the crank is driven; the coupler hangs on it, the rocker on the ground, the bushing joins both
+    a, b, c, d = LENGTHS
+    _, coupler_mass, rocker_mass = MASSES
+    speed, stiffness, damping, turning, twisting = 30.0, 2e5, 150.0, 40.0, 0.5
+    pin = BushingPin(
+        stiffness=(stiffness, 2.0 * stiffness),
+        damping=(damping, damping),
+        rotational_stiffness=turning,
+        rotational_damping=twisting,
+    )
+    machine = CrankRocker(angle=0.4, driven=True)
+    scene = Scenario(
+        machine=machine, pins={"B": pin}, drive=Steady(rate=speed), duration=0.1, step=1e-5, record_period=1e-3
+    )
+    first = np.array(closed(0.4))
+
+    def slope(t: float, state: np.ndarray) -> np.ndarray:
+        (one, two), (spin, other) = state[:2], state[2:]
+        crank = 0.4 + speed * t
+        out = [np.array([np.cos(angle), np.sin(angle)]) for angle in (crank, one, two)]
+        across = [np.array([-along[1], along[0]]) for along in out]
+        apart = np.array([d, 0.0]) + c * out[2] - a * out[0] - b * out[1]
+        rate = c * other * across[2] - a * speed * across[0] - b * spin * across[1]
+        force = -np.array(pin.stiffness) * apart - np.array(pin.damping) * rate  # on the rocker
+        moment = -turning * ((two - first[1]) - (one - first[0])) - twisting * (other - spin)
+        down = np.array([0.0, -9.81])
+        pull = coupler_mass * (down + a * speed**2 * out[0])  # seen from the crank's end
+        coupler = 0.5 * b * across[1] @ pull - b * across[1] @ force - moment
+        rocker = 0.5 * c * across[2] @ down * rocker_mass + c * across[2] @ force + moment
+        return np.array([spin, other, 3 * coupler / (coupler_mass * b**2), 3 * rocker / (rocker_mass * c**2)])
+
+    start = [*first, *(speed * rate for rate in rates(0.4))]
+    times = np.arange(101) * 1e-3
+    known = solve_ivp(slope, (0.0, 0.1), start, method="DOP853", rtol=1e-11, atol=1e-12, t_eval=times).y
+    result = simulate(scene)
+    assert result["coupler.angle"] == pytest.approx(known[0], abs=2e-7)
+    assert result["rocker.angle"] == pytest.approx(known[1], abs=2e-7)
+    assert result["pin.B.deflection"].max() > 1e-4  # it does give way

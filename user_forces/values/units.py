@@ -107,6 +107,7 @@ Pascals = Annotated[T, _unit("Pa", MPa="1e6", GPa="1e9", Pa="1")]
 NewtonsPerMetre = Annotated[T, _unit("N/m", kN_per_mm="1e6", N_per_m="1")]
 NewtonsPerMetreToN = Annotated[T, _unit("", N_per_m_to_n="1")]  # n: the exponent of the law
 NewtonSecondsPerMetre = Annotated[T, _unit("N*s/m", kN_s_per_m="1e3", N_s_per_m="1")]
+NewtonMetres = Annotated[T, _unit("N*m", N_m="1", kN_m="1e3")]
 NewtonMetresPerRadian = Annotated[T, _unit("N*m/rad", N_m_per_rad="1")]
 NewtonMetreSecondsPerRadian = Annotated[T, _unit("N*m*s/rad", N_m_s_per_rad="1")]
 SecondsPerMetre = Annotated[T, _unit("s/m", s_per_m="1")]

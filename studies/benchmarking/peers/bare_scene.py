@@ -87,7 +87,7 @@ def clearance_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
         or scenario.drives
         or scenario.own_bodies
         or scenario.friction_pins
-        or scenario.loads
+        or scenario.acting_loads
         or scenario.start != "concentric"
     ):
         raise InputError(
@@ -203,6 +203,6 @@ def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
 
 def ideal_scene(scenario: Scenario) -> BareScene:
     """The model of a scenario without clearance pins; raises InputError if it is not covered."""
-    if scenario.clearance_pins or scenario.actuators or scenario.loads or scenario.friction_pins:
+    if scenario.clearance_pins or scenario.actuators or scenario.acting_loads or scenario.friction_pins:
         raise InputError("a competitor with ideal pins takes rigid actuators, no loads and no friction")
     return _BareBuilder(scenario).scene()

@@ -49,7 +49,7 @@ def check(scenario: Scenario) -> None:
                 type(actuator).__name__,
                 "RigidActuator, whose length is no free coordinate",
             )
-    for name, load in scenario.loads.items():
+    for name, load in scenario.acting_loads.items():
         _refuse(f"loads.{name}", type(load).__name__, "no loads")
     for name, pin in scenario.pins.items():
         if refused := pin.refused_by("reduced"):

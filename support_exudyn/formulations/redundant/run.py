@@ -11,7 +11,6 @@ import numpy as np
 from support_exudyn.formulations.contract import Progress
 from support_exudyn.formulations.redundant.scene.cylinder_item import UNIT, CylinderItem
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
-from support_exudyn.formulations.redundant.scene.load_item import load_series
 from support_exudyn.formulations.redundant.scene.record_forces import (
     FOLLOWING,
     Applied,
@@ -27,6 +26,7 @@ from support_exudyn.formulations.redundant.solver.solver import SolverRun
 from support_exudyn.formulations.redundant.space.observation import SpatialObservation
 from support_exudyn.formulations.redundant.space.scene import SpatialScene
 from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
+from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.contact_history import contact_series
@@ -161,8 +161,8 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         name: item.series(motion) for name, item in scene.compliant_pins.items() if DataNeeds.CONTACTS in needed
     }
     loads = {
-        name: load_series(name, load, motion, history.time)
-        for name, load in scene.scenario.loads.items()
+        name: load_series(load, name, motion, history.time)
+        for name, load in scene.scenario.acting_loads.items()
         if DataNeeds.LOADS in needed
     }
     found = Following(velocity[:, :0], JointForces(), {}, {})

@@ -37,7 +37,7 @@ def check(scenario: Scenario) -> None:
             _refuse(f"actuators.{name}", "HydraulicCylinder, whose pressures are coordinates too", "OilColumn")
         if isinstance(actuator, CylinderAndRod):
             _refuse(f"actuators.{name}", "CylinderAndRod, whose slide closes a loop", "OilColumn")
-    for name, load in scenario.loads.items():
+    for name, load in scenario.acting_loads.items():
         _refuse(f"loads.{name}", type(load).__name__, "no loads")
     for name, pin in scenario.pins.items():
         if refused := pin.refused_by("tree"):

@@ -2,49 +2,50 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 from pydantic import model_validator
 
+from support_exudyn.model.loads.course import Coming, LoadCourse
 from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
-from user_forces.expressions.scalar import step
 from user_forces.values.units import Newtons, Seconds
 from user_forces.values.value import NonNegative, Vector2, value
 
 
 @value
 class AppliedForce(Load):
-    """A force that keeps its direction, comes on smoothly and stays, whatever the point does.
+    """A force that keeps its direction whatever the point does; it comes on smoothly and stays.
 
         F = force (3 x^2 - 2 x^3),   x = (t - start)/(end - start) from 0 to 1
 
-    It is what a roof that follows the machine puts on it, where `Roof` yields as the machine does. All
-    that it does to the point counts as work; it stores nothing.
+    With a `course` it is force times that. It is what a roof that follows the machine puts on it, where `Roof`
+    yields as the machine does. All that it does to the point counts as work; it stores nothing.
 
     Arguments:
         body, point: what it acts on, see `Load`; it stays with the point of the body.
         full_force: in the end, forward and up [N]; a roof presses down, (0, -1e6).
         start, end: between which it comes on [s], 0 <= start < end; both 0: it acts from the start on, and a
             start "settled" is settled under it.
+        course: by which it is multiplied over time, in place of both.
     """
 
     full_force: Newtons[Vector2]
     start: Seconds[NonNegative] = 0.0
     end: Seconds[NonNegative] = 0.0
+    course: LoadCourse | None = None
 
     @model_validator(mode="after")
-    def _ends_after_it_starts(self) -> AppliedForce:
-        if self.end <= self.start and (self.start, self.end) != (0.0, 0.0):
-            raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s, or both 0")
+    def _comes_on(self) -> AppliedForce:
+        self._coming.check()
         return self
 
-    def _share(self, t: float) -> float:
-        """Share of the force that has come on, from 0 to 1."""
-        if self.end == 0.0:
-            return 1.0
-        return step((t - self.start) / (self.end - self.start))
+    @cached_property
+    def _coming(self) -> Coming:
+        return Coming(self.start, self.end, self.course)
 
     def force(self, at: LoadedPoint) -> Vector2:
         """Force on the point, forward and up [N]."""
-        share = self._share(at.time)
+        share = self._coming.share(at.time)
         return self.full_force[0] * share, self.full_force[1] * share
 
     def stored(self, at: LoadedPoint) -> float:
@@ -71,10 +72,15 @@ class AppliedForce(Load):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Start and end of its rise [s]."""
-        return () if self.end == 0.0 else (self.start, self.end)
+        """Start and end of its rise, or the breaks of its course [s]."""
+        return self._coming.breaks
+
+    @property
+    def shortest_time(self) -> float:
+        """That of its course [s]."""
+        return self._coming.shortest_time
 
     def largest(self, duration: float) -> Vector2:
         """The force as far as it comes on in the run [N]."""
-        share = self._share(duration)
+        share = self._coming.largest(duration)
         return self.full_force[0] * share, self.full_force[1] * share

@@ -10,10 +10,12 @@ from shapely.ops import unary_union
 
 from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage, Slide
 from support_exudyn.model.loads.falling_block import FallingBlock
+from support_exudyn.model.loads.spring_damper import SpringDamper
 from support_exudyn.model.to_space import at, copies
 from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.shapes import bar, bored, hull, plate, together, tube
 from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role, Solid
+from support_exudyn.postprocessing.look.springs import springs
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
@@ -33,6 +35,10 @@ def look(scenario: Scenario) -> Look:
     """
     linkage = scenario.linkage
     points = joined_points(linkage)
+    for load in scenario.acting_loads.values():
+        if isinstance(load, SpringDamper):
+            for name, end in ((load.body, load.point), (load.other, load.other_point)):
+                points.setdefault(name, []).append(end)
     size = extent(linkage)
     margin, thickness = MARGIN * size, THICKNESS * size
     layers = _layers(scenario, 1.1 * thickness)
@@ -53,7 +59,8 @@ def look(scenario: Scenario) -> Look:
     solids += _pins(scenario, layers, thickness, margin)
     lowest = min(y for around in points.values() for _, y in around)
     actuators = [strut for name in linkage.actuators for strut in _struts(scenario, name, 0.5 * margin)]
-    return Look(tuple(solids), tuple(actuators), lowest - margin)
+    struts = (*actuators, *springs(scenario, 0.6 * margin))
+    return Look(tuple(solids), struts, lowest - margin)
 
 
 def _layers(scenario: Scenario, apart: float) -> dict[str, float]:
@@ -185,7 +192,7 @@ def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[DrawnActua
 def blocks(scenario: Scenario) -> list[Solid]:
     """A cube for each falling block, of its mass and density, where it starts."""
     found = []
-    for name, load in scenario.loads.items():
+    for name, load in scenario.acting_loads.items():
         if isinstance(load, FallingBlock):
             x, y = scenario.linkage.bodies[name].centre
             half = 0.5 * load.side

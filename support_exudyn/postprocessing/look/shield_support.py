@@ -20,6 +20,7 @@ from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.shapes import ROUND, bar, cylinder_and_rod, plate, together, tube
 from support_exudyn.postprocessing.look.shield_sizes import Sizes, sizes, standing
 from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role, Solid
+from support_exudyn.postprocessing.look.springs import springs
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
@@ -70,7 +71,7 @@ class _Support:
             *self._pins(),
             *blocks(self.scenario),
         ]
-        struts: list[DrawnActuator] = []
+        struts: list[DrawnActuator] = springs(self.scenario, self.sizes.column)
         for name, column in {**self.columns, **self.jacks}.items():
             if isinstance(self.scenario.actuators.get(name), CylinderAndRod):
                 solids.extend(self._column_bodies(name, column))

@@ -73,7 +73,7 @@ class RenderedScene:
     def _face(self, record: int) -> float | None:
         """Height of the lowest roof that presses on the canopy, at its upper face [m]; None without one."""
         found = []
-        for load in self.result.scenario.loads.values():
+        for load in self.result.scenario.acting_loads.values():
             if isinstance(load, Roof):
                 solids = [solid for solid in self.look.solids if solid.body == load.body]
                 top = max((solid.mesh.bounds[1, 1] for solid in solids), default=load.point[1])

@@ -1,7 +1,12 @@
 # ruff: noqa: N803 - the engine goes by the names of arguments
-"""Loads in the engine: a connector between the loaded point and what it is loaded from."""
+"""Loads in the engine: a connector between the loaded point or body and what it is loaded from.
+
+They are connectors and no loads of the engine's, for those have no Jacobian, without which Newton's method does
+not get along with a stiff one.
+"""
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -10,48 +15,62 @@ from typing import Any
 import exudyn
 import numpy as np
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
-from exudyn.itemInterface import ObjectConnectorCartesianSpringDamper
+from exudyn.itemInterface import ObjectConnectorCartesianSpringDamper, ObjectConnectorCoordinateSpringDamper
 
 from support_exudyn.formulations.redundant.clearance.symbolic_force import engine, is_formula, real, unknown
-from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.trajectory import LoadSeries, Series
-from support_exudyn.model.loads.load import Load, LoadedPoint, Powers
+from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint, Powers
+from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
 from user_forces.lawful import ROUNDING, LawError
 
 HANGS_BY = 0.01  # [m] that the spring would give under what hangs, if it were to carry it
-NAME = "springForceUserFunction"  # the engine's, of its Cartesian spring
+NAME = "springForceUserFunction"  # the engine's, of its springs
 
 
 @dataclass(frozen=True)
-class LoadItem:
+class LoadItem(ABC):
     """A load in the engine: its data, its connector, and the force, which must live as long as it."""
 
     mbs: Any
-    load: Load
+    load: ActingLoad
     object: Any
     function: Any
 
+    @abstractmethod
+    def at(self, t: float) -> Any:
+        """What the load is told of the motion at the end of a step, t [s]."""
+
+    @abstractmethod
+    def said(self, at: Any) -> tuple[str, float, float]:
+        """Its force [N] or moment [N m] in words, its size, and the size of its power [W]."""
+
     def powers(self, t: float) -> Powers:
         """Powers [W] at the end of a step, t [s]."""
-        return self.load.powers(self._at(t))
+        return self.load.powers(self.at(t))
 
     def probe(self, t: float, name: str) -> None:
         """Raise LawError if the load has no finite force at a time t [s] where the point is now."""
-        along, up = self.load.force(self._at(t))
-        if not math.isfinite(along + up):
-            raise LawError(f"{name}: {type(self.load).__name__} has a force of {along:g}, {up:g} N")
+        said, size, _ = self.said(self.at(t))
+        if not math.isfinite(size):
+            raise LawError(f"{name}: {type(self.load).__name__} has a {said}")
 
     def look(self, t: float, name: str) -> None:
         """Raise LawError if the load gives at t [s] what it should lose, but for rounding, or no number."""
-        at = self._at(t)
+        at = self.at(t)
         work, loss = self.load.powers(at)
-        size = abs(work) + math.hypot(*self.load.force(at)) * math.hypot(at.vx, at.vy)
-        if not loss >= -ROUNDING * size:
+        _, _, power = self.said(at)
+        if not loss >= -ROUNDING * (abs(work) + power):
             raise LawError(f"{name}: {type(self.load).__name__} loses {loss:.6g} W; allowed: >= 0")
 
     def longest_step(self, t: float, number: int) -> float:
         """How long the step from t [s] on may be [s], with so many in an impact."""
-        return self.load.longest_step(self._at(t), number)
+        return self.load.longest_step(self.at(t), number)
+
+
+@dataclass(frozen=True)
+class ForceItem(LoadItem):
+    """A force on a point in the engine."""
+
+    load: Load
 
     @contextmanager
     def hung(self, weight: Any) -> Iterator[None]:
@@ -71,26 +90,56 @@ class LoadItem:
             self.mbs.SetObjectParameter(self.object, NAME, self.function)
             self.mbs.SetLoadParameter(weight, "loadVector", pull)
 
-    def _at(self, t: float) -> LoadedPoint:
-        """The loaded point at the end of a step, t [s]."""
+    def at(self, t: float) -> LoadedPoint:
+        """See `LoadItem`."""
         output = exudyn.OutputVariableType
         x, y, _ = self.mbs.GetObjectOutput(self.object, output.Displacement)
         vx, vy, _ = self.mbs.GetObjectOutput(self.object, output.Velocity)
         return LoadedPoint(t, float(x), float(y), float(vx), float(vy))
 
+    def said(self, at: LoadedPoint) -> tuple[str, float, float]:
+        """See `LoadItem`."""
+        along, up = self.load.force(at)
+        size = math.hypot(along, up)
+        return f"force of {along:g}, {up:g} N", size, size * math.hypot(at.vx, at.vy)
 
-def add_load(mbs: Any, load: Load, origin: Any, point: Any) -> LoadItem:
-    """Let a load act between a marker on what it acts against and one on the body, both at the loaded point.
 
-    It is a connector and no load of the engine's, for those have no Jacobian, without which Newton's method
-    does not get along with a stiff one.
-    """
+@dataclass(frozen=True)
+class MomentItem(LoadItem):
+    """A moment on a body in the engine."""
+
+    load: MomentLoad
+
+    def at(self, t: float) -> TurnedBody:
+        """See `LoadItem`."""
+        output = exudyn.OutputVariableType
+        turn = self.mbs.GetObjectOutput(self.object, output.Displacement)
+        return TurnedBody(t, float(turn), float(self.mbs.GetObjectOutput(self.object, output.Velocity)))
+
+    def said(self, at: TurnedBody) -> tuple[str, float, float]:
+        """See `LoadItem`."""
+        moment = self.load.moment(at)
+        return f"moment of {moment:g} N m", abs(moment), abs(moment * at.spin)
+
+
+def add_force(mbs: Any, load: Load, origin: Any, point: Any) -> ForceItem:
+    """Let a force act between a marker on what it acts against and one on the body."""
     connector = mbs.AddObject(ObjectConnectorCartesianSpringDamper(markerNumbers=[origin, point]))
     function: Any = _pull(load)
     if is_formula(lambda *known: load.force(LoadedPoint(*known)), len(LoadedPoint._fields)):
         function = CreateSymbolicUserFunction(mbs, _expression(load), NAME, connector)
     mbs.SetObjectParameter(connector, NAME, function)
-    return LoadItem(mbs, load, connector, function)
+    return ForceItem(mbs, load, connector, function)
+
+
+def add_moment(mbs: Any, load: MomentLoad, rotations: list[Any]) -> MomentItem:
+    """Let a moment act between markers of the rotations of what it acts against and of the body."""
+    connector = mbs.AddObject(ObjectConnectorCoordinateSpringDamper(markerNumbers=rotations))
+    function: Any = _twist(load)
+    if is_formula(lambda *known: load.moment(TurnedBody(*known)), len(TurnedBody._fields)):
+        function = CreateSymbolicUserFunction(mbs, _twist_expression(load), NAME, connector)
+    mbs.SetObjectParameter(connector, NAME, function)
+    return MomentItem(mbs, load, connector, function)
 
 
 def _pull(load: Load) -> Callable[..., list[float]]:
@@ -118,16 +167,21 @@ def _expression(load: Load) -> Callable[..., Any]:
     )
 
 
-def load_series(name: str, load: Load, motion: BodyMotion, time: Series) -> LoadSeries:
-    """The load of this name at the records [s]."""
-    point, origin = (motion.point(body, load.point) for body in (load.body, load.against(name)))
-    way, velocity = point.position - origin.position, point.velocity - origin.velocity
-    found = [
-        LoadedPoint(*row) for row in zip(time.tolist(), *way.T.tolist(), *velocity.T.tolist(), strict=True)
-    ]
-    observed = [load.observed(at) for at in found]
-    return LoadSeries(
-        np.array([load.force(at) for at in found]).reshape(-1, 2),
-        np.array([load.stored(at) for at in found]),
-        {name: np.array([values[name] for values in observed]) for name in load.channels},
+def _twist(load: MomentLoad) -> Callable[..., float]:
+    """The moment with which the connector turns its ends together, of the engine's signature, in Python."""
+
+    def twist(mbs: Any, t: float, item: int, displacement: Any, velocity: Any, *others: Any) -> float:
+        return -load.moment(TurnedBody(t, displacement, velocity))
+
+    return twist
+
+
+def _twist_expression(load: MomentLoad) -> Callable[..., Any]:
+    """The same as a function that the engine calls once with its symbols."""
+
+    def twist(*known: Any) -> Any:
+        return real(-load.moment(TurnedBody(*map(unknown, known))))
+
+    return lambda mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset: twist(
+        t, displacement, velocity
     )

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from support_exudyn.formulations.redundant.scene.scene import Scene
+from support_exudyn.mechanics.acting_loads import add_load
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import MOTION, DataNeeds
 from support_exudyn.mechanics.contact_history import acting
@@ -30,7 +31,7 @@ class Applied:
     """Forces that follow from the motion by themselves, by the names of what gives them.
 
     contacts: of clearance pins. pins: of compliant ones. actuators: that push their ends apart (n,) [N]. loads:
-    on their points.
+    on their points and bodies.
     """
 
     contacts: Mapping[str, ContactSeries]
@@ -119,9 +120,7 @@ def _applied_forces(scene: Scene, motion: BodyMotion, applied: Applied) -> Serie
         push(forces, motion, actuator.head, apart, motion.place(actuator.head, actuator.head_point))
         push(forces, motion, actuator.foot, -apart, motion.place(actuator.foot, actuator.foot_point))
     for name, loaded in applied.loads.items():
-        load = scenario.loads[name]
-        for body, force in ((load.body, loaded.force), (load.against(name), -loaded.force)):
-            push(forces, motion, body, force, motion.place(body, load.point))
+        add_load(forces, motion, name, scenario.acting_loads[name], loaded)
     return forces
 
 

@@ -26,7 +26,7 @@ from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderIt
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
 from support_exudyn.formulations.redundant.scene.engine_scene import CompliantItem
-from support_exudyn.formulations.redundant.scene.load_item import add_load
+from support_exudyn.formulations.redundant.scene.load_item import LoadItem, add_force, add_moment
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction, rotations
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
@@ -34,6 +34,8 @@ from support_exudyn.mechanics.cylinder_chambers import fill_cylinders
 from support_exudyn.mechanics.oil_column import fill
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.linkage import GROUND, Body, Crank, Gear, Slide
+from support_exudyn.model.loads.load import ActingLoad, Load
+from support_exudyn.model.loads.moment_load import MomentLoad
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
@@ -165,6 +167,21 @@ class PlaneBuilder(EngineBuilder):
         ]
         self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers, factor1=gear.ratio))
 
+    @singledispatchmethod
+    def add_load(self, load: ActingLoad, name: str) -> LoadItem:
+        """Add what stands in the engine for a load of this name."""
+        raise TypeError(f"loads.{name} = {type(load).__name__}: is neither a Load nor a MomentLoad")
+
+    @add_load.register
+    def _add_force(self, load: Load, name: str) -> LoadItem:
+        origin = self.marker(load.against(name), load.origin)
+        return add_force(self.mbs, load, origin, self.marker(load.body, load.point))
+
+    @add_load.register
+    def _add_moment(self, load: MomentLoad, name: str) -> LoadItem:
+        del name
+        return add_moment(self.mbs, load, rotations(self.mbs, self.node(load.other), self.node(load.body)))
+
     def build(self) -> Scene:
         """The whole scene."""
         scenario, linkage, mbs = self.scenario, self.linkage, self.mbs
@@ -182,12 +199,7 @@ class PlaneBuilder(EngineBuilder):
         slides = {name: self.add_slide(slide) for name, slide in linkage.slides.items()}
         for gear in linkage.gears.values():
             self.add_gear(gear)
-        loads = {
-            name: add_load(
-                mbs, load, *(self.marker(body, load.point) for body in (load.against(name), load.body))
-            )
-            for name, load in scenario.loads.items()
-        }
+        loads = {name: self.add_load(load, name) for name, load in scenario.acting_loads.items()}
         is_in_equilibrium = scenario.start == "settled"
         cylinders = {
             name: CylinderItem(mbs, preloaded, self.ends(linkage.actuators[name]), is_in_equilibrium)

@@ -10,7 +10,7 @@ from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.limits import CENTRING
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL, EngineScene
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem
+from support_exudyn.formulations.redundant.scene.load_item import ForceItem
 from support_exudyn.mechanics.body_coordinates import BodyItem
 
 # The engine solves at the end of its only step of loads, 1 s by default: drives and loads, which are told the
@@ -60,10 +60,17 @@ def find_static_equilibrium(scene: EngineScene) -> None:
     scene.reset_memory()
 
 
-def _load_suspension(scene: EngineScene) -> dict[str, tuple[LoadItem, Any]]:
+def _load_suspension(scene: EngineScene) -> dict[str, tuple[ForceItem, Any]]:
     """By body that a load brings along, the load and the body's weight."""
-    brought = {item.load.against(name): item for name, item in scene.loads.items()}
-    return {body: (item, scene.weights[body]) for body, item in brought.items() if body in scene.weights}
+    brought = {
+        item.load.against(name): item for name, item in scene.loads.items() if isinstance(item, ForceItem)
+    }
+    own = scene.scenario.unloaded.bodies
+    return {
+        body: (item, scene.weights[body])
+        for body, item in brought.items()
+        if body in scene.weights and body not in own
+    }
 
 
 def _solve(scene: EngineScene) -> None:

@@ -1,0 +1,69 @@
+"""What loads do to a linkage in motion: their forces and moments at the records, and on the coordinates."""
+
+from functools import singledispatch
+
+import numpy as np
+
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.kinetics import Kinetics, Matrix
+from support_exudyn.mechanics.reactions import push, twist
+from support_exudyn.mechanics.trajectory import LoadSeries, Series
+from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
+from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
+
+
+@singledispatch
+def load_series(load: ActingLoad, name: str, motion: BodyMotion, time: Series) -> LoadSeries:
+    """The load of this name at the records [s]."""
+    raise TypeError(f"loads.{name} = {type(load).__name__}: is neither a Load nor a MomentLoad")
+
+
+@load_series.register
+def _of_force(load: Load, name: str, motion: BodyMotion, time: Series) -> LoadSeries:
+    point, origin = motion.point(load.body, load.point), motion.point(load.against(name), load.origin)
+    way, velocity = point.position - origin.position, point.velocity - origin.velocity
+    found = [
+        LoadedPoint(*row) for row in zip(time.tolist(), *way.T.tolist(), *velocity.T.tolist(), strict=True)
+    ]
+    observed = [load.observed(at) for at in found]
+    return LoadSeries(
+        np.array([load.force(at) for at in found]).reshape(-1, 2),
+        np.zeros(len(found)),
+        np.array([load.stored(at) for at in found]),
+        {name: np.array([values[name] for values in observed]) for name in load.channels},
+    )
+
+
+@load_series.register
+def _of_moment(load: MomentLoad, name: str, motion: BodyMotion, time: Series) -> LoadSeries:
+    del name
+    turn, spin = motion.turn(load.body), motion.spin(load.body)
+    turn, spin = turn - motion.turn(load.other), spin - motion.spin(load.other)
+    found = [TurnedBody(*row) for row in zip(time.tolist(), turn.tolist(), spin.tolist(), strict=True)]
+    observed = [load.observed(at) for at in found]
+    return LoadSeries(
+        np.zeros((len(found), 2)),
+        np.array([load.moment(at) for at in found]),
+        np.array([load.stored(at) for at in found]),
+        {name: np.array([values[name] for values in observed]) for name in load.channels},
+    )
+
+
+def add_load(forces: Series, motion: BodyMotion, name: str, load: ActingLoad, series: LoadSeries) -> None:
+    """Add what a load of this name does at the records to the forces on all coordinates (n, 3 b)."""
+    against = load.against(name)
+    if isinstance(load, Load):
+        push(forces, motion, load.body, series.force, motion.place(load.body, load.point))
+        push(forces, motion, against, -series.force, motion.place(against, load.origin))
+    else:
+        twist(forces, motion, load.body, series.moment)
+        twist(forces, motion, against, -series.moment)
+
+
+def load_rate(system: Kinetics, name: str, load: ActingLoad) -> Matrix:
+    """What turns all velocities into those a load sees in the start posture, (2, n) or of a moment (1, n)."""
+    still, against = np.zeros(3 * len(system.bodies)), load.against(name)
+    if isinstance(load, Load):
+        point = system.point(still, load.body, load.point)[1]
+        return point - system.point(still, against, load.origin)[1]
+    return (system.turning(still.size, load.body) - system.turning(still.size, against))[None]

@@ -1,0 +1,68 @@
+"""A moment on a body that follows from time and from how the body turns against another."""
+
+from abc import ABC, abstractmethod
+from typing import NamedTuple
+
+from pydantic import model_validator
+from typing_extensions import Self
+
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.loads.load import ActingLoad
+from user_forces.values.value import value
+
+
+class TurnedBody(NamedTuple):
+    """A body under a moment: time [s], turn since the start posture [rad], angular velocity [rad/s].
+
+    Turn and angular velocity are against `MomentLoad.other`; anticlockwise is positive.
+    """
+
+    time: float
+    turn: float
+    spin: float
+
+
+@value
+class MomentLoad(ActingLoad, ABC):
+    """A moment on a body, and the opposite one on another. A new one is a class with the methods below.
+
+    The contract is that of `Load`, with
+
+        d stored/dt = work - loss - moment spin
+
+    Arguments:
+        body: name of the body.
+        other: the body that the opposite moment acts on, or "ground".
+    """
+
+    other: str = GROUND
+
+    @model_validator(mode="after")
+    def _acts_between_two(self) -> Self:
+        check_two(self.body, self.other)
+        return self
+
+    @abstractmethod
+    def moment(self, at: TurnedBody) -> float:
+        """Moment on the body, positive anticlockwise [N m]."""
+
+    def against(self, name: str) -> str:
+        """The opposite moment acts on the other body."""
+        del name
+        return self.other
+
+    @property
+    def steepness(self) -> tuple[float]:
+        """Largest growth of the moment with the turn [N m/rad]."""
+        return (0.0,)
+
+    def largest(self, duration: float) -> tuple[float]:
+        """The largest moment in a run of this duration [s] if nothing turned [N m]."""
+        del duration
+        return (0.0,)
+
+
+def check_two(body: str, other: str) -> None:
+    """Raise ValueError if what acts between two bodies has the same one twice."""
+    if body == other:
+        raise ValueError(f"other = {other!r}: is the body itself; allowed: another body, or {GROUND!r}")

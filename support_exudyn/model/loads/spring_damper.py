@@ -1,0 +1,115 @@
+"""A spring and a damper between two points."""
+
+import math
+from collections.abc import Mapping
+
+from pydantic import model_validator
+from typing_extensions import Self
+
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
+from support_exudyn.model.loads.moment_load import check_two
+from user_forces.expressions.scalar import hypot
+from user_forces.values.units import Metres, NewtonSecondsPerMetre, NewtonsPerMetre
+from user_forces.values.value import NonNegative, Vector2, value
+
+COINCIDE = 1e-9  # [m] up to which two points are one
+
+
+@value
+class SpringDamper(Load):
+    """A spring and a damper side by side, along the line between points of two bodies.
+
+        F = -k (l - l0) - c dl/dt
+
+    l is the distance of both points; a positive F pushes them apart. The spring pulls as well as it pushes.
+    Where the points meet in the course of a run the line has no direction, and the run is refused.
+
+    Arguments:
+        body, point: one end, see `Load`.
+        other, other_point: the other end: name of another body, or "ground", and its point, start posture [m].
+        stiffness: k [N/m], >= 0.
+        free_length: l0 at which the spring carries nothing [m], >= 0.
+        damping: c [N s/m], >= 0.
+    """
+
+    other: str = GROUND
+    other_point: Metres[Vector2]
+    stiffness: NewtonsPerMetre[NonNegative] = 0.0
+    free_length: Metres[NonNegative] = 0.0
+    damping: NewtonSecondsPerMetre[NonNegative] = 0.0
+
+    @model_validator(mode="after")
+    def _has_a_direction(self) -> Self:
+        check_two(self.body, self.other)
+        if self.start_length <= COINCIDE:
+            raise ValueError(
+                f"other_point = {self.other_point} m: is the point of the other end, so that the spring has no "
+                f"direction; allowed: > {COINCIDE:g} m from it in the start posture"
+            )
+        if self.stiffness == 0.0 and self.damping == 0.0:
+            raise ValueError("stiffness = 0 N/m, damping = 0 N s/m: allowed: one of them > 0")
+        return self
+
+    @property
+    def start_length(self) -> float:
+        """Distance of its ends in the start posture [m]."""
+        return math.dist(self.point, self.other_point)
+
+    def against(self, name: str) -> str:
+        """The opposite force acts on the other body."""
+        del name
+        return self.other
+
+    @property
+    def origin(self) -> Vector2:
+        """The opposite force acts at the other end."""
+        return self.other_point
+
+    def force(self, at: LoadedPoint) -> Vector2:
+        """Force on the point, forward and up [N]."""
+        length = hypot(at.x, at.y)
+        share = self._push(at) / length
+        return share * at.x, share * at.y
+
+    def _push(self, at: LoadedPoint) -> float:
+        """F [N]."""
+        stretch = hypot(at.x, at.y) - self.free_length
+        return -self.stiffness * stretch - self.damping * self._rate(at)
+
+    def _rate(self, at: LoadedPoint) -> float:
+        """dl/dt [m/s]."""
+        return (at.x * at.vx + at.y * at.vy) / hypot(at.x, at.y)
+
+    def stored(self, at: LoadedPoint) -> float:
+        """k (l - l0)^2/2 [J]."""
+        stretch = hypot(at.x, at.y) - self.free_length
+        return 0.5 * self.stiffness * stretch * stretch
+
+    def powers(self, at: LoadedPoint) -> Powers:
+        """Powers [W]: nothing moves it; the damper loses c (dl/dt)^2."""
+        rate = self._rate(at)
+        return Powers(0.0, self.damping * rate * rate)
+
+    @property
+    def channels(self) -> Mapping[str, LoadChannel]:
+        """The channels are its force and its length."""
+        return {
+            "force": LoadChannel("N", "pushes its ends apart if positive"),
+            "length": LoadChannel("m", "distance of its ends"),
+        }
+
+    def observed(self, at: LoadedPoint) -> Mapping[str, float]:
+        """Force [N] and length [m]."""
+        return {"force": self._push(at), "length": hypot(at.x, at.y)}
+
+    @property
+    def steepness(self) -> Vector2:
+        """k [N/m], in whatever direction it comes to stand."""
+        return self.stiffness, self.stiffness
+
+    def largest(self, duration: float) -> Vector2:
+        """Its force in the start posture [N]."""
+        del duration
+        (x, y), (u, v) = self.point, self.other_point
+        return self.force(LoadedPoint(0.0, x - u, y - v, 0.0, 0.0))

@@ -1,0 +1,272 @@
+"""Springs, dampers and torques between bodies: published numbers, closed forms, energy, momentum, refusals."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from support_exudyn import (
+    AppliedTorque,
+    Body,
+    HarmonicCourse,
+    Linkage,
+    Machine,
+    PinPlace,
+    Scenario,
+    SolverSettings,
+    SpringDamper,
+    Steady,
+    TableCourse,
+    TorsionSpring,
+    reference_support,
+    simulate,
+)
+from support_exudyn.formulations.redundant.inventory import inventory
+from support_exudyn.scenario.timescales import timescales
+from tests.linkage_cases import CrankRocker
+from user_forces.values.value import InputError, Vector2, value
+
+MASS, INERTIA = 3.0, 0.2
+SHORT = SolverSettings(integrator="trapezoidal", constraint_index=2)
+ROCKER = CrankRocker(angle=0.3, speed=10.0)
+SPRING = SpringDamper(
+    body="rocker", point=ROCKER.middle("rocker"), other="crank", other_point=ROCKER.middle("crank"),
+    stiffness=3000.0, free_length=0.30, damping=40.0,
+)  # fmt: skip
+TORQUE = AppliedTorque(body="rocker", full_torque=6.0)
+FREE = replace(ROCKER, springs={"spring": SPRING, "torque": TORQUE})
+# crank [rad], its rate [rad/s], rocker [rad] at times [s], of another program
+PUBLISHED = {
+    0.1: (-0.21787379508, -13.007088574, 1.6177682373),
+    0.5: (-0.95903261389, 17.913487530, 1.9662625131),
+    2.0: (-0.97038891299, 11.547594255, 1.9706463045),
+}
+
+
+@value
+class Loose(Machine):
+    """Two bodies that nothing holds but loads, or one on a pin at the ground."""
+
+    pinned: bool = False
+    velocity: Vector2 = (0.0, 0.0)
+    spin: float = 0.0
+
+    def linkage(self) -> Linkage:
+        """Bodies a metre apart."""
+        one = Body(mass=MASS, inertia=INERTIA, centre=(1.0, 0.0), velocity=self.velocity, spin=self.spin)
+        if self.pinned:
+            place = PinPlace(first="ground", second="one", first_point=(1.0, 0.0), second_point=(1.0, 0.0))
+            return Linkage(bodies={"one": one}, pins={"pin": place})
+        other = Body(mass=2.0 * MASS, inertia=0.7, centre=(0.0, 0.0))
+        return Linkage(bodies={"one": one, "other": other})
+
+
+def free(machine: Machine, **given: object) -> Scenario:
+    usual = {"duration": 0.5, "step": 1e-4, "record_period": 1e-2, "gravity": (0.0, 0.0), "solver": SHORT}
+    return Scenario(machine=machine, **(usual | given))  # type: ignore[arg-type]
+
+
+def crank_rocker(step: float, duration: float = 2.0) -> dict[float, np.ndarray]:
+    scene = Scenario(machine=FREE, duration=duration, step=step, record_period=0.1, solver=SHORT)
+    found = simulate(scene)
+    channels = ("crank.angle", "crank.angular_velocity", "rocker.angle")
+    rows = np.array([found[name] for name in channels]).T
+    return {t: rows[round(10 * t)] for t in PUBLISHED if t <= duration}
+
+
+def test_a_free_crank_rocker_moves_as_published() -> None:
+    # second order in the step, which is taken out
+    coarse, fine = crank_rocker(2e-4, 0.5), crank_rocker(1e-4, 0.5)
+    for t, found in fine.items():
+        assert (4.0 * found - coarse[t]) / 3.0 == pytest.approx(PUBLISHED[t], rel=1e-6)
+
+
+@pytest.mark.slow
+def test_a_free_crank_rocker_moves_as_published_for_two_seconds() -> None:
+    coarse, fine = crank_rocker(4e-5), crank_rocker(2e-5)
+    for t, found in fine.items():
+        assert found == pytest.approx(PUBLISHED[t], rel=2e-6)
+        assert (4.0 * found - coarse[t]) / 3.0 == pytest.approx(PUBLISHED[t], rel=1e-8)
+
+
+def test_energies_of_a_free_crank_rocker_add_up() -> None:
+    result = simulate(Scenario(machine=FREE, duration=0.5, step=1e-4))
+    length, force = result["spring.length"], result["spring.force"]
+    assert length[0] == pytest.approx(SPRING.start_length, rel=1e-12)
+    assert result["energy.elastic"] == pytest.approx(1500.0 * (length - 0.3) ** 2, rel=1e-12)
+    assert force == pytest.approx(-3000.0 * (length - 0.3) - 40.0 * np.gradient(length, result.time), abs=2.0)
+    assert result["torque.moment"] == pytest.approx(6.0)
+    turned = result["rocker.angle"] - result["rocker.angle"][0]
+    assert result["energy.work"] == pytest.approx(6.0 * turned, abs=1e-4)
+    assert np.all(np.diff(result["energy.damping_loss"]) >= 0.0)
+    turnover = np.ptp(result["energy.kinetic"])
+    assert result.energy_error < 1e-4 * turnover
+
+
+def test_records_know_the_forces_of_springs() -> None:
+    # accelerations of records follow from forces, those of the integrator from velocities
+    result = simulate(Scenario(machine=FREE, duration=0.1, step=1e-4))
+    slope = np.gradient(result["crank.angular_velocity"], result.time)[5:-5]
+    acceleration = result["crank.angular_acceleration"]
+    assert acceleration[5:-5] == pytest.approx(slope, abs=2e-3 * np.abs(acceleration).max())
+
+
+def test_a_spring_pendulum_swings_as_its_equation() -> None:
+    stiffness, free_length, damping = 400.0, 0.8, 3.0
+    spring = SpringDamper(
+        body="one", point=(1.0, 0.0), other_point=(0.0, 0.0), stiffness=stiffness, free_length=free_length,
+        damping=damping,
+    )  # fmt: skip
+    machine = Loose(velocity=(0.4, -0.9))
+    held = SpringDamper(body="other", point=(0.0, 0.0), other_point=(0.0, 1.0), damping=1.0)
+    scene = free(machine, loads={"spring": spring, "held": held}, gravity=(0.0, -9.81), duration=1.0)
+
+    def slope(_: float, s: np.ndarray) -> list[float]:
+        x, y, vx, vy = s
+        length = math.hypot(x, y)
+        pull = stiffness * (length - free_length) + damping * (x * vx + y * vy) / length
+        return [vx, vy, -pull * x / length / MASS, -pull * y / length / MASS - 9.81]
+
+    times = np.arange(101) * 1e-2
+    known = solve_ivp(slope, (0.0, 1.0), [1.0, 0.0, 0.4, -0.9], rtol=1e-11, atol=1e-12, t_eval=times).y
+    result = simulate(scene)
+    assert result["one.x"] == pytest.approx(known[0], abs=2e-7)
+    assert result["one.y"] == pytest.approx(known[1], abs=2e-7)
+    assert result["spring.length"] == pytest.approx(np.hypot(known[0], known[1]), abs=2e-7)
+
+
+def test_a_torsional_pendulum_swings_as_its_closed_form() -> None:
+    spring = TorsionSpring(body="one", stiffness=300.0, free_turn=0.4, damping=0.8)
+    scene = free(Loose(pinned=True, spin=2.0), loads={"spring": spring}, step=5e-5)
+    result = simulate(scene)
+    slow, fast = 0.5 * 0.8 / INERTIA, math.sqrt(300.0 / INERTIA)
+    damped = math.sqrt(fast**2 - slow**2)
+    cosine, sine = -0.4, (2.0 - 0.4 * slow) / damped
+    t = result.time
+    turn = 0.4 + np.exp(-slow * t) * (cosine * np.cos(damped * t) + sine * np.sin(damped * t))
+    assert result["spring.angle"] == pytest.approx(turn, abs=2e-5)
+    moment = -300.0 * (turn - 0.4) - 0.8 * result["one.angular_velocity"]
+    assert result["spring.moment"] == pytest.approx(moment, abs=1e-2)
+    assert result["energy.elastic"] == pytest.approx(150.0 * (turn - 0.4) ** 2, abs=2e-3)
+    assert np.abs(result["energy.balance"]).max() < 1e-4 * result["energy.elastic"].max()
+    assert timescales(scene).resting == pytest.approx(1.0 / fast, rel=1e-12)
+
+
+def test_what_acts_between_two_bodies_leaves_their_momentum_alone() -> None:
+    loads = {
+        "spring": SpringDamper(
+            body="one", point=(1.1, 0.2), other="other", other_point=(-0.1, 0.1), stiffness=500.0,
+            free_length=0.7, damping=2.0,
+        ),
+        "coil": TorsionSpring(body="other", other="one", stiffness=20.0, free_turn=0.5, damping=0.1),
+        "motor": AppliedTorque(body="one", other="other", full_torque=5.0, start=0.1, end=0.3),
+    }  # fmt: skip
+    result = simulate(free(Loose(velocity=(0.3, 0.5), spin=3.0), loads=loads))
+    masses, inertias = {"one": MASS, "other": 2.0 * MASS}, {"one": INERTIA, "other": 0.7}
+    for axis, start in (("x", 0.3), ("y", 0.5)):
+        total = sum(mass * result[f"{name}.velocity_{axis}"] for name, mass in masses.items())
+        assert total == pytest.approx(MASS * start, rel=1e-9)
+    spun = sum(inertias[name] * result[f"{name}.angular_velocity"] for name in masses)
+    for name, mass in masses.items():
+        spun = spun + mass * (
+            result[f"{name}.x"] * result[f"{name}.velocity_y"]
+            - result[f"{name}.y"] * result[f"{name}.velocity_x"]
+        )
+    assert np.ptp(spun) < 1e-6 * np.abs(spun).max()
+    assert np.ptp(result["one.angular_velocity"]) > 1.0
+
+
+def test_courses_give_their_impulse() -> None:
+    # a turn of a table and of a sine, which the body's spin adds up
+    table = TableCourse(times=(0.1, 0.2, 0.4), shares=(0.0, 1.0, -0.5), between="linear")
+    turned = simulate(
+        free(Loose(pinned=True), loads={"m": AppliedTorque(body="one", full_torque=4.0, course=table)})
+    )
+    gained = 4.0 * (0.05 + 0.05) / INERTIA
+    assert turned["one.angular_velocity"][40] == pytest.approx(gained, rel=1e-9)
+    assert turned["m.moment"][[0, 10, 15, 20, 30, 50]] == pytest.approx([0.0, 0.0, 2.0, 4.0, 1.0, -2.0])
+    sine = HarmonicCourse(period=0.4, phase=0.3, mean=0.5)
+    scene = free(Loose(pinned=True), loads={"m": AppliedTorque(body="one", full_torque=4.0, course=sine)})
+    rate = 2.0 * math.pi / 0.4
+    known = 4.0 / INERTIA * (0.5 * 0.5 + (math.cos(0.3) - math.cos(rate * 0.5 + 0.3)) / rate)
+    result = simulate(scene)
+    assert result["one.angular_velocity"][-1] == pytest.approx(known, rel=1e-6)
+    assert timescales(scene).drive == pytest.approx(0.4 / (2.0 * math.pi), rel=1e-12)
+    # formulas run in the engine, tables in Python
+    assert inventory(scene).user_functions == 0
+
+
+def test_a_settled_start_is_in_the_springs() -> None:
+    spring = SpringDamper(body="one", point=(1.2, 0.0), other_point=(1.2, 0.5), stiffness=5e3, free_length=0.5)
+    coil = TorsionSpring(body="one", stiffness=50.0)
+    scene = free(
+        Loose(pinned=True),
+        loads={"spring": spring, "coil": coil, "m": AppliedTorque(body="one", full_torque=10.0)},
+        gravity=(0.0, -9.81),
+        start="settled",
+        duration=0.02,
+    )
+    result = simulate(scene)
+    angle = result["one.angle"][0]
+    x, y = 0.2 * math.cos(angle), 0.2 * math.sin(angle)
+    length = math.hypot(0.2 - x, 0.5 - y)
+    pull = 5e3 * (length - 0.5) / length
+    assert x * pull * (0.5 - y) - y * pull * (0.2 - x) - 50.0 * angle + 10.0 == pytest.approx(0.0, abs=1e-7)
+    assert abs(angle) > 0.02
+    assert result["one.angle"] == pytest.approx(angle, abs=1e-9)
+
+
+def test_a_driven_crank_carries_what_its_springs_ask() -> None:
+    machine = CrankRocker(driven=True, springs={"spring": replace(SPRING, damping=0.0)})
+    moved = replace(SPRING, point=machine.middle("rocker"), other_point=machine.middle("crank"), damping=0.0)
+    scene = Scenario(
+        machine=machine,
+        loads={"torque": TORQUE},
+        drive=Steady(rate=1e-3),
+        duration=0.1,
+        step=1e-3,
+        gravity=(0, 0),
+    )
+    with pytest.raises(InputError, match="spring: the machine has something of this name"):
+        replace(scene, loads={"spring": SPRING})
+    scene = replace(scene, machine=replace(machine, springs={"spring": moved}))
+    moment = simulate(scene)["crank.moment"][0]
+
+    def stored(turn: float) -> float:
+        one = CrankRocker(angle=turn)
+        stretch = math.dist(one.middle("rocker"), one.middle("crank")) - 0.3
+        rocker = one.linkage().bodies["rocker"].angle
+        return 1500.0 * stretch**2 - 6.0 * rocker
+
+    assert moment == pytest.approx((stored(1e-5) - stored(-1e-5)) / 2e-5, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"other_point": SPRING.point}, "has no direction"),
+        ({"other": "rocker"}, "is the body itself"),
+        ({"stiffness": 0.0, "damping": 0.0}, "one of them > 0"),
+        ({"stiffness": -1.0}, "stiffness"),
+    ],
+)
+def test_springs_that_cannot_be_are_refused(changes: dict[str, object], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        replace(SPRING, **changes)
+
+
+def test_loads_that_do_not_fit_the_machine_are_refused() -> None:
+    scene = Scenario(machine=CrankRocker(), duration=0.1)
+    with pytest.raises(InputError, match=r"loads\.m\.other = 'wheel': no such body; allowed: ground, crank"):
+        replace(scene, loads={"m": TorsionSpring(body="rocker", other="wheel", stiffness=1.0)})
+    with pytest.raises(InputError, match=r"machine\.loads\.spring\.body = 'wheel': no such body"):
+        replace(scene, machine=CrankRocker(springs={"spring": replace(SPRING, body="wheel")}))
+    with pytest.raises(InputError, match=r"loads\.spring: the machine has something of this name"):
+        replace(scene, machine=FREE, loads={"spring": SPRING})
+    with pytest.raises(InputError, match="formulation"):
+        simulate(Scenario(machine=reference_support(), duration=0.1, formulation="reduced", loads={
+            "m": AppliedTorque(body="canopy", full_torque=1.0)}))  # fmt: skip
