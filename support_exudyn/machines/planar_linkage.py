@@ -13,8 +13,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 
+from support_exudyn.machines.following import follow
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.to_space import Width
 from user_forces.values.units import Metres
@@ -27,15 +29,22 @@ class PlanarLinkage(Machine):
 
     Arguments:
         drawing: the mechanism in its start posture.
+        acting: what acts on it besides its weight: springs, dampers, torques, forces, by name.
         pin_lengths: of the contact in pins, along their axes [m], by pin; where it is known.
     """
 
     drawing: Linkage
+    acting: Mapping[str, ActingLoad] = field(default_factory=dict)
     pin_lengths: Mapping[str, Metres[Positive]] = field(default_factory=dict)
 
     def linkage(self) -> Linkage:
         """The mechanism in its start posture."""
         return self.drawing
+
+    @property
+    def loads(self) -> Mapping[str, ActingLoad]:
+        """What acts on it besides its weight, by name."""
+        return self.acting
 
     def widths(self) -> Width | None:
         """The lengths of its pins, which are all that is known across its plane; None if none is."""
@@ -43,3 +52,4 @@ class PlanarLinkage(Machine):
 
     def check_motion(self, drives: Mapping[str, Drive], duration: float) -> None:
         """Raise InputError if the driven parts cannot follow their drives, by name, for so long [s]."""
+        follow(self.drawing, drives, duration)

@@ -339,3 +339,78 @@ def test_gears_and_angles_that_contradict_are_refused(tmp_path: Path) -> None:
     said = refusal(tmp_path, "{ wheel = 10 }", "{ wheel = 10, pinion = 10 }", GEARED)
     assert "wheel" in said
     assert "pinion" in said
+
+
+# --- what acts by springs, dampers, torques and forces ---
+
+DRIVEN_BY_FORCES = """
+[springs.between]
+bodies = ["crank", "coupler"]
+at = ["O", "M"]
+stiffness_N_per_m = 3000
+damping_N_s_per_m = 40
+
+[torsion_springs.twist]
+bodies = ["ground", "rocker"]
+stiffness_N_m_per_rad = 5
+free_turn_deg = 10
+
+[torques.pull]
+body = "rocker"
+torque_N_m = 6
+
+[forces.push]
+body = "coupler"
+at = "M"
+force_N = [0, -20]
+course = { type = "HarmonicCourse", period_s = 0.5, mean = 1 }
+"""
+FREE = CRANK_ROCKER.replace('[cranks]\nmotor = "crank"\n', "").replace(
+    "length_mm = 400", "length_mm = 400\npoints_mm = { M = [200, 0] }"
+)
+
+
+def test_springs_torques_and_forces_act_where_the_linkage_starts(tmp_path: Path) -> None:
+    found = built(tmp_path, FREE + DRIVEN_BY_FORCES)
+    assert set(found.loads) == {"between", "twist", "pull", "push"}
+    middle = np.array(found.linkage().bodies["coupler"].centre)
+    np.testing.assert_allclose(found.loads["push"].point, middle, atol=1e-15)
+    assert found.loads["between"].free_length == pytest.approx(float(np.hypot(*middle)))  # slack at the start
+    assert list(found.linkage().points) == ["tip"]
+    result = simulate(Scenario(machine=found, duration=0.2, step=1e-4))
+    assert result["between.force"][0] == pytest.approx(0.0, abs=1e-9)
+    turned = result["rocker.angle"] - result["rocker.angle"][0]
+    np.testing.assert_allclose(result["twist.moment"], -5 * (turned - math.radians(10)), atol=1e-9)
+    np.testing.assert_allclose(result["push.force_y"], -20 * (1 + np.sin(4 * np.pi * result.time)), atol=1e-9)
+    assert np.abs(result["energy.balance"]).max() < 1e-5 * result["energy.kinetic"].max()
+    path = tmp_path / "whole.toml"
+    path.write_text(scenario_text(result.scenario), encoding="utf-8")
+    assert read_scenario(path) == result.scenario
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('bodies = ["crank", "coupler"]\nat', 'bodies = ["crank", "cupler"]\nat', "no such body"),
+        ('at = ["O", "M"]', 'at = ["Z", "M"]', "springs.between.at[0] = 'Z'"),
+        (
+            'bodies = ["ground", "rocker"]\nstiff',
+            'bodies = ["ground", "rock"]\nstiff',
+            "rock: there is no such body",
+        ),
+        ('body = "rocker"\ntorque', 'body = "rock"\ntorque', "torques.pull.body.rock: there is no such body"),
+        ("[torques.pull]", "[torques.push]", "forces.push: torques.push has this name"),
+    ],
+)
+def test_what_acts_on_nothing_is_refused(tmp_path: Path, old: str, new: str, said: str) -> None:
+    assert said in refusal(tmp_path, old, new, FREE + DRIVEN_BY_FORCES)
+
+
+def test_drives_that_the_linkage_cannot_follow_are_refused(tmp_path: Path) -> None:
+    # a double rocker: the longest and the shortest together are longer than the other two
+    text = CRANK_ROCKER.replace("length_mm = 300", "length_mm = 200").replace(
+        "B = [365, 300]", "B = [300, 250]"
+    )
+    text = text.replace("{ crank = 0 }", "{ crank = 90 }").replace("length_mm = 400", "length_mm = 200")
+    with pytest.raises(InputError, match="drive"):
+        Scenario(machine=built(tmp_path, text), drive=Steady(rate=-60.0), duration=0.1)

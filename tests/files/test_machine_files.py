@@ -204,8 +204,8 @@ MISTAKES = {
     "wrong kind": (
         '"four_column_support"',
         '"four_colum_support"',
-        "kind = 'four_colum_support': allowed: 'four_column_support', 'two_leg_shield', 'slider_crank', 'linkage'; "
-        "did you mean 'four_column_support'?",
+        "kind = 'four_colum_support': allowed: 'four_column_support', 'two_leg_shield', 'slider_crank', "
+        "'linkage'; did you mean 'four_column_support'?",
     ),
     "height": (
         "= 2050",

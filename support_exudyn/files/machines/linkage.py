@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import field
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import field, replace
 from typing import Annotated, Literal
 
 from support_exudyn.files.machines.linkage_bodies import LinkageBodyData, drawn_body
@@ -15,6 +15,12 @@ from support_exudyn.files.machines.linkage_joints import (
     LinkagePinData,
     missing_masses,
 )
+from support_exudyn.files.machines.linkage_loads import (
+    LinkageForceData,
+    LinkageSpringData,
+    LinkageTorqueData,
+    LinkageTorsionData,
+)
 from support_exudyn.files.machines.parts import ColumnData
 from support_exudyn.files.toml.shapes import Names
 from support_exudyn.machines.machine_data import MachineData
@@ -22,10 +28,15 @@ from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.mechanics.closure import assembled
 from support_exudyn.mechanics.start_rates import set_moving
 from support_exudyn.model.actuators import CylinderAndRod
-from support_exudyn.model.linkage import Crank, Linkage, TracePoint
+from support_exudyn.model.linkage import GROUND, Crank, Linkage, TracePoint
+from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.units import Metres, Radians, RadiansPerSecond
 from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
 
+NAMED = (  # whose channels begin with the names of their parts
+    "bodies", "traced_points", "actuators", "guides", "gears", "springs", "torsion_springs", "torques",
+    "forces",
+)  # fmt: skip
 PIN_WIDTH = {"pins": "length of the contact in pins, along their axes"}
 
 
@@ -62,6 +73,9 @@ class LinkageFile(Value):
         gears: pairs of bodies that turn in proportion, by name.
         actuators: that hold two points apart, by name.
         cranks: driven bodies that turn, by the name of the crank.
+        springs: springs and dampers between points of two bodies, by name.
+        torsion_springs: springs and dampers against turning, by name.
+        torques, forces: of given course, by name.
         traced_points: points whose paths are recorded, by name: body and point.
         start: where it starts, if not as it is drawn.
         stroke: by how much its actuators extend from the start on, in use [m], > 0.
@@ -79,6 +93,10 @@ class LinkageFile(Value):
     gears: Mapping[str, LinkageGearData] = field(default_factory=dict)
     actuators: Mapping[str, LinkageActuatorData] = field(default_factory=dict)
     cranks: Mapping[str, str] = field(default_factory=dict)
+    springs: Mapping[str, LinkageSpringData] = field(default_factory=dict)
+    torsion_springs: Mapping[str, LinkageTorsionData] = field(default_factory=dict)
+    torques: Mapping[str, LinkageTorqueData] = field(default_factory=dict)
+    forces: Mapping[str, LinkageForceData] = field(default_factory=dict)
     traced_points: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     start: LinkageStart = field(default_factory=LinkageStart)
     stroke: Metres[Positive] | None = None
@@ -98,7 +116,8 @@ class LinkageFile(Value):
             bodies={name: body.body() for name, body in bodies.items()},
             pins={name: places.pin(name, pin) for name, pin in self.pins.items()},
             actuators={name: places.actuator(name, one) for name, one in self.actuators.items()},
-            points={name: self._traced(name, places) for name in self.traced_points},
+            points={name: self._traced(name, places) for name in self.traced_points}
+            | dict(self._loaded(places)),
             cranks={
                 name: Crank(body=places.moving(body, f"cranks.{name}")) for name, body in self.cranks.items()
             },
@@ -107,10 +126,15 @@ class LinkageFile(Value):
         )
         self._check_names(drawing)
         origins = {name: origin for name, (_, origin) in guides.items()}
-        closed = assembled(drawing, self.start.angle, self.start.length, origins=origins)
+        held = {body for name, body in self._on_springs()}
+        closed = assembled(drawing, self.start.angle, self.start.length, origins=origins, held=held)
+        acting = self._acting(closed)
+        closed = replace(closed, points={name: closed.points[name] for name in self.traced_points})
         lengths = self.width.get("pins", {})
         return MachineData(
-            PlanarLinkage(drawing=set_moving(closed, self.start.angular_velocity), pin_lengths=lengths),
+            PlanarLinkage(
+                drawing=set_moving(closed, self.start.angular_velocity), acting=acting, pin_lengths=lengths
+            ),
             self.name,
             bore_radii=self.bore_radius,
             blocks={name: one.block for name, one in self.guides.items() if one.block is not None},
@@ -126,6 +150,34 @@ class LinkageFile(Value):
         where = f"traced_points.{name}"
         return TracePoint(body=places.moving(body, where), point=places.place(body, point, where))
 
+    def _on_springs(self) -> Iterator[tuple[str, str]]:
+        """Names of what acts by springs, each with its bodies, which need no other joint."""
+        for kind in ("springs", "torsion_springs"):
+            for name, one in getattr(self, kind).items():
+                yield from ((f"{kind}.{name}", body) for body in one.bodies if body != GROUND)
+
+    def _loaded(self, places: DrawnPoints) -> Iterator[tuple[str, TracePoint]]:
+        """The points at which springs and forces act, by the key that says them."""
+        ends = [
+            (f"springs.{name}.at[{n}]", one.bodies[n], one.at[n])
+            for name, one in self.springs.items()
+            for n in range(2)
+        ]
+        ends += [(f"forces.{name}.at", one.body, one.at) for name, one in self.forces.items()]
+        for where, body, point in ends:
+            yield where, TracePoint(body=body, point=places.place(body, point, where))
+
+    def _acting(self, linkage: Linkage) -> dict[str, ActingLoad]:
+        """What acts on the linkage, closed, by name."""
+        at = {name: one.point for name, one in linkage.points.items()}
+        acting: dict[str, ActingLoad] = {
+            name: one.load(at[f"springs.{name}.at[0]"], at[f"springs.{name}.at[1]"])
+            for name, one in self.springs.items()
+        }
+        acting |= {name: one.load() for name, one in self.torsion_springs.items()}
+        acting |= {name: one.load() for name, one in self.torques.items()}
+        return acting | {name: one.load(at[f"forces.{name}.at"]) for name, one in self.forces.items()}
+
     def _check_names(self, linkage: Linkage) -> None:
         """Raise InputError where something is said of what is not there, or two things share a name."""
         of_pins = {"bore_radius_mm": self.bore_radius, "width_mm.pins": self.width.get("pins", {})}
@@ -134,14 +186,14 @@ class LinkageFile(Value):
         _check_known("start.angle_deg", self.start.angle, linkage.bodies, "body")
         _check_known("start.angular_velocity", self.start.angular_velocity, linkage.bodies, "body")
         _check_known("start.length_mm", self.start.length, linkage.actuators, "actuator")
+        for name, torque in self.torques.items():
+            bodies = {"body": torque.body, "against": torque.against}
+            for key, body in bodies.items():
+                _check_known(f"torques.{name}.{key}", [body], (GROUND, *linkage.bodies), "body")
+        for where, body in self._on_springs():
+            _check_known(f"{where}.bodies", [body], (GROUND, *linkage.bodies), "body")
         taken: dict[str, str] = {}
-        for what in (
-            "bodies",
-            "traced_points",
-            "actuators",
-            "guides",
-            "gears",
-        ):  # channels begin with these names
+        for what in NAMED:
             for name in getattr(self, what):
                 if name in taken:
                     raise InputError(f"{what}.{name}: {taken[name]}.{name} has this name; allowed: another")
@@ -166,7 +218,7 @@ class LinkageFile(Value):
         return found
 
 
-def _check_known(where: str, named: Mapping[str, object], known: Mapping[str, object], what: str) -> None:
+def _check_known(where: str, named: Iterable[str], known: Iterable[str], what: str) -> None:
     for name in named:
         if name not in known:
             raise InputError(f"{where}.{name}: there is no such {what}; allowed: {', '.join(known) or 'none'}")

@@ -1,0 +1,143 @@
+"""What acts on linkages in files: springs, dampers, torques and forces."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.loads.applied_force import AppliedForce
+from support_exudyn.model.loads.applied_torque import AppliedTorque
+from support_exudyn.model.loads.course import LoadCourse
+from support_exudyn.model.loads.spring_damper import SpringDamper
+from support_exudyn.model.loads.torsion_spring import TorsionSpring
+from user_forces.values.units import (
+    Metres,
+    NewtonMetres,
+    NewtonMetreSecondsPerRadian,
+    NewtonMetresPerRadian,
+    Newtons,
+    NewtonSecondsPerMetre,
+    NewtonsPerMetre,
+    Radians,
+    Seconds,
+)
+from user_forces.values.value import NonNegative, Real, Value, Vector2, value
+
+
+@value
+class LinkageSpringData(Value):
+    """A spring and a damper side by side between points of two bodies.
+
+    Arguments:
+        bodies: that it joins, one of them may be "ground".
+        at: its points on them.
+        stiffness: [N/m], >= 0.
+        free_length: at which the spring carries nothing [m]; that of the start posture if nothing is said.
+        damping: [N s/m], >= 0.
+    """
+
+    bodies: tuple[str, str]
+    at: tuple[str, str]
+    stiffness: NewtonsPerMetre[NonNegative] = 0.0
+    free_length: Metres[NonNegative] | None = None
+    damping: NewtonSecondsPerMetre[NonNegative] = 0.0
+
+    def load(self, first: Vector2, second: Vector2) -> SpringDamper:
+        """The spring between two places of the start posture [m]."""
+        spring = SpringDamper(
+            body=self.bodies[1],
+            point=second,
+            other=self.bodies[0],
+            other_point=first,
+            stiffness=self.stiffness,
+            free_length=self.free_length or 0.0,
+            damping=self.damping,
+        )
+        return spring if self.free_length is not None else replace(spring, free_length=spring.start_length)
+
+
+@value
+class LinkageTorsionData(Value):
+    """A torsion spring and damper between two bodies.
+
+    Arguments:
+        bodies: that it joins, one of them may be "ground".
+        stiffness: [N m/rad], >= 0.
+        free_turn: of the second body against the first from the start posture on, at which it carries nothing
+            [rad].
+        damping: [N m s/rad], >= 0.
+    """
+
+    bodies: tuple[str, str]
+    stiffness: NewtonMetresPerRadian[NonNegative] = 0.0
+    free_turn: Radians[Real] = 0.0
+    damping: NewtonMetreSecondsPerRadian[NonNegative] = 0.0
+
+    def load(self) -> TorsionSpring:
+        """The spring."""
+        first, second = self.bodies
+        return TorsionSpring(
+            body=second, other=first, stiffness=self.stiffness, free_turn=self.free_turn, damping=self.damping
+        )
+
+
+@value
+class LinkageTorqueData(Value):
+    """A torque on a body.
+
+    Arguments:
+        body: on which it acts.
+        against: the body on which the opposite acts, or "ground".
+        torque: in the end, positive anticlockwise [N m].
+        start, end: between which it comes on smoothly [s]; both 0: it is there from the start on.
+        course: by which it is multiplied over time, in place of both.
+    """
+
+    body: str
+    against: str = GROUND
+    torque: NewtonMetres[Real]
+    start: Seconds[NonNegative] = 0.0
+    end: Seconds[NonNegative] = 0.0
+    course: LoadCourse | None = None
+
+    def load(self) -> AppliedTorque:
+        """The torque."""
+        return AppliedTorque(
+            body=self.body,
+            other=self.against,
+            full_torque=self.torque,
+            start=self.start,
+            end=self.end,
+            course=self.course,
+        )
+
+
+@value
+class LinkageForceData(Value):
+    """A force on a point of a body, which keeps its direction.
+
+    Arguments:
+        body: on which it acts.
+        at: the point of it.
+        force: in the end, to the right and up [N].
+        start, end: between which it comes on smoothly [s]; both 0: it is there from the start on.
+        course: by which it is multiplied over time, in place of both.
+    """
+
+    body: str
+    at: str
+    force: Newtons[Vector2]
+    start: Seconds[NonNegative] = 0.0
+    end: Seconds[NonNegative] = 0.0
+    course: LoadCourse | None = None
+
+    def load(self, point: Vector2) -> AppliedForce:
+        """The force at a place of the start posture [m]."""
+        return AppliedForce(
+            body=self.body,
+            point=point,
+            full_force=self.force,
+            start=self.start,
+            end=self.end,
+            course=self.course,
+        )
