@@ -55,7 +55,7 @@ def _alone(conditions: Conditions, name: str, drive: Drive, duration: float) -> 
     low, high = drive.span(duration)
     crank = name in conditions.linkage.cranks
     start = np.zeros(3 * len(conditions.linkage.bodies))
-    for goal in (high, low):
+    for goal in (one for one in (high, low) if one != 0.0):
         moved, reached = start, 0.0
         for _ in range(MOST_TURNS):
             following = reached + math.copysign(min(abs(goal - reached), TURN), goal) if crank else goal
