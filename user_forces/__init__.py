@@ -10,6 +10,7 @@ from user_forces.conformal import line_contact as line_contact
 from user_forces.contact import ContactForce as ContactForce
 from user_forces.contact import JournalContact as JournalContact
 from user_forces.contact import SlipHistory as SlipHistory
+from user_forces.contact import SlotContact as SlotContact
 from user_forces.friction.ambrosio import Ambrosio as Ambrosio
 from user_forces.friction.bengisu_akay import BengisuAkay as BengisuAkay
 from user_forces.friction.brown_mcphee import BrownMcPhee as BrownMcPhee
@@ -61,6 +62,7 @@ from user_forces.normal.power_law import PowerLaw as PowerLaw
 from user_forces.normal.radzimovsky import Radzimovsky as Radzimovsky
 from user_forces.normal.safaeifar_farshidianfar import SafaeifarFarshidianfar as SafaeifarFarshidianfar
 from user_forces.normal.zhiying_qishao import ZhiyingQishao as ZhiyingQishao
+from user_forces.slot import Slot as Slot
 from user_forces.values.value import InputError as InputError
 from user_forces.values.value import Value as Value
 from user_forces.values.value import value as value

@@ -1,7 +1,8 @@
-"""Journal, normal law and friction law together: the force of a bore on its journal."""
+"""Geometry, normal law and friction law together: force of a bore on its journal, or of a wall on a corner."""
 
 from __future__ import annotations
 
+from abc import ABC
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -10,8 +11,9 @@ from pydantic import model_validator
 from user_forces.expressions.scalar import hypot, is_number, maximum, where
 from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
-from user_forces.journal import JournalBearing
+from user_forces.journal import ContactGeometry, JournalBearing
 from user_forces.normal.law import Impact, NormalLaw
+from user_forces.slot import Slot
 from user_forces.values.value import Value, value
 
 SMALLEST = 1e-300  # [m], only so that nothing is divided by zero
@@ -55,8 +57,79 @@ class SlipHistory(NamedTuple):
 AT_REST = SlipHistory(0.0, 0.0, 0.0)
 
 
+class Contact(Value, ABC):
+    """Contact of a journal in what encloses it: geometry, normal law and friction law."""
+
+    bearing: ContactGeometry
+    normal: NormalLaw
+    friction: FrictionLaw
+
+    def force(
+        self,
+        x: float,
+        y: float,
+        vx: float,
+        vy: float,
+        bore_spin: float,
+        journal_spin: float,
+        impact: Impact | None,
+        history: SlipHistory = AT_REST,
+    ) -> ContactForce:
+        """Force of the bore on the journal. Takes floats or expressions (`user_forces.expressions.scalar`).
+
+        Arguments:
+            x, y: journal's centre minus bore's centre [m], in any axes; of a slot 0 and the distance from the
+                middle line.
+            vx, vy: velocity of the journal's centre minus that of the bore's centre [m/s], same axes;
+                the plain difference, not the rate seen by an observer who turns with the bore. Of a slot along
+                and across: the plain difference from any point of the middle line, less along y what the
+                slot's turning moves the walls across at the place of the corner.
+            bore_spin, journal_spin: angular velocities of both bodies [rad/s].
+            impact: what began the contact going on; None while the surfaces are apart, and then there is no
+                force whatever the depth.
+            history: for friction laws with a state, the step whose end this is.
+
+        Returns:
+            ContactForce. The force acts at one point of space on both bodies, so linear and angular
+            momentum are conserved: on the journal `journal_arm` from its centre along n, which is
+            `journal_arm` plus the eccentricity from the bore's. From the middle every way leads outwards:
+            there the rate is the speed.
+        """
+        eccentricity = hypot(x, y)
+        bearing = self.bearing
+        depth = bearing.depth(eccentricity)  # Eq. 3
+        away = maximum(eccentricity, SMALLEST)
+        nx, ny = x / away, y / away
+        bore_arm, journal_arm = bearing.contact_arms(depth)
+        slip = nx * vy - ny * vx + journal_spin * journal_arm - bore_spin * bore_arm
+        rate = nx * vx + ny * vy
+        if impact is None or (is_number(depth) and depth <= 0.0):
+            if is_number(eccentricity) and eccentricity == 0.0:
+                rate = bearing.speed_outwards(vx, vy)
+            return ContactForce(depth, rate, slip, 0.0, 0.0, 0.0, 0.0, journal_arm, False, 0.0)
+        asked = self.normal(maximum(depth, SHALLOWEST), rate, impact)
+        normal = where(depth > 0.0, maximum(asked, 0.0), 0.0)
+        deflection = 0.0
+        if self.friction.has_state:
+            mean_slip = 0.5 * (history.slip + slip)
+            deflection = self.friction.next_deflection(history.deflection, mean_slip, history.step)
+        friction = self.friction(slip, normal, deflection)
+        return ContactForce(
+            depth,
+            rate,
+            slip,
+            normal,
+            friction,
+            -normal * nx - friction * ny,
+            -normal * ny + friction * nx,
+            journal_arm,
+            asked < 0.0,
+            deflection,
+        )
+
+
 @value
-class JournalContact(Value):
+class JournalContact(Contact):
     """Contact of a journal in a bore: geometry, normal law and friction law.
 
     Arguments:
@@ -86,62 +159,26 @@ class JournalContact(Value):
         own = {"bearing": bearing} if hasattr(self.normal, "bearing") else {}
         return replace(self, bearing=bearing, normal=replace(self.normal, **own))  # type: ignore[type-var]
 
-    def force(
-        self,
-        x: float,
-        y: float,
-        vx: float,
-        vy: float,
-        bore_spin: float,
-        journal_spin: float,
-        impact: Impact | None,
-        history: SlipHistory = AT_REST,
-    ) -> ContactForce:
-        """Force of the bore on the journal. Takes floats or expressions (`user_forces.expressions.scalar`).
 
-        Arguments:
-            x, y: journal's centre minus bore's centre [m], in any axes.
-            vx, vy: velocity of the journal's centre minus that of the bore's centre [m/s], same axes;
-                the plain difference, not the rate seen by an observer who turns with the bore.
-            bore_spin, journal_spin: angular velocities of both bodies [rad/s].
-            impact: what began the contact going on; None while the surfaces are apart, and then there is no
-                force whatever the depth.
-            history: for friction laws with a state, the step whose end this is.
+@value
+class SlotContact(Contact):
+    """Contact of a corner or a round pin with the walls of a slot: geometry, normal law and friction law.
 
-        Returns:
-            ContactForce. The force acts at one point of space on both bodies, so linear and angular
-            momentum are conserved: on the journal `journal_arm` from its centre along n, which is
-            `journal_arm` plus the eccentricity from the bore's. From the middle every way leads outwards:
-            there the rate is the speed.
-        """
-        eccentricity = hypot(x, y)
-        bearing = self.bearing
-        depth = bearing.depth(eccentricity)  # Eq. 3
-        away = maximum(eccentricity, SMALLEST)
-        nx, ny = x / away, y / away
-        bore_arm, journal_arm = bearing.contact_arms(depth)
-        slip = nx * vy - ny * vx + journal_spin * journal_arm - bore_spin * bore_arm
-        rate = nx * vx + ny * vy
-        if impact is None or (is_number(depth) and depth <= 0.0):
-            if is_number(eccentricity) and eccentricity == 0.0:
-                rate = hypot(vx, vy)
-            return ContactForce(depth, rate, slip, 0.0, 0.0, 0.0, 0.0, journal_arm, False, 0.0)
-        asked = self.normal(maximum(depth, SHALLOWEST), rate, impact)
-        normal = where(depth > 0.0, maximum(asked, 0.0), 0.0)
-        deflection = 0.0
-        if self.friction.has_state:
-            mean_slip = 0.5 * (history.slip + slip)
-            deflection = self.friction.next_deflection(history.deflection, mean_slip, history.step)
-        friction = self.friction(slip, normal, deflection)
-        return ContactForce(
-            depth,
-            rate,
-            slip,
-            normal,
-            friction,
-            -normal * nx - friction * ny,
-            -normal * ny + friction * nx,
-            journal_arm,
-            asked < 0.0,
-            deflection,
-        )
+    Arguments:
+        bearing: the slot's geometry.
+        normal: law for the normal force; one that goes by the radii of a bore does not fit.
+        friction: law for the tangential force; none by default.
+    """
+
+    bearing: Slot
+    normal: NormalLaw
+    friction: FrictionLaw = Frictionless()
+
+    @model_validator(mode="after")
+    def _law_is_of_walls(self) -> SlotContact:
+        if hasattr(self.normal, "bearing"):
+            raise ValueError(
+                f"normal = {type(self.normal).__name__}: is of a pin in its bore; "
+                "allowed: laws of a stiffness, such as Exact"
+            )
+        return self

@@ -13,14 +13,51 @@ r"""Geometry of a journal in a bore, in the plane.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from typing import ClassVar
+
 from pydantic import model_validator
 
+from user_forces.expressions.scalar import hypot
 from user_forces.values.units import Metres
 from user_forces.values.value import Positive, Value, value
 
 
+class ContactGeometry(Value, ABC):
+    """What a journal is enclosed by, and where both make contact.
+
+    clearance: eccentricity at which it makes contact [m]. is_slot: only what is across counts, the journal
+    slides freely along.
+    """
+
+    clearance: float
+    is_slot: ClassVar[bool] = False
+
+    def depth(self, eccentricity: float) -> float:
+        """Depth |e| - c [m] for an eccentricity |e| [m] (Eq. 3 of the paper); negative: a gap."""
+        return eccentricity - self.clearance
+
+    @property
+    @abstractmethod
+    def size(self) -> float:
+        """Length [m] beside which a depth has to be small."""
+
+    @property
+    @abstractmethod
+    def words(self) -> str:
+        """What encloses the journal, with its size."""
+
+    @abstractmethod
+    def contact_arms(self, depth: float) -> tuple[float, float]:
+        """Distances [m] of the contact point from the centres of bore and journal, both along n."""
+
+    @abstractmethod
+    def speed_outwards(self, vx: float, vy: float) -> float:
+        """Speed [m/s] at which a journal that is in the middle leaves it, at a velocity vx, vy [m/s]."""
+
+
 @value
-class JournalBearing(Value):
+class JournalBearing(ContactGeometry):
     """Bore and journal of a pin.
 
     Arguments:
@@ -45,9 +82,19 @@ class JournalBearing(Value):
         """R1 = R2 - c [m] (Eq. 1 of the paper)."""
         return self.bore_radius - self.clearance
 
-    def depth(self, eccentricity: float) -> float:
-        """Depth |e| - c [m] for an eccentricity |e| [m] (Eq. 3 of the paper); negative: a gap."""
-        return eccentricity - self.clearance
+    @property
+    def size(self) -> float:
+        """The bore's radius [m]."""
+        return self.bore_radius
+
+    @property
+    def words(self) -> str:
+        """The bore, with its radius."""
+        return f"a bore of {1e3 * self.bore_radius:.4g} mm radius"
+
+    def speed_outwards(self, vx: float, vy: float) -> float:
+        """The speed [m/s]: from the middle of a bore every way leads outwards."""
+        return hypot(vx, vy)
 
     def contact_arms(self, depth: float) -> tuple[float, float]:
         """Distances [m] of the contact point from the centres of bore and journal, both along n.

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from user_forces.contact import JournalContact
+from user_forces.contact import Contact
 from user_forces.normal.law import Impact
 from user_forces.values.value import InputError
 
@@ -31,7 +31,7 @@ class LawError(ArithmeticError):
         return LawError(f"{name}: {self}")
 
 
-def look_at_rest(contact: JournalContact, pin: str) -> None:
+def look_at_rest(contact: Contact, pin: str) -> None:
     """Raise LawError if the elastic part of a pin's normal law pulls, or has stored less than nothing."""
     law = contact.normal
     for depth in AT_REST:
@@ -52,7 +52,7 @@ def look_at_rest(contact: JournalContact, pin: str) -> None:
 
 
 def look(
-    contact: JournalContact,
+    contact: Contact,
     depth: float,
     rate: float,
     slip: float,

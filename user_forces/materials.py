@@ -97,5 +97,22 @@ def internal_contact_stiffness(
     return _sphere_stiffness(bore_material, journal_material, r1 * r2 / bearing.clearance)
 
 
+def plane_contact_stiffness(radius: float, wall_material: Material, body_material: Material) -> float:
+    """Hertz stiffness K of a sphere on a plane, such as a rounded corner of a block on a wall.
+
+        K = 4 / (3 pi (h1 + h2)) sqrt(R)
+
+    Arguments:
+        radius: R of the sphere [m].
+        wall_material, body_material: elastic data; exchanging them changes nothing.
+
+    Returns:
+        K [N/m^1.5], for the exponent 1.5.
+
+    Source: Johnson, Contact Mechanics (1985), Eq. 4.23, with the relative curvature 1/R.
+    """
+    return _sphere_stiffness(wall_material, body_material, radius)
+
+
 def _sphere_stiffness(one: Material, other: Material, relative_radius: float) -> float:
     return 4.0 / (3.0 * math.pi * (one.compliance + other.compliance)) * math.sqrt(relative_radius)

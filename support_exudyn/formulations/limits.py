@@ -4,10 +4,10 @@ import math
 import sys
 
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.journal import JournalBearing
+from user_forces.journal import ContactGeometry
 
-# Depth of a journal as a share of the bore's radius. Laws and geometry are those of small depths; the reference
-# support meets 1 % of it.
+# Depth of a journal as a share of the bore's radius, or of half a slot's height. Laws and geometry are those of
+# small depths; the reference support meets 1 % of it.
 DEEPEST = 0.2
 
 # While a static equilibrium is looked for, springs centre free journals, and contacts give way: these are
@@ -20,11 +20,11 @@ SOFT = (
 )
 
 
-def too_deep(pin: str, depth: float, bearing: JournalBearing) -> str:
+def too_deep(pin: str, depth: float, bearing: ContactGeometry) -> str:
     """What to say of a journal that is too deep in its bore."""
     return (
-        f"the journal of {pin} is {1e3 * depth:.3g} mm deep in a bore of {1e3 * bearing.bore_radius:.4g} mm "
-        f"radius; allowed: up to {DEEPEST:.0%} of it"
+        f"the journal of {pin} is {1e3 * depth:.3g} mm deep in {bearing.words}; "
+        f"allowed: up to {DEEPEST:.0%} of it"
     )
 
 

@@ -11,7 +11,7 @@ from support_exudyn.mechanics.joint_forces import PinForce
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.model.pins import ClearancePin
-from user_forces.contact import SHALLOWEST, ContactForce, SlipHistory
+from user_forces.contact import SHALLOWEST, Contact, ContactForce, SlipHistory
 from user_forces.expressions.arrays import as_number, values_of
 from user_forces.normal.law import Impact
 
@@ -48,15 +48,15 @@ def contact_series(
     x, y = (journal.position - bore.position).T
     vx, vy = (journal.velocity - bore.velocity).T
     c, s = np.cos(bore.angle), np.sin(bore.angle)
-    return series(pin, RelativeMotion(x, y, vx, vy, bore.spin, journal.spin, c, s), memories)
+    return series(pin.contact, RelativeMotion(x, y, vx, vy, bore.spin, journal.spin, c, s), memories)
 
 
-def series(pin: ClearancePin, moving: RelativeMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
+def series(contact: Contact, moving: RelativeMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
     """The contact at every record from the journal's motion in its bore, see `contact_series`."""
     remembered = np.asarray(memories, dtype=np.float64)
     memory = dict(zip(PinMemory._fields, remembered.T, strict=True))
     closed = memory["in_contact"] > 0.5
-    force = _force(pin, moving, memory)
+    force = _force(contact, moving, memory)
     count = moving.x.size
     depth = values_of(force.depth, count)
     pressed = closed & (depth > 0.0)
@@ -64,7 +64,7 @@ def series(pin: ClearancePin, moving: RelativeMotion, memories: Series | Sequenc
     def where_pressed(values: float) -> Series:
         return np.where(pressed, values_of(values, count), 0.0)
 
-    stored = of_depth(pin.contact.normal.elastic_energy, np.maximum(depth, SHALLOWEST))
+    stored = of_depth(contact.normal.elastic_energy, np.maximum(depth, SHALLOWEST))
     return ContactSeries(
         force_x=where_pressed(force.force_x),
         force_y=where_pressed(force.force_y),
@@ -76,7 +76,7 @@ def series(pin: ClearancePin, moving: RelativeMotion, memories: Series | Sequenc
         eccentricity_x=moving.x,
         eccentricity_y=moving.y,
         stored=np.where(depth > 0.0, stored, 0.0),
-        deflection=where_pressed(force.deflection) if pin.contact.friction.has_state else None,
+        deflection=where_pressed(force.deflection) if contact.friction.has_state else None,
     )
 
 
@@ -86,21 +86,21 @@ def acting(motion: BodyMotion, place: PinPlace, pin: ClearancePin, contact: Cont
     force = np.column_stack([contact.force_x, contact.force_y])
     offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
     away = np.maximum(np.linalg.norm(offset, axis=1), SHALLOWEST)  # there is no force in the middle
-    arm = journal_arm(pin, contact.depth) / away
+    arm = journal_arm(pin.contact, contact.depth) / away
     return PinForce(force if pin.bore == "first" else -force, journal.position + arm[:, None] * offset)
 
 
-def journal_arm(pin: ClearancePin, depth: Series) -> Series:
+def journal_arm(contact: Contact, depth: Series) -> Series:
     """Distance of the contact point from the journal's centre [m]."""
-    return values_of(pin.contact.bearing.contact_arms(as_number(depth))[1], depth.size)
+    return values_of(contact.bearing.contact_arms(as_number(depth))[1], depth.size)
 
 
-def _force(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
+def _force(contact: Contact, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
     """The contact's force as if the surfaces been in contact at every record."""
     try:
-        return _at_once(pin, moving, memory)
+        return _at_once(contact, moving, memory)
     except TypeError:  # a law that branches takes numbers only
-        return _one_by_one(pin, moving, memory)
+        return _one_by_one(contact, moving, memory)
 
 
 def of_depth(function: Callable[[float], float], depth: Series) -> Series:
@@ -111,7 +111,7 @@ def of_depth(function: Callable[[float], float], depth: Series) -> Series:
         return np.array([function(d) for d in depth.tolist()])
 
 
-def _one_by_one(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
+def _one_by_one(contact: Contact, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
     """The contact's force, record by record."""
     remembered = np.column_stack([memory[name] for name in PinMemory._fields]).tolist()
     found = []
@@ -121,11 +121,11 @@ def _one_by_one(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Ser
         kept = PinMemory(row[0] > 0.5, *row[1:])
         impact = Impact(kept.impact_velocity, kept.inverse_mass.mass(c * x + s * y, c * y - s * x))
         now = SlipHistory(kept.deflection, kept.slip, 0.0)
-        found.append(pin.contact.force(x, y, vx, vy, bore_spin, journal_spin, impact, now))
+        found.append(contact.force(x, y, vx, vy, bore_spin, journal_spin, impact, now))
     return ContactForce(*(as_number(np.array(values)) for values in zip(*found, strict=True)))  # type: ignore[arg-type]
 
 
-def _at_once(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
+def _at_once(contact: Contact, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
     """The contact's force, for all records at once."""
     x, y, vx, vy, bore_spin, journal_spin, c, s = moving
     inverse_mass = InverseMass(*(as_number(memory[f"inverse_mass_{axes}"]) for axes in ("xx", "xy", "yy")))
@@ -133,7 +133,7 @@ def _at_once(pin: ClearancePin, moving: RelativeMotion, memory: dict[str, Series
     # the memory has been taken at the same instant: no time has passed since
     now = SlipHistory(as_number(memory["deflection"]), as_number(memory["slip"]), 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):  # where the surfaces are apart
-        return pin.contact.force(
+        return contact.force(
             as_number(x),
             as_number(y),
             as_number(vx),

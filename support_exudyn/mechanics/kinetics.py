@@ -182,6 +182,10 @@ class Kinetics:
             along[None] @ self.relative(position, self.linkage.pins[other])[1]
             for other, along in pressed.items()
         ]
+        return self.inverse_mass(position, rates)
+
+    def inverse_mass(self, position: Matrix, rates: Sequence[Matrix]) -> Matrix:
+        """J dv per impulse (k, k) [1/kg] with rows J of rates, see `pin_inverse_mass`."""
         rate = np.concatenate(rates)
         answers: Matrix = (rate @ self.respond(position, rate.T, 0.0)[0]).T
         return answers

@@ -1,6 +1,7 @@
 """All channels of a linkage in the plane by name, see `channels`."""
 
 from collections.abc import Callable, Collection, Mapping
+from types import MappingProxyType
 
 import numpy as np
 
@@ -15,8 +16,10 @@ from support_exudyn.mechanics.channels import (
     DataNeeds,
     EvaluationContext,
 )
+from support_exudyn.mechanics.guide_channels import guide_channels
 from support_exudyn.mechanics.pin_channels import pin_channels
 from support_exudyn.mechanics.trajectory import CylinderSeries, Series
+from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.linkage import Body, Linkage
 from support_exudyn.model.loads.load import ActingLoad, LoadChannel
 from support_exudyn.model.pins import IdealPin, Pin
@@ -28,6 +31,7 @@ def channel_definitions(
     oil: Collection[str],
     loads: Mapping[str, ActingLoad],
     cylinders: Collection[str] = (),
+    guides: Mapping[str, Guide] = MappingProxyType({}),
 ) -> ChannelDefinitions:
     """All channels of a linkage by name.
 
@@ -37,6 +41,7 @@ def channel_definitions(
         oil: names of the actuators that no constraint holds.
         loads: what acts on the machine besides its weight, by name.
         cylinders: names of those columns of oil that have a valve and pressures.
+        guides: all that are not ideal, by name.
     """
     found = {"time": ChannelDefinition("s", "time", DataNeeds.NOTHING, lambda context: context.run.time)}
     for n, (name, body) in enumerate(linkage.bodies.items()):
@@ -49,8 +54,8 @@ def channel_definitions(
             found |= _of_cylinder(name)
     for name in linkage.cranks:
         found |= _of_crank(name)
-    for name in linkage.slides:
-        found |= _of_slide(name)
+    for name, slide in linkage.slides.items():
+        found |= guide_channels(guides.get(name, IdealGuide()), name, slide)
     for name in linkage.gears:
         found |= _of_gear(name)
     for name in linkage.pins:
@@ -58,7 +63,7 @@ def channel_definitions(
     for name, load in loads.items():
         found |= _of_load(name, load)
     return found | _of_energy(
-        _stored(not all(pin.holds for pin in pins.values()), bool(oil), bool(loads)),
+        _stored(not all(pin.holds for pin in pins.values()) or bool(guides), bool(oil), bool(loads)),
         bool(loads),
         bool(cylinders),
     )
@@ -159,21 +164,6 @@ def _of_crank(name: str) -> ChannelDefinitions:
         "N m", "of the drive on the crank", DataNeeds.JOINTS, lambda context: context.run.cranks[name]
     )
     return {f"{name}.moment": moment}
-
-
-def _of_slide(name: str) -> ChannelDefinitions:
-    joints = DataNeeds.JOINTS
-    return {
-        f"{name}.force": ChannelDefinition(
-            "N",
-            "magnitude of the guide's force, across it",
-            joints,
-            lambda context: context.run.slides[name][:, 0],
-        ),
-        f"{name}.moment": ChannelDefinition(
-            "N m", "magnitude of the guide's moment", joints, lambda context: context.run.slides[name][:, 1]
-        ),
-    }
 
 
 def _of_gear(name: str) -> ChannelDefinitions:

@@ -12,10 +12,9 @@ from typing import Any, Final, Literal, NamedTuple
 
 from pydantic import model_validator
 
+from support_exudyn.model.simple_laws import USUAL_RESTITUTION, fields_of, friction_of, law_with
 from user_forces.backing import pin_stiffness
 from user_forces.contact import JournalContact
-from user_forces.friction.ambrosio import Ambrosio
-from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.journal import JournalBearing
 from user_forces.materials import (
@@ -34,7 +33,6 @@ from user_forces.normal.pin_in_bore import PinInBore, lends_damping
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, Positive, Value, Vector2, short, value
 
-USUAL_RESTITUTION = 0.9
 HERTZ_EXPONENT = 1.5
 HERTZ = {"paper": external_contact_stiffness, "internal": internal_contact_stiffness}
 CYLINDERS: Final = "cylinders"
@@ -183,8 +181,6 @@ class ClearancePin(Pin):
         bearing = JournalBearing(bore_radius=bore_radius, clearance=clearance)
         if on_cylinders(stiffness, length, law):
             stiffness = CYLINDERS
-        if not isinstance(friction, FrictionLaw):
-            friction = Ambrosio(sliding_coefficient=friction) if friction != 0.0 else Frictionless()
         materials = bore_material, journal_material
         normal: NormalLaw
         if stiffness == CYLINDERS:
@@ -200,7 +196,7 @@ class ClearancePin(Pin):
             chosen = law or LankaraniNikravesh
             normal = _of_power(bearing, chosen, stiffness, restitution, damping_speed, materials)
         return cls(
-            contact=JournalContact(bearing=bearing, normal=normal, friction=friction),
+            contact=JournalContact(bearing=bearing, normal=normal, friction=friction_of(friction)),
             bore=bore,
             eccentricity=eccentricity,
             length=None if stiffness == CYLINDERS else length,
@@ -257,7 +253,7 @@ def _on_cylinders(
     materials: tuple[Material, Material],
 ) -> PinInBore:
     """The pin along its length, with the damping of a law."""
-    _fields_of(law)
+    fields_of(law)
     if length is None:
         raise InputError(f"length: missing; a pin with stiffness = {CYLINDERS!r} has one; allowed: > 0 m")
     if not lends_damping(law):
@@ -288,7 +284,7 @@ def _of_power(
     materials: tuple[Material, Material],
 ) -> NormalLaw:
     """A law of a stiffness and a restitution at most."""
-    has, given = _fields_of(law), dict[str, Any]()
+    has, given = fields_of(law), dict[str, Any]()
     if "stiffness" in has:
         given["stiffness"] = stiffness = "paper" if stiffness is None else stiffness
     elif stiffness is not None:
@@ -300,29 +296,10 @@ def _of_power(
             hint = "; what was 'external' is called 'paper'" if stiffness == "external" else ""
             raise InputError(f"stiffness = {short(stiffness)}: allowed: {allowed} or a number, > 0{hint}")
         given["stiffness"] = HERTZ[stiffness](bearing, *materials)
-    for name, asked in (("restitution", restitution), ("damping_speed", damping_speed)):
-        if asked is not None and name not in has:
-            raise InputError(f"{name} = {short(asked)}: {law.__name__} has none; allowed: None with this law")
-        if asked is not None:
-            given[name] = asked
-    if "restitution" in has:
-        given.setdefault("restitution", USUAL_RESTITUTION)
-    normal = law(**given)
+    normal = law_with(law, given, restitution, damping_speed)
     if named and getattr(normal, "exponent", HERTZ_EXPONENT) != HERTZ_EXPONENT:
         raise InputError(
             f"stiffness = {stiffness!r}: is of K depth^{HERTZ_EXPONENT}, and {law.__name__} is not; "
             "allowed with this law: a number"
         )
     return normal
-
-
-def _fields_of(law: Any) -> set[str]:
-    """Names of the fields of a class of laws. Raises InputError if it is none that can be made."""
-    is_law = isinstance(law, type) and issubclass(law, NormalLaw)
-    fields = getattr(law, "__dataclass_fields__", None) if is_law else None
-    if fields is not None:
-        return set(fields)
-    raise InputError(
-        f"law = {short(law)}: allowed: a class of normal laws that needs a stiffness and a restitution only, "
-        "such as Flores; with any other law make ClearancePin(contact=JournalContact(...))"
-    )

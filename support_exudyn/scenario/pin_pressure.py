@@ -89,9 +89,10 @@ def pressed_pin(machine: Machine, name: str, pin: ClearancePin, force: float) ->
 def statically_pressed(scenario: Scenario) -> list[PressedPin]:
     """Every clearance pin under the largest static load of the start posture: weight, or weight and loads."""
     loads: dict[str, float] = {}
-    for one in loaded_contacts(scenario):
-        loads[one.pin] = max(one.load, loads.get(one.pin, 0.0))
     pins = scenario.clearance_pins
+    for one in loaded_contacts(scenario):
+        if one.pin in pins:
+            loads[one.pin] = max(one.load, loads.get(one.pin, 0.0))
     return [pressed_pin(scenario.machine, name, pins[name], load) for name, load in loads.items()]
 
 

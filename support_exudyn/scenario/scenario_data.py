@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from functools import cached_property
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from support_exudyn.mechanics.channels import ALL_CHANNELS, ChannelDefinition
+from support_exudyn.mechanics.contact_places import ContactPlace, contact_places
 from support_exudyn.mechanics.initial_eccentricity import eccentric
 from support_exudyn.mechanics.plane_channels import channel_definitions
 from support_exudyn.mechanics.space.channels import channel_definitions as spatial_channel_definitions
@@ -23,6 +24,7 @@ from support_exudyn.model.actuators import (
     with_cylinder_and_rod,
 )
 from support_exudyn.model.drives.drive import Drive, Held
+from support_exudyn.model.guides import Guide
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.loads.load import ActingLoad
@@ -46,6 +48,8 @@ class ScenarioData(Value, ABC):
     Arguments:
         machine: what is simulated.
         pins: for each pin that is not ideal (or to say so), what it is, by name.
+        guides: for each guide of the machine that is not ideal (or to say so), what it is, by name; those with
+            clearance in the plane, redundant formulation.
         actuators: for each actuator that is not rigid and massless (or to say so), what it is, by name.
         parts: for each part that is not fixed to its body (or to say so), what it is, by name.
         drive: how all driven parts move: actuators extend [m], cranks turn [rad]. Into an oil column it lets
@@ -85,6 +89,7 @@ class ScenarioData(Value, ABC):
 
     machine: Machine
     pins: Mapping[str, Pin] = field(default_factory=dict)
+    guides: Mapping[str, Guide] = field(default_factory=dict)
     actuators: Mapping[str, ActuatorModel] = field(default_factory=dict)
     parts: Mapping[str, PartModel] = field(default_factory=dict)
     drive: Drive = field(default_factory=Held)
@@ -150,6 +155,20 @@ class ScenarioData(Value, ABC):
             if name in linkage.actuators and linkage.actuators[name].driven:
                 linkage = with_cylinder_and_rod(linkage, name, model)
         return linkage
+
+    @cached_property
+    def guided_linkage(self) -> Linkage:
+        """The mechanism with those guides alone that constraints hold."""
+        loose = {name for name, guide in self.guides.items() if not guide.holds}
+        if not loose:
+            return self.linkage
+        slides = {name: slide for name, slide in self.linkage.slides.items() if name not in loose}
+        return replace(self.linkage, slides=slides)
+
+    @cached_property
+    def contact_places(self) -> dict[str, ContactPlace]:
+        """Where bodies may make contact and part, by name: clearance pins, corners of blocks in guides."""
+        return contact_places(self.linkage, self.clearance_pins, self.guides)
 
     @cached_property
     def space(self) -> SpatialLinkage:
@@ -226,7 +245,12 @@ class ScenarioData(Value, ABC):
         if self.dimensions == 3:
             return spatial_channel_definitions(self.space, self.clearance_pins, self.oil_columns)
         return channel_definitions(
-            self.linkage, self.pins, self.compliant_actuators, self.acting_loads, self.cylinders
+            self.linkage,
+            self.pins,
+            self.compliant_actuators,
+            self.acting_loads,
+            self.cylinders,
+            self.guides,
         )
 
     @property

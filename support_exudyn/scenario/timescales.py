@@ -8,12 +8,13 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.mechanics.acting_loads import load_rate
+from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.model.drives.drive import Reciprocating, Stroke
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.contact import JournalContact
+from user_forces.contact import Contact
 from user_forces.friction.law import FrictionLaw
 from user_forces.normal.law import LoadError, NormalLaw
 
@@ -46,16 +47,16 @@ class Timescales:
 
 
 class LoadedContact(NamedTuple):
-    """A clearance pin's contact under a static load in the start posture.
+    """A contact under a static load in the start posture.
 
-    pin: its name. contact: its laws. load: what it carries [N]. along: its direction, any if it is but rounding
-    (2,). inverse_mass: of the journal, ground's axes (2, 2) [1/kg]. mass: that moves with it along the load
-    [kg]. lightest: that moves with it in any direction [kg]. stiffness: of the contact there [N/m]; 0 if it
-    carries nothing or cannot hold it.
+    pin: name of the clearance pin, or of a corner in a guide. contact: its laws. load: what it carries [N].
+    along: its direction, any if it is but rounding (2,). inverse_mass: of the journal, ground's axes (2, 2)
+    [1/kg]. mass: that moves with it along the load [kg]. lightest: that moves with it in any direction [kg].
+    stiffness: of the contact there [N/m]; 0 if it carries nothing or cannot hold it.
     """
 
     pin: str
-    contact: JournalContact
+    contact: Contact
     load: float
     along: Matrix
     inverse_mass: Matrix
@@ -81,8 +82,8 @@ def timescales(scenario: Scenario) -> Timescales:
     """
     linkage = scenario.linkage
     pull = _pull(scenario, kinetics_of(linkage))
-    clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
-    flight = math.sqrt(2.0 * min(clearances, default=math.inf) / max(pull, SLOWEST_FALL))
+    plays = [place.play for place in scenario.contact_places.values()]
+    flight = math.sqrt(2.0 * min(plays, default=math.inf) / max(pull, SLOWEST_FALL))
     rests, rubs = [math.inf, *_compliant(scenario)], [math.inf]
     for loaded in loaded_contacts(scenario):
         friction = loaded.contact.friction
@@ -93,24 +94,27 @@ def timescales(scenario: Scenario) -> Timescales:
 
 
 def loaded_contacts(scenario: Scenario) -> list[LoadedContact]:
-    """Every clearance pin under the weight, and under weight and largest loads, see `timescales`."""
+    """Every contact under the weight, and under weight and largest loads, see `timescales`."""
     linkage, found = scenario.linkage, []
     closed = kinetics_of(linkage)
     pull = _pull(scenario, closed)
     loads = _static_loads(scenario, closed)
     weight = math.hypot(*scenario.gravity) * sum(body.mass for body in linkage.bodies.values())
-    for name, pin in scenario.clearance_pins.items():
-        inverse_mass = _inverse_mass(scenario, name)
+    for name, place in scenario.contact_places.items():
+        inverse_mass = _inverse_mass(scenario, place)
         lightest = 1.0 / max(float(np.linalg.eigvalsh(inverse_mass).max()), SMALLEST_INVERSE_MASS)
-        for static in loads[name]:
+        for reactions in loads:
+            static = place.loads(reactions)
             load, mass, along = float(np.linalg.norm(static)), lightest, np.array([1.0, 0.0])
             if load > ROUNDING * weight:
                 along = static / load
                 mass = 1.0 / max(float(along @ inverse_mass @ along), SMALLEST_INVERSE_MASS)
             else:
                 load = mass * pull
-            stiffness = _slope(pin.contact.normal, load) if load > 0.0 else 0.0
-            found.append(LoadedContact(name, pin.contact, load, along, inverse_mass, mass, lightest, stiffness))
+            stiffness = _slope(place.contact.normal, load) if load > 0.0 else 0.0
+            found.append(
+                LoadedContact(name, place.contact, load, along, inverse_mass, mass, lightest, stiffness)
+            )
     return found
 
 
@@ -148,8 +152,11 @@ def _slope(law: NormalLaw, load: float) -> float:
         return 0.0
 
 
-def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, list[Matrix]]:
-    """What puts the weight, and weight and largest loads, on every pin in the start posture, all ideal [N]."""
+def _static_loads(scenario: Scenario, closed: Kinetics) -> list[dict[str, Matrix]]:
+    """What every pin and guide carries in the start posture, all ideal, see `ContactPlace.loads`.
+
+    Under the weight, and under weight and largest loads.
+    """
     weight = closed.weight(scenario.gravity)
     still, forces = np.zeros(weight.size), [weight]
     if scenario.acting_loads:
@@ -158,18 +165,24 @@ def _static_loads(scenario: Scenario, closed: Kinetics) -> dict[str, list[Matrix
             rate = load_rate(closed, name, load)
             loaded += np.array(load.largest(scenario.duration)) @ rate
         forces.append(loaded)
-    reactions = [closed.respond(still, force, 0.0)[1] for force in forces]
-    return {
-        name: [reaction[2 * n : 2 * n + 2] for reaction in reactions]
-        for n, name in enumerate(closed.linkage.pins)
-    }
+    return [_by_joint(closed, closed.respond(still, force, 0.0)[1]) for force in forces]
+
+
+def _by_joint(closed: Kinetics, reactions: Matrix) -> dict[str, Matrix]:
+    """Reactions of pins and guides: force in either direction, force across and moment."""
+    found = {f"pins.{name}": reactions[2 * n : 2 * n + 2] for n, name in enumerate(closed.linkage.pins)}
+    first = closed.driven().stop
+    for name, slide in closed.linkage.slides.items():
+        found[f"guides.{name}"] = reactions[first : first + slide.conditions]
+        first += slide.conditions
+    return found
 
 
 def _compliant(scenario: Scenario) -> list[float]:
     """One over the angular frequency of what stiff loads and compliant pins hold, in the start posture [s]."""
     linkage = scenario.linkage
     rigid = tuple(actuator for actuator in linkage.actuators if actuator not in scenario.compliant_actuators)
-    free = kinetics_of(linkage, scenario.held_pins, rigid)
+    free = kinetics_of(scenario.guided_linkage, scenario.held_pins, rigid)
     still, found = np.zeros(3 * len(linkage.bodies)), []
     springs: list[tuple[tuple[float, ...], Matrix]]
     springs = [(load.steepness, load_rate(free, name, load)) for name, load in scenario.acting_loads.items()]
@@ -201,11 +214,11 @@ def _running(scenario: Scenario, closed: Kinetics) -> float:
     return fastest * float(np.hypot(velocity[0::3], velocity[1::3]).max())
 
 
-def _inverse_mass(scenario: Scenario, name: str) -> Matrix:
+def _inverse_mass(scenario: Scenario, place: ContactPlace) -> Matrix:
     """Inverse effective mass of a journal in the start posture, ground's axes (2, 2) [1/kg]."""
-    linkage = scenario.linkage
-    size = 3 * len(linkage.bodies)
-    return kinetics_of(linkage, scenario.held_pins).pin_inverse_mass(np.zeros(size), name)
+    linkage = scenario.guided_linkage
+    still, free = np.zeros(3 * len(linkage.bodies)), kinetics_of(linkage, scenario.held_pins)
+    return free.inverse_mass(still, [place.relative(free, still)[1]])
 
 
 def _drive_time(scenario: Scenario, linkage: Linkage) -> float:

@@ -42,6 +42,7 @@ def check(scenario: ScenarioData) -> None:
                 f"pins.{name}: its points on both bodies are {apart:.3g} m apart at the start; "
                 "allowed for an ideal pin: 0, for a clearance pin: any"
             )
+    _check_guides(scenario, linkage)
     if scenario.record_period > scenario.duration:
         raise ValueError(
             f"record_period = {scenario.record_period} s: allowed: at most the duration, {scenario.duration} s"
@@ -50,6 +51,16 @@ def check(scenario: ScenarioData) -> None:
     _check_drives(scenario, linkage)
     if scenario.channels != ALL_CHANNELS:
         check_patterns(scenario.channel_definitions, scenario.channels)
+
+
+def _check_guides(scenario: ScenarioData, linkage: Linkage) -> None:
+    for name, guide in scenario.guides.items():
+        if name not in linkage.slides:
+            raise ValueError(
+                f"guides.{name}: the machine has no such guide; allowed: {', '.join(linkage.slides) or 'none'}"
+            )
+        if misfit := guide.misfit(linkage.slides[name].turns):
+            raise ValueError(f"guides.{name}: {misfit}")
 
 
 def _check_space(scenario: ScenarioData) -> None:
@@ -67,6 +78,10 @@ def _check_space(scenario: ScenarioData) -> None:
         if refused := pin.refused_by("space"):
             part, what, allowed = refused
             raise ValueError(f"pins.{name}{part} = {what}: is planar; allowed in space: {allowed}")
+    for name, guide in scenario.guides.items():
+        if refused := guide.refused_by("space"):
+            part, what, allowed = refused
+            raise ValueError(f"guides.{name}{part} = {what}: is planar; allowed in space: {allowed}")
     for name, bearing in space.bearings.items():
         if scenario.pin(bearing.pin).holds and bearing.misfit:
             raise ValueError(

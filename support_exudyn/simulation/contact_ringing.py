@@ -113,7 +113,8 @@ def vibrations(contact: LoadedContact) -> list[Vibration]:
         damping = 0.0
     damping = damping if math.isfinite(damping) else 0.0
     along = np.outer(contact.along, contact.along)
-    across = contact.load / (contact.contact.bearing.clearance + depth)
+    bearing = contact.contact.bearing
+    across = 0.0 if bearing.is_slot else contact.load / (bearing.clearance + depth)  # walls are straight
     stiffness = contact.stiffness * along + across * (np.eye(2) - along)
     nothing, one = np.zeros((2, 2)), np.eye(2)
     answer = -contact.inverse_mass

@@ -264,7 +264,7 @@ def _worst(
                 scatter += left * value
             # a force that hardly varies has a spread that means nothing to a share of itself
             off.append(_share(off_by(measure) + scatter, max(value, SMALLEST_SPREAD * scale)))
-    clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
+    clearances = [place.play for place in scenario.contact_places.values()]
     for point in scenario.linkage.points:
         path = path_of(result, point)
         extent = float(np.hypot(*np.ptp(path, axis=1)))

@@ -169,7 +169,7 @@ def _of_a_step(scenario: Scenario, pin: str, onset: Onset) -> tuple[float, float
     """By how much a step may be wrong about an impact's time [s] and speed [m/s]; 0 of one at the start."""
     if not (onset.time > 0.0 and onset.speed > 0.0):
         return 0.0, 0.0
-    tolerance, clearance = scenario.solver.tolerance, scenario.clearance_pins[pin].contact.bearing.clearance
+    tolerance, clearance = scenario.solver.tolerance, scenario.contact_places[pin].play
     return tolerance * clearance / onset.speed, tolerance * onset.speed
 
 

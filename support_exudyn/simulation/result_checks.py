@@ -45,12 +45,12 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
         if not np.isfinite(channel.values).all():
             first = float(time[np.argmin(np.isfinite(channel.values))])
             yield Failure(f"{name} is no longer a finite number", COARSE, first, finer=True)
-    for name, pin in scenario.clearance_pins.items():
-        if (depth := channels.get(f"pin.{name}.depth")) is not None:  # in space the edges have one each
-            place = int(np.argmax(depth.values))
-            deepest, bearing = float(depth.values[place]), pin.contact.bearing
-            if deepest > DEEPEST * bearing.bore_radius:
-                yield Failure(too_deep(name, deepest, bearing), SOFT, float(time[place]), finer=True)
+    for name, place in scenario.contact_places.items():
+        if (depth := place.depth(channels, name)) is not None:  # in space the edges have one each
+            at = int(np.argmax(depth))
+            deepest, bearing = float(depth[at]), place.contact.bearing
+            if deepest > DEEPEST * bearing.size:
+                yield Failure(too_deep(name, deepest, bearing), SOFT, float(time[at]), finer=True)
     open_by, allowed = energy_open(scenario, channels)
     if (open_by > allowed).any():
         first = int(np.argmax(open_by > allowed))
@@ -75,8 +75,8 @@ def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel
     largest = max(outcome.largest_force.values(), default=0.0)
     stored = sum(
         float(np.abs(contact.deflection).max()) * largest
-        for name, pin in scenario.clearance_pins.items()
-        if pin.contact.friction.has_state
+        for name, place in scenario.contact_places.items()
+        if place.contact.friction.has_state
         for contact in outcome.trajectory.contacts_of(name)
         if contact.deflection is not None
     )
@@ -96,8 +96,10 @@ def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel
 
 def _who_loses(scenario: Scenario, kind: str) -> str:
     """What of a scenario may lose energy in this way, with its laws."""
-    laws = {name: pin.losses()[kind] for name, pin in scenario.pins.items() if kind in pin.losses()}
-    found = [f"pins.{name} = {type(law).__name__}" for name, law in laws.items()]
+    kinds = {f"pins.{name}": pin.losses() for name, pin in scenario.pins.items()}
+    kinds |= {f"guides.{name}": guide.losses() for name, guide in scenario.guides.items()}
+    laws = {name: losses[kind] for name, losses in kinds.items() if kind in losses}
+    found = [f"{name} = {type(law).__name__}" for name, law in laws.items()]
     if kind == "damping_loss":
         found += [f"loads.{name} = {type(load).__name__}" for name, load in scenario.acting_loads.items()]
         found += [f"actuators.{name}" for name in scenario.compliant_actuators]
@@ -174,7 +176,7 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
                 extensions[id(drive)] = np.array([drive.extension(t) for t in time.tolist()])
             wanted = actuator.start_length + extensions[id(drive)]
             gaps = np.maximum(gaps, np.abs(np.hypot(*span.T) - wanted))
-    for slide in linkage.slides.values():
+    for slide in scenario.guided_linkage.slides.values():
         apart = motion.place(slide.body, slide.point) - motion.place(slide.against, slide.point)
         along = slide.direction + motion.turn(slide.against)
         gaps = np.maximum(gaps, np.abs(np.cos(along) * apart[:, 1] - np.sin(along) * apart[:, 0]))

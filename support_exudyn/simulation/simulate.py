@@ -94,7 +94,7 @@ def _run(run: Callable[[Scenario, Progress], Result], scenario: Scenario, progre
 def _look_at_laws(scenario: Scenario) -> None:
     """Raise SimulationError if the law of a pin cannot be one even at rest."""
     try:
-        for name, pin in scenario.clearance_pins.items():
-            look_at_rest(pin.contact, name)
+        for name, place in scenario.contact_places.items():
+            look_at_rest(place.contact, name)
     except LawError as error:
         raise SimulationError(Failure(str(error), UNLAWFUL, 0.0)) from error

@@ -101,7 +101,7 @@ def is_the_same(run: Result, finer: Result) -> bool:
     Nothing is to be told from them then, but where all is known in closed form and nothing is free to move.
     """
     scenario = finer.scenario
-    if not (scenario.clearance_pins or scenario.compliant_actuators) or run.counts != finer.counts:
+    if not (scenario.contact_places or scenario.compliant_actuators) or run.counts != finer.counts:
         return False
     return all(np.array_equal(run[name], finer[name]) for name in finer.channels)
 

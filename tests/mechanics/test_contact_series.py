@@ -71,7 +71,7 @@ def test_all_at_once_is_one_by_one(friction: FrictionLaw, rows: list[tuple[float
     memories = [
         PinMemory(bool(c), v, 0.0, 0.0, 0.0, 0.0, 1e-3, 4e-4, 1e-2) for c, v in zip(closed, impact, strict=True)
     ]
-    found = series(pin, moving, memories)
+    found = series(pin.contact, moving, memories)
     for n, memory in enumerate(memories):
         x, y = moving.x[n], moving.y[n]
         c, s = moving.cos_bore[n], moving.sin_bore[n]
@@ -93,4 +93,4 @@ def test_the_contact_point_lies_midway_in_the_overlap() -> None:
     depth = np.array([0.0, 1e-4])
     pin = ClearancePin(contact=BASE)
     want = BASE.bearing.journal_radius - 0.5 * depth
-    np.testing.assert_allclose(journal_arm(pin, depth), want, rtol=1e-14)
+    np.testing.assert_allclose(journal_arm(pin.contact, depth), want, rtol=1e-14)

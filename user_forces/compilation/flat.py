@@ -14,7 +14,7 @@ from functools import partial
 from types import SimpleNamespace
 from typing import Any, cast
 
-from user_forces.contact import ContactForce, JournalContact, SlipHistory
+from user_forces.contact import Contact, ContactForce, SlipHistory
 from user_forces.expressions.scalar import Expression, maximum
 from user_forces.friction.law import FrictionLaw
 from user_forces.lawful import look
@@ -122,10 +122,10 @@ def lines(names: Iterable[str]) -> tuple[Formulas, list[Any]]:
     return formulas, [SourceLine(name, formulas) for name in names]
 
 
-def flat_force(contact: JournalContact) -> FlatForce:
+def flat_force(contact: Contact) -> FlatForce:
     """`contact.force` as a flat function of floats, bit for bit the same, that raises LawError if it is none.
 
-    Its arguments, all floats: x, y, vx, vy, bore_spin, journal_spin as of `JournalContact.force`; in_contact:
+    Its arguments, all floats: x, y, vx, vy, bore_spin, journal_spin as of `Contact.force`; in_contact:
     whether there is an impact, whose speed and mass follow; deflection, slip and step of SlipHistory.
     """
     formulas, (x, y, vx, vy, bore_spin, journal_spin, _, speed, mass, deflection, slip, step) = lines(ARGUMENTS)
@@ -136,7 +136,7 @@ def flat_force(contact: JournalContact) -> FlatForce:
     texts = {name: text(value) for name, value in found._asdict().items()}
     apart = needed(formulas, (texts[name] for name in free))
     pressed = [line for line in needed(formulas, texts.values()) if line not in apart]
-    rate = f"hypot(vx, vy) if x == 0.0 == y else {texts['rate']}"  # from the middle every way leads outwards
+    rate = f"{_outwards(contact)} if x == 0.0 == y else {texts['rate']}"
     zeros = dict.fromkeys(ContactForce._fields, "0.0") | {name: texts[name] for name in free}
     without = _tuple(zeros | {"rate": rate, "clamped": "False"})
     source = [
@@ -153,11 +153,18 @@ def flat_force(contact: JournalContact) -> FlatForce:
     return cast(FlatForce, compiled(source, contact)["force"])
 
 
+def _outwards(contact: Contact) -> str:
+    """Formula of the rate of a journal in the middle, from where every way leads outwards."""
+    formulas, (vx, vy) = lines(("vx", "vy"))
+    contact.bearing.speed_outwards(vx, vy)
+    return next(iter(formulas))
+
+
 class UnwrittenLawError(TypeError):
     """A law that cannot be written out as a formula: it branches on its arguments, or needs them as floats."""
 
 
-def law_source(contact: JournalContact) -> tuple[str, list[float]]:
+def law_source(contact: Contact) -> tuple[str, list[float]]:
     """Both laws of a contact as the source of one function `law` of floats, and the constants that it goes by.
 
     Laws that differ in their numbers alone have the same source, so that it is compiled once for all of them.
@@ -221,7 +228,7 @@ class _CalledFriction(_Called):
         self.next_deflection = _Called(f"{name}.next_deflection")
 
 
-def traceable(contact: JournalContact) -> JournalContact:
+def traceable(contact: Contact) -> Contact:
     """A contact that takes `SourceLine`s, whatever its laws: one that branches becomes a call."""
     _, (one, two, three, four) = lines(["one", "two", "three", "four"])
     normal: Any = contact.normal
@@ -238,17 +245,17 @@ def traceable(contact: JournalContact) -> JournalContact:
     if normal is contact.normal and friction is contact.friction:
         return contact
     found: Any = SimpleNamespace(bearing=contact.bearing, normal=normal, friction=friction)
-    found.force = partial(JournalContact.force, found)
-    return cast(JournalContact, found)
+    found.force = partial(Contact.force, found)
+    return cast(Contact, found)
 
 
-def depth_check(contact: JournalContact, depth: str) -> list[str]:
+def depth_check(contact: Contact, depth: str) -> list[str]:
     """The line that raises LoadError beyond the depth for which the law is valid; none if it always is."""
     limit = contact.normal.largest_depth
     return [f"    if {depth} > {limit!r}: too_deep({depth})"] if limit < math.inf else []
 
 
-def compiled(source: Iterable[str], contact: JournalContact, **known: object) -> dict[str, Any]:
+def compiled(source: Iterable[str], contact: Contact, **known: object) -> dict[str, Any]:
     """The names that lines of source define, and those that they may use: functions of math, what is known."""
     space: dict[str, Any] = {
         **NAMES,
@@ -285,7 +292,7 @@ def needed(formulas: Formulas, wanted: Iterable[str]) -> list[str]:
     return kept[::-1]
 
 
-def asks_for_mass(contact: JournalContact) -> bool:
+def asks_for_mass(contact: Contact) -> bool:
     """Whether the force depends on the mass that moves with the depth, and so on where it was renewed."""
     formulas, (x, y, vx, vy, bore_spin, journal_spin, _, speed, mass, deflection, slip, step) = lines(ARGUMENTS)
     history = SlipHistory(deflection, slip, step)

@@ -54,6 +54,9 @@ def check(scenario: Scenario) -> None:
     for name, pin in scenario.pins.items():
         if refused := pin.refused_by("reduced"):
             _refuse(f"pins.{name}{refused.part}", refused.what, refused.allowed)
+    for name, guide in scenario.guides.items():
+        if refused := guide.refused_by("reduced"):
+            _refuse(f"guides.{name}{refused.part}", refused.what, refused.allowed)
     for name, part in scenario.own_bodies.items():
         _refuse(f"parts.{name}", type(part).__name__, "Lumped")
     for name in scenario.clearance_pins:

@@ -103,11 +103,11 @@ def _contact(p: list[float], pin: ClearancePin, rows: Matrix) -> tuple[ContactSe
     at, law = _law_at(p, drive, state, 1.0)
     count = rows.shape[1]
     moving = RelativeMotion(*(np.broadcast_to(getattr(at, name), (count,)) for name in RelativeMotion._fields))
-    found = series(pin, moving, _memories(rows))
+    found = series(pin.contact, moving, _memories(rows))
     contact = np.zeros((layout.CONTACT, count))
     contact[layout.FORCE_X], contact[layout.FORCE_Y] = found.force_x, found.force_y
     contact[layout.FRICTION] = found.friction_force
-    contact[layout.JOURNAL_ARM] = journal_arm(pin, found.depth)
+    contact[layout.JOURNAL_ARM] = journal_arm(pin.contact, found.depth)
     contact[layout.OFFSET_X], contact[layout.OFFSET_Y] = moving.x, moving.y
     first, second = _accelerations(at, law, contact)
     return found, np.array([first, second, found.force_x, found.force_y])

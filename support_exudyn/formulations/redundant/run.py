@@ -29,7 +29,6 @@ from support_exudyn.formulations.redundant.space.scene_builder import build as b
 from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
-from support_exudyn.mechanics.contact_history import contact_series
 from support_exudyn.mechanics.joint_forces import JointForces
 from support_exudyn.mechanics.oil_column import oil_series
 from support_exudyn.mechanics.trajectory import CylinderSeries, Outcome, Series, Trajectory
@@ -151,9 +150,7 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
     }
     compliant_actuators = {name: series.force for name, series in (oil | cylinders).items()}
     contacts = {
-        name: contact_series(
-            motion, scene.linkage.pins[name], scene.scenario.clearance_pins[name], history.memory[:, n]
-        )
+        name: scene.places[name].series(motion, history.memory[:, n])
         for n, name in enumerate(scene.clearance_joints)
         if DataNeeds.CONTACTS in needed
     }

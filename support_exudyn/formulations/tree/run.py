@@ -42,6 +42,9 @@ def check(scenario: Scenario) -> None:
     for name, pin in scenario.pins.items():
         if refused := pin.refused_by("tree"):
             _refuse(f"pins.{name}{refused.part}", refused.what, refused.allowed)
+    for name, guide in scenario.guides.items():
+        if refused := guide.refused_by("tree"):
+            _refuse(f"guides.{name}{refused.part}", refused.what, refused.allowed)
     for name, part in scenario.own_bodies.items():
         if part.jack.oil is None:
             _refuse(f"parts.{name}.jack", "rigid, a constraint that closes a loop", "OilColumn")

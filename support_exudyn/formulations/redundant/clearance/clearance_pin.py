@@ -1,4 +1,4 @@
-"""A pin with clearance over a run: what it remembers, when it makes contact, and its force on the engine."""
+"""A clearance pin, or a corner in a slot, over a run: its memory, when it makes contact, and its force."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -12,13 +12,14 @@ from support_exudyn.formulations.redundant.clearance.connector_force import Atta
 from support_exudyn.formulations.redundant.clearance.pin_frames import PinFrames
 from support_exudyn.formulations.redundant.clearance.pin_motion import Course, Moving
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
+from support_exudyn.formulations.redundant.clearance.slot_frames import SlotFrames
 from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce, SteepFriction
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce
 from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
 from support_exudyn.mechanics.pressed_pins import NOT_KNOWN, EffectiveMasses
 from support_exudyn.scenario.solver_settings import SolverSettings
 from user_forces.compilation.flat import flat_force
-from user_forces.contact import ContactForce, JournalContact
+from user_forces.contact import Contact, ContactForce
 from user_forces.lawful import PROBED, look
 from user_forces.normal.law import Impact
 from user_forces.values.value import Vector2
@@ -27,7 +28,7 @@ SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been bee
 
 
 class ClearanceJoint:
-    """One clearance pin of a scene.
+    """One clearance pin of a scene, or one corner between walls, which is a journal that slides freely along.
 
     Arguments:
         contact: bearing and laws.
@@ -42,7 +43,7 @@ class ClearanceJoint:
 
     def __init__(
         self,
-        contact: JournalContact,
+        contact: Contact,
         connector: PinConnector,
         moving: Moving,
         bore_spin: Callable[[], float],
@@ -52,7 +53,8 @@ class ClearanceJoint:
     ) -> None:
         self.contact, self.connector, self.find_inverse_masses = contact, connector, find_inverse_masses
         self.locates, self.share = settings.locate, share
-        self.frames = PinFrames(connector, moving, bore_spin)
+        frames = SlotFrames if contact.bearing.is_slot else PinFrames
+        self.frames = frames(connector, moving, bore_spin)
         self._on_line = connector.at is Attachment.LINE
         self.impact_steps = ImpactSteps(contact.normal, settings.impact_steps)
 
@@ -136,14 +138,7 @@ class ClearanceJoint:
         share: of the clearance by which the load may press the contact, and of the load that the spring holds
             at the wall; asked at every evaluation.
         """
-        clearance, law = self.contact.bearing.clearance, self.contact.normal
-
-        def held(eccentricity: float) -> float:
-            depth = self.contact.bearing.depth(eccentricity)
-            pressed = law.force_in_search(depth, load, share() * clearance) if depth > 0.0 else 0.0
-            return share() * load / clearance + (pressed / eccentricity if depth > 0.0 else 0.0)
-
-        self.connector.set_spring(held)
+        self.connector.settle(load, share)
         try:
             yield
         finally:

@@ -23,10 +23,13 @@ from exudyn.itemInterface import (
 
 from support_exudyn.formulations.redundant.clearance.connector_force import (
     Attachment,
+    Relative,
     attachment,
     displacement_scale,
+    in_slot,
+    slot_directions,
 )
-from user_forces.contact import JournalContact
+from user_forces.contact import Contact
 from user_forces.values.value import Vector2
 
 # Largest turn between the marker frames before they are lined up again [rad]: the displacement is then
@@ -62,13 +65,13 @@ class PinConnector:
     def __init__(
         self,
         mbs: Any,
-        contact: JournalContact,
+        contact: Contact,
         bore: Mount,
         journal: Mount,
         turn: float,
         in_space: bool = False,
     ) -> None:
-        self.mbs = mbs
+        self.mbs, self.contact = mbs, contact
         self.clearance = contact.bearing.clearance
         self.bore_on_ground = bore.on_ground
         self.at = at = attachment(contact, bore.on_ground, journal.on_ground, in_space)
@@ -92,7 +95,27 @@ class PinConnector:
         """Let this user function, Python's or symbolic, give force and moment."""
         self.mbs.SetObjectParameter(self.object, user_function(self.at)[1], function)
 
-    def set_spring(self, stiffness: Callable[[float], float]) -> None:
+    def settle(self, load: float, share: Callable[[], float]) -> None:
+        """Let the contact's elastic part act instead, and a spring that pulls a free journal to the middle.
+
+        load: that is to be held [N]. share: see `ClearanceJoint.settling`.
+        """
+
+        def stiffness(eccentricity: float) -> float:
+            pressed = self._pressed(eccentricity, load, share() * self.clearance)
+            return share() * load / self.clearance + (pressed / eccentricity if pressed else 0.0)
+
+        self._set_spring(stiffness)
+
+    def _pressed(self, eccentricity: float, load: float, deepest: float) -> float:
+        """Elastic force of the contact [N] while a static equilibrium is looked for.
+
+        eccentricity: [m]. load: [N], by which it may be pressed so deep [m].
+        """
+        depth = self.contact.bearing.depth(eccentricity)
+        return self.contact.normal.force_in_search(depth, load, deepest) if depth > 0.0 else 0.0
+
+    def _set_spring(self, stiffness: Callable[[float], float]) -> None:
         """Let a spring between both centres act instead, its stiffness [N/m] given by their distance [m]."""
         if self.at is Attachment.LINE:
 
@@ -135,6 +158,38 @@ class PinConnector:
         turned[:3, 3] += self._journal_shift * turned[:3, 2]
         found: list[list[float]] = turned.tolist()
         return found
+
+
+class SlotConnector(PinConnector):
+    """Markers and connector of one corner between walls in the engine.
+
+    Arguments as of `PinConnector`, and: rest: distance of the corner from the middle line [m] with which the
+    block is in the middle of its play.
+    """
+
+    def __init__(
+        self, mbs: Any, contact: Contact, bore: Mount, journal: Mount, turn: float, rest: float
+    ) -> None:
+        super().__init__(mbs, contact, bore, journal, turn)
+        self._rest = rest
+
+    def settle(self, load: float, share: Callable[[], float]) -> None:
+        """The same as for a pin, across the slot alone, towards the middle of the block's play."""
+        play = self.clearance - abs(self._rest)
+
+        def force(
+            mbs: Any, t: float, item: int, displacement: list[float], rotation: list[float], *others: Any
+        ) -> list[float]:
+            half = 0.5 * rotation[2]
+            scale = displacement_scale(rotation[2]) if self.at is Attachment.MIDDLE else 1.0
+            apart = Relative(scale * displacement[0], scale * displacement[1], 0.0, 0.0)
+            along, (_, y, *_) = in_slot(self.at, apart, half)
+            pull = share() * load / play * (y - self._rest)
+            pull += math.copysign(self._pressed(abs(y), load, share() * play), y)
+            fx, fy, moment = slot_directions(self.at, along, 1.0, 0.0, half)[0]
+            return [pull * fx, pull * fy, 0.0, 0.0, 0.0, pull * moment]
+
+        self.set_force(force)
 
 
 def frame(centre: Vector2, turn: float = 0.0) -> Frame:

@@ -5,8 +5,11 @@ not ask for the mass that moves either, which depends on the direction, depth an
 friction force and moment act at the moving body's centre if the other body is the ground, and in the middle
 between both centres if both move, so that they act at one point on both bodies.
 
+A corner in a slot is a journal that slides freely along: what is along the slot does not push. Its force is
+that of the rigid-body connector, friction or not, with the moment of what is along.
+
 Formulas take numbers or expressions: `python_force` writes them out as source, `symbolic_force` as the engine's
-expressions. At the ends of steps and at the records `JournalContact.force` tells all parts of the same force.
+expressions. At the ends of steps and at the records `Contact.force` tells all parts of the same force.
 """
 
 import math
@@ -17,8 +20,8 @@ from typing import Any, NamedTuple, cast
 
 from support_exudyn.mechanics.contact_state import InverseMass
 from user_forces.compilation.flat import asks_for_mass
-from user_forces.contact import ContactForce, JournalContact, SlipHistory
-from user_forces.expressions.scalar import hypot, maximum
+from user_forces.contact import SMALLEST, Contact, ContactForce, SlipHistory
+from user_forces.expressions.scalar import cos, hypot, maximum, sin
 from user_forces.friction.frictionless import Frictionless
 from user_forces.normal.law import Impact
 
@@ -34,11 +37,16 @@ class Attachment(Enum):
     MIDDLE = "both bodies, in the middle between the centres"
 
 
+# of the way from the point at which the force acts to the journal's centre, in that from the bore's centre
+SHARE = {Attachment.JOURNAL: 0.0, Attachment.MIDDLE: 0.5, Attachment.BORE: 1.0}
+
+
 def attachment(
-    contact: JournalContact, bore_on_ground: bool, journal_on_ground: bool, in_space: bool = False
+    contact: Contact, bore_on_ground: bool, journal_on_ground: bool, in_space: bool = False
 ) -> Attachment:
     """What the force of a contact acts on."""
-    if isinstance(contact.friction, Frictionless):
+    # what is across the walls of a slot is not what is along the line of centres
+    if isinstance(contact.friction, Frictionless) and not contact.bearing.is_slot:
         if not asks_for_mass(contact):
             return Attachment.LINE
         return Attachment.SPACE if in_space else Attachment.CENTRAL
@@ -70,13 +78,13 @@ class Relative(NamedTuple):
         return 0.0, self.turning
 
 
-def line_force(contact: JournalContact, depth: float, rate: float, speed: float) -> float:
+def line_force(contact: Contact, depth: float, rate: float, speed: float) -> float:
     """The push [N] that depends on depth [m] and rate [m/s] alone, in an impact with a speed [m/s]."""
     return maximum(contact.normal(depth, rate, Impact(speed, math.nan)), 0.0)
 
 
 def central_force(
-    contact: JournalContact,
+    contact: Contact,
     x: float,
     y: float,
     distance: float,
@@ -98,7 +106,7 @@ def central_force(
 
 
 def rough_force(
-    contact: JournalContact,
+    contact: Contact,
     at: Attachment,
     motion: Relative,
     speed: float,
@@ -112,8 +120,40 @@ def rough_force(
     impact = Impact(speed, inverse_mass.mass(motion.x, motion.y))
     found = contact.force(*motion[:4], *motion.spins(at), impact, history)
     eccentricity = hypot(motion.x, motion.y)
-    share = {Attachment.JOURNAL: 0.0, Attachment.MIDDLE: 0.5, Attachment.BORE: 1.0}[at]
-    return found, found.journal_arm + share * eccentricity
+    return found, found.journal_arm + SHARE[at] * eccentricity
+
+
+def in_slot(at: Attachment, motion: Relative, half_turn: float) -> tuple[float, Relative]:
+    """How far a corner is along its slot [m], and what counts of its motion, in the axes of the slot.
+
+    Arguments:
+        at: what the force acts on.
+        motion: in the axes of the connector.
+        half_turn: of these against the slot [rad], which is small; 0 unless both bodies move.
+    """
+    x, y, vx, vy, turning, bore_spin = motion
+    if at is Attachment.MIDDLE:
+        c, s = cos(half_turn), sin(half_turn)
+        x, y, vx, vy = c * x - s * y, s * x + c * y, c * vx - s * vy, s * vx + c * vy
+    if at is not Attachment.JOURNAL:  # the walls turn, and so move across where the corner is
+        vy = vy - motion.spins(at)[0] * x
+    return x, Relative(0.0, y, vx, vy, turning, bore_spin)
+
+
+def slot_directions(
+    at: Attachment, along: float, y: float, arm: float, half_turn: float
+) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    """Force x and y and moment of the connector for 1 N of normal force, and of friction.
+
+    Arguments:
+        at, half_turn: as of `in_slot`.
+        along, y: of the corner along the slot and across, from the middle line [m].
+        arm: of friction, see `rough_force` [m].
+    """
+    side = y / maximum(hypot(0.0, y), SMALLEST)
+    c, s = (cos(half_turn), sin(half_turn)) if at is Attachment.MIDDLE else (1.0, 0.0)
+    moment = SHARE[at] * along * side
+    return (s * side, c * side, moment), (c * side, -s * side, -arm)
 
 
 def displacement_scale(turn: float) -> float:
@@ -126,7 +166,7 @@ def displacement_scale(turn: float) -> float:
     return 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0))
 
 
-def straightened(contact: JournalContact, offset: Any, slope: Any) -> JournalContact:
+def straightened(contact: Contact, offset: Any, slope: Any) -> Contact:
     """The contact with a line in place of its law of friction; offset and slope may be expressions."""
 
     def line(slip: Any, normal_force: Any, deflection: float = 0.0) -> Any:
@@ -135,5 +175,5 @@ def straightened(contact: JournalContact, offset: Any, slope: Any) -> JournalCon
     friction: Any = line
     friction.has_state = False
     found: Any = SimpleNamespace(bearing=contact.bearing, normal=contact.normal, friction=friction)
-    found.force = partial(JournalContact.force, found)
-    return cast(JournalContact, found)
+    found.force = partial(Contact.force, found)
+    return cast(Contact, found)

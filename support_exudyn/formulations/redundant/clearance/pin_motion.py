@@ -4,6 +4,8 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple, Protocol
 
+import exudyn
+
 from support_exudyn.formulations.contact_events import DepthPath
 from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 from user_forces.values.value import Vector2
@@ -53,10 +55,10 @@ class PinMotion(NamedTuple):
     bore: PinEnd
     journal: PinEnd
 
-    def now(self) -> tuple[Motion, Motion]:
-        """The present motions of bore and journal."""
-        position = self.data.GetODE2Coordinates().tolist()
-        velocity = self.data.GetODE2Coordinates_t().tolist()
+    def now(self, state: Any = exudyn.ConfigurationType.Current) -> tuple[Motion, Motion]:
+        """The present motions of bore and journal; or those of another state of the engine."""
+        position = self.data.GetODE2Coordinates(state).tolist()
+        velocity = self.data.GetODE2Coordinates_t(state).tolist()
         return self.bore.motion(position, velocity), self.journal.motion(position, velocity)
 
 

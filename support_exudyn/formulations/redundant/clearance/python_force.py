@@ -12,8 +12,10 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
     Relative,
     central_force,
     displacement_scale,
+    in_slot,
     line_force,
     rough_force,
+    slot_directions,
     straightened,
 )
 from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
@@ -27,7 +29,7 @@ from user_forces.compilation.flat import (
     text,
     traceable,
 )
-from user_forces.contact import JournalContact, SlipHistory
+from user_forces.contact import Contact, SlipHistory
 from user_forces.expressions.scalar import hypot
 
 MOTION = ["x", "y", "vx", "vy", "turning", "bore_spin"]
@@ -47,7 +49,7 @@ class PythonForce:
     """
 
     def __init__(
-        self, contact: JournalContact, at: Attachment, bore_spin: Callable[[], float], straight: bool = False
+        self, contact: Contact, at: Attachment, bore_spin: Callable[[], float], straight: bool = False
     ) -> None:
         self._has_state = contact.friction.has_state
         formulas = traceable(contact)
@@ -58,7 +60,7 @@ class PythonForce:
         elif at in (Attachment.CENTRAL, Attachment.SPACE):
             source = _central(formulas, at)
         else:
-            source = _rough(formulas, at)
+            source = _in_slot(formulas, at) if contact.bearing.is_slot else _rough(formulas, at)
         known = dict.fromkeys([*MEMORY, *LINE], 0.0)
         self._names = compiled(
             source, contact, find_spin=bore_spin, in_contact=False, last=(), calls=0, **known
@@ -98,14 +100,14 @@ class PythonForce:
         self._names["offset"], self._names["slope"] = offset, slope
 
 
-def _line(contact: JournalContact) -> list[str]:
+def _line(contact: Contact) -> list[str]:
     """Source of the force that depends on depth and rate alone."""
     formulas, (depth, rate, speed) = lines(["depth", "rate", "speed"])
     force = text(line_force(contact, depth, rate, speed))
     return _source(contact, formulas, "depth, rate, k, d, f", "depth, rate", "depth", force, "0.0")
 
 
-def _central(contact: JournalContact, at: Attachment) -> list[str]:
+def _central(contact: Contact, at: Attachment) -> list[str]:
     """Source of the force along the line of centres, which in space has three components."""
     axes = "xyz" if at is Attachment.SPACE else "xy"
     rates = [f"v{axis}" for axis in axes]
@@ -134,7 +136,7 @@ def _central(contact: JournalContact, at: Attachment) -> list[str]:
     )
 
 
-def _rough(contact: JournalContact, at: Attachment) -> list[str]:
+def _rough(contact: Contact, at: Attachment) -> list[str]:
     """Source of force and moment with friction."""
     formulas, (turn, dx, dy, x, y, *motion, speed, xx, xy, yy, deflection, slip, step) = lines(
         ["turn", "dx", "dy", *MOTION, *MEMORY]
@@ -161,8 +163,37 @@ def _rough(contact: JournalContact, at: Attachment) -> list[str]:
     )
 
 
+def _in_slot(contact: Contact, at: Attachment) -> list[str]:
+    """Source of force and moment at a corner in its slot."""
+    formulas, (turn, dx, dy, *motion, speed, xx, xy, yy, deflection, slip, step) = lines(
+        ["turn", "dx", "dy", *MOTION[2:], *MEMORY]
+    )
+    placed = ["dx, dy, _ = displacement"]
+    half, x, y = 0.0, dx, dy
+    if at is Attachment.MIDDLE:
+        half, scale = 0.5 * turn, displacement_scale(turn)
+        x, y = scale * dx, scale * dy
+        placed += ["turn = rotation[2]", "bore_spin = find_spin()"]
+    along, moving = in_slot(at, Relative(x, y, *motion), half)
+    history = SlipHistory(deflection, slip, step)
+    found, arm = rough_force(contact, at, moving, speed, InverseMass(xx, xy, yy), history)
+    both = zip(*slot_directions(at, along, moving.y, arm, half), strict=True)
+    force = [text(found.normal_force * normal + found.friction_force * across) for normal, across in both]
+    return _source(
+        contact,
+        formulas,
+        RIGID,
+        "displacement, velocity, rotation, angular_velocity",
+        text(found.depth),
+        _vector([*force[:2], "0.0", "0.0", "0.0", force[2]], 6),
+        _vector([], 6),
+        placed=placed,
+        moving=["vx, vy, _ = velocity", "turning = angular_velocity[2]"],
+    )
+
+
 def _source(
-    contact: JournalContact,
+    contact: Contact,
     formulas: Formulas,
     arguments: str,
     told: str,

@@ -22,12 +22,14 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
     Relative,
     central_force,
     displacement_scale,
+    in_slot,
     line_force,
     rough_force,
+    slot_directions,
     straightened,
 )
 from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
-from user_forces.contact import SMALLEST, JournalContact, SlipHistory
+from user_forces.contact import SMALLEST, Contact, SlipHistory
 from user_forces.expressions.scalar import Expression, hypot, maximum, where
 
 engine: Any = getattr(exudyn, "symbolic")  # noqa: B009 - its stubs lack the module
@@ -116,7 +118,7 @@ class SymbolicForce:
 
     calls = 0  # in Python
 
-    def __init__(self, mbs: Any, contact: JournalContact, at: Attachment, straight: bool = False) -> None:
+    def __init__(self, mbs: Any, contact: Contact, at: Attachment, straight: bool = False) -> None:
         number = next(_numbers)
 
         def variable(name: str, value: float = 0.0) -> Any:
@@ -181,6 +183,8 @@ class SymbolicForce:
                 displacement, velocity
             )
 
+        is_slot = self._contact.bearing.is_slot
+
         def rigid(  # type: ignore[no-untyped-def]
             mbs,
             t,
@@ -195,6 +199,8 @@ class SymbolicForce:
             rotJ1,
             offset,
         ):
+            if is_slot:
+                return self._in_slot(displacement, rotation, velocity, angularVelocity)
             return self._rigid(displacement, velocity, angularVelocity)
 
         return rigid
@@ -231,6 +237,25 @@ class SymbolicForce:
         normal = self._if_pressed(found.depth, found.normal_force)
         friction = self._if_pressed(found.depth, found.friction_force)
         return along * real(normal) + across * real(friction)
+
+    def _in_slot(self, displacement: Any, rotation: Any, velocity: Any, angular_velocity: Any) -> Any:
+        """Force and moment of the rigid-body connector at a corner in its slot."""
+        turn = unknown(rotation[2])
+        scale = displacement_scale(turn) if self._at is Attachment.MIDDLE else 1.0
+        x, y = (scale * unknown(displacement[n]) for n in (0, 1))
+        vx, vy = (unknown(velocity[n]) for n in (0, 1))
+        motion = Relative(x, y, vx, vy, unknown(angular_velocity[2]), unknown(self._bore_spin))
+        along, moving = in_slot(self._at, motion, 0.5 * turn)
+        history = SlipHistory(*(unknown(variable) for variable in self._history))
+        found, arm = rough_force(self._contact, self._at, moving, self._speed, self._inverse_mass, history)
+        forces = found.normal_force, found.friction_force
+        directions = slot_directions(self._at, along, moving.y, arm, 0.5 * turn)
+        pushed, rubbed = (
+            engine.Vector([real(fx), real(fy), *_zeros(3), real(moment)])
+            * real(self._if_pressed(found.depth, one))
+            for one, (fx, fy, moment) in zip(forces, directions, strict=True)
+        )
+        return pushed + rubbed
 
     def _if_pressed(self, depth: Any, force: float) -> Any:
         """A force where the depth is beyond the surface, else 0."""

@@ -9,7 +9,6 @@ from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.mechanics.acting_loads import add_load
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import MOTION, DataNeeds
-from support_exudyn.mechanics.contact_history import acting
 from support_exudyn.mechanics.drive_acceleration import accelerations
 from support_exudyn.mechanics.joint_forces import JointForces
 from support_exudyn.mechanics.reactions import HeldJoints, direction, equations, push, twist, weight_of
@@ -102,10 +101,9 @@ def _applied_forces(scene: Scene, motion: BodyMotion, applied: Applied) -> Serie
     scenario, linkage = scene.scenario, scene.linkage
     forces = weight_of(motion, scenario.gravity)
     for name, contact in applied.contacts.items():
-        place = linkage.pins[name]
-        known = acting(motion, place, scenario.clearance_pins[name], contact)
-        push(forces, motion, place.second, known.force, known.point)
-        push(forces, motion, place.first, -known.force, known.point)
+        first, second, known = scenario.contact_places[name].push(motion, contact)
+        push(forces, motion, second, known.force, known.point)
+        push(forces, motion, first, -known.force, known.point)
     for name, pin in applied.pins.items():
         place = linkage.pins[name]
         for body, point, sign in (

@@ -1,6 +1,7 @@
 """The model of a scenario in the engine, ready for the solver; `scene_builder` makes it."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,6 +11,7 @@ import numpy as np
 
 from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.clearance.pin_motion import PinEnd, PinMotion
+from support_exudyn.formulations.redundant.clearance.slot_frames import between
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
 from support_exudyn.formulations.redundant.scene.engine_scene import (
@@ -22,12 +24,15 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
+from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.pressed_pins import EffectiveMasses, inverse_masses, normal
 from support_exudyn.mechanics.trajectory import Impulse
 from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.model.plane_geometry import rotated
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import ContactForce
+from user_forces.values.value import Vector2
 
 FRICTION_ROUNDS = 4  # each with an error smaller by the coefficient of friction times radius over lever
 
@@ -58,7 +63,8 @@ class Scene(EngineScene):
     @cached_property
     def kinetics(self) -> Kinetics:
         """Masses and constraints as matrices; clearance pins and oil columns are free."""
-        return Kinetics(self.linkage, self.bodies, tuple(self.ideal_pins), tuple(self.rigid_actuators))
+        held = self.scenario.guided_linkage
+        return Kinetics(held, self.bodies, tuple(self.ideal_pins), tuple(self.rigid_actuators))
 
     @cached_property
     def closed_kinetics(self) -> Kinetics:
@@ -68,33 +74,33 @@ class Scene(EngineScene):
     def inverse_masses(self, name: str, state: Any = CURRENT) -> EffectiveMasses:
         """How a clearance pin's journal answers impulses, by itself and with the other pins as pressed."""
         position = self.mbs.systemData.GetODE2Coordinates(state)
-        answers = self.kinetics.pin_inverse_mass(position, name, self._pressed(name, position))
+        rates = [self.places[name].relative(self.kinetics, position)[1], *self._pressed(name, position)]
+        answers = self.kinetics.inverse_mass(position, rates)
         angle = self.bore_angle(name, position)
         axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
         return inverse_masses(answers, axes)
 
-    def _pressed(self, name: str, position: Matrix) -> dict[str, Matrix]:
-        """Normals of all clearance pins but one that are pressed."""
-        found = {}
+    def _pressed(self, name: str, position: Matrix) -> list[Matrix]:
+        """Rows of the rates along the normals of all contacts but one that are pressed, (1, n) each."""
+        found = []
         for other, pin in self.clearance_joints.items():
             if other != name:
-                x, y = self.kinetics.relative(position, self.linkage.pins[other])[0].tolist()
+                eccentricity, rate = self.places[other].relative(self.kinetics, position)
+                x, y = eccentricity.tolist()
                 along = normal(x, y, pin.contact.bearing.clearance)
                 if along is not None:
-                    found[other] = along
+                    found.append(along[None] @ rate)
         return found
 
     def bore_angle(self, name: str, position: Any) -> float:
-        """Angle [rad] of the axes of the bore's body."""
-        body = self.ends(name)[0]
-        start = 0.0 if body == GROUND else self.bodies[body].body.angle
-        return start + self._turn(body, position)
+        """Angle [rad] of the axes of a bore or a slot."""
+        place = self.places[name]
+        return place.axes(self.linkage) + self._turn(place.bore, position)
 
-    def ends(self, name: str) -> tuple[str, str]:
-        """The bodies of the bore and of the journal of a clearance pin."""
-        place = self.linkage.pins[name]
-        bore_first = self.scenario.clearance_pins[name].bore == "first"
-        return (place.first, place.second) if bore_first else (place.second, place.first)
+    @property
+    def places(self) -> Mapping[str, ContactPlace]:
+        """Where bodies may make contact, by name."""
+        return self.scenario.contact_places
 
     def _turn(self, body: str, coordinates: Any) -> float:
         """Rotation [rad] of a body since the start posture, or its rate, from the vector of all."""
@@ -181,29 +187,34 @@ class Scene(EngineScene):
         data = self.mbs.systemData
         position, rates = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
         for name, pin in self.clearance_joints.items():
-            bore, journal = self.ends(name)
+            bore, journal = self.places[name].bore, self.places[name].journal
             turn = self._turn(journal, position) - self._turn(bore, position)
             bore_motion = self.bore_angle(name, position), self._turn(bore, rates)
             memory = first_memory(self.contact(name, INITIAL))
             pin.start(memory, self.inverse_masses(name, INITIAL), turn, bore_motion)
 
     def pin_motion(self, name: str) -> PinMotion:
-        """How the journal of a clearance pin moves in its bore."""
-        place = self.linkage.pins[name]
-        bore, journal = self.ends(name)
-        points = {place.first: place.first_point, place.second: place.second_point}
+        """How the journal of a clearance pin moves in its bore, or a corner in its slot."""
+        place = self.places[name]
 
-        def end(body: str) -> PinEnd:
+        def end(body: str, point: Vector2, axes: float | None = None) -> PinEnd:
             if body == GROUND:
-                return PinEnd(None, (0.0, 0.0), 0.0, points[body])
+                return PinEnd(None, (0.0, 0.0), axes or 0.0, point)
             item = self.bodies[body]
-            return PinEnd(item.first, item.body.centre, item.body.angle, item.local(points[body]))
+            angle, arm = item.body.angle, item.local(point)
+            if axes is None or axes == angle:
+                return PinEnd(item.first, item.body.centre, angle, arm)
+            return PinEnd(item.first, item.body.centre, axes, rotated(arm, angle - axes))
 
-        return PinMotion(self.mbs.systemData, end(bore), end(journal))
+        bore = end(place.bore, place.bore_point, place.axes(self.linkage))
+        return PinMotion(self.mbs.systemData, bore, end(place.journal, place.journal_point))
 
     def contact(self, name: str, state: Any) -> ContactForce:
         """See `EngineScene`."""
-        pin = self.clearance_joints[name]
+        pin, place = self.clearance_joints[name], self.places[name]
+        if pin.contact.bearing.is_slot:
+            motion = between(*self.pin_motion(name).now(state))[1]
+            return pin.contact.force(*motion[:4], motion.bore_spin, motion.bore_spin + motion.turning, None)
 
         def relative(what: Any) -> tuple[float, float]:
             journal = self.mbs.GetMarkerOutput(pin.connector.journal_marker, what, state)
@@ -212,7 +223,7 @@ class Scene(EngineScene):
 
         output = exudyn.OutputVariableType
         rates = self.mbs.systemData.GetODE2Coordinates_t(state)
-        bore_spin, journal_spin = (self._turn(body, rates) for body in self.ends(name))
+        bore_spin, journal_spin = (self._turn(body, rates) for body in (place.bore, place.journal))
         return pin.contact.force(
             *relative(output.Position), *relative(output.Velocity), bore_spin, journal_spin, None
         )

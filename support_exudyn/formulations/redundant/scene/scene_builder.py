@@ -20,7 +20,7 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
-from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector, frame
+from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector, SlotConnector, frame
 from support_exudyn.formulations.redundant.scene.bushing import BushingItem
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
@@ -98,28 +98,41 @@ class PlaneBuilder(EngineBuilder):
 
     @add_pin.register
     def _add_clearance(self, pin: ClearancePin, name: str) -> None:
-        place = self.linkage.pins[name]
-        ends = [(place.first, place.first_point), (place.second, place.second_point)]
-        if pin.bore == "second":
-            ends.reverse()
-        bore, journal = (self.mount(body, point) for body, point in ends)
-        angles = [0.0 if body == GROUND else self.bodies[body].body.angle for body, _ in ends]
-        self.connectors[name] = PinConnector(self.mbs, pin.contact, bore, journal, angles[1] - angles[0])
+        self.connectors[name] = PinConnector(self.mbs, pin.contact, *self.mounts(name))
 
-    def mount(self, body: str, point: Vector2) -> Mount:
-        """Where a bore or a journal is, at a point of the start posture."""
-        place = point if body == GROUND else self.bodies[body].local(point)
-        return Mount(self.item(body), frame(place), body == GROUND)
+    def add_corner(self, name: str, rest: float) -> None:
+        """Add what stands in the engine for a corner in a slot; rest: see `SlotConnector`."""
+        place = self.scenario.contact_places[name]
+        self.connectors[name] = SlotConnector(self.mbs, place.contact, *self.mounts(name), rest)
+
+    def mounts(self, name: str) -> tuple[Mount, Mount, float]:
+        """Where bore and journal of a contact are, and by what angle the journal's body is turned [rad]."""
+        place = self.scenario.contact_places[name]
+        axes = place.axes(self.linkage)
+        journal = 0.0 if place.journal == GROUND else self.bodies[place.journal].body.angle
+        return (
+            self.mount(place.bore, place.bore_point, axes),
+            self.mount(place.journal, place.journal_point, journal),
+            journal - axes,
+        )
+
+    def mount(self, body: str, point: Vector2, axes: float) -> Mount:
+        """Where a bore or a journal is, at a point of the start posture, with axes at an angle [rad]."""
+        ground = body == GROUND
+        place = point if ground else self.bodies[body].local(point)
+        turn = axes if ground else axes - self.bodies[body].body.angle
+        return Mount(self.item(body), frame(place, turn), ground)
 
     def clearance_pin(self, scene: Scene, name: str, connector: PinConnector) -> ClearanceJoint:
-        """The pin of a connector in the whole scene."""
-        node = self.node(scene.ends(name)[0])
+        """The contact of a connector in the whole scene."""
+        place = scene.places[name]
+        node = self.node(place.bore)
 
         def bore_spin() -> float:
             return float(self.mbs.GetNodeOutput(node, exudyn.OutputVariableType.Coordinates_t)[2])
 
         return ClearanceJoint(
-            self.scenario.clearance_pins[name].contact,
+            place.contact,
             connector,
             scene.pin_motion(name),
             bore_spin,
@@ -196,7 +209,10 @@ class PlaneBuilder(EngineBuilder):
             if name not in scenario.compliant_actuators
         }
         cranks = {name: self.add_crank(crank) for name, crank in linkage.cranks.items()}
-        slides = {name: self.add_slide(slide) for name, slide in linkage.slides.items()}
+        slides = {name: self.add_slide(slide) for name, slide in scenario.guided_linkage.slides.items()}
+        for name, guide in scenario.guides.items():
+            for part, contact in guide.contacts().items():
+                self.add_corner(f"{name}.{part}", contact.point[1])
         for gear in linkage.gears.values():
             self.add_gear(gear)
         loads = {name: self.add_load(load, name) for name, load in scenario.acting_loads.items()}

@@ -336,7 +336,7 @@ class SolverRun:
             return
         for name, pin in self.scene.clearance_joints.items():
             bearing = pin.contact.bearing
-            if pin.reached.depth > DEEPEST * bearing.bore_radius:
+            if pin.reached.depth > DEEPEST * bearing.size:
                 raise SimulationError(self._failure(too_deep(name, pin.reached.depth, bearing), SOFT))
 
     def _look_for_smoothness(self, t: float, smooth: StepGrowth) -> None:

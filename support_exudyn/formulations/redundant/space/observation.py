@@ -19,7 +19,6 @@ from support_exudyn.mechanics.space.motion import SpatialMotion, cross, motion_o
 from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.pins import ClearancePin
 from user_forces.friction.frictionless import Frictionless
 
 
@@ -89,8 +88,7 @@ class SpatialObservation:
         relative = RelativeMotion(
             moving.x, moving.y, moving.vx, moving.vy, moving.bore_spin, moving.journal_spin, ones, zeros
         )
-        model = ClearancePin(contact=pin.contact)
-        contact = series(model, relative, memory)
+        contact = series(pin.contact, relative, memory)
         away = np.linalg.norm(moving.displacement, axis=1)
         outward = moving.displacement / np.where(away > 0.0, away, 1.0)[:, None]
         if isinstance(pin.contact.friction, Frictionless):
@@ -98,7 +96,7 @@ class SpatialObservation:
         else:
             plane = np.column_stack([contact.force_x, contact.force_y, zeros])
             force = np.einsum("nij,nj->ni", moving.axes, plane)
-        arm = journal_arm(model, contact.depth)
+        arm = journal_arm(pin.contact, contact.depth)
         return SectionSeries(moving, contact, force, moving.centre + arm[:, None] * outward)
 
     @cached_property

@@ -1,0 +1,240 @@
+"""Where a linkage may make contact and part: journals in their bores, corners of blocks between walls.
+
+What integrates, records and judges contacts goes by these places, and does not ask of which kind they are.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.contact_history import RelativeMotion, acting, contact_series, series
+from support_exudyn.mechanics.contact_state import PinMemory
+from support_exudyn.mechanics.joint_forces import PinForce
+from support_exudyn.mechanics.kinetics import Kinetics, Matrix
+from support_exudyn.mechanics.trajectory import ContactSeries, Series
+from support_exudyn.model.guides import Guide, GuideContact
+from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, Slide
+from support_exudyn.model.pins import ClearancePin
+from support_exudyn.model.plane_geometry import plus, rotated
+from user_forces.contact import Contact
+from user_forces.values.value import Vector2
+
+
+class HasValues(Protocol):
+    """A channel of a run."""
+
+    @property
+    def values(self) -> Series:
+        """Its values at the records (n,)."""
+
+
+class ContactPlace(ABC):
+    """A place at which two bodies may make contact.
+
+    of: what of the scenario it belongs to, such as "pins.rear_base". contact: geometry and laws. bore, journal:
+    names of the body that encloses, and of that which is enclosed. bore_point, journal_point: their centres in
+    the start posture [m]; of a slot a point of its middle line, and the corner. play: by how much the journal
+    can go either way [m].
+    """
+
+    of: str
+    contact: Contact
+    bore: str
+    journal: str
+    bore_point: Vector2
+    journal_point: Vector2
+    play: float
+
+    @abstractmethod
+    def axes(self, linkage: Linkage) -> float:
+        """Angle [rad] of the bore's axes in the start posture."""
+
+    @abstractmethod
+    def relative(self, kinetics: Kinetics, position: Matrix) -> tuple[Matrix, Matrix]:
+        """What counts of the eccentricity (2,) [m], and the matrix of its rate and of the slip (2, n).
+
+        In the ground's axes; with either sign, which effective masses do not depend on.
+        """
+
+    @abstractmethod
+    def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
+        """The contact at every record, with the memory that it has there."""
+
+    @abstractmethod
+    def push(self, motion: BodyMotion, contact: ContactSeries) -> tuple[str, str, PinForce]:
+        """Which body pushes which, and with what force where."""
+
+    @abstractmethod
+    def depth(self, channels: Mapping[str, HasValues], name: str) -> Series | None:
+        """The depth (n,) [m] among the channels of a run, by the name of the place; None if it is not there."""
+
+    @abstractmethod
+    def loads(self, reactions: Mapping[str, Series]) -> Series:
+        """Force on the contact (2,) [N], from what constraints carry in its place, by pin or slide."""
+
+
+@dataclass(frozen=True)
+class PinContactPlace(ContactPlace):
+    """A clearance pin."""
+
+    name: str
+    place: PinPlace
+    pin: ClearancePin
+
+    def __post_init__(self) -> None:
+        """Tell bore and journal by the pin."""
+        ends = [(self.place.first, self.place.first_point), (self.place.second, self.place.second_point)]
+        bore, journal = ends if self.pin.bore == "first" else ends[::-1]
+        known = {
+            "of": f"pins.{self.name}",
+            "contact": self.pin.contact,
+            "play": self.pin.contact.bearing.clearance,
+        }
+        known |= {"bore": bore[0], "bore_point": bore[1], "journal": journal[0], "journal_point": journal[1]}
+        for name, item in known.items():
+            object.__setattr__(self, name, item)
+
+    def axes(self, linkage: Linkage) -> float:
+        """Those of the bore's body."""
+        return 0.0 if self.bore == GROUND else linkage.bodies[self.bore].angle
+
+    def relative(self, kinetics: Kinetics, position: Matrix) -> tuple[Matrix, Matrix]:
+        """All of the eccentricity."""
+        return kinetics.relative(position, self.place)
+
+    def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
+        """The journal in its bore."""
+        return contact_series(motion, self.place, self.pin, memories)
+
+    def push(self, motion: BodyMotion, contact: ContactSeries) -> tuple[str, str, PinForce]:
+        """The first body of the pin pushes the second."""
+        return self.place.first, self.place.second, acting(motion, self.place, self.pin, contact)
+
+    def depth(self, channels: Mapping[str, HasValues], name: str) -> Series | None:
+        """That of the pin."""
+        found = channels.get(f"pin.{name}.depth")
+        return None if found is None else found.values
+
+    def loads(self, reactions: Mapping[str, Series]) -> Series:
+        """Force of the ideal pin."""
+        return reactions[self.of]
+
+
+@dataclass(frozen=True)
+class GuideContactPlace(ContactPlace):
+    """A corner of a block, or a round pin, in a guide with clearance."""
+
+    name: str
+    slide: Slide
+    part: GuideContact
+    play: float
+
+    def __post_init__(self) -> None:
+        """Tell corner and middle line by the slide."""
+        slide, (point, middle, contact) = self.slide, self.part
+        known = {"of": f"guides.{self.name}", "contact": contact, "bore": slide.against, "journal": slide.body}
+        known["bore_point"] = plus(slide.point, rotated((0.0, middle), slide.direction))
+        known["journal_point"] = plus(slide.point, rotated(point, slide.direction))
+        for name, item in known.items():
+            object.__setattr__(self, name, item)
+
+    def axes(self, linkage: Linkage) -> float:
+        """Along the guide and across."""
+        del linkage
+        return self.slide.direction
+
+    def relative(self, kinetics: Kinetics, position: Matrix) -> tuple[Matrix, Matrix]:
+        """What is across; rates are of the corner against what of the guide is there now."""
+        corner, rate = kinetics.point(position, self.journal, self.journal_point)
+        origin, origin_rate = kinetics.point(position, self.bore, self.bore_point)
+        x, y = corner - origin
+        turned = 0.0 if self.bore == GROUND else position[kinetics.bodies[self.bore].first + 2]
+        angle = self.slide.direction + turned
+        across = np.array([-math.sin(angle), math.cos(angle)])
+        turning = np.outer((-y, x), kinetics.turning(position.size, self.bore))
+        return (across @ (corner - origin)) * across, rate - origin_rate - turning
+
+    def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
+        """The corner between the walls, in the ground's axes."""
+        corner, origin = (
+            motion.point(self.journal, self.journal_point),
+            motion.point(self.bore, self.bore_point),
+        )
+        along, across = self._directions(motion)
+        apart, rate = corner.position - origin.position, corner.velocity - origin.velocity
+        x, y = _dot(apart, along), _dot(apart, across)
+        still = np.zeros_like(x)
+        moving = RelativeMotion(
+            still,
+            y,
+            _dot(rate, along),
+            _dot(rate, across) - origin.spin * x,
+            origin.spin,
+            corner.spin,
+            np.ones_like(x),
+            still,
+        )
+        found = series(self.contact, moving, memories)
+        force = found.force_x[:, None] * along + found.force_y[:, None] * across
+        return replace(
+            found,
+            force_x=force[:, 0],
+            force_y=force[:, 1],
+            eccentricity_x=y * across[:, 0],
+            eccentricity_y=y * across[:, 1],
+        )
+
+    def push(self, motion: BodyMotion, contact: ContactSeries) -> tuple[str, str, PinForce]:
+        """The guide pushes the block, at the surface of the corner or the pin."""
+        corner = motion.place(self.journal, self.journal_point)
+        offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
+        away = np.maximum(np.linalg.norm(offset, axis=1), math.ulp(0.0))[:, None]
+        point = corner + self.part.contact.bearing.radius * offset / away
+        return self.bore, self.journal, PinForce(np.column_stack([contact.force_x, contact.force_y]), point)
+
+    def depth(self, channels: Mapping[str, HasValues], name: str) -> Series | None:
+        """A gap that is negative."""
+        found = channels.get(f"guide.{name}.gap")
+        return None if found is None else -found.values
+
+    def loads(self, reactions: Mapping[str, Series]) -> Series:
+        """Its part of the ideal guide's force and moment: two corners carry both."""
+        force, moment = (*reactions[self.of], 0.0)[:2]
+        arm = abs(self.part.point[0])
+        share = abs(force) if arm == 0.0 else 0.5 * (abs(force) + abs(moment) / arm)
+        across = np.array([-math.sin(self.slide.direction), math.cos(self.slide.direction)])
+        return np.asarray(share * across)
+
+    def _directions(self, motion: BodyMotion) -> tuple[Series, Series]:
+        """Of the guide and across it, (n, 2) each."""
+        angle = self.slide.direction + motion.turn(self.bore)
+        c, s = np.cos(angle), np.sin(angle)
+        return np.column_stack([c, s]), np.column_stack([-s, c])
+
+
+def contact_places(
+    linkage: Linkage, pins: Mapping[str, ClearancePin], guides: Mapping[str, Guide]
+) -> dict[str, ContactPlace]:
+    """All places by name: of pins, then of guides, as "guide.upper_left"."""
+    found: dict[str, ContactPlace] = {n: PinContactPlace(n, linkage.pins[n], pin) for n, pin in pins.items()}
+    return found | dict(_of_guides(linkage, guides))
+
+
+def _of_guides(linkage: Linkage, guides: Mapping[str, Guide]) -> Iterator[tuple[str, ContactPlace]]:
+    for name, guide in guides.items():
+        for part, contact in guide.contacts().items():
+            slide = linkage.slides[name]
+            play = contact.contact.bearing.clearance - abs(contact.point[1])
+            yield f"{name}.{part}", GuideContactPlace(name, slide, contact, play)
+
+
+def _dot(one: Series, other: Series) -> Series:
+    found: Series = np.einsum("ni,ni->n", one, other)
+    return found

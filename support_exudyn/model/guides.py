@@ -1,0 +1,220 @@
+r"""The kinds of guides: ideal, with clearance, whatever derives from `Guide`. A field of the scenario chooses.
+
+              upper wall
+    ----------------------------------
+      upper_left .------. upper_right         gaps: from block to upper and to lower wall at the start
+                 |  o---+--> direction        o: the guide's point on the body
+      lower_left '------' lower_right
+    ----------------------------------
+              lower wall
+
+Upper is the side to which a quarter turn counterclockwise leads from the direction of the guide.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import Literal, NamedTuple
+
+from pydantic import model_validator
+
+from support_exudyn.model.pins import Refusal
+from support_exudyn.model.simple_laws import fields_of, friction_of, law_with
+from user_forces.contact import SlotContact
+from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.law import FrictionLaw
+from user_forces.materials import STEEL, STEEL_35CRMO, Material, plane_contact_stiffness
+from user_forces.normal.damping_speed import DampingSpeed
+from user_forces.normal.exact import Exact
+from user_forces.normal.law import NormalLaw
+from user_forces.slot import Slot
+from user_forces.values.units import Metres
+from user_forces.values.value import InputError, NonNegative, Positive, Value, Vector2, short, value
+
+CORNERS = {"upper_left": (-1, 1), "upper_right": (1, 1), "lower_left": (-1, -1), "lower_right": (1, -1)}
+PIN = "pin"  # the name of the contact of a round pin
+ROUNDING = 0.1  # radius of a corner over the block's height, where nothing is said of it
+Gaps = tuple[NonNegative, NonNegative]
+
+
+class GuideContact(NamedTuple):
+    """A corner of a block, or a pin, between the walls of a guide; x along the guide, y across.
+
+    point: of the corner or the pin's centre from the guide's point [m]. middle: y of the slot's middle line
+    [m]. contact: geometry and laws.
+    """
+
+    point: Vector2
+    middle: float
+    contact: SlotContact
+
+
+class Guide(Value, ABC):
+    """What guides a point of a body along a line of another."""
+
+    @property
+    @abstractmethod
+    def holds(self) -> bool:
+        """Whether constraints hold the point on the line; else forces follow from the motion."""
+
+    def refused_by(self, formulation: Literal["tree", "reduced", "space"]) -> Refusal | None:
+        """What of the guide a formulation, or "space", the third dimension, does not cover; None: all is."""
+        del formulation
+        return None
+
+    def misfit(self, turns: bool) -> str:
+        """What does not fit a slide whose body may turn, or not, and what would; empty if nothing."""
+        del turns
+        return ""
+
+    def contacts(self) -> Mapping[str, GuideContact]:
+        """What may make contact and part, by name."""
+        return {}
+
+    def losses(self) -> dict[str, object]:
+        """What of the guide loses energy, by the channel that counts it: "damping_loss" and "friction_loss"."""
+        return {}
+
+
+@value
+class IdealGuide(Guide):
+    """A point stays on the line, and a block keeps its angle: constraints, whose multipliers are the forces."""
+
+    @property
+    def holds(self) -> bool:
+        """An ideal guide holds its body."""
+        return True
+
+
+@value
+class ClearanceGuide(Guide):
+    """A block, or a round pin, that is free between two straight walls and pushed by contact.
+
+    Every corner of the block may meet either wall; a face that lies on a wall touches by both its corners.
+
+    Arguments:
+        gaps: from the block or the pin to the upper and to the lower wall at the start [m], >= 0, not both 0.
+        normal: law of the normal force at every corner.
+        friction: law of the friction force at every corner; none by default.
+        block: length and height of the block, in whose middle the guide's point is [m].
+        pin_radius: of a pin in place of a block, about the guide's point [m]; for guides that let turn.
+    """
+
+    gaps: Metres[Gaps]
+    normal: NormalLaw
+    friction: FrictionLaw = Frictionless()
+    block: Metres[tuple[Positive, Positive]] | None = None
+    pin_radius: Metres[Positive] | None = None
+
+    @model_validator(mode="after")
+    def _has_play_and_a_shape(self) -> ClearanceGuide:
+        if sum(self.gaps) == 0.0:
+            raise ValueError(
+                f"gaps = {self.gaps} m: allowed: at least one > 0; without play make an IdealGuide"
+            )
+        if (self.block is None) == (self.pin_radius is None):
+            raise ValueError(f"block = {self.block}, pin_radius = {self.pin_radius}: allowed: one of them")
+        self.contacts()
+        return self
+
+    @classmethod
+    def simple(
+        cls,
+        *,
+        gaps: float | Gaps,
+        block: tuple[float, float] | None = None,
+        pin_radius: float | None = None,
+        restitution: float | None = None,
+        friction: float | FrictionLaw = 0.0,
+        law: type[NormalLaw] = Exact,
+        damping_speed: DampingSpeed | None = None,
+        stiffness: float | None = None,
+        corner_radius: float | None = None,
+        wall_material: Material = STEEL,
+        block_material: Material = STEEL_35CRMO,
+    ) -> ClearanceGuide:
+        """A guide with clearance in few words, as scenario files have it; the rest has usual values.
+
+            ClearanceGuide.simple(gaps=1e-3, block=(0.1, 0.05), restitution=0.4, friction=0.01)
+
+        Arguments:
+            gaps: to the upper and to the lower wall at the start [m], one number for both.
+            block: its length and height [m]. pin_radius: of a pin in its place [m].
+            restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
+            friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law.
+            law: class of the normal force, one that needs nothing but a stiffness and a restitution.
+            damping_speed: what the damping of the law is scaled with; the law's own default if None.
+            stiffness: K of K depth^1.5 [N/m^1.5], > 0; by default Hertz's of a sphere on a plane.
+            corner_radius: of that sphere [m], > 0; by default the pin's, or a tenth of the block's height.
+            wall_material, block_material: for the stiffness.
+
+        Raises InputError that names what does not fit, its value and what is allowed.
+        """
+        both = (gaps, gaps) if isinstance(gaps, (int, float)) else gaps
+        if stiffness is not None and corner_radius is not None:
+            raise InputError(
+                f"stiffness = {short(stiffness)}, corner_radius = {short(corner_radius)} m: "
+                "allowed: one of them"
+            )
+        if stiffness is None:
+            radius = corner_radius or pin_radius or (ROUNDING * block[1] if block else None)
+            if radius is None:
+                raise InputError("block: missing; allowed: length and height [m], or pin_radius")
+            stiffness = plane_contact_stiffness(radius, wall_material, block_material)
+        elif "stiffness" not in fields_of(law):
+            raise InputError(
+                f"stiffness = {short(stiffness)}: {law.__name__} has none; allowed: to leave it out"
+            )
+        given = {"stiffness": stiffness} if "stiffness" in fields_of(law) else {}
+        return cls(
+            gaps=both,
+            normal=law_with(law, given, restitution, damping_speed),
+            friction=friction_of(friction),
+            block=block,
+            pin_radius=pin_radius,
+        )
+
+    @property
+    def holds(self) -> bool:
+        """A guide with clearance leaves its block free."""
+        return False
+
+    @property
+    def play(self) -> float:
+        """Half of the way between the walls [m], as the clearance of a pin is."""
+        return 0.5 * sum(self.gaps)
+
+    def refused_by(self, formulation: Literal["tree", "reduced", "space"]) -> Refusal | None:
+        """The redundant formulation in the plane alone covers it."""
+        del formulation
+        return Refusal("", type(self).__name__, "IdealGuide")
+
+    def misfit(self, turns: bool) -> str:
+        """A pin needs a slide that lets turn, a block one that does not."""
+        if turns == (self.pin_radius is not None):
+            return ""
+        asked = "pin_radius, for its body may turn" if turns else "block, for its body does not turn"
+        return f"has a {'block' if turns else 'pin_radius'}; allowed: {asked}"
+
+    def contacts(self) -> Mapping[str, GuideContact]:
+        """The corners of the block, or the pin, by name."""
+        upper, lower = self.gaps
+        middle = 0.5 * (upper - lower)
+        if self.block is None:
+            assert self.pin_radius is not None  # one of both is there
+            return {PIN: GuideContact((0.0, 0.0), middle, self._contact(0.0, self.pin_radius))}
+        length, height = self.block
+        contact = self._contact(0.5 * height, 0.0)
+        return {
+            name: GuideContact((0.5 * x * length, 0.5 * y * height), middle, contact)
+            for name, (x, y) in CORNERS.items()
+        }
+
+    def _contact(self, half_height: float, radius: float) -> SlotContact:
+        slot = Slot(clearance=half_height + self.play, radius=radius)
+        return SlotContact(bearing=slot, normal=self.normal, friction=self.friction)
+
+    def losses(self) -> dict[str, object]:
+        """A guide with clearance loses energy by the damping and the friction of its contacts."""
+        return {"damping_loss": self.normal, "friction_loss": self.friction}

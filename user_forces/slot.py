@@ -1,0 +1,60 @@
+r"""Geometry of a corner or a round pin between two straight, parallel walls, in the plane.
+
+    ////////////////////////  upper wall
+           . o                o  corner of a block, or centre of a pin of radius r
+             : e              e  its distance from the middle line, upwards positive
+    - - - - -:- - - - - - - -
+                              c  distance at which it makes contact: half the height of the slot, less r
+    ////////////////////////  lower wall
+
+A corner is a journal that slides freely along, so that only what is across counts as its eccentricity.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar
+
+from pydantic import Field
+
+from user_forces.expressions.scalar import magnitude
+from user_forces.journal import ContactGeometry
+from user_forces.values.units import Metres
+from user_forces.values.value import Positive, Real, value
+
+
+@value
+class Slot(ContactGeometry):
+    """Two walls, and the corner or the pin between them.
+
+    x lies along the walls and y across, from the middle line.
+
+    Arguments:
+        clearance: distance from the middle line at which it makes contact [m], > 0.
+        radius: of the pin [m], >= 0; 0: a corner.
+    """
+
+    clearance: Metres[Positive]
+    radius: Metres[Annotated[Real, Field(ge=0)]] = 0.0
+    is_slot: ClassVar[bool] = True
+
+    @property
+    def size(self) -> float:
+        """Half the height of the slot [m]."""
+        return self.clearance + self.radius
+
+    @property
+    def words(self) -> str:
+        """The slot, with half its height."""
+        return f"a wall of a slot of {1e3 * self.size:.4g} mm half height"
+
+    def contact_arms(self, depth: float) -> tuple[float, float]:
+        """Distances [m] of the contact point from the middle line and from corner or pin's centre, across.
+
+        It lies on the surface of the corner or the pin: there both bodies feel the force.
+        """
+        return self.clearance + depth + self.radius, self.radius
+
+    def speed_outwards(self, vx: float, vy: float) -> float:
+        """The speed across [m/s]."""
+        del vx
+        return magnitude(vy)
