@@ -14,7 +14,8 @@ from support_exudyn.model.linkage import Linkage
 
 ROUNDS = 8  # of Newton's method after a step
 FINEST = 2.0**-34  # of the way between two postures: a step so short is none
-AGAINST = 1e-6  # of what is driven: what a movement may leave of it
+SINGULAR = 1e-5  # of the largest singular value: below, the direction is taken from the way that led there
+AGAINST = 1e-3  # of what is driven: what a movement may leave of it
 
 
 def conditions_of(linkage: Linkage) -> Conditions:
@@ -23,7 +24,11 @@ def conditions_of(linkage: Linkage) -> Conditions:
 
 
 def moved_on(
-    conditions: Conditions, start: Matrix, before: Mapping[str, float], after: Mapping[str, float]
+    conditions: Conditions,
+    start: Matrix,
+    before: Mapping[str, float],
+    after: Mapping[str, float],
+    along: Matrix | None = None,
 ) -> tuple[Matrix, float]:
     """The posture to which driven parts move a linkage, and the share of the way that it comes.
 
@@ -34,6 +39,7 @@ def moved_on(
         conditions: of `conditions_of`.
         start: coordinates counted by `Conditions.arms` (n,) [m] in which the travels are those before.
         before, after: travels of actuators and cranks from the start posture on [m], [rad]; else 0.
+        along: the movement that is expected (n,) [m]. It tells which way to go on where all bars lie in line.
 
     Returns coordinates (n,), those at the end of the way or where the linkage locks or opens, and the share, 1
     if all of the way is gone.
@@ -42,24 +48,43 @@ def moved_on(
     ahead = conditions.short(start, after) - conditions.short(start, before)
     turns = np.arange(start.size) % 3 == 2
     while share < 1.0:
-        rows = conditions.rows(moved)
-        tangent = np.linalg.lstsq(rows, ahead, rcond=REPEATED)[0]
-        if np.linalg.norm(rows @ tangent - ahead) > AGAINST * np.linalg.norm(ahead):
+        direction = tangent(conditions, moved, ahead, along)
+        if direction is None:
             return moved, share
-        far = np.abs(tangent).max() / (FARTHEST_STEP * conditions.size)
-        far = max(far, np.abs(tangent / conditions.arms)[turns].max() / LARGEST_TURN)
+        far = np.abs(direction).max() / (FARTHEST_STEP * conditions.size)
+        far = max(far, np.abs(direction / conditions.arms)[turns].max() / LARGEST_TURN)
         step = min(2.0 * step, 1.0 - share, 1.0 / max(far, 1.0))
         while True:
             at = share + step if step < 1.0 - share else 1.0
             goal = {name: (1.0 - at) * before.get(name, 0.0) + at * travel for name, travel in after.items()}
-            found = _corrected(conditions, moved + step * tangent, goal, CURVED * step * np.abs(tangent).max())
+            found = _corrected(
+                conditions, moved + step * direction, goal, CURVED * step * np.abs(direction).max()
+            )
             if found is not None:
                 break
             step /= 2.0
             if step < FINEST:
                 return moved, share
-        moved, share = found, at
+        moved, share, along = found, at, direction
     return moved, share
+
+
+def tangent(conditions: Conditions, moved: Matrix, ahead: Matrix, along: Matrix | None = None) -> Matrix | None:
+    """The movement (n,) [m] that changes conditions by so much (m,), to first order; None if there is none.
+
+    Of several the least; where a posture leaves a direction open, that part of the movement is as `along` (n,).
+    """
+    left, values, right = np.linalg.svd(conditions.rows(moved), full_matrices=False)
+    # next to a fold the little that is left of a direction is what moves the linkage, unlike in a change point
+    needed = np.abs(left.T @ ahead) > AGAINST * np.linalg.norm(ahead)
+    clear = values > np.where(needed, REPEATED, SINGULAR) * values.max(initial=0.0)
+    shares = left.T[clear] @ ahead
+    if np.linalg.norm(ahead - left.T[clear].T @ shares) > AGAINST * np.linalg.norm(ahead):
+        return None
+    found: Matrix = right[clear].T @ (shares / values[clear])
+    if along is not None and not clear.all():
+        found = found + right[~clear].T @ (right[~clear] @ along)
+    return found
 
 
 def _corrected(

@@ -1,36 +1,42 @@
-"""The check of any machine, by its linkage alone: mobility, closure, how far its drive moves it, statics."""
+"""The check of any machine, by its linkage alone: mobility, closure, the way of each drive, statics."""
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from support_exudyn.machines.check.drive_way import TURN, DriveWay, Moved, way_of
+from support_exudyn.machines.check.freedoms import (
+    Movement,
+    RepeatedConditions,
+    floating,
+    listed,
+    movements,
+    repeated,
+)
 from support_exudyn.machines.check.report import CheckReport, CheckTable
-from support_exudyn.machines.check.statics import Array, Statics, mobility, statics
+from support_exudyn.machines.check.statics import mobility, statics
+from support_exudyn.machines.check.transmission import (
+    DEFINITION,
+    LEAST,
+    TransmissionAngle,
+    transmission_angles,
+)
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
-from support_exudyn.mechanics.postures import missing
+from support_exudyn.mechanics.closing import REPEATED, Conditions
+from support_exudyn.mechanics.continuation import conditions_of
+from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import Linkage
 from user_forces.values.value import InputError
 
-STEPS, TOLD = 360, 12  # postures between the ends, and rows of the table less one
-SHARE = 0.3  # of an actuator's length: its stroke if nothing is said
-ITERATIONS = 20  # of Newton's method
-CLOSED = 1e-10  # of the machine's size: largest gap of a posture that is found
-NEAR = 8.0  # how much farther than by its start's speed a body may go in a step
-SMALLEST = 2.0**-12  # part of a step at which the way is given up
+STEPS, TOLD = 180, 12  # postures to each end of a way, and rows of its table less one
+STEPS_OF_SEVERAL, TOLD_OF_SEVERAL = 60, 6  # the same where several parts are driven
+SHARE = 0.3  # of an actuator's length: its stroke either way if nothing is said
 OPEN = 1e-9  # of the machine's size: gap at the start that is told
-
-
-@dataclass(frozen=True)
-class Moved:
-    """A posture: what the driven part has moved [rad] or [m], the bodies' coordinates (3 bodies,), forces."""
-
-    travel: float
-    position: Array
-    forces: Statics
+ASIDE = 1e-3  # of the machine's size: how far it is moved to see whether a freedom lasts
+ROUNDS = 8  # of Newton's method there
 
 
 @dataclass(frozen=True)
@@ -39,22 +45,19 @@ class MachineReport(CheckReport):
 
     Arguments:
         linkage: the mechanism.
-        moved: postures in the order of their travel; the start alone if it cannot be moved here.
-        drive: name of the driven part that moves it; empty if there is none, or more than one.
+        start: its start posture, with the forces there.
+        ways: of each driven part, the others held; none where driven parts do not determine the posture.
+        transmission: angles of these ways, by driven part.
+        loose: ways in which it can move with all driven parts held.
+        blocks: length along and height across of what slides in a guide [m], by guide.
     """
 
     linkage: Linkage = field(repr=False)
-    moved: Sequence[Moved] = field(repr=False)
-    drive: str = ""
-
-    @property
-    def turns(self) -> bool:
-        """Whether what moves it is a crank."""
-        return self.drive in self.linkage.cranks
-
-    def said(self, travel: float) -> str:
-        """A travel with its unit."""
-        return f"{math.degrees(travel):.1f} degrees" if self.turns else f"{1e3 * travel:.1f} mm"
+    start: Moved = field(repr=False)
+    ways: Sequence[DriveWay] = field(repr=False)
+    transmission: Mapping[str, Sequence[TransmissionAngle]] = field(repr=False)
+    loose: Sequence[Movement] = field(repr=False)
+    blocks: Mapping[str, tuple[float, float]] = field(repr=False)
 
 
 def check_any(data: MachineData, stroke: float | None) -> MachineReport:
@@ -62,171 +65,233 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
 
     Arguments:
         data: the machine.
-        stroke: by how much its actuator is extended [m]; by default three tenths of its length.
+        stroke: by how much its actuator is extended [m]; by default what the file says, else three tenths of
+            its length either way.
 
     Raises InputError if a stroke is asked for where no single actuator is driven.
     """
     linkage = data.machine.linkage()
-    kinetics, free = kinetics_of(linkage), mobility(linkage)
     driven = linkage.driven
-    drive = driven[0] if len(driven) == 1 and free.left == 0 else ""
-    if stroke is not None and drive not in linkage.actuators:
+    if stroke is not None and not (len(driven) == 1 and driven[0] in linkage.actuators):
         raise InputError(f"stroke = {stroke} m: no single actuator drives this machine; allowed: none")
+    conditions, free = conditions_of(linkage), mobility(linkage)
     start = np.zeros(3 * len(linkage.bodies))
-    opened = {name: float(np.hypot(*kinetics.relative(start, pin)[0])) for name, pin in linkage.pins.items()}
-    facts = [free.said()]
+    loose = movements(conditions, start)
+    beside = _beside(conditions, loose)
+    singular = len(movements(conditions, beside)) < len(loose)
+    again = repeated(conditions, beside if singular else start)
+    fight = any(one.driven for one in again)
+    opened = {
+        name: float(np.hypot(*conditions.kinetics.relative(start, pin)[0]))
+        for name, pin in linkage.pins.items()
+    }
+    several = len(driven) > 1
+    ways = []
+    if not loose and not fight:
+        ways = [
+            way_of(
+                conditions,
+                one,
+                _goal(linkage, one, stroke or data.stroke),
+                STEPS_OF_SEVERAL if several else STEPS,
+            )
+            for one in driven
+        ]
+    angles = {way.drive: list(transmission_angles(conditions, way)) for way in ways}
+    facts, warnings = [free.said()], []
     if linkage.pins:
         facts.append(f"closure at the start: pins within {1e3 * max(opened.values()):.1e} mm")
-    warnings = [
+    warnings += [
         f"pins.{name}: its two points are {1e3 * gap:.3g} mm apart at the start"
         for name, gap in opened.items()
-        if gap > OPEN * _size(kinetics)
+        if gap > OPEN * conditions.size
     ]
-    notes = [f"assumed: {said}" for said in data.assumed]
-    moved, ends = [Moved(0.0, start, statics(linkage, start))], (0.0, 0.0)
-    goal = ends
-    if free.left:
-        warnings.append(
-            f"{free.left} degrees of freedom are left with all driven parts held: no static forces; "
-            "does a pin, a crank or an actuator miss?"
-        )
-    elif not drive:
-        notes.append(
-            f"driven parts: {len(driven)}; with one alone it would be moved, so here is its start posture"
-        )
-    else:
-        goal = _goals(linkage, drive, stroke)
-        moved, ends = _way(kinetics, drive, goal)
-    report = MachineReport(
+    warnings += [_repeats(one) for one in again]
+    told = warnings if driven or singular else facts
+    told += list(_freedoms(conditions, loose, singular))
+    for way in ways:
+        facts += list(_way_facts(way))
+        warnings += list(_way_warnings(way))
+        facts += [one.said(way) for one in angles[way.drive]]
+        warnings += [
+            f"{one.said(way)}; {math.degrees(LEAST):.0f} to {180.0 - math.degrees(LEAST):.0f} degrees are "
+            "usual: nearer to a straight line forces grow, and play is felt"
+            for one in angles[way.drive]
+            if one.worst < LEAST
+        ]
+    if any(angles.values()):
+        facts.append(DEFINITION)
+    stations = {way.drive: _told(way, TOLD_OF_SEVERAL if several else TOLD) for way in ways}
+    at_rest = Moved(0.0, start, statics(linkage, start))
+    sheets = [_sheet(way, stations[way.drive]) for way in ways]
+    if not loose:
+        moved = [one for way in ways for one in way.moved] or [at_rest]
+        # at a dead centre forces have no bound
+        error = float(np.median([one.forces.error for one in moved]))
+        facts.append(f"static forces: under weight alone; numerical error below {max(error, 1e-12):.0e} N")
+        if not ways:
+            sheets = [_table(linkage, "start", [("", at_rest)])]
+    sole = ways[0] if len(ways) == 1 else None
+    return MachineReport(
         name=data.name,
         kind=data.kind,
         facts=facts,
-        sheets=[],
+        sheets=sheets,
         warnings=warnings,
-        notes=notes,
-        numbers={},
+        notes=list(_notes(data, linkage, ways, stroke)),
+        numbers={
+            "degrees_of_freedom": free.data(),
+            "closure_m": opened,
+            "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in again],
+            "movements": [one.data() for one in loose],
+            "drive": sole.drive if sole else "",
+            "locks": any(way.locks for way in ways),
+            "travel": list(sole.ends) if sole else [0.0, 0.0],
+            "stations": [] if loose else [_data(one) for one in (stations[sole.drive] if sole else [at_rest])],
+            "drives": {
+                way.drive: {
+                    **way.data(),
+                    "transmission_angles": [one.data() for one in angles[way.drive]],
+                    "stations": [_data(one) for one in stations[way.drive]],
+                }
+                for way in ways
+            },
+        },
         linkage=linkage,
-        moved=moved,
-        drive=drive,
+        start=at_rest,
+        ways=ways,
+        transmission=angles,
+        loose=loose,
+        blocks=data.blocks,
     )
-    locked = bool(drive) and not any(math.isclose(end, one) for end in ends for one in goal if one)
-    if locked:
-        where = " and ".join(report.said(end) for end in ends if end)
-        warnings.append(f"{drive}: the linkage locks or opens {where} from the start: a dead centre")
-    elif drive:
-        way = "turns right round" if report.turns else f"extends by {report.said(ends[1] or ends[0])}"
-        facts.append(f"{drive}: {way}, without a dead centre")
-    sheets = []
-    if not free.left:
-        error = max(one.forces.error for one in moved)
-        facts.append(f"static forces: under weight alone; numerical error below {max(error, 1e-12):.0e} N")
-        sheets.append(_sheet(report))
-    numbers = {
-        "degrees_of_freedom": free.data(),
-        "closure_m": opened,
-        "drive": drive,
-        "locks": locked,
-        "travel": list(ends),
-        "stations": [] if free.left else [_data(one) for one in _told(moved)],
-    }
-    return replace(report, sheets=sheets, numbers=numbers)
 
 
-def _size(kinetics: Kinetics) -> float:
-    linkage = kinetics.linkage
-    points = [body.centre for body in linkage.bodies.values()]
-    points += [pin.first_point for pin in linkage.pins.values()]
-    return max(float(np.ptp(np.array(points), axis=0).max()), 1e-9)
-
-
-def _goals(linkage: Linkage, drive: str, stroke: float | None) -> tuple[float, float]:
+def _goal(linkage: Linkage, drive: str, stroke: float | None) -> tuple[float, float]:
     """Ends of the travel that is tried, downwards and upwards: a revolution each, or a stroke."""
     if drive in linkage.cranks:
-        return -2.0 * math.pi, 2.0 * math.pi
-    stroke = SHARE * linkage.actuators[drive].start_length if stroke is None else stroke
+        return -TURN, TURN
+    if stroke is None:
+        share = SHARE * linkage.actuators[drive].start_length
+        return -share, share
     return min(0.0, stroke), max(0.0, stroke)
 
 
-def _way(kinetics: Kinetics, drive: str, goal: tuple[float, float]) -> tuple[list[Moved], tuple[float, float]]:
-    """Postures in the order of their travel, and the ends that were reached.
-
-    A crank that turns right round one way need not be turned the other.
-    """
-    start = np.zeros(3 * len(kinetics.bodies))
-
-    def forces(travel: float, position: Array) -> Moved:
-        return Moved(travel, position, statics(kinetics.linkage, position))
-
-    up = [forces(*one) for one in _march(kinetics, drive, goal[1], start)]
-    end = up[-1].travel if up else 0.0
-    down: list[Moved] = []
-    if not (goal[1] and math.isclose(end, goal[1])):
-        down = [forces(*one) for one in _march(kinetics, drive, goal[0], start)]
-    low = down[-1].travel if down else 0.0
-    return [*down[::-1], forces(0.0, start), *up], (low, end)
+def _repeats(one: RepeatedConditions) -> str:
+    return one.said() + (
+        "" if one.driven else "; how they share a force is not determined by ideal, rigid parts"
+    )
 
 
-def _march(kinetics: Kinetics, drive: str, goal: float, start: Array) -> Iterator[tuple[float, Array]]:
-    """Travel and coordinates, step by step as far as the linkage closes on the same way."""
-    if goal == 0.0:
+def _freedoms(conditions: Conditions, loose: Sequence[Movement], singular: bool) -> Iterator[str]:
+    """What can move with all driven parts held: of itself if nothing is driven, else a freedom too many."""
+    linkage = conditions.linkage
+    groups = floating(linkage)
+    for group in groups:
+        yield f"bodies.{listed(group)}: nothing joins {'it' if len(group) == 1 else 'them'} to the ground"
+    hanging = [name for group in groups for name in group]
+    loose = [one for one in loose if not set(one.bodies) <= set(hanging)]
+    if not loose:
         return
-    usual, reached, position = goal / STEPS, 0.0, start
-    for number in range(1, STEPS + 1):
-        wanted = goal * number / STEPS
-        while reached != wanted:
-            step = wanted - reached
-            while (found := _closed(kinetics, drive, reached + step, position, step)) is None:
-                step /= 2.0
-                if abs(step) < SMALLEST * abs(usual):
-                    if reached != goal * (number - 1) / STEPS:
-                        yield reached, position
-                    return
-            reached, position = (wanted if step == wanted - reached else reached + step), found
-        yield reached, position
+    ways = "; ".join(one.said() for one in loose)
+    count = "one way" if len(loose) == 1 else f"{len(loose)} ways"
+    if singular:
+        yield (
+            f"the start posture is a dead centre, in which it can move in {count} for a moment: {ways}; no "
+            "way of a drive is told; start it a little beside"
+        )
+    elif not linkage.driven:
+        yield f"it moves freely in {count}: {ways}"
+    else:
+        verb = "degree of freedom is" if len(loose) == 1 else "degrees of freedom are"
+        yield (
+            f"{len(loose)} {verb} left with all driven parts held: {ways}; no static forces; does a pin, a "
+            "crank or an actuator miss?"
+        )
 
 
-def _closed(kinetics: Kinetics, drive: str, travel: float, near: Array, step: float) -> Array | None:
-    """The posture for a travel near another one, by Newton's method; None if there is none."""
-    position, size = near.copy(), _size(kinetics)
-    rates = kinetics.rates(lambda name: 1.0 if name == drive else 0.0)
-    speed = np.linalg.lstsq(kinetics.rows(near), rates, rcond=None)[0]
-    scale = np.tile([1.0 / size, 1.0 / size, 1.0], len(kinetics.bodies))
-    position += speed * step
-    for _ in range(ITERATIONS):
-        short = missing(kinetics, position, {}, {drive: travel})
-        if np.abs(short).max() < CLOSED * size:
-            turned = float(np.abs(scale * (position - near)).max())
-            at_first = abs(step) if drive in kinetics.linkage.cranks else abs(step) / size
-            usual = float(np.abs(scale * speed).max()) * abs(step)
-            return position if turned <= NEAR * at_first + 1.5 * min(usual, 0.05) else None
-        position = position + np.linalg.lstsq(kinetics.rows(position), short, rcond=None)[0]
-    return None
+def _beside(conditions: Conditions, loose: Sequence[Movement]) -> Matrix:
+    """Coordinates (n,) a little beside the start, on the ways in which it can still move."""
+    moved = np.zeros(3 * len(conditions.linkage.bodies))
+    for one, share in zip(loose, np.linspace(1.0, 2.0, len(loose)), strict=True):
+        moved = moved + ASIDE * share * conditions.size * one.rates * conditions.arms
+    for _ in range(ROUNDS):
+        short = conditions.short(moved)
+        moved = moved + np.linalg.lstsq(conditions.rows(moved), short, rcond=REPEATED)[0]
+    return moved
 
 
-def _told(moved: Sequence[Moved]) -> list[Moved]:
+def _way_facts(way: DriveWay) -> Iterator[str]:
+    """How far a driven part moves the linkage, and where parts turn back on its way."""
+    low, high = (way.shown(end) for end in way.ends)
+    if way.right_round:
+        yield f"{way.drive}: turns right round, without a dead centre"
+    elif way.locks:
+        yield f"{way.drive}: moves from {low:.2f} to {high:.2f} {way.unit}"
+    else:
+        yield f"{way.drive}: moves from {low:.2f} to {high:.2f} {way.unit} without a dead centre"
+    for one in way.points:
+        why = f": {one.why}" if one.why else ""
+        if one.what == "turns back":
+            yield f"{way.at(one.travel)}: {one.part} turns back{why}"
+
+
+def _way_warnings(way: DriveWay) -> Iterator[str]:
+    for one in way.points:
+        why = f": {one.why}" if one.why else ""
+        if one.what == "dead centre":
+            yield f"{way.at(one.travel)}: dead centre{why}; the linkage locks or opens there"
+        if one.what == "change point":
+            yield f"{way.at(one.travel)}: change point{why}; from there the linkage could go on in another way"
+
+
+def _notes(
+    data: MachineData, linkage: Linkage, ways: Sequence[DriveWay], stroke: float | None
+) -> Iterator[str]:
+    """What was assumed, and what is not known."""
+    for said in data.assumed:
+        yield f"assumed: {said}"
+    if len(ways) > 1:
+        yield "several parts are driven: the way of each is that with the others held where they start"
+    tried = [way.drive for way in ways if way.drive in linkage.actuators]
+    if tried and stroke is None and data.stroke is None:
+        yield (
+            f"no stroke is said of {listed(tried)}: {100.0 * SHARE:.0f} % of the length at the start were "
+            "tried either way"
+        )
+    for name, said in data.sources.items():
+        yield f"source of {name}: {said}"
+
+
+def _told(way: DriveWay, count: int) -> list[Moved]:
     """Those of a table: the first, the last, and some between."""
-    chosen = dict.fromkeys(round(n) for n in np.linspace(0, len(moved) - 1, min(len(moved), TOLD + 1)))
+    near = 1e-6 * (way.ends[1] - way.ends[0])
+    singular = [one.travel for one in way.points if one.what != "turns back"]  # where forces have no bound
+    moved = [one for one in way.moved if all(abs(one.travel - end) > near for end in singular)] or way.moved
+    chosen = dict.fromkeys(round(n) for n in np.linspace(0, len(moved) - 1, min(len(moved), count + 1)))
     return [moved[n] for n in chosen]
 
 
-def _sheet(report: MachineReport) -> CheckTable:
-    linkage, unit = report.linkage, "degrees" if report.turns else "mm"
+def _sheet(way: DriveWay, told: Sequence[Moved]) -> CheckTable:
+    rows = [(f"{way.shown(one.travel):.1f}", one) for one in told]
+    return _table(way.linkage, f"{way.drive} [{way.unit}]", rows)
+
+
+def _table(linkage: Linkage, first: str, told: Sequence[tuple[str, Moved]]) -> CheckTable:
     held = (*linkage.actuators, *linkage.cranks, *linkage.slides, *linkage.gears)
     title = (
         "static forces [N]; of actuators their push, of cranks and gears the moment [N m], of guides the force "
         "across"
     )
     rows = []
-    for one in _told(report.moved):
+    for where, one in told:
         forces = {**one.forces.actuators, **one.forces.cranks, **one.forces.slides, **one.forces.gears}
         rows.append(
             (
-                f"{math.degrees(one.travel) if report.turns else 1e3 * one.travel:.1f}",
+                where,
                 *(f"{float(np.hypot(*one.forces.pins[name])):.4g}" for name in linkage.pins),
                 *(f"{forces[name]:.4g}" for name in held),
             )
         )
-    first = f"{report.drive} [{unit}]" if report.drive else "start"
     return CheckTable(title, (first, *linkage.pins, *held), rows)
 
 

@@ -17,10 +17,9 @@ from support_exudyn.machines.check.shield import ShieldReport
 from support_exudyn.machines.check.shield_stroke import WANDER, Limit, Shield, Station
 from support_exudyn.machines.check.slider_crank import CrankReport
 from support_exudyn.machines.slider_crank import SliderCrank
-from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
-from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.linkage_check import linkage_check_figure
 from support_exudyn.postprocessing.figures.style import CURVES, Dashes
 from user_forces.values.value import Vector2
 
@@ -102,62 +101,7 @@ def _(report: CrankReport) -> Figure:
     return drawing
 
 
-@check_figure.register
-def _(report: MachineReport) -> Figure:
-    """Any machine: its bodies in up to three postures, and its static forces."""
-    drawing, moved = style.begin(170, 150 if report.drive else 95, report.name or report.kind), report.moved
-    grid = drawing.add_gridspec(2, 1, height_ratios=(1.4, 1.0)) if report.drive else None
-    axes = drawing.add_subplot(111 if grid is None else grid[0])
-    kinetics = kinetics_of(report.linkage)
-    thirds = [moved[round(n)] for n in np.linspace(0, len(moved) - 1, 4)]
-    shown = thirds[:3] if report.drive else thirds[:1]  # the last of a revolution is the first
-    for one, (_, colour, dashes) in zip(shown, CRANKS, strict=False):
-        _bodies(axes, kinetics, one.position, colour, dashes)
-        axes.plot([], [], color=colour, ls=dashes, label=report.said(one.travel) if report.drive else "start")
-    for name, pin in report.linkage.pins.items():
-        at = 1e3 * kinetics.point(shown[0].position, pin.first, pin.first_point)[0]
-        axes.annotate(
-            name, (float(at[0]), float(at[1])), xytext=(4, 5), textcoords="offset points", fontsize=7.5
-        )
-    axes.set(xlabel="x [mm]", ylabel="y [mm]", title="lines between the pins of every body")
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.margins(0.12)
-    axes.legend(loc="best", fontsize=7.5)
-    if grid is not None:
-        below = drawing.add_subplot(grid[1])
-        travel = [math.degrees(one.travel) if report.turns else 1e3 * one.travel for one in moved]
-        names = list(report.linkage.pins)[: len(CURVES)]
-        forces = {pin: [float(np.hypot(*one.forces.pins[pin])) for one in moved] for pin in names}
-        unit = "degrees" if report.turns else "mm"
-        below.set(title="static forces under weight", ylabel="force [N]", xlabel=f"{report.drive} [{unit}]")
-        _forces(below, travel, forces, room=0.4)
-    return drawing
-
-
-def _bodies(axes: Axes, kinetics: Kinetics, position: Series, colour: str, dashes: Dashes) -> None:
-    """Every body of a linkage as the lines between what it is joined by."""
-    linkage = kinetics.linkage
-    joints: dict[str, list[Vector2]] = {name: [] for name in linkage.bodies}
-    for pin in linkage.pins.values():
-        for body, point in ((pin.first, pin.first_point), (pin.second, pin.second_point)):
-            joints.setdefault(body, []).append(point)
-    for actuator in linkage.actuators.values():
-        ends = (actuator.foot, actuator.foot_point), (actuator.head, actuator.head_point)
-        for body, point in ends:
-            joints.setdefault(body, []).append(point)
-        strut = 1e3 * np.array([kinetics.point(position, *end)[0] for end in ends])
-        axes.plot(strut[:, 0], strut[:, 1], color=colour, ls=dashes, lw=3.2)
-    for traced in linkage.points.values():
-        joints.setdefault(traced.body, []).append(traced.point)
-    for body, points in joints.items():
-        alone = [linkage.bodies[body].centre] if len(points) < 2 and body != GROUND else []
-        at = 1e3 * np.array([kinetics.point(position, body, point)[0] for point in [*points, *alone]])
-        if body == GROUND:
-            axes.plot(at[:, 0], at[:, 1], "^", ms=7, mfc="white", mec=GREY, zorder=4)
-            continue
-        closed = at if len(at) < 3 else np.vstack([at, at[:1]])
-        axes.plot(closed[:, 0], closed[:, 1], color=colour, ls=dashes, lw=1.8)
-        axes.plot(at[:, 0], at[:, 1], "o", ms=4, mfc="white", mec=colour, zorder=5)
+check_figure.register(MachineReport, linkage_check_figure)
 
 
 def _forces(axes: Axes, x: Sequence[float], forces: Mapping[str, Sequence[float]], room: float) -> None:

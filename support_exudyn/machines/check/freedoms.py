@@ -1,0 +1,182 @@
+"""Conditions of a linkage that repeat each other, and the ways in which it can still move, by name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from support_exudyn.mechanics.closing import Conditions
+from support_exudyn.mechanics.kinetics import Matrix
+from support_exudyn.model.linkage import GROUND, Linkage
+
+ZERO = 1e-9  # of conditions and movements, whose numbers are about 1
+SEEN = 1e-6  # of the fastest: what moves less stands still
+FIELDS = {"slides": "guides"}  # what files call a field of the linkage
+DRIVEN = ("actuators", "cranks")
+
+
+@dataclass(frozen=True)
+class RepeatedConditions:
+    """Joints and driven parts one of whose conditions follows from the others.
+
+    Arguments:
+        parts: each by its field of the linkage and its name.
+        conditions: how many they have together.
+        driven: those of them that are driven.
+    """
+
+    parts: Sequence[tuple[str, str]]
+    conditions: int
+    driven: Sequence[tuple[str, str]]
+
+    def said(self) -> str:
+        """Which joints repeat each other, or which drives fight, in a sentence."""
+        names = [f"{FIELDS.get(kind, kind)}.{name}" for kind, name in self.parts]
+        joints = listed([name for name, part in zip(names, self.parts, strict=True) if part not in self.driven])
+        driven = [f"{kind}.{name}" for kind, name in self.driven]
+        if len(driven) > 1:
+            return (
+                f"{listed(driven)} fight: they drive the same freedom"
+                + (f", through {joints}" if joints else "")
+                + "; free one of them, or let it follow with a motion that fits"
+            )
+        if driven:
+            return f"{driven[0]}: what it drives is held already, by {joints}"
+        return f"{joints}: one of their {self.conditions} conditions repeats the others"
+
+
+@dataclass(frozen=True)
+class Movement:
+    """A way in which a linkage can move: bodies that move, each with how.
+
+    Arguments:
+        bodies: how each moves that does, by name.
+        rates: of all coordinates (3 bodies,) [m], [rad], the fastest point of a body by 1.
+    """
+
+    bodies: dict[str, str]
+    rates: Matrix
+
+    def said(self) -> str:
+        """The bodies that move and how, in words."""
+        return ", ".join(f"{name} {how}" for name, how in self.bodies.items())
+
+    def data(self) -> dict[str, Any]:
+        """The movement as plain data."""
+        return {"bodies": self.bodies, "rates": self.rates.tolist()}
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names in a row: a, b and c."""
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+def repeated(conditions: Conditions, moved: Matrix) -> list[RepeatedConditions]:
+    """Conditions that follow from others in a posture, each with those that it follows from.
+
+    moved: coordinates counted by arms (n,). Joints come before driven parts, so that these are told only where
+    joints alone leave the freedom.
+    """
+    rows, owners = conditions.rows(moved), conditions.kinetics.owners()
+    order = sorted(range(len(owners)), key=lambda row: owners[row][0] in DRIVEN)
+    base: list[int] = []
+    found = []
+    for row in order:
+        held = rows[base].reshape(-1, rows.shape[1])
+        shares = np.linalg.lstsq(held.T, rows[row], rcond=None)[0] if base else np.zeros(0)
+        if np.linalg.norm(rows[row] - held.T @ shares) > ZERO * np.linalg.norm(rows[row]):
+            base.append(row)
+            continue
+        together = [row, *(one for one, share in zip(base, shares, strict=True) if abs(share) > SEEN)]
+        parts = list(dict.fromkeys(owners[one] for one in sorted(together)))
+        found.append(
+            RepeatedConditions(
+                parts=parts,
+                conditions=sum(owner in parts for owner in owners),
+                driven=[part for part in parts if part[0] in DRIVEN],
+            )
+        )
+    return found
+
+
+def floating(linkage: Linkage) -> list[list[str]]:
+    """Groups of bodies that pins, guides and actuators join to each other, but not to the ground."""
+    edges = [(one.first, one.second) for one in linkage.pins.values()]
+    edges += [(one.foot, one.head) for one in linkage.actuators.values()]
+    edges += [(one.body, one.against) for one in linkage.slides.values()]
+    groups: list[set[str]] = [{name} for name in (GROUND, *linkage.bodies)]
+    for first, second in edges:
+        joined = [group for group in groups if first in group or second in group]
+        groups = [group for group in groups if group not in joined] + [set().union(*joined)]
+    return [[name for name in linkage.bodies if name in group] for group in groups if GROUND not in group]
+
+
+def movements(conditions: Conditions, moved: Matrix, rows: Matrix | None = None) -> list[Movement]:
+    """Independent ways in which a linkage can move in a posture, each of as few bodies as elimination leaves.
+
+    Arguments:
+        conditions: that hold; with those of driven parts these are held.
+        moved: coordinates counted by arms (n,).
+        rows: in place of those of the conditions (m, n).
+    """
+    rows = conditions.rows(moved) if rows is None else rows
+    return [movement(conditions, moved, rates) for rates in _null_space(rows)]
+
+
+def movement(conditions: Conditions, moved: Matrix, rates: Matrix) -> Movement:
+    """A movement in words, from the rates of all coordinates counted by arms (n,)."""
+    rates = rates / np.abs(rates).max()
+    speeds = np.abs(rates.reshape(-1, 3)).max(axis=1)
+    names = list(conditions.linkage.bodies)
+    moving = [name for name, speed in zip(names, speeds, strict=True) if speed > SEEN]
+    place, plain = moved / conditions.arms, rates / conditions.arms
+    return Movement({name: _how(conditions, place, plain, name) for name in moving}, plain)
+
+
+def _how(conditions: Conditions, place: Matrix, rates: Matrix, body: str) -> str:
+    """How a body moves: about a pin, about a point, or along a direction."""
+    item = conditions.kinetics.bodies[body]
+    i, size = item.first, conditions.size
+    speed, spin = rates[i : i + 2], float(rates[i + 2])
+    if abs(spin) * size < SEEN * float(np.hypot(*speed)):
+        return f"shifts along {math.degrees(math.atan2(speed[1], speed[0])):.4g} degrees"
+    centre = np.array(item.body.centre) + place[i : i + 2]
+    pole = centre + np.array([-speed[1], speed[0]]) / spin
+    for name, pin in conditions.linkage.pins.items():
+        if body in (pin.first, pin.second):
+            point = pin.first_point if pin.first == body else pin.second_point
+            at = conditions.kinetics.point(place, body, point)[0]
+            if float(np.hypot(*(at - pole))) < SEEN * size:
+                return f"turns about pin {name}"
+    return f"turns about ({1e3 * pole[0]:.4g}, {1e3 * pole[1]:.4g}) mm"
+
+
+def _null_space(rows: Matrix) -> list[Matrix]:
+    """Vectors that rows turn into nothing, by Gauss-Jordan elimination: turns are what is left free."""
+    size = rows.shape[1]
+    columns = [n for n in range(size) if n % 3 != 2] + [n for n in range(size) if n % 3 == 2]
+    left, pivots, row = rows[:, columns].copy(), list[int](), 0
+    for column in range(size):
+        if row == len(left):
+            break
+        best = row + int(np.argmax(np.abs(left[row:, column])))
+        if abs(left[best, column]) < ZERO:
+            continue
+        left[[row, best]] = left[[best, row]]
+        left[row] /= left[row, column]
+        others = np.arange(len(left)) != row
+        left[others] -= np.outer(left[others, column], left[row])
+        pivots.append(column)
+        row += 1
+    found = []
+    for free in (column for column in range(size) if column not in pivots):
+        vector = np.zeros(size)
+        vector[columns[free]] = 1.0
+        for n, pivot in enumerate(pivots):
+            vector[columns[pivot]] = -left[n, free]
+        found.append(vector)
+    return found

@@ -1,0 +1,291 @@
+"""What `check` says of any linkage: against closed forms of four-bars, slider-cranks and parallelograms."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from support_exudyn import ravn_slider_crank
+from support_exudyn.files.machines.read import read_machine
+from support_exudyn.machines.check import check_machine
+from support_exudyn.machines.check.any_machine import MachineReport, check_any
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.machines.planar_linkage import PlanarLinkage
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.model.linkage import GROUND, Body, Crank, LinearActuator, Linkage, Slide, pinned
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.checks import check_figure
+from tests.linkages import bar_of, chain, four_bar, towards
+from tests.often import often
+from user_forces import InputError
+
+CRANK_ROCKER = 0.1, 0.4, 0.3, 0.35
+DOUBLE_ROCKER = 0.3, 0.2, 0.3, 0.45
+
+
+def driven(linkage: Linkage, *cranks: str) -> Linkage:
+    return replace(linkage, cranks={name: Crank(body=name) for name in cranks})
+
+
+def checked(linkage: Linkage, stroke: float | None = None) -> MachineReport:
+    return check_any(MachineData(PlanarLinkage(drawing=linkage), "tried", kind="linkage"), stroke)
+
+
+def corner(one: float, other: float, opposite: float) -> float:
+    """Angle between two sides of a triangle, by the third [rad]."""
+    return math.acos((one**2 + other**2 - opposite**2) / (2.0 * one * other))
+
+
+def told(report: MachineReport, drive: str, what: str) -> list[tuple[float, str, str]]:
+    """Points of a way: angle [degrees] or length [mm], part and what lies in line."""
+    (way,) = (one for one in report.ways if one.drive == drive)
+    return [(way.shown(one.travel), one.part, one.why) for one in way.points if one.what == what]
+
+
+# --- the way of a drive ---
+
+
+@pytest.mark.parametrize("start", [0.0, 60.0, -170.0])
+def test_a_rocker_turns_back_where_crank_and_coupler_lie_in_line(start: float) -> None:
+    a, b, c, g = CRANK_ROCKER
+    report = checked(driven(four_bar(a, b, c, g, start), "crank"))
+    assert report.facts[2] == "crank: turns right round, without a dead centre"
+    stretched, folded = corner(b + a, g, c), corner(b - a, g, c) + math.pi
+    found = {round(math.remainder(degrees - start, 360.0) % 360.0, 6): why for degrees, _, why in told(
+        report, "crank", "turns back")}  # fmt: skip
+    expected = [round((math.degrees(angle) - start) % 360.0, 6) for angle in (stretched, folded)]
+    assert sorted(found) == pytest.approx(sorted(expected), abs=1e-5)
+    assert set(found.values()) == {"crank in line with coupler"}
+
+
+def test_dead_centres_of_a_double_rocker() -> None:
+    a, b, c, g = DOUBLE_ROCKER
+    report = checked(driven(four_bar(a, b, c, g), "crank"))
+    limit = math.degrees(corner(a, g, b + c))
+    found = told(report, "crank", "dead centre")
+    assert [one[0] for one in found] == pytest.approx([-limit, limit], abs=1e-6)
+    assert {one[2] for one in found} == {"coupler in line with rocker"}
+    assert f"crank at {limit:.2f} degrees: dead centre: coupler in line with rocker" in report.warnings[1]
+    # no force is told where it has no bound
+    assert all(abs(one["cranks_N_m"]["crank"]) < 100.0 for one in report.numbers["stations"])
+
+
+@settings(max_examples=often(8), deadline=None)
+@given(lengths=st.tuples(*[st.floats(0.15, 0.5)] * 4), degrees=st.floats(-170.0, 170.0))
+def test_ends_of_the_way_of_any_four_bar(lengths: tuple[float, float, float, float], degrees: float) -> None:
+    """By the triangle of coupler, rocker and the way from crank pin to rocker pivot."""
+    a, b, c, g = lengths
+    reach = math.dist(towards(degrees, a), (g, 0.0))
+    margin = 0.03
+    if not abs(b - c) + margin < reach < b + c - margin:
+        return
+    if min(abs(abs(a - g) - abs(b - c)), abs(a + g - b - c), abs(a - g)) < margin:
+        return  # next to a change point
+    report = checked(driven(four_bar(a, b, c, g, degrees), "crank"))
+    (way,) = report.ways
+    outer = corner(a, g, b + c) if a + g > b + c else None
+    inner = corner(a, g, abs(b - c)) if abs(a - g) < abs(b - c) else None
+    angle = abs(math.radians(degrees))
+    limits = {round(one, 6) for one in (outer, inner) if one is not None}
+    if not limits:
+        assert way.right_round
+        return
+    found = {round(abs(math.remainder(math.radians(way.shown(end)), 2.0 * math.pi)), 6) for end in way.ends}
+    assert sorted(found) == pytest.approx(sorted(limits), abs=2e-6)
+    assert (inner or 0.0) <= angle <= (outer or math.pi)
+
+
+def test_transmission_angles_are_those_of_the_triangle() -> None:
+    a, b, c, g = CRANK_ROCKER
+    report = checked(driven(four_bar(a, b, c, g), "crank"))
+    (found,) = report.transmission["crank"]
+    assert (found.pin, found.coupler, found.output) == ("B", "coupler", "rocker")
+    assert found.least[1] == pytest.approx(corner(b, c, g - a), abs=1e-9)
+    assert found.largest[1] == pytest.approx(corner(b, c, g + a), abs=1e-9)
+    assert "40 to 140 degrees are usual" in report.warnings[0]  # it is 38.6 degrees
+    for moved, angle in zip(report.ways[0].moved, found.angles, strict=True):
+        apart = math.dist(towards(60.0 + math.degrees(moved.travel), a), (g, 0.0))
+        assert angle == pytest.approx(corner(b, c, apart), abs=1e-9)
+
+
+def test_transmission_to_a_slider_is_counted_from_the_normal_of_its_guide() -> None:
+    machine = ravn_slider_crank()
+    report = check_any(MachineData(machine), None)
+    (found,) = report.transmission["crank"]
+    steepest = math.asin(machine.crank_length / machine.rod_length)
+    assert found.least[1] == pytest.approx(0.5 * math.pi - steepest, abs=1e-9)
+    assert [one[0] for one in told(report, "crank", "turns back")] == pytest.approx([0.0, 180.0], abs=1e-6)
+
+
+def boom() -> Linkage:
+    """A boom on a cylinder, a stick on another, and at its end a bucket moved by a third through two links."""
+    p, k, s, head, foot = (0.0, 0.0), (2.6, 1.3), (4.6, 0.4), (1.4, 1.15), (0.4, -0.3)
+    seat, horn, r, t, u = (1.5, 1.6), (2.75, 1.75), (4.3, 0.75), (4.75, 0.95), (5.0, 0.6)
+
+    def plate(mass: float, a: tuple[float, float], b: tuple[float, float]) -> Body:
+        return bar_of(a, b, mass)
+
+    return Linkage(
+        bodies={
+            "boom": plate(900.0, p, k),
+            "stick": plate(400.0, k, s),
+            "bell": plate(40.0, r, t),
+            "link": plate(30.0, t, u),
+            "bucket": plate(350.0, s, (5.1, -0.6)),
+        },
+        pins={
+            "P": pinned(GROUND, "boom", p),
+            "K": pinned("boom", "stick", k),
+            "S": pinned("stick", "bucket", s),
+            "R": pinned("stick", "bell", r),
+            "T": pinned("bell", "link", t),
+            "U": pinned("link", "bucket", u),
+        },
+        actuators={
+            "lift": LinearActuator(foot=GROUND, head="boom", foot_point=foot, head_point=head),
+            "crowd": LinearActuator(foot="boom", head="stick", foot_point=seat, head_point=horn),
+            "curl": LinearActuator(foot="stick", head="bell", foot_point=(3.0, 1.75), head_point=t),
+        },
+    )
+
+
+def test_each_cylinder_of_several_has_its_way_with_the_others_held() -> None:
+    report = checked(boom())
+    assert [way.drive for way in report.ways] == ["lift", "crowd", "curl"]
+    shortest = math.hypot(1.4, 1.15) - math.hypot(0.4, 0.3)
+    assert told(report, "lift", "dead centre") == [
+        (pytest.approx(1e3 * shortest, abs=1e-5), "", "boom in line with lift")
+    ]
+    knee, seat, horn = (2.6, 1.3), (1.5, 1.6), (2.75, 1.75)
+    longest = math.dist(knee, seat) + math.dist(knee, horn)
+    ((length, _, why),) = told(report, "crowd", "dead centre")
+    assert length == pytest.approx(1e3 * longest, abs=1e-5)
+    assert why == "stick in line with crowd"
+    assert {one.output for one in report.transmission["curl"]} == {"bucket"}
+    assert report.transmission["lift"] == []
+    assert "the way of each is that with the others held" in report.notes[0]
+    with pytest.raises(InputError, match="no single actuator drives"):
+        checked(boom(), 0.1)
+
+
+# --- freedoms ---
+
+
+def parallelogram(degrees: float = 60.0) -> Linkage:
+    """Three equal bars side by side under one coupler: one of them is more than needed."""
+    linkage = driven(four_bar(0.2, 0.5, 0.2, 0.5, degrees), "crank")
+    top = towards(degrees, 0.2, (0.25, 0.0))
+    return replace(
+        linkage,
+        bodies={**linkage.bodies, "third": bar_of((0.25, 0.0), top)},
+        pins={
+            **linkage.pins,
+            "D": pinned(GROUND, "third", (0.25, 0.0)),
+            "E": pinned("coupler", "third", top),
+        },
+    )
+
+
+def test_a_bar_too_many_is_told_and_moves_all_the_same() -> None:
+    report = checked(parallelogram())
+    assert report.numbers["degrees_of_freedom"] == {"counted": 0, "free": 1, "driven": 1, "left": 0}
+    assert report.warnings[0].startswith(
+        "pins.O, pins.A, pins.B, pins.C, pins.D and pins.E: one of their 12 conditions repeats the others"
+    )
+    assert report.ways[0].right_round
+    assert [one[0] for one in told(report, "crank", "change point")] == pytest.approx([180.0, 360.0], abs=1e-4)
+    for one in report.ways[0].moved:
+        turns = one.position[2::3]
+        assert turns == pytest.approx([one.travel, 0.0, one.travel, one.travel], abs=1e-5)
+
+
+def test_a_parallelogram_drawn_flat_is_in_a_dead_centre() -> None:
+    report = checked(driven(four_bar(0.2, 0.5, 0.2, 0.5, 0.0), "crank"))
+    assert len(report.warnings) == 1
+    assert report.warnings[0].startswith("the start posture is a dead centre")
+    assert report.ways == []
+
+
+def test_two_cranks_that_fight_are_told() -> None:
+    report = checked(driven(four_bar(*CRANK_ROCKER), "crank", "rocker"))
+    assert report.warnings[0].startswith("cranks.crank and cranks.rocker fight: they drive the same freedom")
+    assert report.ways == []
+
+
+def test_a_free_crank_moves_freely_and_is_not_warned_of() -> None:
+    report = checked(four_bar(*CRANK_ROCKER))
+    assert report.warnings == []
+    said = report.facts[-1]
+    assert said.startswith("it moves freely in one way: crank turns about pin O, coupler turns about (")
+    assert said.endswith("mm, rocker turns about pin C")
+    # the coupler turns about where the lines of crank and rocker meet
+    x, y = map(float, said.partition("coupler turns about (")[2].partition(")")[0].split(", "))
+    crank, rocker = (report.linkage.bodies[name].angle for name in ("crank", "rocker"))
+    pole = np.linalg.solve(
+        [[math.sin(crank), -math.cos(crank)], [math.sin(rocker), -math.cos(rocker)]],
+        [0.0, 350.0 * math.sin(rocker)],
+    )
+    assert (x, y) == pytest.approx(tuple(pole), rel=1e-3)
+
+
+def test_a_freedom_too_many_is_told_with_what_moves() -> None:
+    linkage = driven(four_bar(*CRANK_ROCKER), "crank")
+    b = linkage.pins["B"].first_point
+    arm = replace(
+        linkage,
+        bodies={**linkage.bodies, "arm": bar_of(b, (b[0] + 0.2, b[1]))},
+        pins={**linkage.pins, "D": pinned("rocker", "arm", b)},
+    )
+    (said,) = checked(arm).warnings
+    assert said.startswith("1 degree of freedom is left with all driven parts held: arm turns about pin D;")
+    loose = replace(arm, bodies={**arm.bodies, "plate": bar_of((1.0, 0.0), (1.0, 1.0))})
+    assert "bodies.plate: nothing joins it to the ground" in checked(loose).warnings
+
+
+def test_a_block_on_a_line_shifts() -> None:
+    linkage = Linkage(
+        bodies={"block": Body(mass=1.0, inertia=1e-3, centre=(0.0, 0.0))},
+        slides={"line": Slide(body="block", point=(0.0, 0.0), direction=math.radians(30.0))},
+    )
+    assert checked(linkage).facts[-1] == "it moves freely in one way: block shifts along 30 degrees"
+
+
+# --- all of it ---
+
+
+@pytest.mark.slow
+@settings(max_examples=often(10), deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), pairs=st.integers(1, 3))
+def test_any_chain_is_checked_and_drawn(seed: int, pairs: int) -> None:
+    linkage = driven(chain(np.random.default_rng(seed), pairs), "crank")
+    report = checked(linkage)
+    assert report.numbers["degrees_of_freedom"] == {"counted": 1, "free": 1, "driven": 1, "left": 0}
+    (way,) = report.ways
+    assert way.right_round or way.locks
+    for one in way.moved:  # every posture is closed
+        for pin in linkage.pins.values():
+            gap = kinetics_of(linkage).relative(one.position, pin)[0]
+            assert float(np.hypot(*gap)) < 1e-11
+    with style.look():
+        check_figure(report).canvas.draw()
+
+
+def test_linkages_are_drawn() -> None:
+    with style.look():
+        for linkage in (boom(), four_bar(*CRANK_ROCKER), driven(four_bar(*DOUBLE_ROCKER), "crank")):
+            figure = check_figure(checked(linkage))
+            figure.canvas.draw()
+            assert len(figure.axes) == {3: 4, 0: 1, 1: 4}[len(linkage.driven)]
+
+
+def test_the_shipped_crank_rocker_is_told_as_it_is() -> None:
+    report = check_machine(read_machine("crank_rocker"))
+    data = report.data()["drives"]["crank"]
+    assert data["turns_right_round"] is True
+    assert [one["what"] for one in data["points"]] == ["turns back", "turns back"]
+    assert math.degrees(data["transmission_angles"][0]["least_rad"]) == pytest.approx(38.62, abs=0.01)
