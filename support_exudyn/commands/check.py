@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from support_exudyn.commands.command_line import add_out, number, say
+from support_exudyn.files.machines import SHIPPED
 from support_exudyn.files.scenarios.scenario_file import read_machine_in, read_scenario
 from support_exudyn.files.scenarios.simple_scenario import simple_scenario
 from support_exudyn.files.toml.text import load_toml
@@ -37,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "machine",
         metavar="FILE",
         help="machine data file, a path that ends in .toml; or a scenario's file, also of a machine of one's "
-        "own; or a machine that comes with the package: reference, zf18000, two_leg_shield, slider_crank",
+        f"own; or a machine that comes with the package: {', '.join(SHIPPED)}",
     )
     add_out(parser, "where the figure goes; by default beside the file, or here")
     add(

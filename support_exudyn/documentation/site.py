@@ -16,6 +16,7 @@ from support_exudyn.documentation.gallery import gallery_page
 from support_exudyn.documentation.keys import keys_page
 from support_exudyn.documentation.known_channels import channels_page
 from support_exudyn.documentation.reference import reference_pages
+from support_exudyn.documentation.shipped_machines import machines_page
 from support_exudyn.files import scenario_schema
 from support_exudyn.files.machines import machine_schema
 from user_forces.values.value import InputError
@@ -82,6 +83,7 @@ def _lay_out(pages: Path, commands: str, results: Path | None) -> list[Any]:
         "scenario_keys": keys_page("Keys of a scenario's file", scenario_schema()),
         "machine_keys": keys_page("Keys of a machine's file", machine_schema()),
         "channels": channels_page(),
+        "machines": machines_page(reference / "pictures"),
         "findings": findings_page(results, reference / "pictures"),
         "gallery": gallery_page(ROOT / "studies" / "examples", reference / "pictures"),
         **{f"names_{room}": text for room, text in named.items()},
@@ -103,6 +105,7 @@ def _reference_index(rooms_of_names: Iterable[str]) -> str:
         "scenario_keys": "keys of a scenario's file",
         "machine_keys": "keys of a machine's file",
         "channels": "what a run records",
+        "machines": "machines that come with the package",
         **{f"names_{room}": f"names in Python: `{room}`" for room in rooms_of_names},
     }
     return "# Reference\n\n" + "".join(f"- [{said}]({name}.md)\n" for name, said in pages.items())

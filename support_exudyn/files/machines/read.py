@@ -32,7 +32,18 @@ FILES: Mapping[str, type[FourColumnSupportFile | TwoLegShieldFile | SliderCrankF
     "slider_crank": SliderCrankFile,
     "linkage": LinkageFile,
 }
-SHIPPED = ("reference", "zf18000", "two_leg_shield", "slider_crank", "crank_rocker")  # each a data file
+SHIPPED = (  # each a data file
+    "reference",
+    "zf18000",
+    "two_leg_shield",
+    "slider_crank",
+    "crank_rocker",
+    "watt_six_bar",
+    "slider_crank_guide",
+    "toggle_press",
+    "excavator_bucket",
+    "velenje_shield",
+)
 REMEMBERED = 8  # machines that are not read again as long as their text is the same
 
 
