@@ -103,6 +103,7 @@ def work(chosen: Options) -> StudyOutcome:
         "found": found, "goal": cases[IDEAL].goal, "mu": subject.friction, "frictions": frictions,
         "sizes": SIZES_MM, "case_name": case_name, "all_measures": measures,
         "has_tip": ("mean_tip_shift", IDEAL) in found, "watched": subject.watched,
+        "window": f"{subject.watched.window:g} s",
     }  # fmt: skip
     drawings = figures(subject, results, found)
     return StudyOutcome(numbers, words, drawings, tables, results, live=live(drawings))

@@ -19,10 +19,9 @@ Series = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 DEGREES = 180.0 / np.pi
-TREND_WINDOW = (
-    0.1  # [s]: what is slower is the trend, what is faster is fluctuation; the contact shakes at 20 Hz
-)
-EDGE = TREND_WINDOW  # left out at both ends of the rise, where no window fits [s]
+TREND_WINDOW = 0.1  # [s]: slower is the trend, faster is fluctuation; the paper's contact shakes at 20 Hz
+WINDOW_SHARE = 0.05  # of the motion: the window of a shorter one than the paper's
+EDGE = TREND_WINDOW  # left out at both ends of the paper's rise, where no window fits [s]
 THIRDS = {"early": (0.05, 0.3), "middle": (0.375, 0.625), "late": (0.7, 0.95)}  # of the rise, less edges
 
 
@@ -94,12 +93,12 @@ def spread(time: Series, values: Series) -> float:
     return float(np.sqrt(mean(time, (values - mean(time, values)) ** 2)))
 
 
-def trend(run: MeasuredRun, values: Series) -> Series:
-    """Moving mean over TREND_WINDOW, centred, shape (n,)."""
+def trend(run: MeasuredRun, values: Series, window: float = TREND_WINDOW) -> Series:
+    """Moving mean over a window [s], centred, shape (n,)."""
     period = float(run.time[1] - run.time[0])
     from scipy.ndimage import uniform_filter1d  # takes a while to import
 
-    return uniform_filter1d(values, 2 * round(0.5 * TREND_WINDOW / period) + 1, mode="nearest")
+    return uniform_filter1d(values, 2 * round(0.5 * window / period) + 1, mode="nearest")
 
 
 def rearward_angle(run: MeasuredRun, column: str) -> Series:
@@ -127,6 +126,11 @@ class Watched:
     body: str
     start: float
     end: float
+
+    @property
+    def window(self) -> float:
+        """The time [s] over which the trend is a moving mean; so much is left out at both ends."""
+        return min(TREND_WINDOW, WINDOW_SHARE * (self.end - self.start))
 
     @property
     def force(self) -> str:
@@ -172,24 +176,25 @@ class Watched:
     ) -> float:
         """Fluctuation: root mean square of a quantity less its trend, between two times, in its unit.
 
-        Within EDGE of the ends of the rise, which is left out by default, the trend leans on what is inside it.
+        Within a window of the ends of the rise, which is left out by default, the trend leans on what is inside.
         """
-        begin = self.start + EDGE if begin is None else begin
-        inside = between(run, begin, self.end - EDGE if end is None else end)
+        begin = self.start + self.window if begin is None else begin
+        inside = between(run, begin, self.end - self.window if end is None else end)
         fast = (values - self._trend(run, values))[inside]
         return float(np.sqrt(mean(run.time[inside], fast**2)))
 
     def likeness(self, run: MeasuredRun, other: MeasuredRun, channel: str) -> float:
         """Correlation of the trends of two runs over the rise: 1 if they have the same course."""
-        mine = self._trend(run, run[channel])[between(run, self.start + EDGE, self.end - EDGE)]
-        its = self._trend(other, other[channel])[between(other, self.start + EDGE, self.end - EDGE)]
+        begin, end = self.start + self.window, self.end - self.window
+        mine = self._trend(run, run[channel])[between(run, begin, end)]
+        its = self._trend(other, other[channel])[between(other, begin, end)]
         return float(np.corrcoef(mine, its)[0, 1])
 
     def _trend(self, run: MeasuredRun, values: Series) -> Series:
         """Trend of what happens in the rise: what was before it does not enter."""
         rise = self.in_rise(run)
         result = np.zeros_like(values)
-        result[rise] = trend(run, values[rise])
+        result[rise] = trend(run, values[rise], self.window)
         return result
 
     def stage_mean(self, run: MeasuredRun, channel: str, stage: str) -> float:

@@ -127,7 +127,8 @@ def own_subject(path: Path, pin: str | None = None) -> Subject:
     loose = [name for name, one in scenario.pins.items() if isinstance(one, ClearancePin)]
     chosen = pin or (loose[0] if len(loose) == 1 else paper_machine.CLEARANCE_PIN)
     if chosen not in pins:
-        raise InputError(f"{path}: --pin {short(chosen)}: no such pin; allowed: {', '.join(pins)}")
+        said = f"--pin {short(pin)}: no such pin" if pin else "--pin: missing; it says which pin has clearance"
+        raise InputError(f"{path}: {said}; allowed: {', '.join(pins)}")
     given = scenario.pins.get(chosen)
     others = {name: one for name, one in scenario.pins.items() if name != chosen}
     clearance = given if isinstance(given, ClearancePin) else None

@@ -7,7 +7,7 @@ from itertools import combinations
 
 from studies.common import paper_machine
 from studies.common.numbers import Found, Number
-from studies.common.rise import EDGE, Watched
+from studies.common.rise import Watched
 from studies.common.subject import Subject
 from support_exudyn import ClearancePin, CubicStep, Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
@@ -151,9 +151,14 @@ class PinPlan:
         Of the paper's machine also pairs, and single pins with less friction and with less clearance. Machines
         on actuators start settled, as a support stands that waits to be raised.
         """
-        if self.watched.end - self.watched.start <= 2.0 * EDGE + STEP:
+        period = min(self.motion.record_period, STEP)
+        if self.watched.window < 2.0 * period:
             times = f"{self.watched.start:g} to {self.watched.end:g} s"
-            raise InputError(f"motion from {times}: allowed: longer than {2.0 * EDGE:g} s, to tell shaking by")
+            least = 40.0 * period
+            raise InputError(
+                f"motion from {times}, a record every {period:g} s: allowed: longer than {least:g} s, to tell "
+                "shaking by, or more records"
+            )
         ideal = replace(self.motion, formulation="auto", solver=SolverSettings())
         ideal = replace(ideal, formulation=cheapest(ideal))
         motion = replace(self.motion, formulation="redundant")

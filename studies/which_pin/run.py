@@ -46,6 +46,7 @@ def work(chosen: Options) -> StudyOutcome:
     words = {
         "cases": cases,
         "plan": plan,
+        "window": f"{plan.watched.window:g} s",
         "tables": tables,
         "found": found,
         "orders": {name: tables.in_order(shifts) for name, shifts in means.items()},
