@@ -176,7 +176,7 @@ class Watched:
     ) -> float:
         """Fluctuation: root mean square of a quantity less its trend, between two times, in its unit.
 
-        Within a window of the ends of the rise, which is left out by default, the trend leans on what is inside.
+        Within a window of the ends of the rise, left out by default, the trend leans on what is inside.
         """
         begin = self.start + self.window if begin is None else begin
         inside = between(run, begin, self.end - self.window if end is None else end)
