@@ -50,6 +50,29 @@ def inverse_masses(answers: Matrix, axes: Matrix) -> EffectiveMasses:
     return EffectiveMasses(*(InverseMass.of(axes.T @ found @ axes) for found in (alone, held(answers))))
 
 
+def struck_together(found: EffectiveMasses, answers: Matrix, closing: Matrix) -> EffectiveMasses:
+    """The masses of a corner in a slot that impacts at the same time as others, as those of a face do.
+
+    In a free impact of all of them, with closing velocities v, the impulses W^-1 v bring them to rest, W the answers.
+    So m = p / v of the first is the mass with which it stores at most m v^2 / 2. Others that are pressed but do not
+    close, v = 0, are held, as without.
+
+    Arguments:
+        found: masses with all others held.
+        answers: W along the normals of the corner and of all others that are pressed (1 + m, 1 + m) [1/kg].
+        closing: velocities along these (1 + m,) [m/s].
+    """
+    others = np.maximum(closing[1:], 0.0)
+    if not (closing[0] > 0.0 and others.any()):
+        return found
+    size = np.sqrt(np.diag(answers))
+    impulses = np.linalg.pinv(answers / np.outer(size, size), rcond=SAME, hermitian=True) @ (
+        np.array([closing[0], *others]) / size
+    )
+    mass = impulses[0] / size[0] / closing[0]
+    return found._replace(held=found.held._replace(yy=float(1.0 / mass))) if mass > 0.0 else found
+
+
 def normal(x: float, y: float, clearance: float) -> Matrix | None:
     """Along which a journal at an eccentricity x, y [m] is pressed, (2,); None if it is not."""
     size = math.hypot(x, y)

@@ -26,7 +26,7 @@ from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
-from support_exudyn.mechanics.pressed_pins import EffectiveMasses, inverse_masses, normal
+from support_exudyn.mechanics.pressed_pins import EffectiveMasses, inverse_masses, normal, struck_together
 from support_exudyn.mechanics.trajectory import Impulse
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.plane_geometry import rotated
@@ -78,7 +78,14 @@ class Scene(EngineScene):
         answers = self.kinetics.inverse_mass(position, rates)
         angle = self.bore_angle(name, position)
         axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-        return inverse_masses(answers, axes)
+        found = inverse_masses(answers, axes)
+        eccentricity = self.places[name].relative(self.kinetics, position)[0]
+        if not self.places[name].contact.bearing.is_slot or not eccentricity.any():
+            return found
+        # both corners of a face that lands on a wall impact at once, and none of them is pressed already
+        rows = np.vstack([eccentricity / np.linalg.norm(eccentricity) @ rates[0], *rates[1:]])
+        closing = rows @ self.mbs.systemData.GetODE2Coordinates_t(state)
+        return struck_together(found, self.kinetics.inverse_mass(position, [rows]), closing)
 
     def _pressed(self, name: str, position: Matrix) -> list[Matrix]:
         """Rows of the rates along the normals of all contacts but one that are pressed, (1, n) each."""

@@ -1,0 +1,447 @@
+"""Blocks and pins with clearance in guides, against equations of their own and what has to be conserved."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from support_exudyn import (
+    Body,
+    Crank,
+    Held,
+    IdealPin,
+    Linkage,
+    Machine,
+    Result,
+    Scenario,
+    Slide,
+    SolverSettings,
+    simulate,
+)
+from support_exudyn.formulations.registry import FORMULATIONS
+from support_exudyn.model.guides import ClearanceGuide, IdealGuide
+from support_exudyn.model.linkage import GROUND, pinned
+from support_exudyn.scenario.timescales import loaded_contacts
+from tests.cases.guide_cases import (
+    BLOCK,
+    GAP,
+    FreePair,
+    pair_by_scipy,
+    slider_crank,
+    slider_crank_by_scipy,
+    start_of,
+)
+from tests.metamorphic.moving import UPSIDE_DOWN, Move, Moved, turn
+from user_forces import (
+    Ambrosio,
+    Exact,
+    Flores,
+    Frictionless,
+    HuntCrossley,
+    ImpactVelocity,
+    InputError,
+    LankaraniNikravesh,
+    NormalLaw,
+    delivered_restitution,
+    value,
+)
+
+RUBBING = Ambrosio(sliding_coefficient=0.2, dynamic_speed=0.05)
+KEPT = Exact(stiffness=1e8, restitution=0.6, damping_speed=ImpactVelocity(floor=1e-9))
+IN_BLOCK = ClearanceGuide(gaps=(1e-3, 5e-4), normal=KEPT, friction=RUBBING, block=BLOCK)
+AS_PIN = ClearanceGuide(gaps=(1e-3, 5e-4), normal=KEPT, friction=RUBBING, pin_radius=0.02)
+GRAVITY = (0.0, -9.81)
+# by us from minimal coordinates in 80 bits: times [s] and normal speeds [m/s] of both corners of the upper wall
+UPPER = (
+    (0.0026925027520, 0.84161232),
+    (0.0059146101524, 0.22660213),
+    (0.0079987471790, 0.06527503),
+    (0.0090357056840, 0.01145388),
+)
+LOWER = ((0.0258588360260, 0.63788436), (0.0286550274385, 0.26690479))
+AT_50_MS = (4.79891979268, 0.525210655144, 68.5442227620, -3.4332093646)  # angles and rates of crank and rod
+# with Newton's impacts in place of contacts: second impact, rates of crank and rod at 0.02 s
+NEWTON = (0.0056077978681, 71.7997054198, 1.43263683831)
+
+
+def pair(machine: FreePair, guide: ClearanceGuide, duration: float, **others: object) -> Scenario:
+    """A block or a pin and its carrier."""
+    known = {"gravity": GRAVITY, "step": 2e-5, "solver": SolverSettings(impact_steps=128)}
+    return Scenario(
+        machine=machine, guides={"guide": guide}, duration=duration, formulation="redundant", **(known | others)
+    )
+
+
+def end(result: Result) -> np.ndarray:
+    """x, y, angle of every body from the start on, then their rates, at the end."""
+    bodies = result.scenario.linkage.bodies
+    ways = [
+        float(result[f"{name}.{way}"][-1]) - (body.angle if way == "angle" else 0.0)
+        for name, body in bodies.items()
+        for way in ("x", "y", "angle")
+    ]
+    rates = ("velocity_x", "velocity_y", "angular_velocity")
+    return np.array(ways + [float(result[f"{name}.{rate}"][-1]) for name in bodies for rate in rates])
+
+
+# --- against equations of their own ---
+
+
+def test_a_slider_between_walls_impacts_as_computed_otherwise() -> None:
+    result = simulate(slider_crank(1e9, 0.0092, step=5e-6, impact_steps=256))
+    for corner in ("upper_left", "upper_right"):
+        found = [(one.time, one.speed) for one in result.onsets[f"guide.{corner}"]]
+        np.testing.assert_allclose(found, UPPER, rtol=1e-5, atol=1e-7)
+    assert result.onsets["guide.lower_left"] == ()
+    assert np.abs(result["guide.guide.tilt"]).max() < 1e-12
+
+
+@pytest.mark.slow
+def test_a_slider_between_walls_moves_as_computed_otherwise() -> None:
+    result = simulate(slider_crank(1e9, 0.05, step=2e-6, impact_steps=512))
+    for wall, impacts in (("upper", UPPER), ("lower", LOWER)):
+        found = [(one.time, one.speed) for one in result.onsets[f"guide.{wall}_left"]]
+        np.testing.assert_allclose(found[: len(impacts)], impacts, rtol=1e-5, atol=1e-7)
+    names = ("crank.angle", "rod.angle", "crank.angular_velocity", "rod.angular_velocity")
+    np.testing.assert_allclose([result[name][-1] for name in names], AT_50_MS, rtol=0.0, atol=2e-5)
+
+
+@pytest.mark.slow
+def test_friction_between_slider_and_walls_is_as_computed_otherwise() -> None:
+    rubbing = Ambrosio(sliding_coefficient=0.01)
+    result = simulate(slider_crank(1e9, 0.01, rubbing, step=2e-6, impact_steps=512))
+    other = slider_crank_by_scipy(1e9, rubbing)
+    state = other.run((0.0, 0.0, 0.0), (150.0, -75.0, 0.0), 0.01)
+    check_onsets(result, other.touches, 5e-8)
+    bodies = ("crank", "rod", "slider")
+    found = [result[f"{n}.{what}"][-1] for what in ("angle", "angular_velocity") for n in bodies]
+    np.testing.assert_allclose(found, state, rtol=1e-6, atol=2e-6)
+
+
+def check_onsets(result: Result, touches: list[tuple[str, float, float]], within: float) -> None:
+    """The impacts are those found otherwise, to a time [s]."""
+    for name, onsets in result.onsets.items():
+        wanted = [(time, speed) for corner, time, speed in touches if name == f"guide.{corner}"]
+        found = [(one.time, one.speed) for one in onsets]
+        assert len(found) == len(wanted), name
+        np.testing.assert_allclose(
+            np.reshape(found, (-1, 2)), np.reshape(wanted, (-1, 2)), rtol=2e-4, atol=within
+        )
+
+
+@pytest.mark.parametrize(
+    ("machine", "guide", "backend"),
+    [
+        (FreePair(), IN_BLOCK, "python"),
+        (FreePair(), IN_BLOCK, "symbolic"),
+        (FreePair(turns=True), AS_PIN, "python"),
+        (FreePair(grounded=True), IN_BLOCK, "symbolic"),
+    ],
+)
+def test_a_slot_that_moves_and_turns_with_friction(
+    machine: FreePair, guide: ClearanceGuide, backend: str
+) -> None:
+    duration = 0.0045
+    solver = SolverSettings(impact_steps=128, backend=backend)
+    result = simulate(pair(machine, guide, duration, solver=solver))
+    other = pair_by_scipy(machine, guide, GRAVITY)
+    state = other.run(*start_of(machine.linkage()), duration, rtol=1e-9)
+    assert sum(map(len, result.onsets.values())) >= 2
+    check_onsets(result, other.touches, 3e-7)
+    np.testing.assert_allclose(end(result), state, rtol=1e-3, atol=1e-4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("guide", [IN_BLOCK, AS_PIN], ids=["block", "pin"])
+@pytest.mark.parametrize("grounded", [False, True])
+@pytest.mark.parametrize("backend", ["python", "symbolic"])
+def test_a_slot_that_moves_and_turns_for_longer(guide: ClearanceGuide, grounded: bool, backend: str) -> None:
+    machine = FreePair(grounded=grounded, turns=guide.pin_radius is not None)
+    solver = SolverSettings(impact_steps=512, backend=backend)
+    result = simulate(pair(machine, guide, 0.015, step=5e-6, solver=solver))
+    other = pair_by_scipy(machine, guide, GRAVITY)
+    state = other.run(*start_of(machine.linkage()), 0.015)
+    check_onsets(result, other.touches, 1e-7)
+    np.testing.assert_allclose(end(result), state, rtol=1e-4, atol=2e-6)
+
+
+@pytest.mark.slow
+def test_contacts_tend_to_impacts_of_newton_as_they_become_stiffer() -> None:
+    """The second impact at the order -0.4, that of the duration of a contact, in the stiffness K."""
+    off = []
+    for stiffness in (1e9, 1e11, 1e13):
+        result = simulate(slider_crank(stiffness, 0.02, step=2e-6, impact_steps=512))
+        found = (
+            result.onsets["guide.upper_left"][1].time,
+            float(result["crank.angular_velocity"][-1]),
+            float(result["rod.angular_velocity"][-1]),
+        )
+        off.append(np.abs(np.subtract(found, NEWTON)))
+    order = 0.5 * np.log10(np.array(off[:-1]) / np.array(off[1:]))
+    np.testing.assert_allclose(order[:, 0], 0.4, atol=0.01)
+    assert (order[:, 1:] > 0.35).all()
+
+
+# --- what is conserved ---
+
+
+@pytest.mark.parametrize("backend", ["python", "symbolic"])
+@pytest.mark.parametrize("guide", [IN_BLOCK, AS_PIN], ids=["block", "pin"])
+def test_momentum_is_conserved_in_a_long_slot_that_turns(guide: ClearanceGuide, backend: str) -> None:
+    machine = FreePair(along=2.0, carrier_spin=8.0, velocity=(-3.0, 15.0), turns=guide.pin_radius is not None)
+    solver = SolverSettings(impact_steps=64, backend=backend)
+    result = simulate(pair(machine, guide, 0.02, gravity=(0.0, 0.0), solver=solver))
+    bodies = machine.linkage().bodies
+    px, py, turning = 0.0, 0.0, 0.0
+    for name, body in bodies.items():
+        x, y, vx, vy = (result[f"{name}.{what}"] for what in ("x", "y", "velocity_x", "velocity_y"))
+        px, py = px + body.mass * vx, py + body.mass * vy
+        turning = turning + body.mass * (x * vy - y * vx) + body.inertia * result[f"{name}.angular_velocity"]
+    assert sum(map(len, result.onsets.values())) >= 3
+    assert np.ptp(result["carrier.angle"]) > 0.1
+    for series, size in ((px, 10.0), (py, 10.0), (turning, 20.0)):
+        assert np.ptp(series) < 1e-9 * size
+    kinetic = float(result["energy.kinetic"][0])
+    assert np.abs(result["energy.balance"]).max() < 3e-5 * kinetic
+    assert result["energy.friction_loss"][-1] > 1e-3 * kinetic
+
+
+@value
+class Block(Machine):
+    """A free block in a level guide on the ground, in whose middle its centre is."""
+
+    velocity: tuple[float, float] = (0.3, 0.5)
+    spin: float = 0.0
+    inertia: float = 0.003
+    turns: bool = False
+
+    def linkage(self) -> Linkage:
+        return Linkage(
+            bodies={
+                "block": Body(
+                    mass=2.0, inertia=self.inertia, centre=(0.0, 0.0), velocity=self.velocity, spin=self.spin
+                )
+            },
+            slides={"guide": Slide(body="block", point=(0.0, 0.0), turns=self.turns)},
+        )
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        Exact(stiffness=1e10, restitution=0.4),
+        Exact(stiffness=1e10, restitution=0.9),
+        LankaraniNikravesh(stiffness=1e10, restitution=0.8),
+        Flores(stiffness=1e10, restitution=0.5),
+        HuntCrossley(stiffness=1e10, restitution=0.7, damping_speed=ImpactVelocity()),
+    ],
+    ids=lambda law: type(law).__name__,
+)
+@pytest.mark.parametrize("part", ["face", "corner", "pin"])
+def test_an_impact_delivers_the_restitution_of_its_law(law: NormalLaw, part: str) -> None:
+    # a block that turns lands with one corner, one that does not with a face, which is both
+    machine = Block(spin=3.0 if part == "corner" else 0.0, turns=part == "pin")
+    shape = {"pin_radius": 0.03} if part == "pin" else {"block": BLOCK}
+    guide = ClearanceGuide(gaps=(1e-3, 1e-3), normal=law, **shape)
+    result = simulate(pair(machine, guide, 3.5e-3, gravity=(0.0, 0.0), solver=SolverSettings(impact_steps=256)))
+    wanted = delivered_restitution(law.factor(law.restitution))
+    name = {"face": "upper_left", "corner": "upper_right", "pin": "pin"}[part]
+    (onset, *_) = result.onsets[f"guide.{name}"]
+    assert math.isfinite(onset.separation_time)
+    if part == "corner":
+        (other, *_) = result.onsets["guide.upper_left"]
+        assert other.time > onset.separation_time  # it was alone
+    # the corner goes on along the wall meanwhile, and its lever changes by a thousandth
+    assert onset.separation_velocity / onset.speed == pytest.approx(
+        wanted, rel=2e-3 if part == "corner" else 2e-4
+    )
+
+
+# --- seen from elsewhere ---
+
+
+def swapped(name: str) -> str:
+    """A corner, seen in a mirror along the guide."""
+    return (
+        name.translate(str.maketrans({})).replace("upper", "?").replace("lower", "upper").replace("?", "lower")
+    )
+
+
+@settings(max_examples=4, deadline=None, derandomize=True)
+@given(
+    machine=st.builds(
+        FreePair,
+        direction=st.sampled_from((-2.0, 0.0, 0.7)),
+        along=st.sampled_from((-0.8, 0.2, 1.5)),
+        spin=st.sampled_from((-3.0, 0.5, 6.0)),
+        velocity=st.sampled_from(((0.3, -0.8), (-0.5, 1.0))),
+        grounded=st.booleans(),
+    ),
+    gaps=st.sampled_from(((1e-3, 0.0), (2e-4, 1e-3), (1e-3, 1e-3))),
+    friction=st.sampled_from((Frictionless(), RUBBING)),
+    move=st.sampled_from((UPSIDE_DOWN, turn(137.0), Move(shift=(3.0, -2.0)), turn(-60.0))),
+    backend=st.sampled_from(("python", "symbolic")),
+)
+def test_a_scene_elsewhere_in_a_mirror_or_turned_moves_as_it_did(
+    machine: FreePair,
+    gaps: tuple[float, float],
+    friction: Ambrosio | Frictionless,
+    move: Move,
+    backend: str,
+) -> None:
+    guide = ClearanceGuide(gaps=gaps, normal=KEPT, friction=friction, block=BLOCK)
+    solver = SolverSettings(impact_steps=32, backend=backend)
+    one = pair(machine, guide, 0.006, solver=solver)
+    there = Moved(inner=machine, along=move.along, flipped=move.flipped, shift=move.shift, about=move.about)
+    other = replace(
+        one,
+        machine=there,
+        guides={"guide": replace(guide, gaps=gaps[::-1] if move.flipped else gaps)},
+        gravity=move.vector(GRAVITY),
+    )
+    here, moved = simulate(one), simulate(other)
+    for name, onsets in here.onsets.items():
+        theirs = moved.onsets[swapped(name) if move.flipped else name]
+        np.testing.assert_allclose([a.time for a in onsets], [b.time for b in theirs], atol=1e-8)
+    for body in one.linkage.bodies:
+        place = move.point((here[f"{body}.x"], here[f"{body}.y"]))
+        np.testing.assert_allclose(place, (moved[f"{body}.x"], moved[f"{body}.y"]), atol=1e-8)
+    for what in ("force", "friction_force", "tilt"):
+        sign = move.sign if what != "friction_force" else 1.0
+        largest = np.abs(here[f"guide.guide.{what}"]).max()
+        off = np.abs(sign * here[f"guide.guide.{what}"] - moved[f"guide.guide.{what}"]).max()
+        assert off <= 1e-3 * largest + 1e-9, what
+
+
+# --- what is recorded ---
+
+
+def test_channels_are_those_of_the_corners() -> None:
+    machine = FreePair(along=0.2)
+    result = simulate(pair(machine, IN_BLOCK, 0.006, record_period=5e-5))
+    c, s = (f(0.4 + result["carrier.angle"] - 0.7) for f in (np.cos, np.sin))
+    tilt = result["block.angle"] + 0.2 - (result["carrier.angle"] - 0.7)
+    np.testing.assert_allclose(result["guide.guide.tilt"], tilt, atol=1e-12)
+    a, b = 0.5 * BLOCK[0], 0.5 * BLOCK[1]
+    # the guide's point lies 10 mm forward of the block's centre, which at the start is at the carrier's level
+    turned = 0.2 + result["block.angle"]
+    point_x = result["block.x"] + 0.01 * np.cos(turned)
+    point_y = result["block.y"] + 0.01 * np.sin(turned)
+    start = np.array([point_x[0] - 0.2, point_y[0] - 0.1])
+    height = (
+        -math.sin(0.4) * start[0] + math.cos(0.4) * start[1]
+    )  # of the guide's line above the carrier's centre
+    across = c * (point_y - result["carrier.y"]) - s * (point_x - result["carrier.x"]) - height
+    arms = {"upper_left": (-a, b), "upper_right": (a, b), "lower_left": (-a, -b), "lower_right": (a, -b)}
+    gaps = {}
+    for name, (x, y) in arms.items():
+        above = across + np.sin(tilt) * x + np.cos(tilt) * y
+        gaps[name] = b + 1e-3 - above if y > 0 else above + b + 5e-4
+        np.testing.assert_allclose(result[f"guide.guide.{name}.gap"], gaps[name], atol=1e-12)
+    upper = np.minimum(gaps["upper_left"], gaps["upper_right"])
+    lower = np.minimum(gaps["lower_left"], gaps["lower_right"])
+    np.testing.assert_allclose(result["guide.guide.gap_upper"], upper, atol=1e-12)
+    np.testing.assert_allclose(result["guide.guide.gap_lower"], lower, atol=1e-12)
+    # Newton and Euler on the block, whose accelerations follow from all forces together
+    mass, inertia = 0.5, 4e-4
+    fx = mass * np.gradient(result["block.velocity_x"], result.time)  # only to see that there is some
+    assert np.abs(fx).max() > 10.0
+    normal = {name: result[f"guide.guide.{name}.normal_force"] for name in arms}
+    force = sum(np.sign(-y) * normal[name] for name, (_, y) in arms.items())
+    np.testing.assert_allclose(result["guide.guide.force"], force, atol=1e-9 * np.abs(force).max())
+    rubbed = sum(np.sign(-y) * result[f"guide.guide.{name}.friction_force"] for name, (_, y) in arms.items())
+    np.testing.assert_allclose(result["guide.guide.friction_force"], rubbed, atol=1e-6)
+    along = {n: np.cos(tilt) * x - np.sin(tilt) * y for n, (x, y) in arms.items()}
+    pressed = sum(normal.values())
+    touching = pressed > 0.0
+    place = sum(along[name] * normal[name] for name in arms)
+    np.testing.assert_allclose(
+        result["guide.guide.place"][touching], (place / np.where(touching, pressed, 1.0))[touching]
+    )
+    assert not result["guide.guide.place"][~touching].any()
+    # moment about the guide's point, and the same about the centre from the angular acceleration
+    lever_x, lever_y = -0.01 * np.cos(turned), -0.01 * np.sin(turned)
+    on_x = -s * force + c * rubbed
+    on_y = c * force + s * rubbed
+    about_centre = result["guide.guide.moment"] - (lever_x * on_y - lever_y * on_x)
+    np.testing.assert_allclose(
+        inertia * result["block.angular_acceleration"], about_centre, atol=1e-7 * np.abs(about_centre).max()
+    )
+
+
+# --- at rest, and what is refused ---
+
+
+@value
+class HeldSlider(Machine):
+    """A rod on a crank that is held, whose other end is a heavy block in a level guide."""
+
+    def linkage(self) -> Linkage:
+        return Linkage(
+            bodies={
+                "crank": Body(mass=1.0, inertia=0.01, centre=(0.0, 0.05), angle=0.5 * math.pi),
+                "rod": Body(mass=1.0, inertia=0.01, centre=(0.2, 0.05), angle=-0.25),
+                "block": Body(mass=5.0, inertia=0.02, centre=(0.42, 0.0)),
+            },
+            pins={
+                "main": pinned(GROUND, "crank", (0.0, 0.0)),
+                "crank_pin": pinned("crank", "rod", (0.0, 0.1)),
+                "slider_pin": pinned("rod", "block", (0.4, 0.0)),
+            },
+            cranks={"crank": Crank(body="crank")},
+            slides={"guide": Slide(body="block", point=(0.42, 0.0))},
+        )
+
+
+def test_a_settled_block_lies_on_its_wall() -> None:
+    guide = ClearanceGuide.simple(gaps=5e-4, block=(0.12, 0.06), stiffness=1e9)
+    scene = Scenario(
+        machine=HeldSlider(), guides={"guide": guide}, drive=Held(), start="settled", duration=0.01, step=1e-4
+    )
+    result = simulate(scene)
+    ideal = simulate(replace(scene, guides={"guide": IdealGuide()}))
+    # the weight of the block and half of that of the rod, with which the rod's end also moves a little aside
+    assert result["guide.guide.force"] == pytest.approx(ideal["guide.force"][0] * np.ones(11), rel=1e-2)
+    assert np.abs(result["block.velocity_y"]).max() < 1e-6
+    assert result["guide.guide.gap_upper"] == pytest.approx(1e-3 * np.ones(11), abs=2e-5)
+    assert (result["guide.guide.gap_lower"] < 0.0).all()
+    loads = {one.pin: one.load for one in loaded_contacts(scene)}
+    assert sum(loads.values()) >= 2.0 * ideal["guide.force"][0] * 0.999
+
+
+def test_what_does_not_fit_is_refused() -> None:
+    guide = ClearanceGuide.simple(gaps=1e-3, block=BLOCK)
+    scene = pair(FreePair(), guide, 0.01)
+    with pytest.raises(InputError, match=r"guides\.slot: the machine has no such guide; allowed: guide"):
+        replace(scene, guides={"slot": guide})
+    with pytest.raises(
+        InputError, match=r"guides\.guide: has a pin_radius; allowed: block, for its body does not"
+    ):
+        replace(scene, guides={"guide": ClearanceGuide.simple(gaps=1e-3, pin_radius=0.01)})
+    with pytest.raises(
+        InputError, match=r"guides\.guide: has a block; allowed: pin_radius, for its body may turn"
+    ):
+        pair(FreePair(turns=True), guide, 0.01)
+    with pytest.raises(InputError, match=r"gaps = \(0\.0, 0\.0\) m: allowed: at least one > 0"):
+        ClearanceGuide.simple(gaps=0.0, block=BLOCK)
+    with pytest.raises(InputError, match=r"pin_radius = None: allowed: one of them"):
+        ClearanceGuide(gaps=(GAP, GAP), normal=KEPT)
+    with pytest.raises(InputError, match=r"corner_radius = 0\.001 m: allowed: one of them"):
+        ClearanceGuide.simple(gaps=1e-3, block=BLOCK, stiffness=1e9, corner_radius=1e-3)
+    for name in ("tree", "reduced"):
+        assert not FORMULATIONS[name].covers(scene)
+    with pytest.raises(InputError, match="knows no lateral dimensions"):
+        replace(scene, dimensions=3)
+
+
+def test_an_ideal_guide_is_what_nothing_said_is() -> None:
+    scene = replace(slider_crank(1e9, 1e-3), guides={})
+    said = replace(scene, guides={"guide": IdealGuide()}, pins={"main": IdealPin()})
+    one, other = simulate(scene), simulate(said)
+    for name in one.channels:
+        assert np.array_equal(one[name], other[name])
