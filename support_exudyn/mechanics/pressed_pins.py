@@ -53,9 +53,9 @@ def inverse_masses(answers: Matrix, axes: Matrix) -> EffectiveMasses:
 def struck_together(found: EffectiveMasses, answers: Matrix, closing: Matrix) -> EffectiveMasses:
     """The masses of a corner in a slot that impacts at the same time as others, as those of a face do.
 
-    In a free impact of all of them, with closing velocities v, the impulses W^-1 v bring them to rest, W the answers.
-    So m = p / v of the first is the mass with which it stores at most m v^2 / 2. Others that are pressed but do not
-    close, v = 0, are held, as without.
+    In a free impact of all of them, with closing velocities v, the impulses p = W^-1 v bring them to rest, W
+    the answers. So m = p / v of the first is the mass with which it stores at most m v^2 / 2. Others that are
+    pressed but do not close, v = 0, are held, as without.
 
     Arguments:
         found: masses with all others held.

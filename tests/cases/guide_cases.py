@@ -1,8 +1,8 @@
 """Guides with clearance: machines, and their motion by scipy from equations of their own.
 
 The equations have minimal coordinates q, from which places of bodies X(q) (x, y, angle of each) follow, and
-contact forces by vectors in the plane, at each of eight or two pairs of a corner or a pin and a wall. Nothing of
-the program is used but the numbers of its scenarios.
+contact forces by vectors in the plane, at each of eight or two pairs of a corner or a pin and a wall. Nothing
+of the program is used but the numbers of its scenarios.
 """
 
 from __future__ import annotations

@@ -175,7 +175,7 @@ def test_contacts_tend_to_impacts_of_newton_as_they_become_stiffer() -> None:
     """The second impact at the order -0.4, that of the duration of a contact, in the stiffness K."""
     off = []
     for stiffness in (1e9, 1e11, 1e13):
-        result = simulate(slider_crank(stiffness, 0.02, step=2e-6, impact_steps=512))
+        result = simulate(slider_crank(stiffness, 0.02, step=1e-6, impact_steps=512))
         found = (
             result.onsets["guide.upper_left"][1].time,
             float(result["crank.angular_velocity"][-1]),
@@ -183,7 +183,7 @@ def test_contacts_tend_to_impacts_of_newton_as_they_become_stiffer() -> None:
         )
         off.append(np.abs(np.subtract(found, NEWTON)))
     order = 0.5 * np.log10(np.array(off[:-1]) / np.array(off[1:]))
-    np.testing.assert_allclose(order[:, 0], 0.4, atol=0.01)
+    np.testing.assert_allclose(order[:, 0], 0.4, atol=0.015)
     assert (order[:, 1:] > 0.35).all()
 
 

@@ -14,16 +14,20 @@ from support_exudyn import ClearancePin, CubicStep, Scenario, UniformSpeed, ravn
 from support_exudyn.files import parsed, read_value, scenario_of, table_of, toml_text
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.files.scenarios.short_forms import DriveFile, DriveMode, DrivesFile
-from support_exudyn.files.scenarios.short_pin import ShortPin, simple_laws
+from support_exudyn.files.scenarios.short_guide import ShortGuide
+from support_exudyn.files.scenarios.short_laws import simple_laws
+from support_exudyn.files.scenarios.short_pin import ShortPin
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.drives.drive import Stroke
 from support_exudyn.model.drives.table_drive import TableDrive
-from support_exudyn.model.pins import USUAL_RESTITUTION
+from support_exudyn.model.guides import ClearanceGuide
+from support_exudyn.model.simple_laws import USUAL_RESTITUTION
 from tests import strategies as some
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
+    Exact,
     IndentationVelocity,
     InputError,
     JournalBearing,
@@ -47,6 +51,11 @@ MADE: dict[type[Value], tuple[tuple[type[Value], ...], set[str]]] = {
         ),
         {"clearance", "bore_radius", "restitution", "stiffness", "bore_material", "journal_material"}
         | {"law", "friction_law", "backing_stiffness"},
+    ),
+    ShortGuide: (
+        (ClearanceGuide, *(GroupShape((NormalLaw,)).kinds[law] for law in simple_laws())),
+        {"clearance", "restitution", "stiffness", "corner_radius", "wall_material", "block_material"}
+        | {"law", "friction_law"},
     ),
     DriveMode: ((CubicStep, UniformSpeed), {"mode"}),
     DriveFile: ((TableDrive,), {"table", "column"}),
@@ -101,6 +110,15 @@ def test_a_simple_pin_in_python_has_the_defaults_of_files() -> None:
     ours = {name: one.default for name, one in inspect.signature(ClearancePin.simple).parameters.items()}
     files = defaults(ShortPin)
     assert (ours.pop("bore_material"), ours.pop("journal_material")) == (STEEL, STEEL_35CRMO)
+    said = {name: one for name, one in ours.items() if one is not inspect.Parameter.empty}
+    assert said == {name: files[name] for name in said}
+
+
+def test_a_simple_guide_in_python_has_the_defaults_of_files() -> None:
+    ours = {name: one.default for name, one in inspect.signature(ClearanceGuide.simple).parameters.items()}
+    files = defaults(ShortGuide)
+    assert (ours.pop("wall_material"), ours.pop("block_material")) == (STEEL, STEEL_35CRMO)
+    assert ours.pop("law") is Exact
     said = {name: one for name, one in ours.items() if one is not inspect.Parameter.empty}
     assert said == {name: files[name] for name in said}
 

@@ -14,6 +14,7 @@ from support_exudyn.files.scenarios.short_forms import (
     ShortForms,
     read_machine_of,
 )
+from support_exudyn.files.scenarios.short_guide import ShortGuide
 from support_exudyn.files.scenarios.short_pin import ShortPin
 from support_exudyn.files.toml.faults import Faults
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
@@ -25,6 +26,7 @@ from support_exudyn.files.whole_file import missing_file, whole_file
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import ActuatorModel, CylinderAndRod
 from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
@@ -149,9 +151,8 @@ def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> Scen
 def _scenario(table: dict[str, Any], faults: Faults, folder: Path, machine: MachineData | None) -> Any:
     """A scenario, or FAILED."""
     forms = ShortForms(folder, machine)
-    reader = Reader(
-        faults, {Pin: forms.pin, ActuatorModel: forms.actuator, Drive: forms.drive, Machine: forms.machine}
-    )
+    shorts = {Pin: forms.pin, Guide: forms.guide, ActuatorModel: forms.actuator, Drive: forms.drive}
+    reader = Reader(faults, {**shorts, Machine: forms.machine})
     apart = forms.drives(reader, table)
     if apart:
         table = {**table, "drives": forms.without_file(table["drives"])}
@@ -195,7 +196,8 @@ def scenario_schema() -> dict[str, Any]:
     schemas = Schemas()
     about = f"path of a machine's file from the folder of this one on, or one of {', '.join(SHIPPED)}"
     schemas.besides[Machine] = [{"type": "string", "description": about}]
-    schemas.besides[Pin] = [_short(schemas.table(ShortPin)), _ideal(schemas)]
+    schemas.besides[Pin] = [_short(schemas.table(ShortPin)), _ideal(schemas, IdealPin)]
+    schemas.besides[Guide] = [_short(schemas.table(ShortGuide)), _ideal(schemas, IdealGuide)]
     schemas.besides[Drive] = [_short(schemas.table(DriveMode)), _short(schemas.table(DriveFile))]
     top = schemas.table(Scenario)
     properties = top["properties"]
@@ -214,9 +216,9 @@ def _short(table: dict[str, Any]) -> dict[str, Any]:
     return without(table, "type")
 
 
-def _ideal(schemas: Schemas) -> dict[str, Any]:
-    table = _short(schemas.table(IdealPin))
-    ideal = {"const": True, "description": "an ideal pin, as all are that no table speaks of"}
+def _ideal(schemas: Schemas, kind: type[Value]) -> dict[str, Any]:
+    table = _short(schemas.table(kind))
+    ideal = {"const": True, "description": "ideal, as all are that no table speaks of"}
     return {**table, "properties": {"ideal": ideal, **table["properties"]}, "required": ["ideal"]}
 
 

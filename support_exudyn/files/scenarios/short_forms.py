@@ -13,6 +13,7 @@ from pydantic import model_validator
 
 from support_exudyn.files.machines.read import SHIPPED, read_machine
 from support_exudyn.files.scenarios.drive_table import one_drive, read_drives
+from support_exudyn.files.scenarios.short_guide import ShortGuide
 from support_exudyn.files.scenarios.short_pin import ShortPin, pin_in_machine
 from support_exudyn.files.toml.faults import Faults, Place, said
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
@@ -21,6 +22,7 @@ from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.drives.drive import CubicStep, Drive, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive
+from support_exudyn.model.guides import IdealGuide
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin
 from user_forces.values.units import Metres, Seconds
@@ -175,6 +177,26 @@ class ShortForms:
                 bores = ", ".join(self.data.bore_radii) or "no pin"
                 reader.faults.add(place, f"{error}; it says those of {bores}")
                 return FAILED
+            for line in str(error).splitlines():
+                reader.faults.add(place, line)
+            return FAILED
+
+    def guide(self, reader: Reader, item: Any, place: Place) -> Any:
+        """A guide with `ideal = true`, or by its clearance."""
+        if not isinstance(item, dict) or "type" in item:
+            return None
+        if "ideal" in item:
+            if item != {"ideal": True}:
+                told = "true, alone; a guide with clearance has a clearance_mm instead"
+                reader.faults.wrong((*place, "ideal"), item["ideal"], told)
+                return FAILED
+            return IdealGuide()
+        short = reader.value(ShortGuide, item, place)
+        if isinstance(short, Failed) or self.data is None:
+            return FAILED
+        try:
+            return short.guide(self.data.blocks.get(place[-1]))
+        except InputError as error:
             for line in str(error).splitlines():
                 reader.faults.add(place, line)
             return FAILED

@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import fields
+from collections.abc import Callable
 from functools import partial
-from types import MappingProxyType
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
+from support_exudyn.files.scenarios.short_laws import (
+    NamedMaterial,
+    fields_of_law,
+    friction_in_full,
+    friction_in_short,
+    law_in_full,
+    material_of,
+    simple_friction_laws,
+    simple_laws,
+)
 from support_exudyn.files.toml.shapes import GroupShape, Names
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
@@ -20,63 +28,11 @@ from user_forces.friction.law import FrictionLaw
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
 from user_forces.normal.damping_speed import DampingSpeed
 from user_forces.normal.law import NormalLaw
-from user_forces.normal.power_law import ElasticPower
 from user_forces.values.units import Metres, NewtonsPerMetre, NewtonsPerMetreToN
 from user_forces.values.value import InputError, NonNegative, Positive, Restitution, Value, Vector2, value
 
-MATERIALS: Mapping[str, Material] = MappingProxyType({one.name: one for one in (STEEL, STEEL_35CRMO)})
-COEFFICIENT = "sliding_coefficient"
-NEEDED = {"stiffness", "restitution"}  # all that the short form can give a law
-
-
-def simple_laws() -> tuple[str, ...]:
-    """Names of the laws that need a stiffness K of K depth^1.5 and a restitution at most."""
-    known = GroupShape((NormalLaw,)).kinds.items()
-    return tuple(name for name, law in known if _is_simple(law))
-
-
-def _is_simple(law: type[Value]) -> bool:
-    info: Mapping[str, Any] = law.__pydantic_fields__  # type: ignore[attr-defined]
-    of_power = issubclass(law, ElasticPower) and info["exponent"].default == 1.5
-    return needed_by(law) <= NEEDED and (of_power or not info.keys() & {"stiffness", "exponent"})
-
-
-def simple_friction_laws() -> tuple[str, ...]:
-    """Names of the friction laws that need one coefficient at most."""
-    known = GroupShape((FrictionLaw,)).kinds.items()
-    return tuple(name for name, law in known if len(needed_by(law)) <= 1)
-
-
-def needed_by(law: type[Value]) -> set[str]:
-    """Names of the fields that a law has no default for."""
-    info: Mapping[str, Any] = law.__pydantic_fields__  # type: ignore[attr-defined]
-    return {name for name, one in info.items() if one.is_required()}
-
-
-def _law_in_full(name: str) -> str:
-    """What to do with a law that the short form has no room for, or that is not known."""
-    return _in_full(name, NormalLaw, "law", "stiffness and restitution", "in [pins.NAME.contact] normal = ")
-
-
-def _friction_in_full(name: str) -> str:
-    """The same of a friction law."""
-    return _in_full(name, FrictionLaw, "friction_law", "one coefficient", "friction = ")
-
-
-def _in_full(name: str, base: type[Value], key: str, takes: str, place: str) -> str:
-    known = GroupShape((base,)).kinds
-    if name not in known:
-        return f'a law of your own: {key} = "FILE.py:CLASS", or --import MODULE before the command'
-    needed = ", ".join(sorted(needed_by(known[name]))) or "fields of its own"
-    pin = 'type = "ClearancePin" and ' if base is NormalLaw else ""
-    return (
-        f"{key} takes laws of {takes} only, and {name} has {needed}: give it in full, "
-        f'{pin}{place}{{ type = "{name}", ... }}'
-    )
-
-
 Length = Annotated[Positive, Field(le=10.0)]  # of any pin [m]: in a wrong unit it would be longer
-NamedMaterial = Annotated[str, Names(MATERIALS)]
+_law_in_full = partial(law_in_full, where="in [pins.NAME.contact] normal = ")
 
 
 @value
@@ -110,7 +66,7 @@ class ShortPin(Value):
     bore_radius: Metres[Positive] | None = None
     restitution: Restitution | None = None
     friction: NonNegative | FrictionLaw = 0.0
-    friction_law: Annotated[str, Names(simple_friction_laws, instead=_friction_in_full)] | None = None
+    friction_law: Annotated[str, Names(simple_friction_laws, instead=friction_in_full)] | None = None
     law: Annotated[str, Names(simple_laws, instead=_law_in_full)] | None = None
     damping_speed: DampingSpeed | None = None
     stiffness: Stiffness | NewtonsPerMetreToN[Positive] | None = None
@@ -124,7 +80,7 @@ class ShortPin(Value):
     @model_validator(mode="after")
     def _nothing_is_left_unused(self) -> ShortPin:
         for name in ("restitution", "damping_speed"):
-            if self.law and getattr(self, name) is not None and name not in _fields_of(self.law):
+            if self.law and getattr(self, name) is not None and name not in fields_of_law(self.law):
                 raise ValueError(f"{name}: the law {self.law} has none; allowed with it: to leave this out")
         if self.friction_law is not None and isinstance(self.friction, FrictionLaw):
             raise ValueError("friction_law: and a law as friction are two; allowed: one of them")
@@ -166,7 +122,7 @@ class ShortPin(Value):
                 "length_mm: missing, and the machine's file says none for this pin below [width_mm.pins]; "
                 "allowed: > 0, here or there"
             )
-        bore, journal = _material(self.bore_material, STEEL), _material(self.journal_material, STEEL_35CRMO)
+        bore, journal = material_of(self.bore_material, STEEL), material_of(self.journal_material, STEEL_35CRMO)
         along = on_cylinders(self.stiffness, length, law)
         if self.backing_stiffness is not None and not along:
             raise InputError(
@@ -179,7 +135,7 @@ class ShortPin(Value):
             clearance=self.clearance,
             bore_radius=radius,
             restitution=self.restitution,
-            friction=self._friction(),
+            friction=friction_in_short(self.friction, self.friction_law),
             law=law,
             damping_speed=self.damping_speed,
             stiffness=self.stiffness,
@@ -199,22 +155,6 @@ class ShortPin(Value):
             return math.inf
         return in_series((pin_stiffness(bore_radius - self.clearance, length, journal), links))
 
-    def _friction(self) -> float | FrictionLaw:
-        """The law, or the coefficient of the usual one."""
-        if isinstance(self.friction, FrictionLaw):
-            return self.friction
-        if self.friction_law is not None:
-            law: Any = GroupShape((FrictionLaw,)).kinds[self.friction_law]
-            coefficient = next(iter(needed_by(law)), COEFFICIENT)
-            takes = coefficient in law.__pydantic_fields__
-            if self.friction and not takes:
-                raise InputError(
-                    f"friction = {self.friction:g}: {self.friction_law} has no coefficient; allowed with it: "
-                    "to leave this out"
-                )
-            return law(**({coefficient: self.friction} if takes else {}))  # type: ignore[no-any-return]
-        return self.friction
-
 
 def pin_in_machine(short: ShortPin, machine: Machine, name: str, bore_radius: float | None) -> ClearancePin:
     """A pin with what the machine knows of it: the length of its contact, and the links that it joins.
@@ -229,13 +169,3 @@ def pin_in_machine(short: ShortPin, machine: Machine, name: str, bore_radius: fl
         return short.pin(bore_radius)
     length = contact_length(machine, name)
     return short.pin(bore_radius, length, partial(links_stiffness, machine, name))
-
-
-def _fields_of(law: str) -> set[str]:
-    return {one.name for one in fields(GroupShape((NormalLaw,)).kinds[law])}  # type: ignore[arg-type]
-
-
-def _material(given: str | Material | None, usual: Material) -> Material:
-    if given is None:
-        return usual
-    return given if isinstance(given, Material) else MATERIALS[given]

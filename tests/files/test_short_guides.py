@@ -1,0 +1,106 @@
+"""Guides with clearance in scenario files: short forms, what the machine's file says, and what is wrong."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from support_exudyn import Scenario, ravn_slider_crank
+from support_exudyn.files import parsed, scenario_of, scenario_text
+from support_exudyn.files.scenarios.short_guide import ShortGuide
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.model.guides import ClearanceGuide, IdealGuide
+from user_forces import Ambrosio, CubicCoulomb, Exact, Flores, InputError
+from user_forces.materials import STEEL, STEEL_35CRMO, plane_contact_stiffness
+
+TOP = 'machine = "slider_crank"\nduration_s = 0.1\ndrive = { type = "Steady", rate_rpm = 100 }\n'
+BLOCK = "block_mm = [40, 20]\n"
+SHAPE = (0.04, 0.02)
+ONE = "clearance_mm = 1\n"
+
+
+def read(text: str) -> Scenario:
+    return scenario_of(parsed(TOP + text, "a.toml"), "a.toml", Path())
+
+
+def test_few_words_are_enough() -> None:
+    scene = read(f"[guides.guide]\nclearance_mm = 0.1\n{BLOCK}")
+    stiffness = plane_contact_stiffness(0.002, STEEL, STEEL_35CRMO)
+    assert scene.guides == {
+        "guide": ClearanceGuide(
+            gaps=(1e-4, 1e-4), normal=Exact(stiffness=stiffness, restitution=0.9), block=SHAPE
+        )
+    }
+
+
+def test_all_can_be_said() -> None:
+    found = read(
+        f"[guides.guide]\nclearance_mm = [0.2, 0]\n{BLOCK}restitution = 0.4\nfriction = 0.1\n"
+        'friction_law = "CubicCoulomb"\nlaw = "Flores"\nstiffness_N_per_m_to_n = 1e9\n'
+    )
+    assert found.guides["guide"] == ClearanceGuide(
+        gaps=(2e-4, 0.0),
+        normal=Flores(stiffness=1e9, restitution=0.4),
+        friction=CubicCoulomb(sliding_coefficient=0.1),
+        block=SHAPE,
+    )
+
+
+def test_it_is_written_in_full_and_read_again() -> None:
+    scene = read(f"[guides.guide]\nclearance_mm = 0.1\n{BLOCK}friction = 0.1\n")
+    text = scenario_text(scene)
+    assert 'type = "ClearanceGuide"' in text
+    assert scenario_of(parsed(text, "b.toml"), "b.toml", Path()) == scene
+
+
+@pytest.mark.parametrize("text", ["ideal = true\n", "clearance_mm = 0\n", f"clearance_mm = [0, 0]\n{BLOCK}"])
+def test_an_ideal_guide_can_be_said(text: str) -> None:
+    assert read(f"[guides.guide]\n{text}").guides == {"guide": IdealGuide()}
+
+
+def test_a_block_is_that_of_the_machines_file() -> None:
+    short = ShortGuide(clearance=1e-4, friction=0.1)
+    found = short.guide(SHAPE)
+    assert found == ClearanceGuide.simple(gaps=1e-4, block=SHAPE, friction=Ambrosio(sliding_coefficient=0.1))
+    data = replace(MachineData(ravn_slider_crank()), blocks={"guide": SHAPE})
+    table = parsed(TOP + "[guides.guide]\nclearance_mm = 0.1\n", "a.toml") | {"machine": data}
+    assert scenario_of(table, "a.toml", Path()).guides["guide"] == ClearanceGuide.simple(gaps=1e-4, block=SHAPE)
+    assert ShortGuide(clearance=1e-4, pin_radius=0.01).guide(SHAPE) == ClearanceGuide.simple(
+        gaps=1e-4, pin_radius=0.01
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("clearance_mm = 0.1\n", r"guides\.guide: block_mm: missing, and the machine's file says none"),
+        (f"clearance_mm = -1\n{BLOCK}", r"guides\.guide\.clearance_mm = -1"),
+        (f"clearance_mm = [1, 2, 3]\n{BLOCK}", r"guides\.guide\.clearance_mm"),
+        (f"{BLOCK}", r"guides\.guide\.clearance_mm: missing"),
+        (
+            f"clearance_mm = 1\n{BLOCK}corner_radius_mm = 1\nstiffness_N_per_m_to_n = 1e9\n",
+            "allowed: one of them",
+        ),
+        (f"clearance_mm = 1\n{BLOCK}pin_radius_mm = 1\n", "two shapes; allowed: one of them"),
+        (
+            f'clearance_mm = 1\n{BLOCK}law = "Johnson"\n',
+            r'type = "ClearanceGuide" and in \[guides.NAME\] normal',
+        ),
+        (f'{ONE}{BLOCK}law = "Hertz"\nrestitution = 0.5\n', "restitution: the law Hertz has none"),
+        (
+            "clearance_mm = 1\npin_radius_mm = 5\n",
+            "has a pin_radius; allowed: block, for its body does not turn",
+        ),
+        ("ideal = false\n", "true, alone; a guide with clearance has a clearance_mm instead"),
+    ],
+)
+def test_what_is_wrong_is_told_by_its_key(text: str, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        read(f"[guides.guide]\n{text}")
+
+
+def test_a_guide_that_is_not_there_is_told() -> None:
+    with pytest.raises(InputError, match=r"guides\.slot: the machine has no such guide; allowed: guide"):
+        read(f"[guides.slot]\nclearance_mm = 1\n{BLOCK}")
