@@ -250,6 +250,7 @@ def test_pins_know_their_bores_and_lengths(tmp_path: Path) -> None:
         ('O = ["ground", "crank"]', 'O = ["floor", "crank"]', "pins.O = 'floor': there is no such body"),
         ('O = ["ground", "crank"]', 'O = ["crank", "crank"]', "two different bodies"),
         ('at = "B"', 'at = "C"', "pins.B.at = 'C': bodies.coupler, which has a frame of its own, has no such"),
+        ('motor = "crank"', 'motor = "crank"\nother = "rocker"', "cranks.motor, cranks.other: fight"),
         ('motor = "crank"', 'motor = "ground"', "cranks.motor = 'ground': no moving body"),
         ('tip = ["coupler", "B"]', 'tip = ["coupler", "C"]', "traced_points.tip = 'C'"),
         (

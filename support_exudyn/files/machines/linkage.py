@@ -23,6 +23,7 @@ from support_exudyn.files.machines.linkage_loads import (
 )
 from support_exudyn.files.machines.parts import ColumnData
 from support_exudyn.files.toml.shapes import Names
+from support_exudyn.machines.check.statics import mobility
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.mechanics.closure import assembled
@@ -128,6 +129,7 @@ class LinkageFile(Value):
         origins = {name: origin for name, (_, origin) in guides.items()}
         held = {body for name, body in self._on_springs()}
         closed = assembled(drawing, self.start.angle, self.start.length, origins=origins, held=held)
+        _check_driven(closed)
         acting = self._acting(closed)
         closed = replace(closed, points={name: closed.points[name] for name in self.traced_points})
         lengths = self.width.get("pins", {})
@@ -216,6 +218,18 @@ class LinkageFile(Value):
                 )
                 found[name] = column.column()
         return found
+
+
+def _check_driven(linkage: Linkage) -> None:
+    """Raise InputError if there are more driven parts than ways to move: they fight."""
+    free = mobility(linkage)
+    if free.driven > free.free:
+        driven = [f"actuators.{name}" for name, one in linkage.actuators.items() if one.driven]
+        driven += [f"cranks.{name}" for name in linkage.cranks]
+        raise InputError(
+            f"{', '.join(driven)}: fight, for {free.driven} parts are driven and the linkage can move in "
+            f"{free.free} ways; allowed: {free.free} driven parts at most"
+        )
 
 
 def _check_known(where: str, named: Iterable[str], known: Iterable[str], what: str) -> None:
