@@ -63,7 +63,7 @@ def run(given: argparse.Namespace) -> None:
         return
     result = Result.load(given.run)
     if given.impacts and not result.onsets:
-        raise InputError(f"{given.run}: --impacts: has no clearance pin; allowed: a run that has some")
+        raise InputError(f"{given.run}: --impacts: has no clearance joint; allowed: a run that has some")
     if given.json:
         answer(_object(result, given))
         return

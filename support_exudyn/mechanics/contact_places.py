@@ -52,6 +52,11 @@ class ContactPlace(ABC):
     journal_point: Vector2
     play: float
 
+    @property
+    @abstractmethod
+    def stem(self) -> str:
+        """What its channels begin with, such as "pin.rear_base"."""
+
     @abstractmethod
     def axes(self, linkage: Linkage) -> float:
         """Angle [rad] of the bore's axes in the start posture."""
@@ -72,8 +77,8 @@ class ContactPlace(ABC):
         """Which body pushes which, and with what force where."""
 
     @abstractmethod
-    def depth(self, channels: Mapping[str, HasValues], name: str) -> Series | None:
-        """The depth (n,) [m] among the channels of a run, by the name of the place; None if it is not there."""
+    def depth(self, channels: Mapping[str, HasValues]) -> Series | None:
+        """The depth (n,) [m] among the channels of a run; None if it is not there."""
 
     @abstractmethod
     def loads(self, reactions: Mapping[str, Series]) -> Series:
@@ -117,9 +122,14 @@ class PinContactPlace(ContactPlace):
         """The first body of the pin pushes the second."""
         return self.place.first, self.place.second, acting(motion, self.place, self.pin, contact)
 
-    def depth(self, channels: Mapping[str, HasValues], name: str) -> Series | None:
+    @property
+    def stem(self) -> str:
         """That of the pin."""
-        found = channels.get(f"pin.{name}.depth")
+        return f"pin.{self.name}"
+
+    def depth(self, channels: Mapping[str, HasValues]) -> Series | None:
+        """That of the pin."""
+        found = channels.get(f"{self.stem}.depth")
         return None if found is None else found.values
 
     def loads(self, reactions: Mapping[str, Series]) -> Series:
@@ -139,7 +149,8 @@ class GuideContactPlace(ContactPlace):
     def __post_init__(self) -> None:
         """Tell corner and middle line by the slide."""
         slide, (point, middle, contact) = self.slide, self.part
-        known = {"of": f"guides.{self.name}", "contact": contact, "bore": slide.against, "journal": slide.body}
+        guide = self.name.rpartition(".")[0]
+        known = {"of": f"guides.{guide}", "contact": contact, "bore": slide.against, "journal": slide.body}
         known["bore_point"] = plus(slide.point, rotated((0.0, middle), slide.direction))
         known["journal_point"] = plus(slide.point, rotated(point, slide.direction))
         for name, item in known.items():
@@ -199,9 +210,14 @@ class GuideContactPlace(ContactPlace):
         point = corner + self.part.contact.bearing.radius * offset / away
         return self.bore, self.journal, PinForce(np.column_stack([contact.force_x, contact.force_y]), point)
 
-    def depth(self, channels: Mapping[str, HasValues], name: str) -> Series | None:
+    @property
+    def stem(self) -> str:
+        """That of the corner."""
+        return f"guide.{self.name}"
+
+    def depth(self, channels: Mapping[str, HasValues]) -> Series | None:
         """A gap that is negative."""
-        found = channels.get(f"guide.{name}.gap")
+        found = channels.get(f"{self.stem}.gap")
         return None if found is None else -found.values
 
     def loads(self, reactions: Mapping[str, Series]) -> Series:
@@ -232,7 +248,7 @@ def _of_guides(linkage: Linkage, guides: Mapping[str, Guide]) -> Iterator[tuple[
         for part, contact in guide.contacts().items():
             slide = linkage.slides[name]
             play = contact.contact.bearing.clearance - abs(contact.point[1])
-            yield f"{name}.{part}", GuideContactPlace(name, slide, contact, play)
+            yield f"{name}.{part}", GuideContactPlace(f"{name}.{part}", slide, contact, play)
 
 
 def _dot(one: Series, other: Series) -> Series:

@@ -38,6 +38,7 @@ from support_exudyn.postprocessing.shown_numbers import (
     label,
     ranking,
     shown,
+    stem,
 )
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -294,8 +295,8 @@ def _tiles(estimates: Mapping[str, Mapping[str, Estimate]], key: Sequence[str]) 
         return ()
     last = [*estimates.values()][-1]
     hardest = hardest_first(last) or hardest_first(next(iter(estimates.values())))
-    told = [f"pin.{pin}{end}" for pin in hardest[:1] for end in (LARGEST, LARGEST_TIME, ".force.mean")]
-    told += [f"pin.{pin}{LARGEST}" for pin in hardest[1:2]]
+    told = [f"{stem(pin)}{end}" for pin in hardest[:1] for end in (LARGEST, LARGEST_TIME, ".force.mean")]
+    told += [f"{stem(pin)}{LARGEST}" for pin in hardest[1:2]]
     told += [name for name in key if name.rpartition(".")[2] in ("mean", "largest", "std")]
     found: list[KeyNumber] = []
     for name in dict.fromkeys(told):

@@ -15,13 +15,18 @@ AT_RECORDS = (".force.largest", ".force.largest_time")  # the same of the record
 
 
 def hardest_first(found: Mapping[str, Estimate]) -> list[str]:
-    """The clearance pins of a run by their largest force at any step, the hardest hit first.
+    """The clearance pins, and corners in guides, by their largest force at any step, the hardest hit first.
 
     found: numbers of the run by name, as `Result.numbers` names them.
     """
     largest = {name: one.value for name, one in found.items() if name.endswith(LARGEST)}
     ranked = sorted(largest, key=lambda name: -largest[name])
     return [name.removeprefix("pin.").removesuffix(LARGEST) for name in ranked]
+
+
+def stem(joint: str) -> str:
+    """What the numbers of a joint begin with; joint: as `hardest_first` names it, pins without "pin."."""
+    return joint if joint.startswith("guide.") else f"pin.{joint}"
 
 
 def ranking(found: Mapping[str, Estimate]) -> str:
@@ -34,7 +39,7 @@ def ranking(found: Mapping[str, Estimate]) -> str:
 
 
 def _hit(pin: str, found: Mapping[str, Estimate]) -> str:
-    force, when = found[f"pin.{pin}{LARGEST}"], found.get(f"pin.{pin}{LARGEST_TIME}")
+    force, when = found[f"{stem(pin)}{LARGEST}"], found.get(f"{stem(pin)}{LARGEST_TIME}")
     return f"{pin}, {said(force.value, force.unit, 4)}" + (f" at {said(when.value, 's', 4)}" if when else "")
 
 
@@ -56,7 +61,7 @@ def shown(
     Returns:
         Of each run the numbers that are printed, in their order.
     """
-    first = [f"pin.{pin}{end}" for found in numbers for pin in hardest_first(found) for end in AT_ANY_STEP]
+    first = [f"{stem(pin)}{end}" for found in numbers for pin in hardest_first(found) for end in AT_ANY_STEP]
     names = list(dict.fromkeys([*first, *(name for found in numbers for name in found)]))
     left_out = {
         name

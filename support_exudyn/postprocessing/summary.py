@@ -43,6 +43,7 @@ def what_is_run(scenario: Scenario) -> list[Row]:
     rows += [(f"pin {name}", _pin(scenario, name, pin)) for name, pin in scenario.pins.items()]
     if others:
         rows.append(("ideal pins", ", ".join(others)))
+    rows += [(f"guide {name}", words(guide)) for name, guide in scenario.guides.items()]
     parts = {**scenario.actuators, **scenario.parts, **scenario.acting_loads}
     rows += [(name, words(part)) for name, part in parts.items()]
     rows += [("drive", words(scenario.drive))]
@@ -101,8 +102,8 @@ def unmet(result: Result) -> str:
 
 
 def _has_friction(result: Result) -> bool:
-    pins = result.scenario.clearance_pins.values()
-    return any(not isinstance(pin.contact.friction, Frictionless) for pin in pins)
+    places = result.scenario.contact_places.values()
+    return any(not isinstance(place.contact.friction, Frictionless) for place in places)
 
 
 def _formulation(result: Result) -> str:
@@ -170,9 +171,10 @@ def came_out(result: Result, after: float, until: float) -> list[Row]:
 def impacts(
     result: Result, most: int | None = IMPACTS, after: float = 0.0, until: float = math.inf
 ) -> list[Row]:
-    """Impacts of every clearance pin: pin, number, time, duration, speeds before and after, largest force.
+    """Impacts of every clearance pin, and of every corner in a guide with clearance.
 
-    The force is that of the records between onset and separation, "" if none lies there or none was recorded.
+    Each with pin, number, time, duration, speeds before and after, largest force. The force is that of the
+    records between onset and separation, "" if none lies there or none was recorded.
 
     Arguments:
         most: how many of each pin; None: all.
@@ -198,12 +200,13 @@ def impacts(
 
 def force_of_impact(result: Result, pin: str, n: int) -> float | None:
     """Largest force of a clearance pin at the records of an impact [N], n from 0 on; None without records."""
-    onsets, name = result.onsets[pin], f"pin.{pin}{FORCE}"
+    onsets, stem = result.onsets[pin], result.scenario.contact_stem(pin)
+    name = next((one for one in (f"{stem}{FORCE}", f"{stem}.normal_force") if one in result.channels), "")
     end = onsets[n].separation_time
     if not math.isfinite(end):
         end = onsets[n + 1].time if n + 1 < len(onsets) else math.inf
     during = (result.time >= onsets[n].time) & (result.time <= end)
-    if name not in result.channels or not during.any():
+    if not name or not during.any():
         return None
     return float(result[name][during].max())
 
@@ -240,7 +243,7 @@ def extent(result: Result, name: str, after: float, until: float) -> dict[str, A
 def telling(result: Result) -> list[str]:
     """Names of the channels that are looked at first: forces, depths, moments, traced points, energy."""
     points = {f"{point}.{axis}" for point in result.scenario.linkage.points for axis in "xyz"}
-    ends = (".force", ".depth", ".moment", ".balance")
+    ends = (".force", ".depth", ".gap_upper", ".gap_lower", ".moment", ".balance")
     return [name for name in result.channels if name.endswith(ends) or name in points]
 
 

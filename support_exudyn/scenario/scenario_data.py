@@ -170,6 +170,11 @@ class ScenarioData(Value, ABC):
         """Where bodies may make contact and part, by name: clearance pins, corners of blocks in guides."""
         return contact_places(self.linkage, self.clearance_pins, self.guides)
 
+    def contact_stem(self, name: str) -> str:
+        """What channels and numbers of a contact begin with; name: of `contact_places`, or of an edge."""
+        place = self.contact_places.get(name)
+        return f"pin.{name}" if place is None else place.stem
+
     @cached_property
     def space(self) -> SpatialLinkage:
         """The machine's mechanism in space. Raises InputError if it is known in its plane only."""

@@ -129,17 +129,18 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
             measure = over(f"{point}.{axis}", np.mean, after, until)
             found[f"{point}.{axis}.mean"] = ReportedNumber("m", measure, farthest, "place")
     for pin, onsets in result.onsets.items():
+        stem = result.scenario.contact_stem(pin)
         # not of an edge in space: a section's share of the force is the less the more sections there are
         if pin.rpartition(".")[0] not in result.onsets:
-            found[f"pin.{pin}.largest_force"] = ReportedNumber(
+            found[f"{stem}.largest_force"] = ReportedNumber(
                 "N", _largest(pin), family="force.largest", left=left
             )
             if pin in result.largest_force_time:
-                found[f"pin.{pin}.largest_force_time"] = ReportedNumber(
+                found[f"{stem}.largest_force_time"] = ReportedNumber(
                     "s", _time_at_any_step(pin), missed=_other_impacts(pin), settles=False
                 )
         for n, onset in enumerate(onsets[:ONSETS]):
-            impact = f"pin.{pin}.onset_{n + 1}"
+            impact = f"{stem}.onset_{n + 1}"
             late, slow = _of_a_step(result.scenario, pin, onset) if steps_chosen else (0.0, 0.0)
             found[f"{impact}.time"] = ReportedNumber(
                 "s", _onset(pin, n, "time"), of=impact, left=left, step=late

@@ -46,7 +46,7 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
             first = float(time[np.argmin(np.isfinite(channel.values))])
             yield Failure(f"{name} is no longer a finite number", COARSE, first, finer=True)
     for name, place in scenario.contact_places.items():
-        if (depth := place.depth(channels, name)) is not None:  # in space the edges have one each
+        if (depth := place.depth(channels)) is not None:  # in space the edges have one each
             at = int(np.argmax(depth))
             deepest, bearing = float(depth[at]), place.contact.bearing
             if deepest > DEEPEST * bearing.size:

@@ -362,7 +362,7 @@ def test_all_impacts_are_shown_when_asked_for(runs: Path, capsys: pytest.Capture
     largest = max(float(value) for value, _ in forces)
     assert largest == pytest.approx(1e-3 * result["pin.rear_base.force"].max(), rel=1e-3)
     assert main(["show", str(runs / "ideal.h5"), "--impacts"]) == 1
-    assert "has no clearance pin" in capsys.readouterr().err
+    assert "has no clearance joint" in capsys.readouterr().err
 
 
 def test_show_for_scripts_has_what_the_tables_have(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:

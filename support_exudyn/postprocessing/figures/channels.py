@@ -192,7 +192,7 @@ def _mark_impacts(axes: Axes, result: Result, chosen: np.ndarray, seconds: Displ
 def _words(result: Result, worst: dict[str, float]) -> str:
     text = f"Records every {units.said(spacing(result), 's')}, joined by straight lines. "
     if any(result.onsets.values()):
-        text += "Strokes on the time axis: impacts of clearance pins. "
+        text += "Strokes on the time axis: impacts. "
     if not worst:
         return text + "The run was not made to an accuracy: nothing tells its numerical error."
     said_of = ", ".join(
