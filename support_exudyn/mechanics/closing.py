@@ -21,6 +21,9 @@ LARGEST_TURN = 0.2  # [rad] in a step
 CURVED = 0.25  # of what a step closes: by how much it may miss that
 SHORTEST = 2.0**-16  # share of what is open that a step closes
 REPEATED = 1e-9  # of the largest singular value: below, conditions repeat each other
+PRECISE, EVALUATIONS = 1e-10, 60  # of a search for the least gaps
+NEARLY = 1e-3  # of the drawing's size: gaps from which on Newton's method closes what can be closed
+LESS = 0.8  # of what was open before: if a step leaves more, rounding is reached
 STUCK = 1e-6  # of what is open: less is closed by no step
 LEAST_ARM = 0.1  # of the drawing's size: by this the turn of a small body is counted
 
@@ -170,16 +173,15 @@ def nearest(conditions: Conditions, start: Matrix) -> Matrix:
         return -conditions.short(moved)
 
     found = least_squares(
-        open_by, start, conditions.rows, x_scale=conditions.size,
-        ftol=1e-14, xtol=1e-14, gtol=1e-14, max_nfev=200,
+        open_by, start, conditions.rows, x_scale=conditions.size, ftol=PRECISE, xtol=PRECISE, gtol=PRECISE,
+        max_nfev=EVALUATIONS,
     ).x  # fmt: skip
-    before = math.inf
-    for _ in range(STEPS):  # to rounding
-        short = conditions.short(found)
-        if not np.abs(short).max() < before:
-            break
+    best, before = found, math.inf
+    short = conditions.short(found)
+    while np.abs(short).max() < min(NEARLY * conditions.size, LESS * before):  # to rounding
         best, before = found, float(np.abs(short).max())
         found = found + np.linalg.lstsq(conditions.rows(found), short, rcond=REPEATED)[0]
+        short = conditions.short(found)
     return best
 
 

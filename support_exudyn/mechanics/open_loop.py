@@ -11,9 +11,11 @@ import numpy as np
 from support_exudyn.mechanics.closing import Conditions, gradually, nearest
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import GROUND
+from user_forces.values.value import Vector2
 
 Names = list[tuple[str, str]]  # of joints and driven parts: field of the linkage, name
 TRIES = 8  # starts from which it is looked whether a linkage closes at all
+FEW = 4  # the same of some of its joints
 FINEST = 1e-6  # of the way to what is asked for: by this its end is located
 FIRM = 1e3  # how much more than a gap a driven value counts where the least gap is looked for
 
@@ -26,12 +28,7 @@ def refusal(conditions: Conditions) -> str:
     elsewhere, closes = closest(conditions)
     if closes:
         return _elsewhere(conditions, elsewhere)
-    names = conditions.names
-    for one in conditions.names:
-        rest = [name for name in names if name != one]
-        if rest and not closest(conditions.of(rest))[1]:
-            names = rest
-    core = conditions.of(names)
+    core = _core(conditions)
     loop = loop_of(core)
     if not core.driven:
         return (
@@ -53,10 +50,70 @@ def refusal(conditions: Conditions) -> str:
     )
 
 
-def closest(conditions: Conditions) -> tuple[Matrix, bool]:
-    """Coordinates (n,) in which the least is open, from the drawing and other starts, and whether it closes."""
+def _core(conditions: Conditions) -> Conditions:
+    """As few joints and driven parts as cannot be met together: those of one loop if one alone is open."""
+    cranks = conditions.linkage.cranks
+    names = conditions.names
+    for loop in _loops(conditions):
+        bodies = {body for name in loop for body in _ends(conditions, name)}
+        driven = [("cranks", body) for body in cranks if body in bodies]
+        for some in [loop, [*driven, *loop]] if driven else [loop]:
+            if not _can_close(conditions.of(some)):
+                names = some
+                break
+        else:
+            continue
+        break
+    for one in list(names):
+        rest = [name for name in names if name != one]
+        if rest and not _can_close(conditions.of(rest)):
+            names = rest
+    return conditions.of(names)
+
+
+def _can_close(conditions: Conditions) -> bool:
+    """Whether some joints and driven parts can be met together, as far as a few starts tell."""
+    sides = _polygon(conditions)
+    if sides:
+        return 2.0 * max(sides.values()) <= sum(sides.values())
+    return closest(conditions, FEW)[1]
+
+
+def _loops(conditions: Conditions) -> list[Names]:
+    """The shortest loop through each joint, short ones first."""
+    edges = {name: _ends(conditions, name) for name in conditions.names if name[0] != "cranks"}
+    found: list[Names] = []
+    for name, (first, last) in edges.items():
+        ways: dict[str, Names] = {first: [name]}
+        edge = [first]
+        while edge and last not in ways:
+            following = []
+            for other, ends in edges.items():
+                for here, there in (ends, ends[::-1]):
+                    if other != name and here in edge and there not in ways:
+                        ways[there] = [*ways[here], other]
+                        following.append(there)
+            edge = following
+        if last in ways and set(ways[last]) not in map(set, found):
+            found.append(ways[last])
+    return sorted(found, key=len)
+
+
+def _ends(conditions: Conditions, name: tuple[str, str]) -> tuple[str, str]:
+    """The two bodies of a joint, or of a driven angle."""
+    kind, part = name
+    one = getattr(conditions.linkage, kind)[part]
+    if kind == "actuators":
+        return one.foot, one.head
+    if kind == "slides":
+        return one.body, one.against
+    return (one.first, one.second) if kind in ("pins", "gears") else (one.body, GROUND)
+
+
+def closest(conditions: Conditions, tries: int = TRIES) -> tuple[Matrix, bool]:
+    """Coordinates (n,) in which the least is open, from so many starts, and whether it closes there."""
     best, least = np.zeros(3 * len(conditions.linkage.bodies)), math.inf
-    for start in _starts(conditions):
+    for start in _starts(conditions, tries):
         found = nearest(conditions, start)
         if conditions.closed(found):
             return found, True
@@ -86,20 +143,17 @@ def loop_of(conditions: Conditions) -> str:
 
 def _edges(conditions: Conditions) -> dict[str, tuple[str, str]]:
     """The two bodies of each joint, by what it is called."""
-    linkage = conditions.linkage
-    edges = {f"pin {name}": (one.first, one.second) for name, one in linkage.pins.items()}
-    edges |= {f"gear {name}": (one.first, one.second) for name, one in linkage.gears.items()}
-    edges |= {f"guide {name}": (one.body, one.against) for name, one in linkage.slides.items()}
-    edges |= {f"gear {name}": (one.first, one.second) for name, one in linkage.gears.items()}
-    return edges | {f"actuator {name}": (one.foot, one.head) for name, one in linkage.actuators.items()}
+    words = {"pins": "pin", "slides": "guide", "gears": "gear", "actuators": "actuator"}
+    names = [name for kind in words for name in conditions.names if name[0] == kind]
+    return {f"{words[kind]} {name}": _ends(conditions, (kind, name)) for kind, name in names}
 
 
-def _starts(conditions: Conditions) -> Sequence[Matrix]:
+def _starts(conditions: Conditions, tries: int) -> Sequence[Matrix]:
     """The drawing, and postures around it in which every body is turned somewhere."""
     random = np.random.default_rng(1)
     count = len(conditions.linkage.bodies)
     starts = [np.zeros(3 * count)]
-    for _ in range(TRIES - 1):
+    for _ in range(tries - 1):
         start = random.uniform(-0.3, 0.3, 3 * count) * conditions.size
         start[2::3] = random.uniform(-math.pi, math.pi, count) * conditions.arms[2::3]
         starts.append(start)
@@ -123,23 +177,25 @@ def _gap(conditions: Conditions) -> str:
     return f"{1e3 * sum(math.hypot(*one) for one in gaps.values()):.3g}"
 
 
-def _sides(conditions: Conditions) -> str:
-    """The bodies of a loop of pins with their lengths [mm] in it; nothing of another."""
-    edges = _edges(conditions)
-    if (
-        conditions.linkage.slides
-        or conditions.linkage.gears
-        or len(edges) != len(set(edges.values()))
-        or len(edges) < 2
-    ):
-        return ""
-    points: dict[str, list[tuple[float, float]]] = {}
-    for pin in conditions.linkage.pins.values():
+def _polygon(conditions: Conditions) -> dict[str, float]:
+    """Lengths [m] of the bodies in a single loop of pins, by body; empty if it is something else."""
+    linkage = conditions.linkage
+    if linkage.slides or linkage.gears or linkage.actuators or linkage.cranks or not linkage.pins:
+        return {}
+    points: dict[str, list[Vector2]] = {}
+    for pin in linkage.pins.values():
         points.setdefault(pin.first, []).append(pin.first_point)
         points.setdefault(pin.second, []).append(pin.second_point)
-    if conditions.linkage.actuators or any(len(found) != 2 for found in points.values()):
+    if any(len(found) != 2 for found in points.values()) or len(_loops(conditions)) != 1:
+        return {}
+    return {body: math.dist(*found) for body, found in points.items()}
+
+
+def _sides(conditions: Conditions) -> str:
+    """The bodies of a loop of pins with their lengths [mm] in it; nothing of another."""
+    sides = {body: 1e3 * length for body, length in _polygon(conditions).items()}
+    if not sides:
         return ""
-    sides = {body: 1e3 * math.dist(*found) for body, found in points.items()}
     longest = max(sides, key=lambda body: sides[body])
     others = sum(sides.values()) - sides[longest]
     said = ", ".join(f"{body} {length:.4g}" for body, length in sides.items())

@@ -57,7 +57,7 @@ def linkage_check_figure(report: MachineReport) -> Figure:
         _pins(drawing.add_subplot(grid[1, :wide]), ways[0])
         _holding(drawing.add_subplot(grid[1, wide : 2 * wide]), ways[0])
         if angles:
-            curves = {f"pin {one.pin}: {one.output}": np.degrees(one.angles) for one in angles}
+            curves = {f"{one.pin}: {one.output}": np.degrees(one.angles) for one in angles}
             _angles(drawing.add_subplot(grid[1, 4:]), ways[0], curves)
     for number, way in enumerate(ways if len(ways) > 1 else ()):
         first = 3 * (number % 2)
@@ -398,7 +398,7 @@ def _abscissa(axes: Axes, way: DriveWay) -> None:
     first, last = way.shown(way.ends[0]), way.shown(way.ends[1])
     axes.set_xlim(first, last)
     if way.right_round:
-        axes.set_xticks(np.linspace(first, last, 5))
+        axes.set_xticks(90.0 * np.arange(math.ceil(first / 90.0 - 1e-9), math.floor(last / 90.0 + 1e-9) + 1))
     for one in way.points:
         colour, dashes = (GREY, ":") if one.what == "turns back" else (style.CONTACT, "--")
         axes.axvline(way.shown(one.travel), color=colour, ls=dashes, lw=0.9, zorder=1)
