@@ -1,5 +1,6 @@
 """What loads do to a linkage in motion: their forces and moments at the records, and on the coordinates."""
 
+from collections.abc import Mapping
 from functools import singledispatch
 
 import numpy as np
@@ -58,6 +59,25 @@ def add_load(forces: Series, motion: BodyMotion, name: str, load: ActingLoad, se
     else:
         twist(forces, motion, load.body, series.moment)
         twist(forces, motion, against, -series.moment)
+
+
+def forces_at_rest(system: Kinetics, loads: Mapping[str, ActingLoad], position: Matrix) -> Matrix:
+    """What loads do to all coordinates (n,) of a linkage at rest [N], [N m], each once it has come on for good.
+
+    position: coordinates of all bodies (n,).
+    """
+    forces = np.zeros(position.size)
+    for name, load in loads.items():
+        time, against = max(load.breaks, default=0.0), load.against(name)
+        if isinstance(load, Load):
+            point, rate = system.point(position, load.body, load.point)
+            origin, origin_rate = system.point(position, against, load.origin)
+            x, y = (point - origin).tolist()
+            forces += (rate - origin_rate).T @ load.force(LoadedPoint(time, x, y, 0.0, 0.0))
+        elif isinstance(load, MomentLoad):
+            row = system.turning(position.size, load.body) - system.turning(position.size, against)
+            forces += row * load.moment(TurnedBody(time, float(row @ position), 0.0))
+    return forces
 
 
 def load_rate(system: Kinetics, name: str, load: ActingLoad) -> Matrix:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.interpolate import CubicSpline
 
 from support_exudyn import ravn_slider_crank
 from support_exudyn.files.machines.read import read_machine
@@ -18,6 +19,11 @@ from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.model.linkage import GROUND, Body, Crank, LinearActuator, Linkage, Slide, pinned
+from support_exudyn.model.loads.applied_force import AppliedForce
+from support_exudyn.model.loads.applied_torque import AppliedTorque
+from support_exudyn.model.loads.load import ActingLoad
+from support_exudyn.model.loads.spring_damper import SpringDamper
+from support_exudyn.model.loads.torsion_spring import TorsionSpring
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.checks import check_figure
 from tests.linkages import bar_of, chain, four_bar, towards
@@ -171,6 +177,65 @@ def test_each_cylinder_of_several_has_its_way_with_the_others_held() -> None:
     assert "the way of each is that with the others held" in report.notes[0]
     with pytest.raises(InputError, match="no single actuator drives"):
         checked(boom(), 0.1)
+
+
+# --- loads ---
+
+LOADS: dict[str, ActingLoad] = {
+    "spring": SpringDamper(
+        body="rocker", point=(0.4, 0.2), other_point=(0.6, 0.1), stiffness=500.0, free_length=0.1, damping=50.0
+    ),
+    "between": SpringDamper(
+        body="crank", point=(0.05, 0.08), other="coupler", other_point=(0.2, 0.2), stiffness=900.0
+    ),
+    "twist": TorsionSpring(body="coupler", other="crank", stiffness=3.0, free_turn=0.4),
+    "push": AppliedForce(body="coupler", point=(0.3, 0.3), full_force=(-30.0, -10.0), start=1.0, end=2.0),
+    "turn": AppliedTorque(body="rocker", full_torque=4.0),
+}
+
+
+def test_the_moment_on_a_crank_is_what_its_energy_grows_by() -> None:
+    """Virtual work: energy of weight and springs, less the work of forces, along the way of the crank."""
+    linkage = driven(four_bar(*CRANK_ROCKER), "crank")
+    machine = PlanarLinkage(drawing=linkage, acting=LOADS)
+    report = check_any(MachineData(machine, "loaded", kind="linkage"), None)
+    assert "under weight and spring, between, twist, push and turn" in report.facts[-1]
+    kinetics, moved = kinetics_of(linkage), report.ways[0].moved
+
+    def energy(position: np.ndarray) -> float:
+        def at(body: str, point: tuple[float, float]) -> np.ndarray:
+            return kinetics.point(position, body, point)[0]
+
+        weight = sum(9.81 * body.mass * at(name, body.centre)[1] for name, body in linkage.bodies.items())
+        spring = math.dist(at("rocker", (0.4, 0.2)), (0.6, 0.1)) - 0.1
+        between = math.dist(at("crank", (0.05, 0.08)), at("coupler", (0.2, 0.2)))
+        crank, coupler, rocker = position[2::3]
+        twist = coupler - crank - 0.4
+        push = np.array([-30.0, -10.0]) @ at("coupler", (0.3, 0.3))
+        stored = 250.0 * spring**2 + 450.0 * between**2 + 1.5 * twist**2
+        return float(weight + stored - push - 4.0 * rocker)
+
+    energies = np.array([energy(one.position) for one in moved])
+    moments = np.array([one.forces.cranks["crank"] for one in moved])
+    travel = np.array([one.travel for one in moved])
+    slope = CubicSpline(travel, energies).derivative()(travel)
+    np.testing.assert_allclose(moments[2:-2], slope[2:-2], atol=2e-3 * np.abs(slope).max())
+    with style.look():
+        check_figure(report).canvas.draw()
+
+
+def test_a_freedom_under_a_spring_is_no_freedom_too_many() -> None:
+    linkage = driven(four_bar(*CRANK_ROCKER), "crank")
+    b = linkage.pins["B"].first_point
+    arm = replace(
+        linkage,
+        bodies={**linkage.bodies, "arm": bar_of(b, (b[0] + 0.2, b[1]))},
+        pins={**linkage.pins, "D": pinned("rocker", "arm", b)},
+    )
+    held = {"back": TorsionSpring(body="arm", other="rocker", stiffness=5.0)}
+    report = check_any(MachineData(PlanarLinkage(drawing=arm, acting=held), kind="linkage"), None)
+    assert report.warnings == []
+    assert "it moves under its loads in one way: arm turns about pin D" in report.facts
 
 
 # --- freedoms ---

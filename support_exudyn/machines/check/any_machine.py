@@ -29,6 +29,7 @@ from support_exudyn.mechanics.closing import REPEATED, Conditions
 from support_exudyn.mechanics.continuation import conditions_of
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.value import InputError
 
 STEPS, TOLD = 180, 12  # postures to each end of a way, and rows of its table less one
@@ -46,6 +47,7 @@ class MachineReport(CheckReport):
     Arguments:
         linkage: the mechanism.
         start: its start posture, with the forces there.
+        loads: that act on it besides its weight, by name.
         ways: of each driven part, the others held; none where driven parts do not determine the posture.
         transmission: angles of these ways, by driven part.
         loose: ways in which it can move with all driven parts held.
@@ -54,6 +56,7 @@ class MachineReport(CheckReport):
 
     linkage: Linkage = field(repr=False)
     start: Moved = field(repr=False)
+    loads: Mapping[str, ActingLoad] = field(repr=False)
     ways: Sequence[DriveWay] = field(repr=False)
     transmission: Mapping[str, Sequence[TransmissionAngle]] = field(repr=False)
     loose: Sequence[Movement] = field(repr=False)
@@ -85,17 +88,12 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
         name: float(np.hypot(*conditions.kinetics.relative(start, pin)[0]))
         for name, pin in linkage.pins.items()
     }
-    several = len(driven) > 1
+    several, loads = len(driven) > 1, data.machine.loads
+    steps = STEPS_OF_SEVERAL if several else STEPS
     ways = []
     if not loose and not fight:
         ways = [
-            way_of(
-                conditions,
-                one,
-                _goal(linkage, one, stroke or data.stroke),
-                STEPS_OF_SEVERAL if several else STEPS,
-            )
-            for one in driven
+            way_of(conditions, one, _goal(linkage, one, stroke or data.stroke), steps, loads) for one in driven
         ]
     angles = {way.drive: list(transmission_angles(conditions, way)) for way in ways}
     facts, warnings = [free.said()], []
@@ -107,8 +105,10 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
         if gap > OPEN * conditions.size
     ]
     warnings += [_repeats(one) for one in again]
-    told = warnings if driven or singular else facts
-    told += list(_freedoms(conditions, loose, singular))
+    acted = {body for name, one in loads.items() for body in (one.body, one.against(name))}
+    under_loads = bool(loads) and all(set(one.bodies) & acted for one in loose)
+    told = warnings if singular or (driven and not under_loads) else facts
+    told += list(_freedoms(conditions, loose, singular, under_loads))
     for way in ways:
         facts += list(_way_facts(way))
         warnings += list(_way_warnings(way))
@@ -122,13 +122,14 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
     if any(angles.values()):
         facts.append(DEFINITION)
     stations = {way.drive: _told(way, TOLD_OF_SEVERAL if several else TOLD) for way in ways}
-    at_rest = Moved(0.0, start, statics(linkage, start))
+    at_rest = Moved(0.0, start, statics(linkage, start, loads=loads))
     sheets = [_sheet(way, stations[way.drive]) for way in ways]
     if not loose:
         moved = [one for way in ways for one in way.moved] or [at_rest]
         # at a dead centre forces have no bound
         error = float(np.median([one.forces.error for one in moved]))
-        facts.append(f"static forces: under weight alone; numerical error below {max(error, 1e-12):.0e} N")
+        under = f"weight and {listed(list(loads))}, once come on" if loads else "weight alone"
+        facts.append(f"static forces: under {under}; numerical error below {max(error, 1e-12):.0e} N")
         if not ways:
             sheets = [_table(linkage, "start", [("", at_rest)])]
     sole = ways[0] if len(ways) == 1 else None
@@ -159,6 +160,7 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
         },
         linkage=linkage,
         start=at_rest,
+        loads=loads,
         ways=ways,
         transmission=angles,
         loose=loose,
@@ -182,7 +184,9 @@ def _repeats(one: RepeatedConditions) -> str:
     )
 
 
-def _freedoms(conditions: Conditions, loose: Sequence[Movement], singular: bool) -> Iterator[str]:
+def _freedoms(
+    conditions: Conditions, loose: Sequence[Movement], singular: bool, under_loads: bool
+) -> Iterator[str]:
     """What can move with all driven parts held: of itself if nothing is driven, else a freedom too many."""
     linkage = conditions.linkage
     groups = floating(linkage)
@@ -199,6 +203,8 @@ def _freedoms(conditions: Conditions, loose: Sequence[Movement], singular: bool)
             f"the start posture is a dead centre, in which it can move in {count} for a moment: {ways}; no "
             "way of a drive is told; start it a little beside"
         )
+    elif under_loads:
+        yield f"it moves under its loads in {count}: {ways}"
     elif not linkage.driven:
         yield f"it moves freely in {count}: {ways}"
     else:

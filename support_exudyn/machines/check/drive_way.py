@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.mechanics.continuation import moved_on, tangent
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.model.loads.load import ActingLoad
 
 STILL = 1e-6  # of the fastest: a body that the drive does not move
 SINGULAR = 1e-5  # singular values of conditions below this are none
@@ -107,8 +109,9 @@ class DriveWay:
         return math.degrees(value) if self.turns else 1e3 * value
 
     def at(self, travel: float) -> str:
-        """Where the driven part stands, in words, to four places behind the point at most."""
-        return f"{self.drive} at {round(self.shown(travel), 2) + 0.0:.8g} {self.unit}"
+        """Where the driven part stands, in words, to 0.01 degrees or mm; once round counts from 0 again."""
+        shown = round(self.shown(travel), 2)
+        return f"{self.drive} at {(shown % 360.0 if self.right_round else shown) + 0.0:.8g} {self.unit}"
 
     def data(self) -> dict[str, Any]:
         """The way as plain data, SI and radians."""
@@ -126,7 +129,13 @@ class DriveWay:
         }
 
 
-def way_of(conditions: Conditions, drive: str, goal: tuple[float, float], steps: int) -> DriveWay:
+def way_of(
+    conditions: Conditions,
+    drive: str,
+    goal: tuple[float, float],
+    steps: int,
+    loads: Mapping[str, ActingLoad] = MappingProxyType({}),
+) -> DriveWay:
     """The way of a driven part of a linkage whose start posture its conditions determine.
 
     A crank that turns right round one way is not turned the other.
@@ -135,6 +144,7 @@ def way_of(conditions: Conditions, drive: str, goal: tuple[float, float], steps:
         conditions: of `continuation.conditions_of`.
         goal: ends of the travel that are tried [rad], [m], at most 0 and at least 0.
         steps: postures to each end.
+        loads: that act besides the weight, by name.
     """
     linkage = conditions.linkage
     start = np.zeros(3 * len(linkage.bodies))
@@ -157,7 +167,7 @@ def way_of(conditions: Conditions, drive: str, goal: tuple[float, float], steps:
     return DriveWay(
         drive=drive,
         linkage=linkage,
-        moved=[_station(conditions, *one) for one in stations],
+        moved=[_station(conditions, *one, loads) for one in stations],
         goal=goal,
         ends=ends,
         points=sorted(points, key=lambda one: one.travel),
@@ -166,9 +176,9 @@ def way_of(conditions: Conditions, drive: str, goal: tuple[float, float], steps:
     )
 
 
-def _station(conditions: Conditions, travel: float, moved: Matrix) -> Moved:
+def _station(conditions: Conditions, travel: float, moved: Matrix, loads: Mapping[str, ActingLoad]) -> Moved:
     position = moved / conditions.arms
-    return Moved(travel, position, statics(conditions.linkage, position))
+    return Moved(travel, position, statics(conditions.linkage, position, loads=loads))
 
 
 def _march(

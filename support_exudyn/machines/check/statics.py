@@ -1,13 +1,17 @@
-"""Degrees of freedom of a linkage, and the forces that hold its weight: ideal pins, massless actuators."""
+"""Degrees of freedom of a linkage, and forces that hold weight and loads: ideal pins, massless actuators."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import islice
+from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
 
+from support_exudyn.mechanics.acting_loads import forces_at_rest
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.value import Vector2
 
 Array = npt.NDArray[np.float64]
@@ -35,14 +39,22 @@ class Statics:
     error: float
 
 
-def statics(linkage: Linkage, position: Array, gravity: Vector2 = GRAVITY) -> Statics:
+def statics(
+    linkage: Linkage,
+    position: Array,
+    gravity: Vector2 = GRAVITY,
+    loads: Mapping[str, ActingLoad] = MappingProxyType({}),
+) -> Statics:
     """The static forces of a linkage whose bodies have moved by `position` (3 bodies,) [m], [rad].
 
-    Solves C^T L + w = 0, C the Jacobian of the constraints, driven parts held, w the weight. The error is what
-    the residual can mean at the condition of C.
+    Solves C^T L + w = 0, C the Jacobian of the constraints, driven parts held, w the weight and loads. The
+    error is what the residual can mean at the condition of C.
+
+    loads: besides the weight, by name.
     """
     kinetics = kinetics_of(linkage)
-    rows, weight = kinetics.rows(position), kinetics.weight(gravity)
+    rows = kinetics.rows(position)
+    weight = kinetics.weight(gravity) + forces_at_rest(kinetics, loads, position)
     forces = np.linalg.lstsq(rows.T, -weight, rcond=None)[0]
     residual = float(np.abs(rows.T @ forces + weight).max()) + np.finfo(float).eps * float(np.abs(weight).max())
     error = residual * float(np.linalg.norm(np.linalg.pinv(rows.T), 2)) * len(weight) ** 0.5

@@ -3,41 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon
-from matplotlib.patheffects import withStroke
-from scipy.spatial import ConvexHull, QhullError
 
 from support_exudyn.machines.check.any_machine import MachineReport
-from support_exudyn.machines.check.drive_way import DriveWay, Moved
+from support_exudyn.machines.check.drive_way import DriveWay
 from support_exudyn.machines.check.transmission import LEAST
-from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.style import CURVES, Dashes
-from user_forces.values.value import Vector2
+from support_exudyn.postprocessing.figures.linkage_drawing import GREY, draw_linkage
+from support_exudyn.postprocessing.figures.style import CURVES
 
-GREY, PALE = "#777777", "#bbbbbb"
-START = "#000000"
-GHOSTS = 3  # further postures of a crank that turns right round
-BLOCK = 0.035, 0.022  # half of a block whose size is not said, along and across, of the drawing's size
-SMALL = 0.08  # of the drawing's size: smaller bodies have no name on them
-SUPPORT = 0.028  # of a pivot on the ground, of the drawing's size
 PANELS = 4  # drives that have curves of their own
 CAPTION = (
-    "Static forces are those under weight, with ideal pins. Red dashes: dead centre or change point; grey "
-    "dots: a part on the ground turns back."
+    "Static forces are those under weight and the machine's own loads, with ideal pins. Red dashes: dead "
+    "centre or change point; grey dots: a part on the ground turns back."
 )
 POOR = f" Grey: poor transmission, nearer than {math.degrees(LEAST):.0f} degrees to a straight line."
-ALONG, BESIDE = 0.42, 8.0  # where the name of a bar stands: share of its length, and beside it [points]
 WORDS = 18  # letters of a line of a legend
 MANY = 5  # curves of a panel
-HALO = [withStroke(linewidth=2.2, foreground="white")]
 
 
 def linkage_check_figure(report: MachineReport) -> Figure:
@@ -50,7 +37,7 @@ def linkage_check_figure(report: MachineReport) -> Figure:
     rows = 0 if not ways else 1 if len(ways) < 3 else 2
     drawing = style.begin(180, 105 + 62 * rows, report.name or report.kind)
     grid = drawing.add_gridspec(1 + rows, 6, height_ratios=[1.7] + [1.0] * rows)
-    _linkage(drawing.add_subplot(grid[0, :]), report)
+    draw_linkage(drawing.add_subplot(grid[0, :]), report)
     if len(ways) == 1:
         angles = report.transmission[ways[0].drive]
         wide = 2 if angles else 3
@@ -65,265 +52,6 @@ def linkage_check_figure(report: MachineReport) -> Figure:
     if ways:
         style.caption(drawing, CAPTION + (POOR if any(report.transmission.values()) else ""))
     return drawing
-
-
-# --- the linkage ---
-
-
-def _linkage(axes: Axes, report: MachineReport) -> None:
-    """Bodies at the start, and pale ones at ends of ways or over a turn; paths of traced points."""
-    kinetics = kinetics_of(report.linkage)
-    size = _size(kinetics, report)
-    for way, (colour, dashes) in zip(report.ways, _colours(report.ways), strict=True):
-        for name, traced in report.linkage.points.items():
-            path = 1e3 * np.array(
-                [kinetics.point(one.position, traced.body, traced.point)[0] for one in way.moved]
-            )
-            if np.ptp(path, axis=0).max() > 1e-3 * size:
-                axes.plot(path[:, 0], path[:, 1], color=colour, lw=0.9, ls="-", zorder=2)
-                axes.annotate(
-                    name,
-                    path[len(path) // 3],
-                    xytext=(3, 3),
-                    textcoords="offset points",
-                    fontsize=7,
-                    color=colour,
-                )
-        for one in _others(way):
-            _bodies(axes, kinetics, report, one.position, size, colour, dashes, strong=False)
-    _bodies(axes, kinetics, report, report.start.position, size, START, "-", strong=True)
-    _names(axes, kinetics, report, size)
-    handles = [axes.plot([], [], color=START, lw=1.8, label=_start_said(report))[0]]
-    for way, (colour, dashes) in zip(report.ways, _colours(report.ways), strict=True):
-        others = _others(way)
-        said = ", ".join(f"{way.shown(one.travel):.4g}" for one in others)
-        label = f"{way.drive} at {said} {way.unit}"
-        if others:
-            handles.append(axes.plot([], [], color=colour, ls=dashes, lw=1.2, label=label)[0])
-    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2, fontsize=7.5)
-    axes.set(xlabel="x [mm]", ylabel="y [mm]")
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.margins(0.08)
-    axes.grid(False)
-
-
-def _start_said(report: MachineReport) -> str:
-    where = [way.at(0.0) for way in report.ways]
-    return "start" + (f": {', '.join(where)}" if len(where) == 1 else "")
-
-
-def _colours(ways: Sequence[DriveWay]) -> list[tuple[str, Dashes]]:
-    return [CURVES[n % len(CURVES)] for n in range(len(ways))]
-
-
-def _others(way: DriveWay) -> list[Moved]:
-    """Postures that are drawn beside the start: both ends, or some of a turn."""
-    if way.right_round:
-        return [way.moved[round(n)] for n in np.linspace(0, len(way.moved) - 1, GHOSTS + 2)[1:-1]]
-    return [one for one in (way.moved[0], way.moved[-1]) if one.travel != 0.0]
-
-
-def _size(kinetics: Kinetics, report: MachineReport) -> float:
-    """Extent of the drawing [mm]."""
-    points = [
-        kinetics.point(report.start.position, body, point)[0]
-        for body, points in _joints(report).items()
-        for point in points
-    ]
-    return 1e3 * max(float(np.ptp(np.array(points), axis=0).max()), 1e-9)
-
-
-def _joints(report: MachineReport) -> dict[str, list[Vector2]]:
-    """Points of each body at which something is joined to it, or that are traced."""
-    linkage = report.linkage
-    joints: dict[str, list[Vector2]] = {name: [] for name in (GROUND, *linkage.bodies)}
-    for pin in linkage.pins.values():
-        joints[pin.first].append(pin.first_point)
-        joints[pin.second].append(pin.second_point)
-    for one in linkage.actuators.values():
-        joints[one.foot].append(one.foot_point)
-        joints[one.head].append(one.head_point)
-    for slide in linkage.slides.values():
-        joints[slide.body].append(slide.point)
-    for traced in linkage.points.values():
-        joints[traced.body].append(traced.point)
-    for name, body in linkage.bodies.items():
-        if len(set(joints[name])) < 2 and not any(one.body == name for one in linkage.slides.values()):
-            joints[name].append(body.centre)
-    return joints
-
-
-def _bodies(
-    axes: Axes,
-    kinetics: Kinetics,
-    report: MachineReport,
-    position: Series,
-    size: float,
-    colour: str,
-    dashes: Dashes,
-    *,
-    strong: bool,
-) -> None:
-    """All bodies in a posture: plates or lines between their joints, blocks, actuators, pivots."""
-    linkage = report.linkage
-    layer, alpha = (4.0, 1.0) if strong else (2.5, 0.55)
-    width = 1.8 if strong else 0.9
-
-    def at(body: str, point: Vector2) -> Series:
-        place: Series = 1e3 * kinetics.point(position, body, point)[0]
-        return place
-
-    _guides(axes, kinetics, report, position, size, colour, strong=strong)
-    for body, points in _joints(report).items():
-        if body == GROUND:
-            continue
-        places = np.array([at(body, point) for point in dict.fromkeys(points)])
-        corners = _hull(places)
-        if len(corners) > 2:
-            face = Polygon(
-                corners, closed=True, fc=colour, alpha=0.12 if strong else 0.04, lw=0, zorder=layer - 1
-            )
-            axes.add_patch(face)
-        closed = np.vstack([corners, corners[:1]]) if len(corners) > 2 else corners
-        axes.plot(closed[:, 0], closed[:, 1], color=colour, ls=dashes, lw=width, alpha=alpha, zorder=layer)
-    for one in linkage.actuators.values():
-        foot, head = at(one.foot, one.foot_point), at(one.head, one.head_point)
-        middle = foot + 0.55 * (head - foot)
-        for ends, lw in (((foot, middle), 3.6), ((middle, head), 1.4)):
-            x, y = np.transpose(ends)
-            lw *= 1.0 if strong else 0.6
-            axes.plot(x, y, color=colour, lw=lw, alpha=alpha, solid_capstyle="butt", zorder=layer)
-    if not strong:
-        return
-    pins = [at(pin.second, pin.second_point) for pin in linkage.pins.values()]
-    for one in linkage.actuators.values():
-        pins += [at(one.foot, one.foot_point), at(one.head, one.head_point)]
-    for x, y in pins:
-        axes.plot(x, y, "o", ms=4.5, mfc="white", mec=colour, mew=1.0, zorder=6)
-    for x, y in dict.fromkeys(tuple(at(GROUND, point).tolist()) for point in _joints(report)[GROUND]):
-        _support(axes, x, y, SUPPORT * size)
-
-
-def _hull(places: Series) -> Series:
-    """Corners around points (n, 2); the farthest two if they lie in line."""
-    try:
-        corners: Series = places[ConvexHull(places).vertices] if len(places) > 2 else places
-    except QhullError:
-        along = places - places[0]
-        far = along[int(np.argmax(np.hypot(*along.T)))]
-        order = np.argsort(along @ far)
-        corners = places[[order[0], order[-1]]]
-    return corners
-
-
-def _guides(
-    axes: Axes,
-    kinetics: Kinetics,
-    report: MachineReport,
-    position: Series,
-    size: float,
-    colour: str,
-    *,
-    strong: bool,
-) -> None:
-    """The line of each guide, as far as it is used, and what slides along it."""
-    for name, slide in report.linkage.slides.items():
-        turned = 0.0 if slide.against == GROUND else position[kinetics.bodies[slide.against].first + 2]
-        angle = slide.direction + turned
-        along = np.array([math.cos(angle), math.sin(angle)])
-        across = np.array([-along[1], along[0]])
-        place = 1e3 * kinetics.point(position, slide.body, slide.point)[0]
-        half = [
-            0.5e3 * one for one in report.blocks.get(name, (2e-3 * BLOCK[0] * size, 2e-3 * BLOCK[1] * size))
-        ]
-        if strong:
-            origin = 1e3 * kinetics.point(position, slide.against, slide.point)[0]
-            used = list(_used(kinetics, report, name))
-            low, high = min(used) - 2.0 * half[0], max(used) + 2.0 * half[0]
-            for side in (-half[1], half[1]) if not slide.turns else (-0.5 * half[1], 0.5 * half[1]):
-                ends = [origin + s * along + side * across for s in (low, high)]
-                axes.plot(*np.transpose(ends), color=GREY, lw=0.9, zorder=1.5)
-        if slide.turns:
-            continue
-        corners = [
-            place + s * half[0] * along + t * half[1] * across for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))
-        ]
-        axes.add_patch(
-            Polygon(
-                corners, closed=True, fc="white" if strong else "none", ec=colour, lw=1.4 if strong else 0.7,
-                alpha=1.0 if strong else 0.55, zorder=3.8 if strong else 2.4,
-            )
-        )  # fmt: skip
-    if strong:
-        for slide in report.linkage.slides.values():
-            if slide.turns:
-                x, y = 1e3 * kinetics.point(position, slide.body, slide.point)[0]
-                axes.plot(x, y, "o", ms=5.5, mfc="white", mec=colour, mew=1.2, zorder=6)
-
-
-def _used(kinetics: Kinetics, report: MachineReport, name: str) -> Iterator[float]:
-    """Where along its guide something stands in all postures, from where it is at the start [mm]."""
-    slide = report.linkage.slides[name]
-    for one in (report.start, *(moved for way in report.ways for moved in way.moved)):
-        turned = 0.0 if slide.against == GROUND else one.position[kinetics.bodies[slide.against].first + 2]
-        ends = (kinetics.point(one.position, body, slide.point)[0] for body in (slide.body, slide.against))
-        x, y = np.subtract(*ends)
-        angle = slide.direction + turned
-        yield 1e3 * float(x * math.cos(angle) + y * math.sin(angle))
-
-
-def _support(axes: Axes, x: float, y: float, size: float) -> None:
-    """A pivot on the ground: a triangle on a hatched line."""
-    foot = y - 1.3 * size
-    corners = [(x, y), (x - 0.8 * size, foot), (x + 0.8 * size, foot)]
-    axes.add_patch(Polygon(corners, closed=True, fc="white", ec=GREY, lw=0.9, zorder=3))
-    axes.plot((x - 1.2 * size, x + 1.2 * size), (foot, foot), color=GREY, lw=0.9, zorder=3)
-    for step in np.linspace(-0.9, 1.2, 5):
-        start = x + step * size
-        axes.plot((start, start - 0.4 * size), (foot, foot - 0.4 * size), color=GREY, lw=0.6, zorder=3)
-
-
-def _names(axes: Axes, kinetics: Kinetics, report: MachineReport, size: float) -> None:
-    """Names of pins beside them, of bodies on them, of actuators along them, each once."""
-    linkage, position = report.linkage, report.start.position
-    together: dict[tuple[int, int], list[str]] = {}
-    places = {
-        name: 1e3 * kinetics.point(position, pin.second, pin.second_point)[0]
-        for name, pin in linkage.pins.items()
-    }
-    for name, (x, y) in places.items():
-        together.setdefault((round(x / (0.02 * size)), round(y / (0.02 * size))), []).append(name)
-    for names in together.values():
-        axes.annotate(
-            ", ".join(names), tuple(places[names[0]].tolist()), xytext=(4, 5), textcoords="offset points",
-            fontsize=7.5, zorder=7, path_effects=HALO,
-        )  # fmt: skip
-    for name, points in _joints(report).items():
-        corners = 1e3 * np.array([kinetics.point(position, name, one)[0] for one in dict.fromkeys(points)])
-        if name != GROUND and (len(corners) == 1 or np.ptp(corners, axis=0).max() > SMALL * size):
-            _word(axes, _hull(corners), name)
-    for name, one in linkage.actuators.items():
-        ends = ((one.foot, one.foot_point), (one.head, one.head_point))
-        _word(axes, 1e3 * np.array([kinetics.point(position, *end)[0] for end in ends]), name)
-
-
-def _word(axes: Axes, corners: Series, name: str) -> None:
-    """The name of a body: on a plate, beside a bar, below a block."""
-    place, aside = corners.mean(axis=0), np.zeros(2)
-    if len(corners) == 1:
-        aside = np.array([-1.2 * BESIDE, 1.6 * BESIDE])
-    elif len(corners) == 2:
-        along = corners[1] - corners[0]
-        place, aside = corners[0] + ALONG * along, BESIDE * np.array([along[1], -along[0]]) / np.hypot(*along)
-    side = "center" if abs(aside[0]) < 0.5 * BESIDE else ("left" if aside[0] > 0.0 else "right")
-    axes.annotate(
-        name, (float(place[0]), float(place[1])), xytext=(float(aside[0]), float(aside[1])),
-        textcoords="offset points", fontsize=7,
-        style="italic", ha=side, va="center", color="#333333", zorder=5.5, path_effects=HALO,
-    )  # fmt: skip
-
-
-# --- curves ---
 
 
 def _pins(axes: Axes, way: DriveWay) -> None:
