@@ -1,0 +1,1 @@
+"""Published cases and foreign programs, beside this one."""

@@ -1,0 +1,182 @@
+"""Does the program agree with published cases and with foreign programs?
+
+Every case has numbers of a source: independent solutions by minimal coordinates, Siconos's reference files,
+published lengths. Each scene is run twice, at steps and at half of them, and its numbers stand beside the
+source's with both errors and a verdict.
+"""
+
+import math
+import sys
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from studies.common.numbers import Number
+from studies.common.options import Options
+from studies.common.panels import letters
+from studies.common.runs import run_cases
+from studies.common.study import Study, StudyOutcome
+from studies.common.words import TextTable
+from studies.outside.cases import ComparedNumber, OutsideCase, cases, compared
+from studies.outside.circles import hinge
+from studies.outside.scenes import SCENES
+from support_exudyn import Result
+from support_exudyn.postprocessing.figures import style
+
+FINE = ", half the steps"
+VELENJE = OutsideCase(
+    "velenje",
+    "Four-bar of Velenje's support: path of the canopy's hinge over its rise",
+    "circles that meet, from the published lengths",
+    "Oblak, Harl, Butinar, Struct. Multidisc. Optim. 20 (2000) 76-82",
+    "velenje_shield",
+    1e-6,
+    True,
+    (),
+)
+NEWTON = OutsideCase(
+    "newton_limit",
+    "Slider-crank with clearance in its guide: from smooth contact to Newton's impacts",
+    "minimal coordinates, 80-bit, Newton's impacts",
+    "independent solution of the scene of Flores, Leine and Glocker 2010",
+    "slider_crank",
+    0.1,
+    True,
+    (),
+)
+LIMIT, AT = 1.61452672389, 0.02  # angle of the crank by Newton's impacts [rad], at a time [s]
+STIFFER = {1e9: "slider_crank", 1e11: "stiffer_slider_crank", 1e13: "stiffest_slider_crank"}
+ORDER = 0.4  # of the distance to that: K to the power of minus it
+
+
+def crank_at(run: Result) -> float:
+    """Angle of the crank at the time of the limit [rad]."""
+    return float(run["crank.angle"][round(AT / (run.time[1] - run.time[0]))])
+
+
+def newton_rows(runs: Mapping[str, Result]) -> list[ComparedNumber]:
+    """The distance from Newton's impacts at every stiffness, and the order between two of them."""
+    found, distances = [], []
+    for stiffness, scene in STIFFER.items():
+        fine, coarse = crank_at(runs[scene + FINE]), crank_at(runs[scene])
+        distances.append(abs(fine - LIMIT))
+        allowed = 2.0 * distances[0] * (stiffness / 1e9) ** -ORDER
+        what = f"crank.angle at {AT:g} s, K = {stiffness:.0e} N/m^1.5"
+        found.append(ComparedNumber(NEWTON.name, what, "rad", LIMIT, 5e-12, fine, abs(fine - coarse), allowed))
+    for n, (near, far) in enumerate(zip(distances[1:], distances, strict=False)):
+        first, second = list(STIFFER)[n : n + 2]
+        order = math.log(far / near) / math.log(second / first)
+        error = found[n + 1].our_error / near / math.log(second / first)
+        what = f"order between K = {first:.0e} and {second:.0e}"
+        found.append(ComparedNumber(NEWTON.name, what, "1", ORDER, 0.05, order, error, NEWTON.allowed))
+    return found
+
+
+def velenje_row(fine: Result, coarse: Result) -> ComparedNumber:
+    """The largest distance of the hinge from where circles have it."""
+
+    def apart(run: Result) -> float:
+        known = hinge(run["front_link.angle"])
+        return float(np.hypot(run["hinge.x"] - known[0], run["hinge.y"] - known[1]).max())
+
+    ours = apart(fine)
+    what = "largest distance of the hinge's path"
+    return ComparedNumber("velenje", what, "m", 0.0, 5e-6, ours, abs(ours - apart(coarse)), VELENJE.allowed)
+
+
+def case_table(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]]) -> TextTable:
+    """A row a case: who computed it, how far off ours is at most, both errors, and the verdict."""
+    rows = []
+    for case, numbers in found:
+        worst = max(numbers, key=lambda one: one.off / one.allowed)
+        relative = not case.absolute
+        scale, unit = (1.0 / abs(worst.theirs), "") if relative else (1.0, f" {worst.unit}")
+        shown = [f"{scale * error:.1g}{unit}" for error in (worst.their_error, worst.our_error, worst.off)]
+        met = sum(one.met for one in numbers)
+        verdict = "met" if met == len(numbers) else f"{met} of {len(numbers)} met"
+        asked = f"{case.allowed:.0e}{unit if not relative else ''}"
+        rows.append((case.title, case.program, case.source, *shown, asked, verdict))
+    header = ("case", "program", "source", "error of the source", "our error", "off", "asked", "verdict")
+    return TextTable(header, tuple(rows), left=3, width=220, wide=True)
+
+
+def number_table(numbers: Sequence[ComparedNumber]) -> TextTable:
+    """All numbers, a row each."""
+    rows = [
+        (
+            one.case,
+            one.what,
+            one.unit,
+            f"{one.theirs:.12g}",
+            f"{one.their_error:.1g}",
+            f"{one.ours:.12g}",
+            f"{one.our_error:.1g}",
+            f"{one.off:.2g}",
+            f"{one.allowed:.1g}",
+            "met" if one.met else "not met",
+        )
+        for one in numbers
+    ]
+    header = ("case", "number", "unit", "theirs", "error", "ours", "error", "off", "allowed", "verdict")
+    return TextTable(header, tuple(rows), left=2, width=190)
+
+
+def figure(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]], runs: Mapping[str, Result]) -> Figure:
+    """How far off every number is over what is allowed; the four-bar with loose pins and the stiff guide."""
+    drawing = Figure(figsize=style.size(170, 150))
+    grid = drawing.add_gridspec(2, 2, height_ratios=(1.3, 1.0))
+    all_numbers = drawing.add_subplot(grid[0, :])
+    for row, (_, numbers) in enumerate(found):
+        shares = [max(one.off / one.allowed, 1e-6) for one in numbers]
+        all_numbers.semilogx(shares, [row] * len(shares), "o", color=style.WITH_CLEARANCE, ms=4, mfc="none")
+    all_numbers.axvline(1.0, color=style.IDEAL, lw=1.0)
+    all_numbers.set_yticks(range(len(found)), [case.name.replace("_", " ") for case, _ in found])
+    all_numbers.invert_yaxis()
+    all_numbers.set_xlabel("off over what is allowed")
+    four_bar = drawing.add_subplot(grid[1, 0])
+    run = runs["three_loose_pins" + FINE]
+    known = next(numbers for case, numbers in found if case.name == "three_loose_pins_rate")
+    four_bar.plot(run.time, run["crank.angular_velocity"], color=style.WITH_CLEARANCE, lw=1.0, label="here")
+    times = [float(one.what.split(" at ")[1].removesuffix(" s")) for one in known]
+    four_bar.plot(times, [one.theirs for one in known], "x", color=style.IDEAL, ms=5, label="Siconos")
+    four_bar.set(xlabel="time [s]", ylabel="crank [rad/s]")
+    four_bar.legend()
+    limit = drawing.add_subplot(grid[1, 1])
+    distances = [abs(crank_at(runs[scene + FINE]) - LIMIT) for scene in STIFFER.values()]
+    limit.loglog(list(STIFFER), distances, "o-", color=style.WITH_CLEARANCE, ms=4, lw=1.0, label="here")
+    line = [distances[0] * (stiffness / 1e9) ** -ORDER for stiffness in STIFFER]
+    limit.loglog(list(STIFFER), line, "--", color=style.IDEAL, lw=1.0, label=f"K to the power of -{ORDER:g}")
+    limit.set(xlabel="stiffness K [N/m$^{1.5}$]", ylabel="distance from Newton [rad]")
+    limit.legend()
+    letters([all_numbers, four_bar, limit])
+    return drawing
+
+
+def work(chosen: Options) -> StudyOutcome:
+    """All cases, each beside its source."""
+    scenes = {name: scene() for name, scene in SCENES.items()}
+    # the longest first, so that no process is left alone with a long run at the end
+    order = sorted(scenes, key=lambda name: name != "loose_crank_rocker")
+    wanted = {name + FINE: scenes[name].refined() for name in order} | {name: scenes[name] for name in order}
+    runs = run_cases(wanted, chosen)
+    found: list[tuple[OutsideCase, list[ComparedNumber]]] = [
+        (case, compared(case, runs[case.scene + FINE], runs[case.scene])) for case in cases()
+    ]
+    found.append((NEWTON, newton_rows(runs)))
+    found.append((VELENJE, [velenje_row(runs["velenje_shield" + FINE], runs["velenje_shield"])]))
+    rows = [one for _, numbers in found for one in numbers]
+    numbers: list[Number] = [one.number() for one in rows]
+    words = {
+        "run": sys.modules[__name__],
+        "cases": found,
+        "of": {case.name: compared_numbers for case, compared_numbers in found},
+        "rows": rows,
+        "orders": [one.ours for one in rows if one.what.startswith("order")],
+    }
+    tables = {"table_cases": case_table(found), "table": number_table(rows)}
+    return StudyOutcome(numbers, words, {"outside": figure(found, runs)}, tables)
+
+
+study = Study("outside", __doc__, work, seconds=100.0)
+main = study.main

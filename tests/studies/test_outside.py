@@ -1,0 +1,86 @@
+"""The study of published cases: its sources are read right, ours are near them; slow: every number of it."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import fsolve
+
+from studies.common.options import Options
+from studies.outside import run as study
+from studies.outside.cases import ComparedNumber, cases, compared
+from studies.outside.circles import hinge
+from studies.outside.computed_torque import torque
+from studies.outside.scenes import SCENES
+from support_exudyn import simulate
+from tests.at_once import at_once
+
+# of the reference file of Siconos's example, its last but seven columns: crank, its rate, time, and torque
+SICONOS = [
+    (1.570823772407980, 0.0, 0.0, -30.34444553866433),
+    (1.667922928591141, 4.395065412241380, 0.05, 189.7939140287401),
+    (1.985176417328212, 7.926083177617856, 0.10, 83.62724726794308),
+    (5.545612442795652, 5.285048107783350, 0.50, -46.57220331844870),
+]
+
+
+@pytest.mark.parametrize(("crank", "rate", "time", "known"), SICONOS)
+def test_the_torque_is_that_of_the_example(crank: float, rate: float, time: float, known: float) -> None:
+    # the example writes pi in nine digits
+    assert torque(crank, rate, time) == pytest.approx(known, rel=1e-5)
+
+
+@pytest.mark.parametrize("name", ["crank_rocker", "watt_six_bar"])
+def test_ideal_cases_are_met(name: str) -> None:
+    fine, coarse = simulate(SCENES[name]().refined()), simulate(SCENES[name]())
+    mine = [case for case in cases() if case.scene == name]
+    assert mine
+    for case in mine:
+        found = compared(case, fine, coarse)
+        assert [one.what for one in found if not one.met] == []
+
+
+def test_a_number_that_is_off_is_not_met() -> None:
+    one = ComparedNumber("a", "b", "N", 10.0, 0.005, 10.2, 0.01, 0.1)
+    assert not one.met
+    assert one.off == pytest.approx(0.2)
+    assert ComparedNumber("a", "b", "N", 10.0, 0.005, 10.09, 0.01, 0.1).met
+
+
+def test_digits_tell_the_error_of_a_source() -> None:
+    (ideal,) = [case for case in cases() if case.name == "ideal_crank_rocker"]
+    run = simulate(SCENES["crank_rocker"]())
+    assert compared(ideal, run, run)[0].their_error == pytest.approx(5e-10)
+    (loose,) = [case for case in cases() if case.name == "three_loose_pins"]
+    assert float(loose.numbers[0]["error"]) == 1e-3
+
+
+def test_circles_close() -> None:
+    # the triangle of the beam closes with the side that the circles do not ask for, a6
+    angle = 2.6
+    c = 1e3 * complex(*hinge(np.array([angle]))[:, 0])
+    e = 640j + 1360.0 * complex(math.cos(angle), math.sin(angle))
+    b = 640j - 674.0 * complex(510.0, 440.0) / math.hypot(510.0, 440.0)
+    assert abs(c - e) == pytest.approx(1427.70, rel=1e-12)
+
+    def closes(place: np.ndarray) -> list[float]:
+        d = complex(*place)
+        return [abs(d - b) - 1310.0, abs(d - e) - 382.0]
+
+    d = complex(*fsolve(closes, [e.real - 300.0, e.imag - 250.0]))
+    assert abs(d - c) == pytest.approx(1809.68, abs=0.01)
+
+
+@pytest.mark.slow
+def test_every_number_is_met(tmp_path: Path) -> None:
+    chapter = study.study(Options(tmp_path, at_once()))
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert len(summary["numbers"]) > 90
+    assert chapter.answer.startswith("Yes: ")
+    assert "not met" not in (tmp_path / "table.csv").read_text(encoding="utf-8")
+    rows = (tmp_path / "table_cases.csv").read_text(encoding="utf-8").splitlines()
+    assert len(rows) == 1 + len(cases()) + 2
