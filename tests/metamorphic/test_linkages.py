@@ -23,7 +23,8 @@ PLACES = st.tuples(drawn.between(-5.0, 5.0), drawn.between(-5.0, 5.0))  # [m]
 @scenes()
 def test_tree_and_redundant_move_a_linkage_alike(scene: Scenario) -> None:
     assert mobility(scene.linkage).free == 1
-    one = run(replace(scene, formulation="redundant"))
+    # steps as fine as this tell their own error also where a record lies just behind an impact
+    one = run(replace(scene, formulation="redundant").refined())
     other = told(scene)
     # the impact velocity jumps to 0 at a separation, which may lie on either side of a record
     one.check({name: values for name, values in plain(other).items() if not name.endswith("impact_velocity")})
