@@ -25,6 +25,7 @@ from support_exudyn import (
 )
 from support_exudyn.files.machines import shipped
 from support_exudyn.files.scenarios.scenario_file import scenario_text
+from support_exudyn.machines.check.statics import mobility
 from tests.cases.linkage_text import linkage_text
 from user_forces import InputError
 
@@ -415,3 +416,12 @@ def test_drives_that_the_linkage_cannot_follow_are_refused(tmp_path: Path) -> No
     text = text.replace("{ crank = 0 }", "{ crank = 90 }").replace("length_mm = 400", "length_mm = 200")
     with pytest.raises(InputError, match="drive"):
         Scenario(machine=built(tmp_path, text), drive=Steady(rate=-60.0), duration=0.1)
+
+
+def test_a_strut_is_no_drive(tmp_path: Path) -> None:
+    strut = '\n[actuators.strut]\nbodies = ["ground", "rocker"]\nat = ["O", "B"]\ndriven = false\n'
+    found = mobility(built(tmp_path, CRANK_ROCKER.replace('[cranks]\nmotor = "crank"\n', "") + strut).linkage())
+    assert (found.struts, found.driven, found.counted, found.free, found.left) == (1, 0, 0, 0, 0)
+    assert "- 1 struts = 0" in found.said()
+    said = refusal(tmp_path, "[start]", strut + "\n[start]")
+    assert said.startswith("cranks.motor: fight, for there are more driven parts (1) than ways to move (0)")

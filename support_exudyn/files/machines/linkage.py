@@ -227,8 +227,8 @@ def _check_driven(linkage: Linkage) -> None:
         driven = [f"actuators.{name}" for name, one in linkage.actuators.items() if one.driven]
         driven += [f"cranks.{name}" for name in linkage.cranks]
         raise InputError(
-            f"{', '.join(driven)}: fight, for {free.driven} parts are driven and the linkage can move in "
-            f"{free.free} ways; allowed: {free.free} driven parts at most"
+            f"{', '.join(driven)}: fight, for there are more driven parts ({free.driven}) than ways to move "
+            f"({free.free}); allowed: so many driven parts as ways to move, or fewer"
         )
 
 

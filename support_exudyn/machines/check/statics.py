@@ -78,9 +78,9 @@ class DegreesOfFreedom:
     """Degrees of freedom of a linkage.
 
     Arguments:
-        bodies, pins, blocks, slots, gears, driven: how many there are; a block does not turn in its guide, a
-            pin in a slot does.
-        counted: by Gruebler's formula, 3 a body less 2 a pin or block and 1 a slot or gear.
+        bodies, pins, blocks, slots, gears, struts, driven: how many there are; a block does not turn in its
+            guide, a pin in a slot does; a strut is an actuator that no drive moves.
+        counted: by Gruebler's formula, 3 a body less 2 a pin or block and 1 a slot, gear or strut.
         free: by the rank of the constraints' Jacobian.
         left: likewise with the driven parts held.
     """
@@ -90,6 +90,7 @@ class DegreesOfFreedom:
     blocks: int
     slots: int
     gears: int
+    struts: int
     driven: int
     counted: int
     free: int
@@ -106,6 +107,7 @@ class DegreesOfFreedom:
             + (f" - 2 x {self.blocks} guides" if self.blocks else "")
             + (f" - {self.slots} slots" if self.slots else "")
             + (f" - {self.gears} gears" if self.gears else "")
+            + (f" - {self.struts} struts" if self.struts else "")
             + f" = {self.counted} (by the rank of the constraints: {self.free}); driven: {self.driven}; "
             f"left: {self.left}"
         )
@@ -118,17 +120,18 @@ def mobility(linkage: Linkage) -> DegreesOfFreedom:
     blocks = len(linkage.slides) - slots
     kinetics = kinetics_of(linkage)
     rows = kinetics.rows(np.zeros(3 * bodies))
-    driven = kinetics.driven()
-    undriven = np.delete(rows, np.arange(driven.start, driven.stop), axis=0)
+    held = [kind in ("actuators", "cranks") and name in linkage.driven for kind, name in kinetics.owners()]
+    struts = len(linkage.actuators) + len(linkage.cranks) - len(linkage.driven)
     return DegreesOfFreedom(
         bodies=bodies,
         pins=pins,
         blocks=blocks,
         slots=slots,
         gears=gears,
-        driven=driven.stop - driven.start,
-        counted=3 * bodies - 2 * pins - 2 * blocks - slots - gears,
-        free=3 * bodies - _rank(undriven, kinetics),
+        struts=struts,
+        driven=len(linkage.driven),
+        counted=3 * bodies - 2 * pins - 2 * blocks - slots - gears - struts,
+        free=3 * bodies - _rank(rows[~np.array(held, dtype=bool)], kinetics),
         left=3 * bodies - _rank(rows, kinetics),
     )
 
