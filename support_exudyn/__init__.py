@@ -55,6 +55,7 @@ from support_exudyn.model.drives.drive import (
     UniformSpeed,
 )
 from support_exudyn.model.drives.table_drive import TableDrive
+from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
 from support_exudyn.model.hydraulic_cylinder import (
     ClosedInlet,
     HydraulicCylinder,
@@ -119,6 +120,7 @@ __all__ = [
     "Body",
     "BushingPin",
     "Channel",
+    "ClearanceGuide",
     "ClearancePin",
     "ClosedInlet",
     "Crank",
@@ -130,10 +132,12 @@ __all__ = [
     "FallingBlock",
     "FrictionLaw",
     "Gear",
+    "Guide",
     "HarmonicCourse",
     "Held",
     "HydraulicCylinder",
     "HydraulicSupport",
+    "IdealGuide",
     "IdealPin",
     "ImpactStand",
     "Impulse",

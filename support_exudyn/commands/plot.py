@@ -209,7 +209,13 @@ def _told_first(result: Result) -> list[str]:
     with_clearance = clearance_joints(result)
     points = [f"{point}.{axis}" for point in result.scenario.linkage.points for axis in "xy"]
     names = [f"pin.{with_clearance[0]}.force", f"pin.{with_clearance[0]}.depth"] if with_clearance else []
-    if not with_clearance:
+    names += [
+        f"guide.{name}.{what}"
+        for name, guide in result.scenario.guides.items()
+        if guide.contacts()
+        for what in ("force", "gap_upper", "gap_lower")
+    ]
+    if not names:
         names = [f"pin.{pin}.force" for pin in result.scenario.linkage.pins]
     names += [*points, *(f"{actuator}.force" for actuator in result.scenario.linkage.actuators)]
     return [name for name in names if name in result.channels] or [n for n in result.channels if n != "time"][

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import StrMethodFormatter
 
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.journal import Series, clearance_joints
+from support_exudyn.postprocessing.figures.journal import Series, clearance_joints, corners
 from support_exudyn.postprocessing.figures.selection import inside, matching, said, spacing
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
@@ -177,8 +177,8 @@ def _mark_impacts(axes: Axes, result: Result, chosen: np.ndarray, seconds: Displ
     first, last = result.time[chosen][[0, -1]]
     times = [
         one.time
-        for pin in clearance_joints(result)
-        for one in result.onsets.get(pin, ())
+        for joint in (*clearance_joints(result), *corners(result))
+        for one in result.onsets.get(joint, ())
         if first <= one.time <= last
     ]
     if not times:

@@ -25,6 +25,11 @@ def clearance_joints(result: Result) -> tuple[str, ...]:
     return tuple(sorted(known, key=lambda name: order.index(name) if name in order else len(order)))
 
 
+def corners(result: Result) -> tuple[str, ...]:
+    """Names of the corners and pins in guides with clearance."""
+    return tuple(name for name in result.onsets if result.scenario.contact_stem(name).startswith("guide."))
+
+
 def pins(result: Result) -> tuple[str, ...]:
     """Names of all pins whose force was recorded, those with clearance first."""
     prefix, last = "pin.", ".force"

@@ -14,6 +14,7 @@ from support_exudyn.model.loads.spring_damper import SpringDamper
 from support_exudyn.model.to_space import at, copies
 from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.shapes import bar, bored, hull, plate, together, tube
+from support_exudyn.postprocessing.look.slots import sliding_block, slot_walls
 from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role, Solid
 from support_exudyn.postprocessing.look.springs import springs
 from support_exudyn.scenario.scenario import Scenario
@@ -46,7 +47,7 @@ def look(scenario: Scenario) -> Look:
     for name, around in points.items():
         pins = [pin for pin, place in linkage.pins.items() if name in (place.first, place.second)]
         wide = max([margin, *(WALL * bore_radius(scenario, pin, margin) for pin in pins)])
-        outline = _outline(linkage, name, around, wide, size)
+        outline = _outline(scenario, name, around, wide, size)
         for pin in planar_pins(scenario).values():
             if pin.bore.body == name:
                 outline = bored(outline, pin.bore.point[:2], bore_radius(scenario, pin.name, margin))
@@ -70,18 +71,34 @@ def _layers(scenario: Scenario, apart: float) -> dict[str, float]:
     return {name: 0.0 if known else -n * apart for n, name in enumerate(names)}
 
 
-def _outline(linkage: Linkage, body: str, around: Sequence[Vector2], wide: float, size: float) -> Polygon:
+def _outline(scenario: Scenario, body: str, around: Sequence[Vector2], wide: float, size: float) -> Polygon:
     """A plate around the points of a body; a block if it slides on the ground, which has a rail for it."""
+    slides, guides = scenario.linkage.slides, scenario.guides
+    loose = {name: slides[name] for name, guide in guides.items() if not guide.holds}
+    carried = [slide for name, slide in loose.items() if slide.against == body]
+    walls = [
+        wall
+        for name, slide in loose.items()
+        if slide.against == body
+        for wall in slot_walls(slide, guides[name], 2.0 * RAIL * size)
+    ]
     if body == GROUND:
-        rails = [slide for slide in linkage.slides.values() if slide.against == GROUND]
-        on_rails = {slide.point for slide in rails}
+        rails = [one for name, one in slides.items() if one.against == GROUND and name not in loose]
+        on_rails = {slide.point for slide in (*rails, *carried)}
         rest = [point for point in around if point not in on_rails]
         parts = [hull(rest, wide)] if rest else []
-        parts += [_along(slide, RAIL * size, 0.5 * wide) for slide in rails]
+        parts += [*(_along(slide, RAIL * size, 0.5 * wide) for slide in rails), *walls]
         whole = unary_union(parts)
         return whole if isinstance(whole, Polygon) else unary_union([whole, _joining(parts, 0.35 * wide)])
-    guides = [slide for slide in linkage.slides.values() if slide.body == body and slide.against == GROUND]
-    return unary_union([hull(around, wide), *(_along(slide, 2.0 * wide, 1.2 * wide) for slide in guides)])
+    sliding = [one for name, one in slides.items() if one.body == body and name not in loose]
+    on_ground = [slide for slide in sliding if slide.against == GROUND]
+    blocks = [
+        one for name, slide in loose.items() if slide.body == body for one in sliding_block(slide, guides[name])
+    ]
+    parts = [hull(around, wide), *(_along(slide, 2.0 * wide, 1.2 * wide) for slide in on_ground), *blocks]
+    parts += walls
+    whole = unary_union(parts)
+    return whole if isinstance(whole, Polygon) else unary_union([whole, _joining(parts, 0.35 * wide)])
 
 
 def _along(slide: Slide, half_length: float, half_width: float) -> Polygon:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from support_exudyn.model.guides import Guide
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL
 from support_exudyn.postprocessing.figures.units import readable, said_beside
@@ -192,12 +193,21 @@ def title(scenario: Scenario, pin: PinView | None) -> str:
         words[0] += " in space"
     if pin is not None and pin.bore is not None:
         words.append(f"{pin.name.replace('_', ' ')}: {_of_clearance(pin.bore.pin)}")
-    elif not scenario.clearance_pins:
+    elif not scenario.contact_places:
         words.append("ideal pins")
     more = len(scenario.clearance_pins) - (pin is not None and pin.bore is not None)
     if more > 0:
         words.append(f"{more} more clearance pin{'s' * (more > 1)}")
+    loose = {name: guide for name, guide in scenario.guides.items() if guide.contacts()}
+    words += [f"{name.replace('_', ' ')}: play {_play(guide)}" for name, guide in loose.items()]
     return "  \u00b7  ".join(words)
+
+
+def _play(guide: Guide) -> str:
+    """By how much what slides in a guide can go to either side."""
+    part = next(iter(guide.contacts().values()))
+    play = part.contact.bearing.clearance - abs(part.point[1])
+    return f"\u00b1{1e3 * play:.4g} mm"
 
 
 def _of_clearance(pin: ClearancePin) -> str:
