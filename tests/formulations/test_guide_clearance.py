@@ -207,7 +207,7 @@ def test_momentum_is_conserved_in_a_long_slot_that_turns(guide: ClearanceGuide, 
     for series, size in ((px, 10.0), (py, 10.0), (turning, 20.0)):
         assert np.ptp(series) < 1e-9 * size
     kinetic = float(result["energy.kinetic"][0])
-    assert np.abs(result["energy.balance"]).max() < 3e-5 * kinetic
+    assert np.abs(result["energy.balance"]).max() < 5e-6 * kinetic
     assert result["energy.friction_loss"][-1] > 1e-3 * kinetic
 
 
@@ -245,7 +245,9 @@ class Block(Machine):
 @pytest.mark.parametrize("part", ["face", "corner", "pin"])
 def test_an_impact_delivers_the_restitution_of_its_law(law: NormalLaw, part: str) -> None:
     # a block that turns lands with one corner, one that does not with a face, which is both
-    machine = Block(spin=3.0 if part == "corner" else 0.0, turns=part == "pin")
+    # with next to no inertia, both corners of a face are far from the mass that either has by itself
+    inertia = 1e-5 if part == "face" else 0.003
+    machine = Block(spin=3.0 if part == "corner" else 0.0, inertia=inertia, turns=part == "pin")
     shape = {"pin_radius": 0.03} if part == "pin" else {"block": BLOCK}
     guide = ClearanceGuide(gaps=(1e-3, 1e-3), normal=law, **shape)
     result = simulate(pair(machine, guide, 3.5e-3, gravity=(0.0, 0.0), solver=SolverSettings(impact_steps=256)))
