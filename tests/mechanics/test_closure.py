@@ -96,6 +96,40 @@ def test_a_loop_that_does_not_close_is_named_with_its_gap(seed: int, pairs: int)
         assert 1e3 * (lengths[-1] - sum(lengths[:-1])) == pytest.approx(float(gap[1]), rel=6e-3)
 
 
+@settings(max_examples=often(12), deadline=None)
+@given(seed=seeds, pairs=st.integers(1, 3), spread=st.floats(0.0, 0.6))
+def test_a_chain_drawn_at_random_closes_or_is_refused_with_the_loop_that_does_not(
+    seed: int, pairs: int, spread: float
+) -> None:
+    rng = np.random.default_rng(seed)
+    drawing = chain(rng, pairs)
+    for name, pin in list(drawing.pins.items()):
+        drawing = lengthened(drawing, {name: pin.second}, float(rng.uniform(-spread, spread)))
+    try:
+        found = assembled(drawing)
+    except InputError as error:
+        text = str(error)
+    else:
+        assert_same(assembled(found), found)
+        for name, body in drawing.bodies.items():  # bodies keep their shapes
+            for pin in drawing.pins:
+                for field in ("first", "second"):
+                    one, other = drawing.pins[pin], found.pins[pin]
+                    if getattr(one, field) == name:
+                        long = math.dist(getattr(one, f"{field}_point"), body.centre)
+                        now = math.dist(getattr(other, f"{field}_point"), found.bodies[name].centre)
+                        assert now == pytest.approx(long, abs=CLOSE)
+        return
+    loop = text.partition("the loop ")[2].partition(" does not close")[0].split(" - ")
+    if loop == [""]:  # each loop closes, but not all together; or not from here
+        assert "what joins" in text or "no way leads" in text
+        return
+    bodies, pins = loop[0:-1:2], [name.removeprefix("pin ") for name in loop[1::2]]
+    around = {body: (pins[n - 1], pins[n]) for n, body in enumerate(bodies)}
+    lengths = sorted(sides(drawing, around).values())
+    assert lengths[-1] > sum(lengths[:-1])
+
+
 def test_the_gap_of_a_four_bar_is_what_its_longest_side_is_too_long() -> None:
     exact = four_bar(0.1, 0.4, 0.3, 0.35)
     far = replace(exact.pins["C"], first_point=(0.95, 0.0))

@@ -97,7 +97,7 @@ def repeated(conditions: Conditions, moved: Matrix) -> list[RepeatedConditions]:
             RepeatedConditions(
                 parts=parts,
                 conditions=sum(owner in parts for owner in owners),
-                driven=[part for part in parts if part[0] in DRIVEN],
+                driven=[part for part in parts if part[0] in DRIVEN and part[1] in conditions.linkage.driven],
             )
         )
     return found
@@ -152,7 +152,8 @@ def _how(conditions: Conditions, place: Matrix, rates: Matrix, body: str) -> str
             at = conditions.kinetics.point(place, body, point)[0]
             if float(np.hypot(*(at - pole))) < SEEN * size:
                 return f"turns about pin {name}"
-    return f"turns about ({1e3 * pole[0]:.4g}, {1e3 * pole[1]:.4g}) mm"
+    x, y = (round(1e3 * float(one), 6) + 0.0 for one in pole)
+    return f"turns about ({x:.4g}, {y:.4g}) mm"
 
 
 def _null_space(rows: Matrix) -> list[Matrix]:

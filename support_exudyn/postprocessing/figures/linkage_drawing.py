@@ -51,7 +51,7 @@ def draw_linkage(axes: Axes, report: MachineReport) -> None:
                     fontsize=7,
                     color=colour,
                 )
-        for one in _others(way):
+        for one in _others(way, len(report.ways) == 1):
             _bodies(axes, kinetics, report, one.position, size, colour, dashes, strong=False)
     _bodies(axes, kinetics, report, report.start.position, size, START, "-", strong=True)
     for name, load in report.loads.items():
@@ -59,7 +59,7 @@ def draw_linkage(axes: Axes, report: MachineReport) -> None:
     _names(axes, kinetics, report, size)
     handles = [axes.plot([], [], color=START, lw=1.8, label=_start_said(report))[0]]
     for way, (colour, dashes) in zip(report.ways, _colours(report.ways), strict=True):
-        others = _others(way)
+        others = _others(way, len(report.ways) == 1)
         said = ", ".join(f"{way.shown(one.travel):.4g}" for one in others)
         label = f"{way.drive} at {said} {way.unit}"
         if others:
@@ -80,11 +80,12 @@ def _colours(ways: Sequence[DriveWay]) -> list[tuple[str, Dashes]]:
     return [CURVES[n % len(CURVES)] for n in range(len(ways))]
 
 
-def _others(way: DriveWay) -> list[Moved]:
-    """Postures that are drawn beside the start: both ends, or some of a turn."""
+def _others(way: DriveWay, alone: bool) -> list[Moved]:
+    """Postures drawn beside the start: ends, and the middle if no other part is driven; or some of a turn."""
     if way.right_round:
         return [way.moved[round(n)] for n in np.linspace(0, len(way.moved) - 1, GHOSTS + 2)[1:-1]]
-    return [one for one in (way.moved[0], way.moved[-1]) if one.travel != 0.0]
+    shown = (way.moved[0], *([way.moved[len(way.moved) // 2]] if alone else []), way.moved[-1])
+    return [one for one in shown if one.travel != 0.0]
 
 
 def _size(kinetics: Kinetics, report: MachineReport) -> float:
@@ -262,9 +263,12 @@ def _names(axes: Axes, kinetics: Kinetics, report: MachineReport, size: float) -
             ", ".join(names), tuple(places[names[0]].tolist()), xytext=(4, 5), textcoords="offset points",
             fontsize=7.5, zorder=7, path_effects=HALO,
         )  # fmt: skip
+    blocks = {one.body for one in linkage.slides.values() if not one.turns}
     for name, points in _joints(report).items():
         corners = 1e3 * np.array([kinetics.point(position, name, one)[0] for one in dict.fromkeys(points)])
-        if name != GROUND and (len(corners) == 1 or np.ptp(corners, axis=0).max() > SMALL * size):
+        if name in blocks:
+            _word(axes, corners[:1], name)
+        elif name != GROUND and (len(corners) == 1 or np.ptp(corners, axis=0).max() > SMALL * size):
             _word(axes, _hull(corners), name)
     for name, one in linkage.actuators.items():
         ends = ((one.foot, one.foot_point), (one.head, one.head_point))
