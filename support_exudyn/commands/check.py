@@ -114,7 +114,10 @@ def _looked_at(
         return None, []
     drive = {"mode": 1, "start_s": 0.0, "end_s": RISE_TIME, "stroke_mm": 1e3 * stroke}
     pins = {name: {"clearance_mm": PLAY_MM, "friction": FRICTION} for name in data.bore_radii}
-    scenario = simple_scenario(data, duration_s=RISE_TIME, drive=drive, pins=pins)
+    try:
+        scenario = simple_scenario(data, duration_s=RISE_TIME, drive=drive, pins=pins)
+    except InputError as error:  # all its drives together do not go so far
+        return None, [f"nothing is told of its pins: {str(error).splitlines()[0]}"]
     return scenario, [f"assumed of every pin: {PLAY_MM:g} mm of clearance, a friction of {FRICTION:g}"]
 
 

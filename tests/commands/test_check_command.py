@@ -117,6 +117,20 @@ def test_a_scenario_has_its_own_machine_checked(
 
 
 @pytest.mark.usefixtures("_words_alone")
+def test_pins_of_a_linkage_are_told_over_its_stroke(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    asked = ["check", "velenje_shield", "--json", "--out", str(tmp_path)]
+    assert main(asked) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert data["stroke_m"] == 0.6
+    assert len(data["pins_under_static_load"]) == len(data["pin_stability"]) == 4
+    assert main([*asked, "--stroke-mm", "3000"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert data["locks"]
+    assert "dead centre" in data["warnings"][0]
+    assert data["pin_stability"] == []
+
+
+@pytest.mark.usefixtures("_words_alone")
 def test_a_scenario_of_a_known_machine_is_checked_as_that(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -132,7 +132,7 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
         facts.append(f"static forces: under {under}; numerical error below {max(error, 1e-12):.0e} N")
         if not ways:
             sheets = [_table(linkage, "start", [("", at_rest)])]
-    sole = ways[0] if len(ways) == 1 else None
+    sole, tried = ways[0] if len(ways) == 1 else None, stroke or data.stroke
     return MachineReport(
         name=data.name,
         kind=data.kind,
@@ -146,6 +146,7 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
             "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in again],
             "movements": [one.data() for one in loose],
             "drive": sole.drive if sole else "",
+            **({"stroke_m": tried} if tried is not None and not linkage.cranks else {}),
             "locks": any(way.locks for way in ways),
             "travel": list(sole.ends) if sole else [0.0, 0.0],
             "stations": [] if loose else [_data(one) for one in (stations[sole.drive] if sole else [at_rest])],
