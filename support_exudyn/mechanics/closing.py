@@ -88,8 +88,8 @@ class Conditions:
 
     @cached_property
     def enough(self) -> float:
-        """How far open counts as closed [m]: some roundings."""
-        return max(CLOSED, ROUNDINGS * math.ulp(self.linkage.farthest))
+        """How far open counts as closed [m]: some roundings, less for what is smaller than a metre."""
+        return max(CLOSED * min(1.0, self.size), ROUNDINGS * math.ulp(self.linkage.farthest))
 
     def short(self, moved: Matrix, travels: Mapping[str, float] | None = None) -> Matrix:
         """What each condition is short of (m,) [m], angles by the size of the drawing.

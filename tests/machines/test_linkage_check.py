@@ -160,8 +160,13 @@ def boom() -> Linkage:
     )
 
 
-def test_each_cylinder_of_several_has_its_way_with_the_others_held() -> None:
-    report = checked(boom())
+@pytest.fixture(scope="module")
+def excavator() -> MachineReport:
+    return checked(boom())
+
+
+def test_each_cylinder_of_several_has_its_way_with_the_others_held(excavator: MachineReport) -> None:
+    report = excavator
     assert [way.drive for way in report.ways] == ["lift", "crowd", "curl"]
     shortest = math.hypot(1.4, 1.15) - math.hypot(0.4, 0.3)
     assert told(report, "lift", "dead centre") == [
@@ -340,12 +345,12 @@ def test_any_chain_is_checked_and_drawn(seed: int, pairs: int) -> None:
         check_figure(report).canvas.draw()
 
 
-def test_linkages_are_drawn() -> None:
+def test_linkages_are_drawn(excavator: MachineReport) -> None:
     with style.look():
-        for linkage in (boom(), four_bar(*CRANK_ROCKER), driven(four_bar(*DOUBLE_ROCKER), "crank")):
-            figure = check_figure(checked(linkage))
+        for report in (excavator, checked(four_bar(*CRANK_ROCKER))):
+            figure = check_figure(report)
             figure.canvas.draw()
-            assert len(figure.axes) == {3: 4, 0: 1, 1: 4}[len(linkage.driven)]
+            assert len(figure.axes) == (4 if report.ways else 1)
 
 
 def test_the_shipped_crank_rocker_is_told_as_it_is() -> None:

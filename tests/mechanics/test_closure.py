@@ -23,7 +23,7 @@ from support_exudyn.model.linkage import (
     TracePoint,
     pinned,
 )
-from tests.linkages import apex, bar_of, chain, drawn_roughly, four_bar, lengthened, sides, towards
+from tests.linkages import Place, apex, bar_of, chain, drawn_roughly, four_bar, lengthened, sides, towards
 from tests.often import often
 from user_forces import InputError
 
@@ -55,6 +55,53 @@ def test_a_rough_drawing_closes_to_the_linkage_that_it_is_of(seed: int, pairs: i
     exact = chain(rng, pairs)
     rough = drawn_roughly(exact, rng, shift=0.01, turn=0.02)
     assert_same(assembled(rough, {"crank": exact.bodies["crank"].angle}), exact)
+
+
+def moved_about(linkage: Linkage, scale: float, turn: float, shift: Place, mirror: bool) -> Linkage:
+    """The linkage seen from elsewhere: mirrored in x, turned [rad], shifted, and of another size."""
+    side = -1.0 if mirror else 1.0
+
+    def at(point: Place) -> Place:
+        x, y = scale * point[0], side * scale * point[1]
+        return (
+            x * math.cos(turn) - y * math.sin(turn) + shift[0],
+            x * math.sin(turn) + y * math.cos(turn) + shift[1],
+        )
+
+    return replace(
+        linkage,
+        bodies={
+            name: replace(body, centre=at(body.centre), angle=side * body.angle + turn, moments=None)
+            for name, body in linkage.bodies.items()
+        },
+        pins={
+            name: replace(pin, first_point=at(pin.first_point), second_point=at(pin.second_point))
+            for name, pin in linkage.pins.items()
+        },
+    )
+
+
+@settings(max_examples=often(10), deadline=None)
+@given(
+    seed=seeds, pairs=st.integers(1, 3), scale=st.sampled_from([1e-6, 1e-3, 1.0, 1e3]),
+    turn=st.floats(-3.0, 3.0), mirror=st.booleans(), far=st.sampled_from([0.0, 100.0]),
+)  # fmt: skip
+def test_a_drawing_closes_alike_wherever_it_lies(
+    seed: int, pairs: int, scale: float, turn: float, mirror: bool, far: float
+) -> None:
+    rng = np.random.default_rng(seed)
+    exact = chain(rng, pairs)
+    rough = drawn_roughly(exact, rng, shift=0.01, turn=0.02)
+    about = scale, turn, (far * scale, -far * scale), mirror
+    angle = exact.bodies["crank"].angle
+    found = assembled(moved_about(rough, *about), {"crank": (-angle if mirror else angle) + turn})
+    expected = moved_about(exact, *about)
+    for name, body in expected.bodies.items():
+        np.testing.assert_allclose(
+            found.bodies[name].centre, body.centre, rtol=0, atol=1e-10 * scale * (1.0 + far)
+        )
+        turned = math.remainder(found.bodies[name].angle - body.angle, 2.0 * math.pi)
+        assert turned == pytest.approx(0.0, abs=1e-10 * (1.0 + far))
 
 
 def test_a_closed_drawing_stays_as_it_is() -> None:
