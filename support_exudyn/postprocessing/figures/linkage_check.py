@@ -79,9 +79,19 @@ def _curves(
     most = sorted(values, key=lambda name: -max(map(abs, inner[name])))[:MANY]
     highest = max((abs(one) for name in most for one in inner[name]), default=0.0)
     factor, unit = (1e-3, f"k{unit}") if highest >= 2e3 else (1.0, unit)
-    x = [way.shown(one.travel) for one in way.moved]
+    x, span = [way.shown(one.travel) for one in way.moved], way.ends[1] - way.ends[0]
+    singular = [one.travel for one in way.points if one.what == "change point"]
+    # in a change point itself forces are not determined
+    shown = [all(abs(one.travel - end) > 1e-6 * span for end in singular) for one in way.moved]
     for name, (colour, dashes) in zip([one for one in values if one in most], CURVES, strict=False):
-        axes.plot(x, factor * np.array(values[name]), color=colour, ls=dashes, lw=1.2, label=name)
+        axes.plot(
+            x,
+            np.where(shown, factor * np.array(values[name]), np.nan),
+            color=colour,
+            ls=dashes,
+            lw=1.2,
+            label=name,
+        )
     low = factor * min((min(inner[name]) for name in most), default=0.0)
     high = factor * max((max(inner[name]) for name in most), default=1.0)
     room = 0.06 * (high - low) or 0.1

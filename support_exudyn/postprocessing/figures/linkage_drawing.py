@@ -150,6 +150,8 @@ def _bodies(
             )
             axes.add_patch(face)
         closed = np.vstack([corners, corners[:1]]) if len(corners) > 2 else corners
+        if len(corners) == 1:  # nothing is joined to it but at its centre, if at all
+            axes.plot(*corners[0], "x", ms=5, color=colour, alpha=alpha, zorder=layer)
         axes.plot(closed[:, 0], closed[:, 1], color=colour, ls=dashes, lw=width, alpha=alpha, zorder=layer)
     for one in linkage.actuators.values():
         foot, head = at(one.foot, one.foot_point), at(one.head, one.head_point)
