@@ -425,3 +425,10 @@ def test_a_strut_is_no_drive(tmp_path: Path) -> None:
     assert "- 1 struts = 0" in found.said()
     said = refusal(tmp_path, "[start]", strut + "\n[start]")
     assert said.startswith("cranks.motor: fight, for there are more driven parts (1) than ways to move (0)")
+
+
+def test_cranks_stand_as_drawn_if_nothing_is_said(tmp_path: Path) -> None:
+    text = CRANK_ROCKER.replace("[start]\nangle_deg = { crank = 0 }\n", "").replace(
+        "A = [100, 0]", "A = [60, 60]"
+    )
+    assert built(tmp_path, text).linkage().bodies["crank"].angle == math.radians(45)

@@ -46,7 +46,8 @@ class LinkageStart(Value):
     """Where a linkage starts, if not as it is drawn, and how fast.
 
     Arguments:
-        angle: of bodies [rad], from +x: of the line of their bar, or of x of their frame.
+        angle: of bodies [rad], from +x: of the line of their bar, or of x of their frame; if no angle and no
+            length is given, cranks stand as they are drawn.
         length: of actuators [m], > 0.
         angular_velocity: of bodies that move by themselves at the start [rad/s]; a driven crank has that of its
             drive.
@@ -128,7 +129,10 @@ class LinkageFile(Value):
         self._check_names(drawing)
         origins = {name: origin for name, (_, origin) in guides.items()}
         held = {body for name, body in self._on_springs()}
-        closed = assembled(drawing, self.start.angle, self.start.length, origins=origins, held=held)
+        angles = self.start.angle
+        if not angles and not self.start.length:  # what drives turn stands as it is drawn
+            angles = {crank.body: drawing.bodies[crank.body].angle for crank in drawing.cranks.values()}
+        closed = assembled(drawing, angles, self.start.length, origins=origins, held=held)
         _check_driven(closed)
         acting = self._acting(closed)
         closed = replace(closed, points={name: closed.points[name] for name in self.traced_points})
