@@ -187,6 +187,22 @@ def test_contacts_tend_to_impacts_of_newton_as_they_become_stiffer() -> None:
     assert (order[:, 1:] > 0.35).all()
 
 
+@pytest.mark.slow
+def test_an_accuracy_is_met() -> None:
+    rubbing = Ambrosio(sliding_coefficient=0.05)
+    result = simulate(replace(slider_crank(1e8, 0.02, rubbing), accuracy="draft", formulation="auto"))
+    assert result.met
+    finer = simulate(slider_crank(1e8, 0.02, rubbing, step=2e-6, impact_steps=512))
+    found = result.numbers()
+    wanted = {
+        "pin.slider_pin.force.mean": finer["pin.slider_pin.force"].mean(),
+        "guide.guide.upper_left.onset_2.time": finer.onsets["guide.upper_left"][1].time,
+        "guide.guide.upper_right.largest_force": finer.largest_force["guide.upper_right"],
+    }
+    for name, right in wanted.items():
+        assert found[name].value == pytest.approx(right, abs=4.0 * found[name].error)
+
+
 # --- what is conserved ---
 
 
