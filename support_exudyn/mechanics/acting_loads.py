@@ -61,14 +61,17 @@ def add_load(forces: Series, motion: BodyMotion, name: str, load: ActingLoad, se
         twist(forces, motion, against, -series.moment)
 
 
-def forces_at_rest(system: Kinetics, loads: Mapping[str, ActingLoad], position: Matrix) -> Matrix:
-    """What loads do to all coordinates (n,) of a linkage at rest [N], [N m], each once it has come on for good.
+def forces_at_rest(
+    system: Kinetics, loads: Mapping[str, ActingLoad], position: Matrix, at: float | None = None
+) -> Matrix:
+    """What loads do to all coordinates (n,) of a linkage at rest [N], [N m].
 
-    position: coordinates of all bodies (n,).
+    position: coordinates of all bodies (n,). at: a time [s]; None: each once it has come on for good.
     """
     forces = np.zeros(position.size)
     for name, load in loads.items():
-        time, against = max(load.breaks, default=0.0), load.against(name)
+        time = max(load.breaks, default=0.0) if at is None else at
+        against = load.against(name)
         if isinstance(load, Load):
             point, rate = system.point(position, load.body, load.point)
             origin, origin_rate = system.point(position, against, load.origin)

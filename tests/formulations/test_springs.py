@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from studies.common.paper_machine import oil_columns
 from support_exudyn import (
     AppliedTorque,
     Body,
     HarmonicCourse,
+    Held,
     Linkage,
     Machine,
     PinPlace,
@@ -218,6 +220,50 @@ def test_a_settled_start_is_in_the_springs() -> None:
     assert x * pull * (0.5 - y) - y * pull * (0.2 - x) - 50.0 * angle + 10.0 == pytest.approx(0.0, abs=1e-7)
     assert abs(angle) > 0.02
     assert result["one.angle"] == pytest.approx(angle, abs=1e-9)
+
+
+def test_a_settled_start_has_the_weight_of_both_bodies_of_a_spring() -> None:
+    machine = CrankRocker(angle=-1.3)
+    spring = SpringDamper(
+        body="rocker",
+        point=machine.middle("rocker"),
+        other="crank",
+        other_point=machine.middle("crank"),
+        stiffness=400.0,
+    )
+    scene = Scenario(
+        machine=replace(machine, springs={"spring": spring}), start="settled", duration=0.02, step=1e-3
+    )
+    result = simulate(scene)
+
+    def potential(turn: float) -> float:
+        one = CrankRocker(angle=turn)
+        bodies = one.linkage().bodies.values()
+        weight = sum(9.81 * body.mass * body.centre[1] for body in bodies)
+        return weight + 200.0 * math.dist(one.middle("rocker"), one.middle("crank")) ** 2
+
+    settled = float(result["crank.angle"][0])
+    assert abs(settled + 1.3) > 0.05
+    assert (potential(settled + 1e-5) - potential(settled - 1e-5)) / 2e-5 == pytest.approx(0.0, abs=1e-5)
+    assert result["crank.angle"] == pytest.approx(settled, abs=1e-8)
+
+
+def test_a_support_settles_with_a_spring_between_two_bodies() -> None:
+    shield = reference_support().linkage().bodies["shield"].centre
+    tip = reference_support().linkage().points["tip"].point
+    spring = SpringDamper(body="canopy", point=tip, other="shield", other_point=shield, stiffness=2e5)
+    scene = Scenario(
+        machine=reference_support(),
+        actuators=oil_columns(),
+        drive=Held(),
+        loads={"spring": spring},
+        start="settled",
+        duration=0.02,
+    )
+    result = simulate(scene)
+    for body in ("canopy", "shield"):
+        assert np.abs(result[f"{body}.angular_velocity"]).max() < 1e-8
+    assert result["spring.force"][0] == pytest.approx(-2e5 * result["spring.length"][0], rel=1e-9)
 
 
 def test_a_driven_crank_carries_what_its_springs_ask() -> None:

@@ -11,10 +11,12 @@ import pytest
 from studies.common.paper_machine import clearance_rise, hydraulic_cylinders, oil_columns
 from support_exudyn import (
     AppliedForce,
+    AppliedTorque,
     ClearancePin,
     CubicStep,
     Held,
     Scenario,
+    SpringDamper,
     Steady,
     SuddenOpening,
     ravn_slider_crank,
@@ -22,6 +24,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.mechanics.pin_stability import painleve_friction
+from support_exudyn.model.loads import ActingLoad
 from support_exudyn.postprocessing.pin_shaking import rows
 from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from tests.metamorphic.moving import MIRROR, Move, moved, turn
@@ -129,9 +132,20 @@ def test_the_equilibrium_is_where_a_run_stays(pin: str, formulation: str) -> Non
     assert away.max() < 1e-3 * found.depth
 
 
-def test_a_load_on_the_canopy_is_carried_by_the_pins() -> None:
+TIP = rise().linkage.points["tip"].point
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        AppliedForce(body="canopy", point=TIP, full_force=(0.0, -1e5)),
+        SpringDamper(body="canopy", point=TIP, other="shield", other_point=(0.0, 1.0), stiffness=1e6),
+        AppliedTorque(body="canopy", other="shield", full_torque=1e5),
+    ],
+    ids=["force", "spring", "torque"],
+)
+def test_a_load_on_the_canopy_is_carried_by_the_pins(load: ActingLoad) -> None:
     scene = rise()
-    load = AppliedForce(body="canopy", point=scene.linkage.points["tip"].point, full_force=(0.0, -1e5))
     free, loaded = (
         pin_outlooks(one, [4.0])[0].journals[0] for one in (scene, replace(scene, loads={"block": load}))
     )

@@ -11,7 +11,11 @@ from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.limits import CENTRING
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL, EngineScene
 from support_exudyn.formulations.redundant.scene.load_item import ForceItem
+from support_exudyn.formulations.redundant.scene.scene import Scene
+from support_exudyn.mechanics.acting_loads import forces_at_rest
 from support_exudyn.mechanics.body_coordinates import BodyItem
+from support_exudyn.mechanics.kinetics import Matrix
+from support_exudyn.mechanics.resting import resting
 
 # The engine solves at the end of its only step of loads, 1 s by default: drives and loads, which are told the
 # time, would be settled as they are then.
@@ -37,6 +41,8 @@ def find_static_equilibrium(scene: EngineScene) -> None:
     weight = sum(item.body.mass for item in scene.bodies.values()) * _norm(scene.scenario.gravity)
     share = CENTRING[0]
 
+    if (held := _held_by_loads(scene)) is not None:
+        data.SetODE2Coordinates(held, INITIAL)
     load_suspension = _load_suspension(scene)
     with ExitStack() as for_a_while:
         for load, pull in load_suspension.values():
@@ -45,7 +51,7 @@ def find_static_equilibrium(scene: EngineScene) -> None:
             for_a_while.enter_context(pin.settling(weight, lambda: share))
         for cylinder in scene.cylinders.values():
             for_a_while.enter_context(cylinder.settling())
-        for share in CENTRING:  # noqa: B007
+        for share in CENTRING if held is None else ():  # noqa: B007
             _solve(scene)
             data.SetODE2Coordinates(data.GetODE2Coordinates(), INITIAL)
             for cylinder in scene.cylinders.values():
@@ -58,6 +64,25 @@ def find_static_equilibrium(scene: EngineScene) -> None:
             velocity[item.first : item.first + 3] = *item.body.velocity, item.body.spin
     data.SetODE2Coordinates_t(velocity, INITIAL)
     scene.reset_memory()
+
+
+def _held_by_loads(scene: EngineScene) -> Matrix | None:
+    """Coordinates at which a linkage rests that nothing but loads holds, such as springs; None if it is none.
+
+    The engine's Newton method knows no stiffness of constraints that turn, and would not find there.
+    """
+    if not isinstance(scene, Scene) or not scene.loads:
+        return None
+    compliant = (scene.clearance_joints, scene.compliant_pins, scene.oil_columns, scene.cylinders)
+    if any(compliant) or scene.bodies.keys() != scene.scenario.unloaded.bodies.keys():
+        return None
+    closed, acting = scene.closed_kinetics, scene.scenario.acting_loads
+    weight = closed.weight(scene.scenario.gravity)
+
+    def forces(position: Matrix) -> Matrix:
+        return weight + forces_at_rest(closed, acting, position, AT_THE_START)
+
+    return resting(closed, forces, scene.mbs.systemData.GetODE2Coordinates(INITIAL))
 
 
 def _load_suspension(scene: EngineScene) -> dict[str, tuple[ForceItem, Any]]:
