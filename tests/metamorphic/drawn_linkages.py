@@ -8,14 +8,19 @@ import numpy as np
 from hypothesis import strategies as st
 
 from support_exudyn import (
+    AppliedForce,
+    AppliedTorque,
     Crank,
     CubicStep,
     Drive,
+    HarmonicCourse,
     Held,
     PlanarLinkage,
     Scenario,
     SolverSettings,
+    SpringDamper,
     Steady,
+    TorsionSpring,
     TracePoint,
 )
 from support_exudyn.mechanics.start_rates import set_moving
@@ -82,6 +87,35 @@ def driven(draw: st.DrawFn, from_rest: bool = False) -> Scenario:
         formulation="redundant",
         solver=SolverSettings(impact_steps=IMPACT_STEPS),
     )
+
+
+@st.composite
+def sprung(draw: st.DrawFn) -> Scenario:
+    """The same with a spring and a damper, a torsion spring and a torque between two bars, and a force."""
+    scene = draw(driven())
+    bodies = scene.linkage.bodies
+    first, *_, last = bodies
+    ends = bodies[last].centre, bodies[first].centre
+    apart = float(np.hypot(ends[0][0] - ends[1][0], ends[0][1] - ends[1][1]))
+    spring = SpringDamper(
+        body=last,
+        point=ends[0],
+        other=first,
+        other_point=(ends[1][0] + 0.1 * SIZE, ends[1][1]),
+        stiffness=draw(between(1e2, 1e4)),
+        free_length=apart * draw(between(0.5, 1.5)),
+        damping=draw(between(0.0, 50.0)),
+    )
+    coil = TorsionSpring(
+        body=last, other=first, stiffness=draw(between(1.0, 100.0)), free_turn=draw(between(-1.0, 1.0))
+    )
+    motor = AppliedTorque(
+        body=last,
+        full_torque=draw(between(-10.0, 10.0)),
+        course=HarmonicCourse(period=draw(between(0.01, 0.1))),
+    )
+    push = AppliedForce(body=last, point=ends[0], full_force=(draw(between(-50.0, 50.0)), 20.0))
+    return replace(scene, loads={"spring": spring, "coil": coil, "motor": motor, "push": push})
 
 
 @st.composite

@@ -11,17 +11,19 @@ import numpy as np
 
 from support_exudyn import (
     AppliedForce,
+    AppliedTorque,
     ClearancePin,
     Crank,
     CubicStep,
     Drive,
     Linkage,
-    Load,
     Machine,
     Result,
     Scenario,
     SliderCrank,
+    SpringDamper,
     Steady,
+    TorsionSpring,
 )
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.model.linkage import Part, turned_moments
@@ -30,7 +32,7 @@ from user_forces import value
 Point = tuple[float, float]
 TURNED = (  # of which the sign says which way round; of guides magnitudes are recorded
     *(".angle", ".angular_velocity", ".angular_acceleration"),
-    *(".slip", ".friction_force", ".friction_moment", "crank.moment"),
+    *(".slip", ".friction_force", ".friction_moment", "crank.moment", "coil.moment", "motor.moment"),
 )
 FROM_THE_START = (".angle", "energy.potential")  # of which only the change means anything
 
@@ -206,13 +208,21 @@ def _moved_shield(machine: FourBarShield[Any], move: Move) -> FourBarShield[Any]
     )
 
 
+def moved_load(load: Any, move: Move) -> Any:
+    """A load moved."""
+    if isinstance(load, TorsionSpring):
+        return replace(load, free_turn=move.sign * load.free_turn)
+    if isinstance(load, AppliedTorque):
+        return replace(load, full_torque=move.sign * load.full_torque)
+    found = replace(load, point=move.point(load.point))
+    if isinstance(load, SpringDamper):
+        return replace(found, other_point=move.point(load.other_point))
+    return replace(found, full_force=move.vector(load.full_force)) if isinstance(load, AppliedForce) else found
+
+
 def moved(scenario: Scenario, move: Move) -> Scenario:
     """The whole scene moved, gravity and all."""
-    loads: dict[str, Load] = {}
-    for name, load in scenario.loads.items():
-        loads[name] = replace(load, point=move.point(load.point))
-        if isinstance(load, AppliedForce):
-            loads[name] = replace(loads[name], full_force=move.vector(load.full_force))
+    loads = {name: moved_load(load, move) for name, load in scenario.loads.items()}
     pins = {
         name: replace(pin, eccentricity=move.vector(pin.eccentricity)) if isinstance(pin, ClearancePin) else pin
         for name, pin in scenario.pins.items()

@@ -66,6 +66,17 @@ def test_a_linkage_elsewhere_moves_alike(scene: Scenario, place: tuple[float, fl
     one.check_touches(other)
 
 
+@given(
+    scene=drawn_linkages.sprung(),
+    way=st.sampled_from((MIRROR, UPSIDE_DOWN, turn(130.0), Move(shift=(2.0, -1.0)))),
+)
+@scenes(8)
+def test_a_linkage_with_springs_and_torques_moves_alike(scene: Scenario, way: Move) -> None:
+    one, other = run(scene), told(moved(scene, way))
+    one.check(context(other, way.back))
+    one.check_touches(other)
+
+
 def steadily(scene: Scenario) -> Scenario:
     """The scene without strokes, whose unit is the metre, also where a crank makes them."""
     return replace(scene, drive=Steady(rate=15.0)) if isinstance(scene.drive, CubicStep) else scene
