@@ -272,7 +272,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         ),
         (
             TOP + "[columns.front_column]\ntype = 'RigidActuator'",
-            "a.toml: columns: unknown key; allowed: name, description, errors, machine, pins, guides, actuators, ",
+            "a.toml: columns: unknown key; allowed: name, description, errors, machine, pins, guides, ",
         ),
         (TOP + "[drives.x]\nmode = 1", "a.toml: drives.x: the machine has no such driven part; allowed: "),
         (TOP + WITH_CLEARANCE.replace("1.5", "-1"), "a.toml: pins.rear_base.clearance_mm = -1: allowed: >= 0"),

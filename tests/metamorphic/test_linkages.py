@@ -26,7 +26,7 @@ def hard(onsets: tuple[Onset, ...], fastest: float) -> int:
 
 
 @given(scene=drawn_linkages.opened())
-@scenes()
+@scenes(60)  # 20 of them by hand
 def test_tree_and_redundant_move_a_linkage_alike(scene: Scenario) -> None:
     assert mobility(scene.linkage).free == 1
     # steps as fine as this tell their own error also where a record lies just behind an impact

@@ -35,6 +35,7 @@ from support_exudyn.postprocessing.look.solid import solids_of
 from support_exudyn.postprocessing.viewer import viewer_model
 from support_exudyn.postprocessing.viewer.view import open_viewer
 from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, model_for_viewer
+from tests.cases.cylinder_cases import on_cylinders
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, support
 from tests.hostile import little_room, posix_only
 from user_forces import InputError
@@ -179,6 +180,17 @@ def test_the_binary_format_holds_the_same(run: Result, tmp_path: Path) -> None:
     assert np.array_equal(text["data"], binary["data"])
     assert (tmp_path / "run.sol").read_bytes().startswith(b"EXUBIN")
     assert read_solution(tmp_path / "run.sol")["nRows"] == run.time.size
+
+
+def test_pressures_of_cylinders_stand_behind_the_motion(tmp_path: Path) -> None:
+    scenario = dataclasses.replace(on_cylinders(with_clearance=False), duration=0.01, step=1e-3)
+    result = simulate(scenario)
+    save_solution(result, tmp_path / "run.txt")
+    solution = load(tmp_path / "run.txt")
+    bodies = 3 * len(scenario.linkage.bodies)
+    assert solution["columnsExported"][:2] == [bodies, bodies]
+    first = next(iter(scenario.linkage.bodies))
+    assert solution["data"][-1, 1] + scenario.linkage.bodies[first].centre[0] == result[f"{first}.x"][-1]
 
 
 @pytest.mark.parametrize("ending", ["", ".dat", ".ünï"])
