@@ -1,7 +1,7 @@
 """The numbers of a run that a sweep notes."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
@@ -86,14 +86,16 @@ def check_numbers(scenario: Scenario, names: Iterable[str]) -> None:
 
 
 def _is_of_impacts(name: str, scenario: Scenario) -> bool:
+    """Whether this may be of a clearance pin, pin.NAME.onset_1.time, or of a corner, guide.NAME.CORNER.*."""
     parts = name.split(".")
-    return (
-        parts[0] == "pin"
-        and ".".join(parts[1:2]) in scenario.linkage.pins
-        and (
-            parts[2:] in (["largest_force"], ["largest_force_time"])
-            or (len(parts) == 4 and parts[2].startswith("onset_"))
-        )
+    joints: Mapping[str, tuple[Collection[str], int]] = {
+        "pin": (scenario.linkage.pins, 2),
+        "guide": (scenario.linkage.slides, 3),
+    }
+    known, first = joints.get(parts[0], ((), 0))
+    what = parts[first:]
+    return ".".join(parts[1:2]) in known and (
+        what in (["largest_force"], ["largest_force_time"]) or (len(what) == 2 and what[0].startswith("onset_"))
     )
 
 

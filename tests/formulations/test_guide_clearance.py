@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from support_exudyn import (
     Body,
+    ClearancePin,
     Crank,
     Held,
     IdealPin,
@@ -23,6 +24,7 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
+from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.formulations.registry import FORMULATIONS
 from support_exudyn.model.guides import ClearanceGuide, IdealGuide
 from support_exudyn.model.linkage import GROUND, pinned
@@ -30,6 +32,7 @@ from support_exudyn.scenario.timescales import loaded_contacts
 from tests.cases.guide_cases import (
     BLOCK,
     GAP,
+    SLIDER_MASS,
     FreePair,
     pair_by_scipy,
     slider_crank,
@@ -278,6 +281,41 @@ def test_an_impact_delivers_the_restitution_of_its_law(law: NormalLaw, part: str
     assert onset.separation_velocity / onset.speed == pytest.approx(
         wanted, rel=2e-3 if part == "corner" else 2e-4
     )
+
+
+# --- with clearance pins ---
+
+
+def loose_everywhere(backend: str, gaps: tuple[float, float]) -> Scenario:
+    """The slider-crank with clearance in the guide and in two pins."""
+    scene = slider_crank(1e8, 0.012, RUBBING, step=2e-5, impact_steps=64, backend=backend)
+    pin = ClearancePin.simple(clearance=2e-4, bore_radius=0.01, stiffness=1e8, restitution=0.6, friction=0.1)
+    guides = {"guide": replace(scene.guides["guide"], gaps=gaps)}
+    return replace(scene, guides=guides, pins={"slider_pin": pin, "crank_pin": pin})
+
+
+def test_a_pin_is_told_what_corners_hold() -> None:
+    scene = build(loose_everywhere("python", (GAP, 0.0)))
+    try:
+        found = scene.inverse_masses("slider_pin")
+    finally:
+        scene.release()
+    # both lower corners lie on their wall: the slider, of all that answers an impulse upwards, is held
+    lost = found.alone.yy - found.held.yy
+    assert lost == pytest.approx(1.0 / SLIDER_MASS, rel=1e-4)
+    assert found.alone.xx == pytest.approx(found.held.xx, rel=1e-4)
+
+
+def test_corners_and_pins_strike_in_one_run() -> None:
+    one, other = (simulate(loose_everywhere(backend, (GAP, GAP))) for backend in ("python", "symbolic"))
+    kinds = {name.partition(".")[0] for name, onsets in one.onsets.items() if onsets}
+    assert kinds == {"guide", "slider_pin", "crank_pin"}
+    for name, onsets in one.onsets.items():
+        np.testing.assert_allclose(
+            [a.time for a in onsets[:2]], [b.time for b in other.onsets[name][:2]], atol=1e-8
+        )
+    assert np.abs(one["energy.balance"]).max() < 1e-3 * one["energy.kinetic"][0]
+    assert one["energy.friction_loss"][-1] > 0.0
 
 
 # --- seen from elsewhere ---

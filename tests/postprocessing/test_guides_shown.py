@@ -1,0 +1,75 @@
+"""Guides with clearance as they are drawn and told."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from support_exudyn import ClearanceGuide, IdealGuide, Scenario, Slide, simulate
+from support_exudyn.__main__ import main
+from support_exudyn.postprocessing import summary
+from support_exudyn.postprocessing.look.plain import look
+from support_exudyn.postprocessing.look.slots import sliding_block, slot_walls
+from support_exudyn.postprocessing.render.frame import title
+from support_exudyn.simulation.reported_numbers import measures
+from support_exudyn.sweeps.measures import check_numbers
+from tests.cases.guide_cases import BLOCK, slider_crank
+from user_forces import InputError
+
+SLIDE = Slide(body="slider", point=(1.0, 2.0), direction=0.0)
+GUIDE = ClearanceGuide.simple(gaps=(2e-3, 1e-3), block=BLOCK)
+
+
+@pytest.fixture(scope="module")
+def scene() -> Scenario:
+    return slider_crank(1e9, 0.004, step=1e-4, impact_steps=16)
+
+
+def test_walls_and_block_are_drawn_where_they_are() -> None:
+    upper, lower = slot_walls(SLIDE, GUIDE, 0.3)
+    (block,) = sliding_block(SLIDE, GUIDE)
+    assert block.bounds == pytest.approx((0.95, 1.975, 1.05, 2.025))
+    assert upper.bounds[1] - block.bounds[3] == pytest.approx(2e-3)
+    assert block.bounds[1] - lower.bounds[3] == pytest.approx(1e-3)
+    (pin,) = sliding_block(SLIDE, ClearanceGuide.simple(gaps=1e-3, pin_radius=0.02))
+    assert pin.bounds == pytest.approx((0.98, 1.98, 1.02, 2.02))
+    upright = replace(SLIDE, direction=1.5707963267948966)
+    assert next(sliding_block(upright, GUIDE)).bounds == pytest.approx((0.975, 1.95, 1.025, 2.05))
+    assert slot_walls(SLIDE, IdealGuide(), 0.3) == list(sliding_block(SLIDE, IdealGuide())) == []
+
+
+def test_the_plain_look_has_the_block_in_its_body(scene: Scenario) -> None:
+    solids = {solid.name: solid for solid in look(scene).solids}
+    across = solids["slider"].mesh.vertices[:, 1]
+    assert across.max() >= 0.5 * BLOCK[1] - 1e-9
+    assert across.min() <= -0.5 * BLOCK[1] + 1e-9
+    assert title(scene, None).endswith("guide: play \u00b11 mm")
+
+
+def test_impacts_are_told_by_corner(
+    scene: Scenario, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    result = simulate(replace(scene, record_period=1e-4))
+    rows = {row[0]: row for row in summary.impacts(result)}
+    assert set(rows) == {f"guide.{corner}" for corner in GUIDE.contacts()}
+    assert rows["guide.upper_left"][1] == "1 of 1"
+    assert rows["guide.upper_left"][6].endswith("N")
+    assert rows["guide.lower_left"][1] == "none"
+    assert "guide.guide.upper_left.largest_force" in measures(result, 0.0, math.inf)
+    assert any(
+        name == "guide guide" and "ClearanceGuide" in said for name, said in summary.what_was_run(result)
+    )
+    path = tmp_path / "run.h5"
+    result.save(path)
+    assert main(["show", str(path), "--impacts"]) == 0
+    assert "guide.upper_right" in capsys.readouterr().out
+
+
+def test_numbers_of_corners_can_be_asked_for(scene: Scenario) -> None:
+    check_numbers(scene, ["guide.guide.upper_left.largest_force", "guide.guide.lower_left.onset_1.time"])
+    check_numbers(scene, ["guide.guide.gap_upper.min"])
+    with pytest.raises(InputError, match="no such number"):
+        check_numbers(scene, ["guide.other.upper_left.largest_force"])
