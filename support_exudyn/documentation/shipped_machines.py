@@ -31,11 +31,29 @@ def _told(name: str, pictures: Path) -> str:
     picture = f"machine_{name}.png"
     machine_drawing(Scenario(machine=data.machine, duration=1.0)).savefig(pictures / picture, dpi=DPI)
     sources = "\n".join(f"- {what.replace('_', ' ')}: {source}" for what, source in data.sources.items())
-    return f"## {name}\n\n```text\n{_sketch(name)}\n```\n\n![{name}]({pictures.name}/{picture})\n\n{sources}"
+    return f"## {name}\n\n{_comment(name)}\n\n![{name}]({pictures.name}/{picture})\n\n{sources}"
 
 
-def _sketch(name: str) -> str:
-    """The comment at the top of a machine's file, with its sketch if it has one."""
+def _comment(name: str) -> str:
+    """The comment at the top of a machine's file: paragraphs and lists, and its sketch if it has one."""
     text = (Path(shipped_files).parent / f"{name}.toml").read_text(encoding="utf-8")
     lines = takewhile(lambda line: line.startswith("#"), text.splitlines())
-    return "\n".join(line.removeprefix("#").removeprefix(" ") for line in lines)
+    blocks = "\n".join(line.removeprefix("#").removeprefix(" ") for line in lines).split("\n\n")
+    return "\n\n".join(f"```text\n{block}\n```" if _is_sketch(block) else _prose(block) for block in blocks)
+
+
+def _is_sketch(block: str) -> bool:
+    """Whether most lines of a block are set in, as those of a drawing in letters are."""
+    lines = block.splitlines()
+    return 2 * sum(line.startswith("  ") for line in lines) > len(lines)
+
+
+def _prose(block: str) -> str:
+    """A paragraph, with an empty line before and after its list if it has one."""
+    found: list[str] = []
+    for line in block.splitlines():
+        listed = line.startswith(("- ", "  "))
+        if found and listed != found[-1].startswith(("- ", "  ")):
+            found.append("")
+        found.append(line)
+    return "\n".join(found)
