@@ -388,3 +388,13 @@ def test_a_drive_that_its_cubic_meets_in_the_middle_is_cut_all_the_same() -> Non
             return 0.1 * math.sin(2.0 * math.pi * t)
 
     assert len(pieces([Wave()], 1.0, 1e-9)) > 10
+
+
+def test_an_impact_between_two_parts_of_a_flight_is_met_there() -> None:
+    # so near to the wall that the first part of the flight ends within what counts as met, and not beyond it
+    clearance, met, way = 1e-4, 1e-11, 1e-6
+    depth = 0.5 * met - 0.25 * way
+    start, end = (
+        JournalPlace(clearance + at, 0.0, way / 1e-5, 0.0, at, way / 1e-5) for at in (depth, depth + way)
+    )
+    assert event(False, False, start, end, 1e-5, clearance) == Event(EventKind.IMPACT, 0.25)

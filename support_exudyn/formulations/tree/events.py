@@ -152,6 +152,8 @@ def _apart(start: JournalPlace, end: JournalPlace, step: float, clearance: float
         if rising and falling and top < 1.0 and step > SHORT and met < abs(highest) < flight.doubt:
             return Event(EventKind.UNCLEAR, 0.0)
         if highest > met:
+            if apart and flight.depth(low) >= 0.0:  # it was met between both parts
+                return Event(EventKind.IMPACT, low)
             if apart:
                 return Event(EventKind.IMPACT, float(brentq(flight.depth, low, top, xtol=1e-15)))
             # the surfaces have just separated and must be seen apart first
