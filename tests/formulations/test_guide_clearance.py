@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import (
@@ -39,7 +39,8 @@ from tests.cases.guide_cases import (
     slider_crank_by_scipy,
     start_of,
 )
-from tests.metamorphic.moving import UPSIDE_DOWN, Move, Moved, turn
+from tests.metamorphic.moving import UPSIDE_DOWN, Move, Moved, context, turn
+from tests.metamorphic.same import run, scenes, told
 from user_forces import (
     Ambrosio,
     Exact,
@@ -321,6 +322,17 @@ def test_corners_and_pins_strike_in_one_run() -> None:
 # --- seen from elsewhere ---
 
 
+def seen_back(result: Result, move: Move) -> dict[str, np.ndarray]:
+    """The channels of a scene that was moved, as they are where it was."""
+    found = context(result, move.back)
+    del found["guide.guide.place"]  # which jumps where contacts begin and end
+    if not move.flipped:
+        return found
+    # along the guide nothing changes, which `context` does not know
+    signed = {f"guide.guide.{what}" for what in ("force", "tilt", "moment", "friction_force")}
+    return {swapped(name): -values if name in signed else values for name, values in found.items()}
+
+
 def swapped(name: str) -> str:
     """A corner, seen in a mirror along the guide."""
     return (
@@ -328,7 +340,7 @@ def swapped(name: str) -> str:
     )
 
 
-@settings(max_examples=4, deadline=None, derandomize=True)
+@scenes(6)
 @given(
     machine=st.builds(
         FreePair,
@@ -338,7 +350,8 @@ def swapped(name: str) -> str:
         velocity=st.sampled_from(((0.3, -0.8), (-0.5, 1.0))),
         grounded=st.booleans(),
     ),
-    gaps=st.sampled_from(((1e-3, 0.0), (2e-4, 1e-3), (1e-3, 1e-3))),
+    # not 0: whether a corner that leaves a wall touches it at the start is a matter of rounding
+    gaps=st.sampled_from(((1e-3, 1e-5), (2e-4, 1e-3), (1e-3, 1e-3))),
     friction=st.sampled_from((Frictionless(), RUBBING)),
     move=st.sampled_from((UPSIDE_DOWN, turn(137.0), Move(shift=(3.0, -2.0)), turn(-60.0))),
     backend=st.sampled_from(("python", "symbolic")),
@@ -352,7 +365,7 @@ def test_a_scene_elsewhere_in_a_mirror_or_turned_moves_as_it_did(
 ) -> None:
     guide = ClearanceGuide(gaps=gaps, normal=KEPT, friction=friction, block=BLOCK)
     solver = SolverSettings(impact_steps=32, backend=backend)
-    one = pair(machine, guide, 0.006, solver=solver)
+    one = pair(machine, guide, 0.005, solver=solver)
     there = Moved(inner=machine, along=move.along, flipped=move.flipped, shift=move.shift, about=move.about)
     other = replace(
         one,
@@ -360,18 +373,11 @@ def test_a_scene_elsewhere_in_a_mirror_or_turned_moves_as_it_did(
         guides={"guide": replace(guide, gaps=gaps[::-1] if move.flipped else gaps)},
         gravity=move.vector(GRAVITY),
     )
-    here, moved = simulate(one), simulate(other)
-    for name, onsets in here.onsets.items():
+    here, moved = run(one), told(other)
+    here.check(seen_back(moved, move))
+    for name, onsets in here.result.onsets.items():
         theirs = moved.onsets[swapped(name) if move.flipped else name]
-        np.testing.assert_allclose([a.time for a in onsets], [b.time for b in theirs], atol=1e-8)
-    for body in one.linkage.bodies:
-        place = move.point((here[f"{body}.x"], here[f"{body}.y"]))
-        np.testing.assert_allclose(place, (moved[f"{body}.x"], moved[f"{body}.y"]), atol=1e-8)
-    for what in ("force", "friction_force", "tilt"):
-        sign = move.sign if what != "friction_force" else 1.0
-        largest = np.abs(here[f"guide.guide.{what}"]).max()
-        off = np.abs(sign * here[f"guide.guide.{what}"] - moved[f"guide.guide.{what}"]).max()
-        assert off <= 1e-3 * largest + 1e-9, what
+        assert len(onsets) == len(theirs), name
 
 
 # --- what is recorded ---
@@ -468,6 +474,22 @@ def test_a_settled_block_lies_on_its_wall() -> None:
     assert (result["guide.guide.gap_lower"] < 0.0).all()
     loads = {one.pin: one.load for one in loaded_contacts(scene)}
     assert sum(loads.values()) >= 2.0 * ideal["guide.force"][0] * 0.999
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.2])
+def test_a_block_that_lies_on_its_wall_slides_as_coulomb_says(mu: float) -> None:
+    friction = Ambrosio(sliding_coefficient=mu) if mu else Frictionless()
+    guide = ClearanceGuide(
+        gaps=(1e-3, 0.0), normal=Exact(stiffness=1e9, restitution=0.5), friction=friction, block=BLOCK
+    )
+    result = simulate(pair(Block(velocity=(0.3, 0.0)), guide, 0.05, step=1e-4))
+    weight = 2.0 * -GRAVITY[1]
+    assert result["guide.guide.force"][-20:] == pytest.approx(weight * np.ones(20), rel=1e-4)
+    assert result["guide.guide.friction_force"][-1] == pytest.approx(-mu * weight, rel=1e-4)
+    assert result["block.velocity_x"][-1] == pytest.approx(0.3 + mu * GRAVITY[1] * 0.05, rel=1e-4)
+    # without a moment about its centre: the wall presses ahead of it, by as much as friction is below
+    assert result["guide.guide.place"][-1] == pytest.approx(mu * 0.5 * BLOCK[1], rel=1e-3, abs=1e-6)
+    assert result["guide.guide.moment"][-1] == pytest.approx(0.0, abs=1e-4 * weight)
 
 
 def test_what_does_not_fit_is_refused() -> None:
