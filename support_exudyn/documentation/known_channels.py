@@ -1,6 +1,9 @@
 """The channels of the machines that come with the package, as a page."""
 
+from typing import Any
+
 from support_exudyn.files.machines import SHIPPED, shipped
+from support_exudyn.model.guides import ClearanceGuide
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.postprocessing.known_channels import ChannelTable, channels
 from support_exudyn.scenario.scenario import Scenario
@@ -14,20 +17,22 @@ A channel is a quantity over time, in SI units and radians. `result["NAME"]` giv
 
 
 def channels_page() -> str:
-    """A page of Markdown: of every shipped machine all channels, with ideal pins and with one clearance pin."""
+    """A page of Markdown: all channels of every shipped machine, ideal and with clearance in a pin or guide."""
     parts = [TOP]
     for name in SHIPPED:
         machine = shipped(name).machine
-        ideal = channels(machine)
+        linkage, ideal = machine.linkage(), channels(machine)
         parts += [f"## {name}", _table(ideal)]
-        pin = next(iter(machine.linkage().pins))
+        pin = next(iter(linkage.pins))
         pins = {pin: ClearancePin.simple(clearance=0.001, bore_radius=0.05)}
-        known = channels(Scenario(machine=machine, pins=pins, duration=1.0))
-        more = {key: one for key, one in known.items() if key not in ideal}
-        parts += [
-            f"With clearance in a pin (here `{pin}`) there are also:",
-            _table(ChannelTable(more, "channel")),
-        ]
+        loose = {f"a pin (here `{pin}`)": Scenario(machine=machine, pins=pins, duration=1.0)}
+        for guide, slide in list(linkage.slides.items())[:1]:
+            shape: dict[str, Any] = {"pin_radius": 0.02} if slide.turns else {"block": (0.1, 0.05)}
+            guides = {guide: ClearanceGuide.simple(gaps=0.001, **shape)}
+            loose[f"a guide (here `{guide}`)"] = Scenario(machine=machine, guides=guides, duration=1.0)
+        for where, scenario in loose.items():
+            more = {key: one for key, one in channels(scenario).items() if key not in ideal}
+            parts += [f"With clearance in {where} there are also:", _table(ChannelTable(more, "channel"))]
     return "\n\n".join(parts) + "\n"
 
 
