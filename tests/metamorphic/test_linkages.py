@@ -16,6 +16,7 @@ from tests.metamorphic.scaling import Scale
 from tests.metamorphic.test_delay import after, later
 from tests.metamorphic.test_rescale import rescaled, scales
 
+BETWEEN = 2e-3  # of the largest value in a unit: what two formulations may differ by besides their errors
 GRAZE = 0.05  # of the fastest impact
 PLACES = st.tuples(drawn.between(-5.0, 5.0), drawn.between(-5.0, 5.0))  # [m]
 
@@ -33,7 +34,8 @@ def test_tree_and_redundant_move_a_linkage_alike(scene: Scenario) -> None:
     one = run(replace(scene, formulation="redundant").refined())
     other = told(scene)
     # the impact velocity jumps to 0 at a separation, which may lie on either side of a record
-    one.check({name: values for name, values in plain(other).items() if not name.endswith("impact_velocity")})
+    others = {name: values for name, values in plain(other).items() if not name.endswith("impact_velocity")}
+    one.check(others, rounding=BETWEEN)
     fastest = max((onset.speed for onsets in other.onsets.values() for onset in onsets), default=0.0)
     for pin, onsets in other.onsets.items():
         assert hard(onsets, fastest) == hard(one.result.onsets[pin], fastest), pin
