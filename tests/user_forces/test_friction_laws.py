@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -272,6 +272,7 @@ def test_force_is_bristles_their_rate_and_viscosity(slip: float, force: float, z
 def test_next_deflection_is_exact_for_constant_slip(
     slip: float, z: float, lengths: float, stribeck: float
 ) -> None:
+    assume(slip == 0.0 or abs(slip) > 1e-100)  # of less the integrator's own step is no number
     law = LuGre(static_coefficient=0.3, sliding_coefficient=0.2, stribeck_speed=stribeck)
     step = lengths * 3e-6 / max(abs(slip), 1e-6)  # in the time in which the bristles are bent
 
