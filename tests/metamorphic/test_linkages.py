@@ -22,9 +22,9 @@ CHANCE = 2.0  # times the error told: in two of 1000 scenes it was too small, by
 PLACES = st.tuples(drawn.between(-5.0, 5.0), drawn.between(-5.0, 5.0))  # [m]
 
 
-def hard(onsets: tuple[Onset, ...], fastest: float) -> int:
-    """How many impacts are no graze, which rounding decides."""
-    return sum(onset.speed > GRAZE * fastest for onset in onsets)
+def faster(onsets: tuple[Onset, ...], speed: float) -> int:
+    """How many impacts are faster [m/s]."""
+    return sum(onset.speed > speed for onset in onsets)
 
 
 @given(scene=drawn_linkages.opened())
@@ -38,8 +38,11 @@ def test_tree_and_redundant_move_a_linkage_alike(scene: Scenario) -> None:
     others = {name: values for name, values in plain(other).items() if not name.endswith("impact_velocity")}
     one.check(others, rounding=BETWEEN, chance=CHANCE, certain=certain(one.result, other))
     fastest = max((onset.speed for onsets in other.onsets.values() for onset in onsets), default=0.0)
-    for pin, onsets in other.onsets.items():
-        assert hard(onsets, fastest) == hard(one.result.onsets[pin], fastest), pin
+    for pin, theirs in other.onsets.items():
+        mine = one.result.onsets[pin]
+        # rounding decides whether there is a graze, and on which side of the threshold an impact lies
+        assert faster(theirs, GRAZE * fastest) <= faster(mine, 0.5 * GRAZE * fastest), pin
+        assert faster(mine, GRAZE * fastest) <= faster(theirs, 0.5 * GRAZE * fastest), pin
 
 
 @given(scene=drawn_linkages.driven())
