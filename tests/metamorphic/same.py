@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -114,10 +115,17 @@ class Run:
 
 
 def certain(one: Result, other: Result) -> np.ndarray:
-    """Which records do not lie so near an impact or a separation that the error of its time decides, (n,)."""
+    """Which records do not lie so near an impact or a separation that the error of its time decides, (n,).
+
+    Nor in an impact that one run alone has, as where the other ends before.
+    """
     found = np.ones(one.time.size, dtype=bool)
     for pin, onsets in one.onsets.items():
-        for mine, theirs in zip(onsets, other.onsets[pin], strict=False):
+        for mine, theirs in zip_longest(onsets, other.onsets[pin]):
+            if mine is None or theirs is None:
+                alone = mine or theirs
+                found &= (one.time < alone.time) | (one.time > alone.separation_time)
+                continue
             for time, another in (
                 (mine.time, theirs.time),
                 (mine.separation_time, theirs.separation_time),
