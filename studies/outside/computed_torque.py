@@ -12,7 +12,6 @@ rocker's inertia about its centre.
 import math
 
 from support_exudyn import MomentLoad, TurnedBody, value
-from support_exudyn.model.loads import LoadChannel, Powers
 
 CRANK, COUPLER, ROCKER, GROUND = 1.0, 4.0, 2.5, 3.0  # [m], each of 1 kg
 GRAVITY = 9.81
@@ -78,20 +77,3 @@ class ComputedTorque(MomentLoad):
     def moment(self, at: TurnedBody) -> float:
         """Torque [N m]."""
         return torque(self.start + at.turn, at.spin, at.time)
-
-    def stored(self, at: TurnedBody) -> float:
-        """Stored energy, which is 0 J."""
-        return 0.0
-
-    def powers(self, at: TurnedBody) -> Powers:
-        """Power [W] of the torque, and no loss."""
-        return Powers(self.moment(at) * at.spin, 0.0)
-
-    @property
-    def channels(self) -> dict[str, LoadChannel]:
-        """The only channel is the torque."""
-        return {"moment": LoadChannel("N m", "on the crank, positive anticlockwise")}
-
-    def observed(self, at: TurnedBody) -> dict[str, float]:
-        """Torque [N m]."""
-        return {"moment": self.moment(at)}

@@ -7,7 +7,6 @@ from functools import cached_property
 from pydantic import model_validator
 
 from support_exudyn.model.loads.course import Coming, LoadCourse
-from support_exudyn.model.loads.load import LoadChannel, Powers
 from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
 from user_forces.values.units import NewtonMetres, Seconds
 from user_forces.values.value import NonNegative, Real, value
@@ -43,23 +42,6 @@ class AppliedTorque(MomentLoad):
     def moment(self, at: TurnedBody) -> float:
         """Torque on the body [N m]."""
         return self.full_torque * self._coming.share(at.time)
-
-    def stored(self, at: TurnedBody) -> float:
-        """Stored energy, which is 0 J."""
-        return 0.0
-
-    def powers(self, at: TurnedBody) -> Powers:
-        """Power [W] of the torque, and no loss."""
-        return Powers(self.moment(at) * at.spin, 0.0)
-
-    @property
-    def channels(self) -> dict[str, LoadChannel]:
-        """The only channel is the torque."""
-        return {"moment": LoadChannel("N m", "on the body, positive anticlockwise")}
-
-    def observed(self, at: TurnedBody) -> dict[str, float]:
-        """Torque [N m]."""
-        return {"moment": self.moment(at)}
 
     @property
     def breaks(self) -> tuple[float, ...]:

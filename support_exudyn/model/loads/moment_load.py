@@ -1,13 +1,14 @@
 """A moment on a body that follows from time and from how the body turns against another."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from pydantic import model_validator
 from typing_extensions import Self
 
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.loads.load import ActingLoad
+from support_exudyn.model.loads.load import ActingLoad, LoadChannel, Powers
 from user_forces.values.value import value
 
 
@@ -30,6 +31,8 @@ class MomentLoad(ActingLoad, ABC):
 
         d stored/dt = work - loss - moment spin
 
+    By default it stores nothing, all that it does counts as work, and the moment is its only channel.
+
     Arguments:
         body: name of the body.
         other: the body that the opposite moment acts on, or "ground".
@@ -45,6 +48,24 @@ class MomentLoad(ActingLoad, ABC):
     @abstractmethod
     def moment(self, at: TurnedBody) -> float:
         """Moment on the body, positive anticlockwise [N m]."""
+
+    def stored(self, at: TurnedBody) -> float:
+        """Stored energy [J], 0 by default."""
+        del at
+        return 0.0
+
+    def powers(self, at: TurnedBody) -> Powers:
+        """Power [W] of the moment, and no loss, by default."""
+        return Powers(self.moment(at) * at.spin, 0.0)
+
+    @property
+    def channels(self) -> Mapping[str, LoadChannel]:
+        """The only channel is the moment by default."""
+        return {"moment": LoadChannel("N m", "on the body, positive anticlockwise")}
+
+    def observed(self, at: TurnedBody) -> Mapping[str, float]:
+        """Moment [N m], by default."""
+        return {"moment": self.moment(at)}
 
     def against(self, name: str) -> str:
         """The opposite moment acts on the other body."""
