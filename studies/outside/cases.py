@@ -66,7 +66,7 @@ class ComparedNumber:
         return self.their_error if self.their_error < self.allowed else 0.0
 
     def number(self) -> Number:
-        """As summary.json has it."""
+        """The number as summary.json has it: ours, beside that of the source."""
         return Number(self.what, self.case, self.ours, self.unit, self.our_error, self.theirs)
 
 

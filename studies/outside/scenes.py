@@ -117,12 +117,12 @@ def slider_crank() -> Scenario:
 
 
 def stiffer_slider_crank() -> Scenario:
-    """The same with contact 100 times as stiff."""
+    """The slider-crank with contact 100 times as stiff."""
     return guided(1e11, 0.02, 5e-6)
 
 
 def stiffest_slider_crank() -> Scenario:
-    """The same with contact 10 000 times as stiff."""
+    """The slider-crank with contact 10 000 times as stiff."""
     return guided(1e13, 0.02, 2.5e-6)
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -57,6 +59,31 @@ def test_digits_tell_the_error_of_a_source() -> None:
     assert compared(ideal, run, run)[0].their_error == pytest.approx(5e-10)
     (loose,) = [case for case in cases() if case.name == "three_loose_pins"]
     assert float(loose.numbers[0]["error"]) == 1e-3
+
+
+def newton_runs(distances: Sequence[float]) -> dict[str, Any]:
+    """Runs that stand so far from Newton's impacts [rad], at steps and at half of them."""
+    time = np.linspace(0.0, study.AT, 3)
+    return {
+        scene + fine: {"crank.angle": np.full(3, study.LIMIT - off)} | {"time": time}
+        for scene, off in zip(study.STIFFER.values(), distances, strict=True)
+        for fine in ("", study.FINE)
+    }
+
+
+@pytest.mark.parametrize(
+    ("distances", "met"),
+    [
+        ((7.5e-5, 1.1e-5, 1.8e-6), [True, True, True]),
+        ((3e-4, 1.1e-5, 1.8e-6), [False, True, True]),
+        ((7.5e-5, 1.1e-5, 1.1e-5), [True, True, False]),
+    ],
+)
+def test_each_stiffness_has_to_come_as_near_to_newton_as_the_source_tells(
+    distances: Sequence[float], met: list[bool], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(study, "crank_at", lambda run: float(run["crank.angle"][-1]))
+    assert [one.met for one in study.newton_rows(newton_runs(distances))[:3]] == met
 
 
 def test_circles_close() -> None:
