@@ -229,14 +229,19 @@ def test_the_moment_on_a_crank_is_what_its_energy_grows_by() -> None:
         check_figure(report).canvas.draw()
 
 
-def test_a_freedom_under_a_spring_is_no_freedom_too_many() -> None:
+def with_an_arm() -> Linkage:
+    """A crank-rocker with an arm that is free to turn about the pin of coupler and rocker."""
     linkage = driven(four_bar(*CRANK_ROCKER), "crank")
     b = linkage.pins["B"].first_point
-    arm = replace(
+    return replace(
         linkage,
         bodies={**linkage.bodies, "arm": bar_of(b, (b[0] + 0.2, b[1]))},
         pins={**linkage.pins, "D": pinned("rocker", "arm", b)},
     )
+
+
+def test_a_freedom_under_a_spring_is_no_freedom_too_many() -> None:
+    arm = with_an_arm()
     held = {"back": TorsionSpring(body="arm", other="rocker", stiffness=5.0)}
     report = check_any(MachineData(PlanarLinkage(drawing=arm, acting=held), kind="linkage"), None)
     assert report.warnings == []
@@ -304,13 +309,7 @@ def test_a_free_crank_moves_freely_and_is_not_warned_of() -> None:
 
 
 def test_a_freedom_too_many_is_told_with_what_moves() -> None:
-    linkage = driven(four_bar(*CRANK_ROCKER), "crank")
-    b = linkage.pins["B"].first_point
-    arm = replace(
-        linkage,
-        bodies={**linkage.bodies, "arm": bar_of(b, (b[0] + 0.2, b[1]))},
-        pins={**linkage.pins, "D": pinned("rocker", "arm", b)},
-    )
+    arm = with_an_arm()
     (said,) = checked(arm).warnings
     assert said.startswith("1 degree of freedom is left with all driven parts held: arm turns about pin D;")
     loose = replace(arm, bodies={**arm.bodies, "plate": bar_of((1.0, 0.0), (1.0, 1.0))})

@@ -50,7 +50,7 @@ def law_in_full(name: str, where: str) -> str:
 
 
 def friction_in_full(name: str) -> str:
-    """The same of a friction law."""
+    """What to do with a friction law that a short form has no room for, or that is not known."""
     return _in_full(name, FrictionLaw, "friction_law", "one coefficient", "friction = ")
 
 

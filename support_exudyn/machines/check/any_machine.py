@@ -107,18 +107,11 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
     warnings += [_repeats(one) for one in again]
     acted = {body for name, one in loads.items() for body in (one.body, one.against(name))}
     under_loads = bool(loads) and all(set(one.bodies) & acted for one in loose)
-    told = warnings if singular or (driven and not under_loads) else facts
-    told += list(_freedoms(conditions, loose, singular, under_loads))
+    freedoms = _freedoms(conditions, loose, singular, under_loads)
+    (warnings if singular or (driven and not under_loads) else facts).extend(freedoms)
     for way in ways:
-        facts += list(_way_facts(way))
-        warnings += list(_way_warnings(way))
-        facts += [one.said(way) for one in angles[way.drive]]
-        warnings += [
-            f"{one.said(way)}; {math.degrees(LEAST):.0f} to {180.0 - math.degrees(LEAST):.0f} degrees are "
-            "usual: nearer to a straight line forces grow, and play is felt"
-            for one in angles[way.drive]
-            if one.worst < LEAST
-        ]
+        facts += [*_way_facts(way), *(one.said(way) for one in angles[way.drive])]
+        warnings += [*_way_warnings(way), *_poor_angles(way, angles[way.drive])]
     if any(angles.values()):
         facts.append(DEFINITION)
     stations = {way.drive: _told(way, TOLD_OF_SEVERAL if several else TOLD) for way in ways}
@@ -126,10 +119,7 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
     sheets = [_sheet(way, stations[way.drive]) for way in ways]
     if not loose:
         moved = [one for way in ways for one in way.moved] or [at_rest]
-        # at a dead centre forces have no bound
-        error = float(np.median([one.forces.error for one in moved]))
-        under = f"weight and {listed(list(loads))}, once come on" if loads else "weight alone"
-        facts.append(f"static forces: under {under}; numerical error below {max(error, 1e-12):.0e} N")
+        facts.append(_under(moved, list(loads)))
         if not ways:
             sheets = [_table(linkage, "start", [("", at_rest)])]
     sole, tried = ways[0] if len(ways) == 1 else None, stroke or data.stroke
@@ -150,14 +140,7 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
             "locks": any(way.locks for way in ways),
             "travel": list(sole.ends) if sole else [0.0, 0.0],
             "stations": [] if loose else [_data(one) for one in (stations[sole.drive] if sole else [at_rest])],
-            "drives": {
-                way.drive: {
-                    **way.data(),
-                    "transmission_angles": [one.data() for one in angles[way.drive]],
-                    "stations": [_data(one) for one in stations[way.drive]],
-                }
-                for way in ways
-            },
+            "drives": {way.drive: _drive(way, angles[way.drive], stations[way.drive]) for way in ways},
         },
         linkage=linkage,
         start=at_rest,
@@ -167,6 +150,33 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
         loose=loose,
         blocks=data.blocks,
     )
+
+
+def _poor_angles(way: DriveWay, angles: Sequence[TransmissionAngle]) -> Iterator[str]:
+    """Warnings of transmission angles that come near a straight line on a way."""
+    least = math.degrees(LEAST)
+    for one in angles:
+        if one.worst < LEAST:
+            yield (
+                f"{one.said(way)}; {least:.0f} to {180.0 - least:.0f} degrees are usual: nearer to a straight "
+                "line forces grow, and play is felt"
+            )
+
+
+def _under(moved: Sequence[Moved], loads: Sequence[str]) -> str:
+    """Under what the static forces are, and their numerical error."""
+    error = float(np.median([one.forces.error for one in moved]))  # at a dead centre forces have no bound
+    under = f"weight and {listed(loads)}, once come on" if loads else "weight alone"
+    return f"static forces: under {under}; numerical error below {max(error, 1e-12):.0e} N"
+
+
+def _drive(way: DriveWay, angles: Sequence[TransmissionAngle], stations: Sequence[Moved]) -> dict[str, Any]:
+    """The way of a driven part as plain data."""
+    return {
+        **way.data(),
+        "transmission_angles": [one.data() for one in angles],
+        "stations": [_data(one) for one in stations],
+    }
 
 
 def _goal(linkage: Linkage, drive: str, stroke: float | None) -> tuple[float, float]:

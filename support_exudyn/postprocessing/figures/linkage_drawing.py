@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -52,8 +53,8 @@ def draw_linkage(axes: Axes, report: MachineReport) -> None:
                     color=colour,
                 )
         for one in _others(way, len(report.ways) == 1):
-            _bodies(axes, kinetics, report, one.position, size, colour, dashes, strong=False)
-    _bodies(axes, kinetics, report, report.start.position, size, START, "-", strong=True)
+            _bodies(_Posture(axes, kinetics, report, one.position, size, colour, dashes, strong=False))
+    _bodies(_Posture(axes, kinetics, report, report.start.position, size, START, "-", strong=True))
     for name, load in report.loads.items():
         _load(axes, kinetics, name, load, size)
     _names(axes, kinetics, report, size)
@@ -118,27 +119,32 @@ def _joints(report: MachineReport) -> dict[str, list[Vector2]]:
     return joints
 
 
-def _bodies(
-    axes: Axes,
-    kinetics: Kinetics,
-    report: MachineReport,
-    position: Series,
-    size: float,
-    colour: str,
-    dashes: Dashes,
-    *,
-    strong: bool,
-) -> None:
-    """All bodies in a posture: plates or lines between their joints, blocks, actuators, pivots."""
-    linkage = report.linkage
-    layer, alpha = (4.0, 1.0) if strong else (2.5, 0.55)
-    width = 1.8 if strong else 0.9
+@dataclass(frozen=True)
+class _Posture:
+    """A posture of a linkage and how it is drawn: strong, or pale beside another."""
 
-    def at(body: str, point: Vector2) -> Series:
-        place: Series = 1e3 * kinetics.point(position, body, point)[0]
+    axes: Axes
+    kinetics: Kinetics
+    report: MachineReport
+    position: Series
+    size: float
+    colour: str
+    dashes: Dashes
+    strong: bool
+
+    def at(self, body: str, point: Vector2) -> Series:
+        """Where a point of a body is (2,) [mm]."""
+        place: Series = 1e3 * self.kinetics.point(self.position, body, point)[0]
         return place
 
-    _guides(axes, kinetics, report, position, size, colour, strong=strong)
+
+def _bodies(drawn: _Posture) -> None:
+    """All bodies in a posture: plates or lines between their joints, blocks, actuators, pivots."""
+    axes, report, linkage, at = drawn.axes, drawn.report, drawn.report.linkage, drawn.at
+    colour, dashes, strong = drawn.colour, drawn.dashes, drawn.strong
+    layer, alpha = (4.0, 1.0) if strong else (2.5, 0.55)
+    width = 1.8 if strong else 0.9
+    _guides(drawn)
     for body, points in _joints(report).items():
         if body == GROUND:
             continue
@@ -168,7 +174,7 @@ def _bodies(
     for x, y in pins:
         axes.plot(x, y, "o", ms=4.5, mfc="white", mec=colour, mew=1.0, zorder=6)
     for x, y in dict.fromkeys(tuple(at(GROUND, point).tolist()) for point in _joints(report)[GROUND]):
-        _support(axes, x, y, SUPPORT * size)
+        _support(axes, x, y, SUPPORT * drawn.size)
 
 
 def _hull(places: Series) -> Series:
@@ -183,28 +189,21 @@ def _hull(places: Series) -> Series:
     return corners
 
 
-def _guides(
-    axes: Axes,
-    kinetics: Kinetics,
-    report: MachineReport,
-    position: Series,
-    size: float,
-    colour: str,
-    *,
-    strong: bool,
-) -> None:
+def _guides(drawn: _Posture) -> None:
     """The line of each guide, as far as it is used, and what slides along it."""
+    axes, kinetics, report, position = drawn.axes, drawn.kinetics, drawn.report, drawn.position
+    size, colour, strong = drawn.size, drawn.colour, drawn.strong
     for name, slide in report.linkage.slides.items():
         turned = 0.0 if slide.against == GROUND else position[kinetics.bodies[slide.against].first + 2]
         angle = slide.direction + turned
         along = np.array([math.cos(angle), math.sin(angle)])
         across = np.array([-along[1], along[0]])
-        place = 1e3 * kinetics.point(position, slide.body, slide.point)[0]
+        place = drawn.at(slide.body, slide.point)
         half = [
             0.5e3 * one for one in report.blocks.get(name, (2e-3 * BLOCK[0] * size, 2e-3 * BLOCK[1] * size))
         ]
         if strong:
-            origin = 1e3 * kinetics.point(position, slide.against, slide.point)[0]
+            origin = drawn.at(slide.against, slide.point)
             used = list(_used(kinetics, report, name))
             low, high = min(used) - 2.0 * half[0], max(used) + 2.0 * half[0]
             for side in (-half[1], half[1]) if not slide.turns else (-0.5 * half[1], 0.5 * half[1]):
@@ -224,7 +223,7 @@ def _guides(
     if strong:
         for slide in report.linkage.slides.values():
             if slide.turns:
-                x, y = 1e3 * kinetics.point(position, slide.body, slide.point)[0]
+                x, y = drawn.at(slide.body, slide.point)
                 axes.plot(x, y, "o", ms=5.5, mfc="white", mec=colour, mew=1.2, zorder=6)
 
 
