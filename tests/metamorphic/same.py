@@ -9,15 +9,14 @@ may differ by rounding.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import zip_longest
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from hypothesis import Phase, assume, settings
 
-from support_exudyn import Result, Scenario, SimulationError, simulate
+from support_exudyn import Onset, Result, Scenario, SimulationError, simulate
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.metamorphic.moving import FROM_THE_START
 from tests.often import OFTEN, often
@@ -36,9 +35,6 @@ ROUNDING = {"reduced": 1e-4, "tree": 1e-4, "redundant": 1e-3}
 # Largest value in a unit, where a scene shows less because it rests
 SMALLEST = {"m": 1e-4, "rad": 1e-4, "m/s": 0.1, "rad/s": 0.1, "rad/s^2": 10.0}
 MOTION = ("m", "rad")  # units of which the change is the size, for places are known much better than by a share
-NEAR_EVENT = (
-    100.0  # times the difference of its times in two runs: farther away it changes a force by a percent
-)
 EVERYWHERE = slice(None)
 ARM = 0.01  # [m], of the forces whose moments cancel; so large is a bore
 
@@ -71,23 +67,44 @@ def plain(result: Result) -> EvaluationContext:
     }
 
 
+class ToldOnset(NamedTuple):
+    """An impact: its time and the time of its separation [s], its speed [m/s], and how far each may be off."""
+
+    time: float
+    separation: float
+    speed: float
+    time_off: float
+    separation_off: float
+    speed_off: float
+
+
 @dataclass(frozen=True)
 class Run:
     """A run, and by how much each of its channels may be off.
 
-    result: of the run. allowed: by channel.
+    result: of the run. allowed: by channel. onsets: by pin.
     """
 
     result: Result
     allowed: Mapping[str, float]
+    onsets: Mapping[str, list[ToldOnset]]
+
+    def determined(self) -> np.ndarray:
+        """Which records are not so near an impact or a separation that the error of its time decides, (n,)."""
+        time = self.result.time
+        found = np.ones(time.size, dtype=bool)
+        for onset in (onset for onsets in self.onsets.values() for onset in onsets):
+            found &= np.abs(time - onset.time) > onset.time_off
+            if math.isfinite(onset.separation):
+                found &= np.abs(time - onset.separation) > onset.separation_off
+        return found
 
     def check(
         self,
         other: EvaluationContext,
         factors: Mapping[str, float] | None = None,
         rounding: float = 0.0,
-        chance: float = 1.0,
-        certain: np.ndarray | slice = EVERYWHERE,
+        records: np.ndarray | slice = EVERYWHERE,
     ) -> None:
         """Another run of the same motion shows the same, in all channels that it has.
 
@@ -95,16 +112,15 @@ class Run:
             other: channels of it.
             factors: by which they have to be multiplied, all 1 by default.
             rounding: of the largest value in a unit, by which they may be off besides.
-            chance: times what it may be off, where so many values are drawn that an error is told too small.
-            certain: which records count, see `certain`.
+            records: that are compared.
         """
         mine, size = plain(self.result), sizes(self.result)
         assert set(other) & set(mine)
         for name, values in other.items():
             if name in mine:
                 apart = values * (factors[name] if factors else 1.0) - mine[name]
-                off = np.abs(apart[certain]).max(initial=0.0)
-                allowed = chance * self.allowed[name] + rounding * size[self.result.unit(name)]
+                off = np.abs(apart[records]).max(initial=0.0)
+                allowed = self.allowed[name] + rounding * size[self.result.unit(name)]
                 assert off <= allowed, f"{name}: off by {off:.3g}, allowed {allowed:.3g}"
 
     def check_touches(self, other: Result, time: float = 1.0) -> None:
@@ -112,27 +128,6 @@ class Run:
         for pin, onsets in self.result.onsets.items():
             theirs = [onset.time * time for onset in other.onsets[pin]]
             assert len(theirs) == len(onsets), f"{pin}: {len(onsets)} impacts, in the other run {len(theirs)}"
-
-
-def certain(one: Result, other: Result) -> np.ndarray:
-    """Which records do not lie so near an impact or a separation that the error of its time decides, (n,).
-
-    Nor in an impact that one run alone has, as where the other ends before.
-    """
-    found = np.ones(one.time.size, dtype=bool)
-    for pin, onsets in one.onsets.items():
-        for mine, theirs in zip_longest(onsets, other.onsets[pin]):
-            if mine is None or theirs is None:
-                alone = mine or theirs
-                found &= (one.time < alone.time) | (one.time > alone.separation_time)
-                continue
-            for time, another in (
-                (mine.time, theirs.time),
-                (mine.separation_time, theirs.separation_time),
-            ):
-                if math.isfinite(time + another):
-                    found &= np.abs(one.time - time) > NEAR_EVENT * abs(time - another)
-    return found
 
 
 def run(scenario: Scenario) -> Run:
@@ -148,7 +143,18 @@ def run(scenario: Scenario) -> Run:
         if name != "energy.balance":  # nothing but errors
             assume(error <= TELLING * size[fine.unit(name)])
     allowed = {name: MARGIN * error + rounding * size[fine.unit(name)] for name, error in errors.items()}
-    return Run(fine, allowed)
+    told_of = {pin: told_onsets(onsets, coarse.onsets[pin]) for pin, onsets in fine.onsets.items()}
+    return Run(fine, allowed, told_of)
+
+
+def told_onsets(fine: Sequence[Onset], coarse: Sequence[Onset]) -> list[ToldOnset]:
+    """The impacts of a run with how far they may be off, by those of a coarse run."""
+    found = []
+    for one, other in zip(fine, coarse, strict=True):
+        values = one.time, one.separation_time, one.speed
+        off = np.abs(np.nan_to_num(values) - np.nan_to_num((other.time, other.separation_time, other.speed)))
+        found.append(ToldOnset(*values, *(MARGIN * off).tolist()))
+    return found
 
 
 def coarser(scenario: Scenario) -> Scenario:

@@ -2,47 +2,83 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import TypeVar
 
+import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import CubicStep, Onset, Scenario, Steady
+from support_exudyn import CubicStep, Onset, Result, Scenario, Steady
 from support_exudyn.machines.check.statics import mobility
 from tests.metamorphic import drawn, drawn_linkages
 from tests.metamorphic.moving import MIRROR, UPSIDE_DOWN, Move, context, moved, turn
-from tests.metamorphic.same import certain, plain, run, scenes, told
+from tests.metamorphic.same import Run, ToldOnset, plain, run, scenes, told
 from tests.metamorphic.scaling import Scale
 from tests.metamorphic.test_delay import after, later
 from tests.metamorphic.test_rescale import rescaled, scales
 
 BETWEEN = 2e-3  # of the largest value in a unit: what two formulations may differ by besides their errors
-GRAZE = 0.05  # of the fastest impact
-CHANCE = 2.0  # times the error told: in two of 1000 scenes it was too small, by 1.003 and 1.66
+SLOWEST = 1e-9  # [m/s]
+GRAZE = 0.05  # of the fastest impact: whether there is one so slow is for rounding to decide
+AnyOnset = TypeVar("AnyOnset", Onset, ToldOnset)
 PLACES = st.tuples(drawn.between(-5.0, 5.0), drawn.between(-5.0, 5.0))  # [m]
 
 
-def faster(onsets: tuple[Onset, ...], speed: float) -> int:
-    """How many impacts are faster [m/s]."""
-    return sum(onset.speed > speed for onset in onsets)
+def nearest(onsets: Sequence[AnyOnset], time: float) -> AnyOnset:
+    """The impact that is nearest to a time [s]."""
+    return min(onsets, key=lambda onset: abs(onset.time - time))
+
+
+def lone_grazes(one: Run, other: Result) -> np.ndarray:
+    """Which records lie in a graze that the other run alone has, (n,), where all faster impacts are in both.
+
+    An impact may lie before the end of one run and behind that of the other.
+    """
+    time = one.result.time
+    fastest = max((onset.speed for onsets in one.onsets.values() for onset in onsets), default=0.0)
+    found = np.zeros(time.size, dtype=bool)
+    for pin, theirs in other.onsets.items():
+        mine = one.onsets[pin]
+        way = BETWEEN * one.result.scenario.clearance_pins[pin].contact.bearing.clearance
+        for onset in theirs:
+            late = way / max(onset.speed, SLOWEST)  # a journal that is so far elsewhere comes so much later
+            same = nearest(mine, onset.time) if mine else None
+            if same and abs(same.time - onset.time) <= same.time_off + late:
+                off = abs(same.speed - onset.speed)
+                assert off <= same.speed_off + BETWEEN * fastest, f"{pin}: {onset}, {same}"
+                continue
+            behind = onset.time > time[-1] - late
+            assert onset.speed <= GRAZE * fastest or behind, f"{pin}: {onset} is none of {mine}"
+            found |= (time >= onset.time) & (time <= onset.separation_time)
+        for same in mine:
+            late = same.time_off + way / max(same.speed, SLOWEST)
+            if same.speed > GRAZE * fastest and same.time < time[-1] - late:
+                assert theirs, f"{pin}: {same} is none"
+                assert abs(nearest(theirs, same.time).time - same.time) <= late, f"{pin}: {same} of {theirs}"
+    return found
+
+
+def compare(scene: Scenario, other: Result, finer: float) -> None:
+    """The redundant formulation at steps so many times shorter shows the same as another run of a scene."""
+    one = run(replace(scene, formulation="redundant").refined(finer))
+    records = one.determined() & ~lone_grazes(one, other)
+    assert 2 * records.sum() > records.size
+    # the impact velocity jumps to 0 at a separation, which may lie on either side of a record
+    others = {name: values for name, values in plain(other).items() if not name.endswith("impact_velocity")}
+    one.check(others, rounding=BETWEEN, records=records)
 
 
 @given(scene=drawn_linkages.opened())
 @scenes(60)  # 20 of them by hand
 def test_tree_and_redundant_move_a_linkage_alike(scene: Scenario) -> None:
     assert mobility(scene.linkage).free == 1
-    # steps as fine as this tell their own error also where a record lies just behind an impact
-    one = run(replace(scene, formulation="redundant").refined())
     other = told(scene)
-    # the impact velocity jumps to 0 at a separation, which may lie on either side of a record
-    others = {name: values for name, values in plain(other).items() if not name.endswith("impact_velocity")}
-    one.check(others, rounding=BETWEEN, chance=CHANCE, certain=certain(one.result, other))
-    fastest = max((onset.speed for onsets in other.onsets.values() for onset in onsets), default=0.0)
-    for pin, theirs in other.onsets.items():
-        mine = one.result.onsets[pin]
-        # rounding decides whether there is a graze, and on which side of the threshold an impact lies
-        assert faster(theirs, GRAZE * fastest) <= faster(mine, 0.5 * GRAZE * fastest), pin
-        assert faster(mine, GRAZE * fastest) <= faster(theirs, 0.5 * GRAZE * fastest), pin
+    try:
+        compare(scene, other, 2.0)
+    except AssertionError:  # an error that is told too small by chance shrinks with the steps
+        compare(scene, other, 8.0)
 
 
 @given(scene=drawn_linkages.driven())
