@@ -95,7 +95,7 @@ class Run:
         found = np.ones(time.size, dtype=bool)
         for onset in (onset for onsets in self.onsets.values() for onset in onsets):
             found &= np.abs(time - onset.time) > onset.time_off
-            if math.isfinite(onset.separation):
+            if math.isfinite(onset.separation + onset.separation_off):
                 found &= np.abs(time - onset.separation) > onset.separation_off
         return found
 
@@ -151,9 +151,14 @@ def told_onsets(fine: Sequence[Onset], coarse: Sequence[Onset]) -> list[ToldOnse
     """The impacts of a run with how far they may be off, by those of a coarse run."""
     found = []
     for one, other in zip(fine, coarse, strict=True):
-        values = one.time, one.separation_time, one.speed
-        off = np.abs(np.nan_to_num(values) - np.nan_to_num((other.time, other.separation_time, other.speed)))
-        found.append(ToldOnset(*values, *(MARGIN * off).tolist()))
+        mine = one.time, one.separation_time, one.speed
+        theirs = other.time, other.separation_time, other.speed
+        # both infinite: separated in neither
+        off = (
+            0.0 if here == there else MARGIN * abs(here - there)
+            for here, there in zip(mine, theirs, strict=True)
+        )
+        found.append(ToldOnset(*mine, *off))
     return found
 
 
