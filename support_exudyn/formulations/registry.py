@@ -14,7 +14,7 @@ from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
 
-FormulationName = Literal["redundant", "tree", "reduced"]
+FormulationName = Literal["redundant", "tree", "compiled", "reduced"]
 
 
 class Program(Protocol):
@@ -71,7 +71,8 @@ FORMULATIONS = {
     one.name: one
     for one in (
         Formulation("redundant", f"{HERE}.redundant.run", cost=3, safety=3.0),
-        Formulation("tree", f"{HERE}.tree", cost=2, safety=3.5),
+        Formulation("compiled", f"{HERE}.compiled", cost=2, safety=2.5),
+        Formulation("tree", f"{HERE}.tree", cost=4, safety=3.5),
         Formulation("reduced", f"{HERE}.reduced", cost=1, safety=2.5),
     )
 }

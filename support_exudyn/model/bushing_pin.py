@@ -45,7 +45,7 @@ class BushingPin(Pin):
         """Stiffness against shifts forward and up [N/m] and against turning [N m/rad]."""
         return (*self.stiffness, self.rotational_stiffness)
 
-    def refused_by(self, formulation: Literal["tree", "reduced", "space"]) -> Refusal | None:
+    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
         """A bushing is covered by the redundant formulation in the plane only."""
         del formulation
         return Refusal("", "BushingPin", "IdealPin, ClearancePin")

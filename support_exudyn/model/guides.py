@@ -58,7 +58,7 @@ class Guide(Value, ABC):
     def holds(self) -> bool:
         """Whether constraints hold the point on the line; else forces follow from the motion."""
 
-    def refused_by(self, formulation: Literal["tree", "reduced", "space"]) -> Refusal | None:
+    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
         """What of the guide a formulation, or "space", the third dimension, does not cover; None: all is."""
         del formulation
         return None
@@ -185,7 +185,7 @@ class ClearanceGuide(Guide):
         """Half of the way between the walls [m], as the clearance of a pin is."""
         return 0.5 * sum(self.gaps)
 
-    def refused_by(self, formulation: Literal["tree", "reduced", "space"]) -> Refusal | None:
+    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
         """The redundant formulation in the plane alone covers it."""
         del formulation
         return Refusal("", type(self).__name__, "IdealGuide")

@@ -65,7 +65,7 @@ class Pin(Value, ABC):
         """Stiffness that steps have to follow: against shifts forward and up [N/m], and turning [N m/rad]."""
         return (0.0, 0.0, 0.0)
 
-    def refused_by(self, formulation: Literal["tree", "reduced", "space"]) -> Refusal | None:
+    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
         """What of the pin a formulation, or "space", the third dimension, does not cover; None: all is."""
         del formulation
         return None
@@ -104,7 +104,7 @@ class IdealPin(Pin):
         """An ideal pin holds its two bodies together."""
         return True
 
-    def refused_by(self, formulation: Literal["tree", "reduced", "space"]) -> Refusal | None:
+    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
         """Friction is covered by the redundant formulation in the plane only."""
         del formulation
         if self.friction is None:
@@ -222,7 +222,7 @@ class ClearancePin(Pin):
         """A clearance pin leaves its journal free."""
         return False
 
-    def refused_by(self, formulation: Literal["tree", "reduced", "space"]) -> Refusal | None:
+    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
         """Friction laws with a state are covered by the redundant formulation only."""
         friction = self.contact.friction
         if formulation == "space" or not friction.has_state:

@@ -100,7 +100,7 @@ class ScenarioData(Value, ABC):
     start: Literal["concentric", "settled"] = "concentric"
     gravity: MetresPerSecondSquared[Vector2] = (0.0, -9.81)
     accuracy: Accuracy | None = None
-    formulation: Literal["auto", "redundant", "tree", "reduced"] = "auto"
+    formulation: Literal["auto", "redundant", "tree", "compiled", "reduced"] = "auto"
     step: Seconds[Annotated[Real, Field(gt=0, le=LARGEST_STEP)]] = 5e-4
     record_period: Seconds[Positive] = 1e-3
     channels: tuple[str, ...] = ALL_CHANNELS

@@ -16,7 +16,7 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from support_exudyn.formulations.compiled import plain
+from support_exudyn.formulations.compilation import plain
 from support_exudyn.formulations.reduced import events, integrate, layout
 from support_exudyn.formulations.tree.events import EventKind, event
 from support_exudyn.formulations.tree.forces import JournalPlace

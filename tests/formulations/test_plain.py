@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import ClearancePin, Scenario, UniformSpeed
-from support_exudyn.formulations.compiled import compiled, on_arrays, plain
+from support_exudyn.formulations.compilation import compiled, on_arrays, plain
 from support_exudyn.formulations.reduced import layout, support_model
 from support_exudyn.formulations.reduced.equations import law_at
 from support_exudyn.formulations.reduced.layout import DriveValues, driven

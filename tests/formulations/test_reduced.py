@@ -29,7 +29,7 @@ from support_exudyn import (
     ravn_slider_crank,
     simulate,
 )
-from support_exudyn.formulations.compiled import compiled_law, plain
+from support_exudyn.formulations.compilation import compiled_law, plain
 from support_exudyn.formulations.reduced import layout, support_model
 from support_exudyn.formulations.reduced.contact import PinState, contact_force
 from support_exudyn.formulations.reduced.layout import driven

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from types import SimpleNamespace
 from typing import Any, cast
@@ -164,35 +164,72 @@ class UnwrittenLawError(TypeError):
     """A law that cannot be written out as a formula: it branches on its arguments, or needs them as floats."""
 
 
+LAW_ARGUMENTS = ("depth", "rate", "slip", "speed", "mass", "deflection")
+
+
 def law_source(contact: Contact) -> tuple[str, list[float]]:
     """Both laws of a contact as the source of one function `law` of floats, and the constants that it goes by.
 
-    Laws that differ in their numbers alone have the same source, so that it is compiled once for all of them.
-
-        law(depth, rate, slip, speed, mass, constants, out)
+        law(depth, rate, slip, speed, mass, deflection, constants, out)
 
     gives the normal force [N] that the normal law asks for, negative if it asks for tension, and writes the
-    friction force [N] and the elastic force [N] into out[0] and out[1]. It gives nan beyond the depth for which
-    the law is valid. speed and mass are those of `Impact`; constants and out are arrays.
+    friction force [N] and the elastic force [N] into out[0] and out[1], of a friction law with a state also the
+    rate of its deflection [m/s] into out[2]. It gives nan beyond the depth for which the law is valid. speed
+    and mass are those of `Impact`; constants and out are arrays.
 
     Raises UnwrittenLawError, with the name of the law, if there is no such source.
     """
-    formulas, (depth, rate, slip, speed, mass) = lines(("depth", "rate", "slip", "speed", "mass"))
+    formulas, (depth, rate, slip, speed, mass, deflection) = lines(LAW_ARGUMENTS)
     law: NormalLaw | FrictionLaw = contact.normal
     try:
         asked = contact.normal(depth, rate, Impact(speed, mass))
         elastic = contact.normal.elastic_force(depth)
         law = contact.friction
-        friction = contact.friction(slip, maximum(asked, 0.0))
+        friction = contact.friction(slip, maximum(asked, 0.0), deflection)
+        rest = [contact.friction.deflection_rate(deflection, slip)] if contact.friction.has_state else []
     except TypeError as error:
-        name = type(law).__name__
-        raise UnwrittenLawError(f"{name}, which cannot be written out as a formula ({error})") from error
-    found = text(asked), text(friction), text(elastic)
+        raise UnwrittenLawError(_unwritten(law, error)) from error
     limit = contact.normal.largest_depth
+    guard = [f"if depth > {text(limit)}: return nan"] if limit < math.inf else []
+    return function_source(LAW_ARGUMENTS, formulas, asked, [friction, elastic, *rest], guard)
+
+
+def _unwritten(law: object, error: TypeError) -> str:
+    return f"{type(law).__name__}, which cannot be written out as a formula ({error})"
+
+
+def friction_source(friction: FrictionLaw) -> tuple[str, list[float]]:
+    """A friction law without a state as such a function: `depth` is the normal force [N], the rest but `slip`
+    is not looked at, and it gives the friction force [N].
+
+    Raises UnwrittenLawError, with the name of the law, if there is no such source.
+    """
+    formulas, (normal, _, slip, *_) = lines(LAW_ARGUMENTS)
+    try:
+        force = friction(slip, normal)
+    except TypeError as error:
+        raise UnwrittenLawError(_unwritten(friction, error)) from error
+    return function_source(LAW_ARGUMENTS, formulas, force, [])
+
+
+def function_source(
+    arguments: Iterable[str], formulas: Formulas, given: Any, written: Sequence[Any], guard: Sequence[str] = ()
+) -> tuple[str, list[float]]:
+    """The source of a function `law` of floats, and the constants that it goes by.
+
+    Functions that differ in their numbers alone have the same source, so that it is compiled once for all.
+
+    Arguments:
+        arguments: names of its numbers; `constants` and `out`, two arrays, follow.
+        formulas: that have been collected, see `lines`.
+        given: what it returns. written: what it writes into `out`.
+        guard: lines that come first.
+    """
+    found = [text(one) for one in (given, *written)]
     body = [
-        *([f"if depth > {text(limit)}: return nan"] if limit < math.inf else []),
+        *guard,
         *needed(formulas, found),
-        f"out[0], out[1] = {found[1]}, {found[2]}",
+        *(f"out[{n}] = {name}" for n, name in enumerate(found[1:])),
         f"return {found[0]}",
     ]
     places: dict[str, int] = {}
@@ -200,7 +237,8 @@ def law_source(contact: Contact) -> tuple[str, list[float]]:
     def lifted(match: re.Match[str]) -> str:
         return f"constants[{places.setdefault(match[1], len(places))}]"
 
-    source = "\n    ".join(["def law(depth, rate, slip, speed, mass, constants, out):", *body])
+    head = f"def law({', '.join(arguments)}, constants, out):"
+    source = "\n    ".join([head, *body])
     return CONSTANT.sub(lifted, source), [float(number) for number in places]
 
 

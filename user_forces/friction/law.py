@@ -10,6 +10,9 @@ from user_forces.expressions.scalar import sign
 from user_forces.values.value import NonNegative, Value, value
 
 
+MOMENT = 1e-10  # [s], in which no bristle moves by more than a share of 1e-4 of its way
+
+
 class FrictionLaw(Value, ABC):
     """Tangential force as a function of slip speed and normal force.
 
@@ -37,6 +40,10 @@ class FrictionLaw(Value, ABC):
         """Deflection after a step [s] over which the slip [m/s] was this one on average."""
         del slip, step
         return deflection
+
+    def deflection_rate(self, deflection: float, slip: float) -> float:
+        """Rate of the deflection [m/s]: what `next_deflection` makes of a step that tends to nothing."""
+        return (self.next_deflection(deflection, slip, MOMENT) - deflection) / MOMENT
 
     def swing_time(self, mass: float, normal_force: float) -> float:
         """One over the angular frequency [s] at which a mass [kg] that sticks swings under a normal force [N].

@@ -7,7 +7,7 @@ compiled from its source. As in `user_forces.contact` it acts at one point of sp
 import math
 from typing import NamedTuple
 
-from support_exudyn.formulations.compiled import call_law, compiled, inlined
+from support_exudyn.formulations.compilation import call_law, compiled, inlined
 from support_exudyn.formulations.reduced.layout import (
     ASKED_DEPTH,
     ASKED_MASS,
@@ -173,7 +173,7 @@ def law_force(
     jump.
     """
     depth = max(depth, SHALLOWEST)
-    asked = call_law(p[LAW], depth, rate, slip, memory[IMPACT_VELOCITY], mass, p[PARAMETERS:], out)
+    asked = call_law(p[LAW], depth, rate, slip, memory[IMPACT_VELOCITY], mass, 0.0, p[PARAMETERS:], out)
     friction, elastic = out[0], out[1]
     normal = asked if asked > 0.0 or asked != asked else 0.0
     lost = (normal - elastic) * rate

@@ -4,7 +4,7 @@ Source: Dormand and Prince, J. Comput. Appl. Math. 6 (1980) 19-26; the interpola
 Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.6.
 """
 
-from support_exudyn.formulations.compiled import compiled, inlined
+from support_exudyn.formulations.compilation import compiled, inlined
 from support_exudyn.formulations.reduced import slider_crank, support
 from support_exudyn.formulations.reduced.contact import (
     Balance,

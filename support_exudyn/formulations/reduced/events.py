@@ -6,7 +6,7 @@ that leaves in doubt whether something happens, the step is too long, and is mad
 
 import math
 
-from support_exudyn.formulations.compiled import compiled
+from support_exudyn.formulations.compilation import compiled
 from support_exudyn.formulations.contact_events import DepthPath
 from support_exudyn.formulations.reduced.equations import observe, within
 from support_exudyn.formulations.reduced.layout import (

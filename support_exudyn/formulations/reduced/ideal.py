@@ -2,7 +2,7 @@
 
 import math
 
-from support_exudyn.formulations.compiled import compiled, entry
+from support_exudyn.formulations.compilation import compiled, entry
 from support_exudyn.formulations.reduced.contact import closing_force, closing_rates
 from support_exudyn.formulations.reduced.integrate import (
     CLOSE,

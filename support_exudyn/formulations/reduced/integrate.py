@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from support_exudyn.formulations.compiled import compiled, entry
+from support_exudyn.formulations.compilation import compiled, entry
 from support_exudyn.formulations.reduced.equations import (
     STAGES,
     advance,

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.formulations.compiled import inlined
+from support_exudyn.formulations.compilation import inlined
 
 # Parameters of a run: one vector of floats, SI. Points of canopy and rear link of a support are those of the
 # reference posture, from the hinge I and from C.

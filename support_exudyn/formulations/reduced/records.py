@@ -2,7 +2,7 @@
 
 import math
 
-from support_exudyn.formulations.compiled import compiled
+from support_exudyn.formulations.compilation import compiled
 from support_exudyn.formulations.peak_force import (
     GOLDEN,
     NARROWINGS,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from support_exudyn.formulations.compiled import on_arrays
+from support_exudyn.formulations.compilation import on_arrays
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.formulations.reduced import layout
 from support_exudyn.formulations.reduced.contact import accelerations

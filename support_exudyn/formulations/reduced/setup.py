@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from support_exudyn.formulations.compiled import compiled_law
+from support_exudyn.formulations.compilation import compiled_law
 from support_exudyn.formulations.reduced import layout
 from support_exudyn.formulations.reduced.coverage import model_of
 from support_exudyn.formulations.reduced.integrate import REPORT

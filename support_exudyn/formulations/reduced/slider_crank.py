@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from support_exudyn.formulations.compiled import inlined
+from support_exudyn.formulations.compilation import inlined
 from support_exudyn.formulations.reduced import layout
 from support_exudyn.formulations.reduced.contact import Balance, PinState
 from support_exudyn.formulations.reduced.layout import (

@@ -7,7 +7,7 @@ sums equal the power of the contact force.
 
 from typing import NamedTuple
 
-from support_exudyn.formulations.compiled import compiled, inlined
+from support_exudyn.formulations.compilation import compiled, inlined
 from support_exudyn.formulations.reduced import support_posture
 from support_exudyn.formulations.reduced.contact import Balance, PinState, closing_force, closing_rates, solved
 from support_exudyn.formulations.reduced.layout import (

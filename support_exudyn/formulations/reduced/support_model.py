@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from support_exudyn.formulations.compiled import on_arrays
+from support_exudyn.formulations.compilation import on_arrays
 from support_exudyn.formulations.reduced import layout
 from support_exudyn.formulations.reduced.contact import closing_force
 from support_exudyn.formulations.reduced.layout import DriveValues, Matrix, Vector

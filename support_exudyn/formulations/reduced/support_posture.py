@@ -8,7 +8,7 @@ about I and A meet, C sits on the shield beam, and the rear link hangs on C.
 import math
 from typing import NamedTuple
 
-from support_exudyn.formulations.compiled import inlined
+from support_exudyn.formulations.compilation import inlined
 from support_exudyn.formulations.reduced.layout import (
     FRONT_BASE_X,
     FRONT_BASE_Y,

@@ -13,7 +13,7 @@ Points come in pairs: first bore and journal of each clearance pin, then foot an
 
 import math
 
-from support_exudyn.formulations.compiled import entry
+from support_exudyn.formulations.compilation import entry
 from support_exudyn.formulations.tree.branches import Matrix
 
 # columns of `work`; of points only the first five. FORCE: moment on the coordinate [N m]

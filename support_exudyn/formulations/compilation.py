@@ -25,7 +25,7 @@ except ImportError:  # Windows
     _fcntl = None  # type: ignore[assignment]
 
 fcntl: Any = _fcntl
-SECONDS = {"reduced": 10, "tree": 5}  # that compiling a formulation takes on a quiet machine of 2020
+SECONDS = {"reduced": 10, "compiled": 10, "tree": 5}  # that compiling a formulation takes on a quiet machine of 2020
 CONSTANTS_OF = (contact_events, contact)  # modules of which compiled functions use constants
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -106,7 +106,7 @@ def _kept(function: Function) -> Function:
 def _source_stamp() -> tuple[str, int]:
     """What identifies the compiled code: a hash of all files that it comes from, and their length."""
     here = Path(__file__).parent
-    files = [file for folder in ("reduced", "tree") for file in sorted((here / folder).glob("*.py"))]
+    files = [file for folder in ("reduced", "compiled", "tree") for file in sorted((here / folder).glob("*.py"))]
     files += [Path(__file__), *(Path(str(module.__file__)) for module in CONSTANTS_OF)]
     text = b"".join(file.read_bytes() for file in files)
     return hashlib.sha256(text).hexdigest(), len(text)
@@ -188,7 +188,7 @@ def _tell(module: str) -> None:
 
 
 NUMBER = numba.types.float64
-LAW = NUMBER(*5 * (NUMBER,), *2 * (numba.types.CPointer(NUMBER),))
+LAW = NUMBER(*6 * (NUMBER,), *2 * (numba.types.CPointer(NUMBER),))
 
 
 @cache
@@ -216,6 +216,7 @@ def call_law(
     slip: Any,
     speed: Any,
     mass: Any,
+    deflection: Any,
     constants: Any,
     out: Any,
 ) -> Any:
@@ -225,11 +226,11 @@ def call_law(
     """
 
     def build(target: Any, builder: Any, signature: Any, values: Any) -> Any:
-        numbers, arrays = values[1:6], zip(signature.args[6:], values[6:], strict=True)
+        numbers, arrays = values[1:7], zip(signature.args[7:], values[7:], strict=True)
         places = [target.make_array(kind)(target, builder, array).data for kind, array in arrays]
         double = ir.DoubleType()
-        law = ir.FunctionType(double, [double] * 5 + [double.as_pointer()] * 2)
+        law = ir.FunctionType(double, [double] * 6 + [double.as_pointer()] * 2)
         number = builder.fptoui(values[0], ir.IntType(64))
         return builder.call(builder.inttoptr(number, law.as_pointer()), [*numbers, *places])
 
-    return NUMBER(*6 * (NUMBER,), constants, out), build
+    return NUMBER(*7 * (NUMBER,), constants, out), build

@@ -1,0 +1,6 @@
+"""The compiled formulation: any planar linkage from arrays, error control, located impacts; without the engine."""
+
+from support_exudyn.formulations.compiled.coverage import check
+from support_exudyn.formulations.compiled.run import run
+
+__all__ = ["check", "run"]

@@ -1,0 +1,109 @@
+"""A scene as arrays of records, on which compiled functions work: one record a body, point, joint, contact, force.
+
+Every record has what is known before the run, and behind it what is computed at an instant. Numbers of bodies are
+-1 for the ground, of points and courses -1 for none. The state y of a scene with b bodies is
+
+    y = [x, y, turn of each body | their rates | states of friction laws, pressures | losses, work]
+
+with positions from those at the start.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+Vector = npt.NDArray[np.float64]
+Matrix = npt.NDArray[np.float64]
+Whole = npt.NDArray[np.int64]
+Records = npt.NDArray[np.void]
+
+F, N = np.float64, np.int64
+
+
+def _record(whole: str, numbers: str) -> np.dtype[np.void]:
+    return np.dtype([(name, N) for name in whole.split()] + [(name, F) for name in numbers.split()])
+
+
+# lightness: one over mass and inertia; weight; centre of mass at the start | direction, force, moment,
+# acceleration
+BODY = _record("", "light light_turn weight_x weight_y x0 y0 c s fx fy m ax ay a")
+# arm: from the centre of mass at the start, of the ground the place itself | arm now, place, velocity
+POINT = _record("body", "arm_x arm_y rx ry x y vx vy")
+# a time course: its pieces in the segment | its value there, and both derivatives
+COURSE = _record("low high", "value rate bend")
+PIECE = _record("", "begin half")
+# kinds: see PIN and so on. ratio: of a gear. length, angle: at the start
+JOINT = _record("kind row first second course conditions", "length angle ratio")
+PIN, ACTUATOR, CRANK, SLIDE, GEAR = range(5)
+# two bodies and what its rate takes of theirs; first: of the row in the factors | what C a has to be, multiplier,
+# what is left of the position, and the rate that it has to have
+ROW = _record("body other first", "x y t ox oy ot wanted held off rate")
+# rows that share a body, i >= j; which of the bodies of each it is
+PAIR = _record("i j side other", "")
+# journal `second` in bore `first`, both points. slot: corner between walls. law: address of both laws, constants
+# from `constants` on. state: of the friction law in y. angle: of the bore's axes at the start. arm: what the
+# contact point is from the journal's centre at no depth, half a pin's depth less.
+# | closed, impact velocity, inverse effective mass: the memory. Then the contact now, see `contacts`.
+CONTACT = _record(
+    "first second slot constants state renews forgets",
+    "law clearance radius angle closed impact_velocity xx xy yy "
+    "depth rate slip normal friction damping push x y vx vy nx ny fx fy "
+    "largest largest_at asked_depth asked_rate asked_slip asked_mass asked_deflection",
+)
+OIL = _record("foot head course", "modulus_area oil_length time natural force work loss")
+CYLINDER = _record(
+    "foot head course state",
+    "bore rod_side oil_length rod_length modulus supply flow_factor tank hose rod_hose damping length0 force work loss",
+)
+# a force on point `point` against `origin`, or a moment on the body of `point` against that of `origin`
+LOAD = _record("point origin moment constants hung", "law fx fy work loss")
+BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")
+# friction of an ideal pin, of which `row` is the first row
+RUBBING = _record("row body other constants", "law radius moment")
+
+
+class Scene(NamedTuple):
+    """All that an evaluation of the equations of motion takes. square: C M^-1 C^T and its factors."""
+
+    bodies: Records
+    points: Records
+    courses: Records
+    pieces: Records
+    coefficients: Matrix
+    joints: Records
+    rows: Records
+    pairs: Records
+    square: Matrix
+    contacts: Records
+    oil: Records
+    cylinders: Records
+    loads: Records
+    bushings: Records
+    rubbing: Records
+    constants: Vector
+    out: Vector
+
+
+# what a run counts and where it stopped
+(
+    STEPS,
+    EVALUATIONS,
+    ACCEPTED,
+    CUTS,
+    CLAMPED,
+    IMPACTS,
+    JUMPS,
+    RECORDS,
+    STOPPED_AT,
+    LAST_STEP,
+    NOT_A_NUMBER,
+    STIFF,
+    REPORT,
+) = range(13)
+FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED = range(6)
+LOSSES = 3  # last components of the state: damping, friction, and the work of what drives
+DAMPING_LOSS, FRICTION_LOSS, WORK = -3, -2, -1
+
+# what a record keeps of a contact besides the state, in the order of `PinMemory`
+MEMORY = 5

@@ -1,0 +1,284 @@
+"""What acts on the bodies: contacts, oil, hydraulic cylinders, loads, bushings; their powers."""
+
+import math
+
+from support_exudyn.formulations.compilation import call_law, compiled, inlined
+from support_exudyn.formulations.compiled.arrays import DAMPING_LOSS, FRICTION_LOSS, WORK, Scene, Vector
+from support_exudyn.formulations.compiled.motion import push, push_point, spin_of
+from support_exudyn.mechanics.contact_state import HEAVIEST
+from support_exudyn.mechanics.contact_state import SMALLEST as SMALLEST_SQUARE
+from user_forces.contact import SHALLOWEST, SMALLEST
+from user_forces.lawful import ROUNDING
+
+
+@compiled
+def observe(scene: Scene, n: int, y: Vector) -> None:
+    """Write how a journal stands in its bore and moves there, from directions and places of its bodies."""
+    contact = scene.contacts[n]
+    bore, journal = scene.points[contact.first], scene.points[contact.second]
+    bore_spin, journal_spin = spin_of(scene, y, bore.body), spin_of(scene, y, journal.body)
+    x, y_ = journal.x - bore.x, journal.y - bore.y
+    vx, vy = journal.vx - bore.vx, journal.vy - bore.vy
+    if contact.slot == 0:
+        eccentricity = math.sqrt(x * x + y_ * y_)
+        away = max(eccentricity, SMALLEST)
+        nx, ny = x / away, y_ / away
+        depth = eccentricity - contact.clearance
+        rate = nx * vx + ny * vy
+        if eccentricity == 0.0:
+            rate = math.sqrt(vx * vx + vy * vy)
+        bore_arm = contact.radius + 0.5 * depth
+        arm = bore_arm - depth - contact.clearance
+    else:
+        c, s = math.cos(contact.angle), math.sin(contact.angle)
+        if bore.body >= 0:
+            body = scene.bodies[bore.body]
+            c, s = c * body.c - s * body.s, s * body.c + c * body.s
+        along, across = c * x + s * y_, c * y_ - s * x
+        # the plain rate across, less what the slot's turning moves the walls there
+        speed, rise = c * vx + s * vy, c * vy - s * vx - bore_spin * along
+        side = 1.0 if across >= 0.0 else -1.0
+        nx, ny = -s * side, c * side
+        depth = abs(across) - contact.clearance
+        rate = side * rise
+        bore_arm, arm = contact.clearance + depth + contact.radius, contact.radius
+        x, y_ = -s * across, c * across
+        vx, vy = c * speed - s * rise, s * speed + c * rise
+    contact.depth, contact.rate = depth, rate
+    contact.slip = nx * vy - ny * vx + journal_spin * arm - bore_spin * bore_arm
+    contact.x, contact.y, contact.vx, contact.vy, contact.nx, contact.ny = x, y_, vx, vy, nx, ny
+
+
+@compiled
+def effective_mass(scene: Scene, n: int) -> float:
+    """Mass [kg] that moves along the eccentricity, by the remembered inverse effective mass, in the bore's axes."""
+    contact = scene.contacts[n]
+    c, s = axes_of(scene, n)
+    x, y = c * contact.x + s * contact.y, c * contact.y - s * contact.x
+    square = x * x + y * y + SMALLEST_SQUARE
+    along = contact.xx * x * x + 2.0 * contact.xy * x * y + contact.yy * y * y
+    return float(square / max(along, square / HEAVIEST))
+
+
+@inlined
+def axes_of(scene: Scene, n: int) -> tuple[float, float]:
+    """Direction of the bore's or the slot's axes now."""
+    contact = scene.contacts[n]
+    c, s = math.cos(contact.angle), math.sin(contact.angle)
+    k = scene.points[contact.first].body
+    if k >= 0:
+        body = scene.bodies[k]
+        c, s = c * body.c - s * body.s, s * body.c + c * body.s
+    return c, s
+
+
+@compiled
+def press(scene: Scene, n: int, y: Vector, slope: Vector) -> None:
+    """Write the force of a contact that has been observed, and the rate of its friction law's state into `slope`.
+
+    Before the surfaces have separated the law goes on as at SHALLOWEST, so that one with a dashpot does not
+    jump. What cannot be the force of a law is no number, which the integrator looks for.
+    """
+    contact = scene.contacts[n]
+    contact.normal = contact.friction = contact.damping = contact.fx = contact.fy = 0.0
+    contact.push = 1.0
+    if contact.state >= 0:
+        slope[contact.state] = 0.0
+    if contact.closed == 0.0:
+        return
+    out = scene.out
+    depth, rate, slip = max(contact.depth, SHALLOWEST), contact.rate, contact.slip
+    deflection = y[contact.state] if contact.state >= 0 else 0.0
+    mass = effective_mass(scene, n)
+    asked = call_law(
+        contact.law,
+        depth,
+        rate,
+        slip,
+        contact.impact_velocity,
+        mass,
+        deflection,
+        scene.constants[contact.constants :],
+        out,
+    )
+    friction, elastic = out[0], out[1]
+    normal = asked if asked > 0.0 or asked != asked else 0.0
+    lost = (normal - elastic) * rate
+    lawful = elastic >= 0.0 and abs(normal) < math.inf and abs(friction) < math.inf
+    lawful = lawful and (contact.state >= 0 or friction * slip <= 0.0)
+    if not lawful or (elastic > 0.0 and lost < -ROUNDING * (normal + elastic) * abs(rate)):
+        normal = math.nan
+        if math.isfinite(depth + rate + slip):  # else this is what comes of an unlawful force
+            contact.asked_depth, contact.asked_rate, contact.asked_slip = depth, rate, slip
+            contact.asked_mass, contact.asked_deflection = mass, deflection
+    size = elastic + abs(asked - elastic)
+    contact.push = asked / size if size > 0.0 else 1.0
+    contact.normal, contact.friction, contact.damping = normal, friction, lost
+    contact.fx = -normal * contact.nx - friction * contact.ny
+    contact.fy = -normal * contact.ny + friction * contact.nx
+    if contact.state >= 0:
+        slope[contact.state] = out[2]
+
+
+@inlined
+def push_contact(scene: Scene, n: int) -> None:
+    """Let a contact's force act at one point of space on both bodies."""
+    contact = scene.contacts[n]
+    if contact.closed == 0.0:
+        return
+    bore, journal = scene.points[contact.first], scene.points[contact.second]
+    arm = contact.radius
+    if contact.slot == 0:
+        arm -= contact.clearance + 0.5 * contact.depth
+    x, y = arm * contact.nx, arm * contact.ny  # from the journal's centre
+    fx, fy = contact.fx, contact.fy
+    push(scene, journal.body, fx, fy, (journal.rx + x) * fy - (journal.ry + y) * fx)
+    x, y = x + journal.x - bore.x, y + journal.y - bore.y
+    push(scene, bore.body, -fx, -fy, (bore.ry + y) * fx - (bore.rx + x) * fy)
+
+
+@inlined
+def lengthening(scene: Scene, foot: int, head: int) -> tuple[float, float, float, float]:
+    """Length between two points [m], its rate [m/s], and the direction."""
+    one, two = scene.points[foot], scene.points[head]
+    dx, dy = two.x - one.x, two.y - one.y
+    length = math.sqrt(dx * dx + dy * dy)
+    ux, uy = dx / length, dy / length
+    return length, ux * (two.vx - one.vx) + uy * (two.vy - one.vy), ux, uy
+
+
+@inlined
+def push_apart(scene: Scene, foot: int, head: int, fx: float, fy: float) -> None:
+    """Add a force on the second point and its opposite on the first."""
+    push_point(scene, head, fx, fy)
+    push_point(scene, foot, -fx, -fy)
+
+
+@compiled
+def press_oil(scene: Scene) -> None:
+    """Forces and powers of columns of oil, see `OilColumn`."""
+    for n in range(scene.oil.size):
+        one = scene.oil[n]
+        extension = speed = 0.0
+        if one.course >= 0:
+            extension, speed = scene.courses[one.course].value, scene.courses[one.course].rate
+        length, rate, ux, uy = lengthening(scene, one.foot, one.head)
+        stiffness = one.modulus_area / (one.oil_length + extension)
+        compression = one.natural + extension - length
+        closing = speed - rate
+        one.force = stiffness * (compression + one.time * closing)
+        one.work = one.force * speed - 0.5 * stiffness / (
+            one.oil_length + extension
+        ) * speed * compression * compression
+        one.loss = stiffness * one.time * closing * closing
+        push_apart(scene, one.foot, one.head, one.force * ux, one.force * uy)
+
+
+@inlined
+def root_of(drop: float) -> float:
+    """Square root of the size, with the sign."""
+    return math.sqrt(drop) if drop > 0.0 else -math.sqrt(-drop)
+
+
+@inlined
+def density(pressure: float, modulus: float) -> float:
+    """Energy of compressed oil [J/m^3], see `HydraulicCylinder.energy_density`."""
+    strain = pressure / modulus
+    return modulus * (math.expm1(strain) - strain)
+
+
+@compiled
+def press_cylinders(scene: Scene, y: Vector, slope: Vector) -> None:
+    """Forces, powers and rates of the pressures of hydraulic cylinders, see `HydraulicCylinder`."""
+    for n in range(scene.cylinders.size):
+        one = scene.cylinders[n]
+        length, rate, ux, uy = lengthening(scene, one.foot, one.head)
+        extension = length - one.length0
+        piston, rod = y[one.state], y[one.state + 1]
+        opening = scene.courses[one.course].value if one.course >= 0 else 0.0
+        supply, back = (one.supply, one.tank) if opening >= 0.0 else (one.tank, one.supply)
+        wide = one.flow_factor * abs(opening)
+        flow, rod_flow = wide * root_of(supply - piston), wide * root_of(back - rod)
+        volume = one.bore * (one.oil_length + extension) + one.hose
+        rod_volume = one.rod_side * (one.rod_length - extension) + one.rod_hose
+        slope[one.state] = one.modulus / volume * (flow - one.bore * rate)
+        slope[one.state + 1] = one.modulus / rod_volume * (rod_flow + one.rod_side * rate)
+        one.force = one.bore * piston - one.rod_side * rod - one.damping * rate
+        one.work, one.loss = 0.0, one.damping * rate * rate
+        if opening != 0.0:
+            one.work = flow * (supply + density(piston, one.modulus))
+            one.work += rod_flow * (back + density(rod, one.modulus))
+            one.loss += flow * (supply - piston) + rod_flow * (back - rod)
+        push_apart(scene, one.foot, one.head, one.force * ux, one.force * uy)
+
+
+@compiled
+def press_loads(scene: Scene, t: float, y: Vector) -> None:
+    """Forces, moments and powers of loads."""
+    for n in range(scene.loads.size):
+        one = scene.loads[n]
+        if one.hung != 0:
+            continue
+        point, origin = scene.points[one.point], scene.points[one.origin]
+        constants = scene.constants[one.constants :]
+        if one.moment != 0:
+            turn = (y[3 * point.body + 2] if point.body >= 0 else 0.0) - (
+                y[3 * origin.body + 2] if origin.body >= 0 else 0.0
+            )
+            spin = spin_of(scene, y, point.body) - spin_of(scene, y, origin.body)
+            one.fx = call_law(one.law, t, turn, spin, 0.0, 0.0, 0.0, constants, scene.out)
+            push(scene, point.body, 0.0, 0.0, one.fx)
+            push(scene, origin.body, 0.0, 0.0, -one.fx)
+        else:
+            x, y_ = point.x - origin.x, point.y - origin.y
+            vx, vy = point.vx - origin.vx, point.vy - origin.vy
+            one.fx = call_law(one.law, t, x, y_, vx, vy, 0.0, constants, scene.out)
+            one.fy = scene.out[2]
+            push_apart(scene, one.origin, one.point, one.fx, one.fy)
+        one.work, one.loss = scene.out[0], scene.out[1]
+
+
+@compiled
+def press_bushings(scene: Scene, y: Vector) -> None:
+    """Forces and moments of bushings on their second bodies, see `BushingPin`."""
+    for n in range(scene.bushings.size):
+        one = scene.bushings[n]
+        first, second = scene.points[one.first], scene.points[one.second]
+        vx, vy = second.vx - first.vx, second.vy - first.vy
+        turn = (y[3 * second.body + 2] if second.body >= 0 else 0.0) - (
+            y[3 * first.body + 2] if first.body >= 0 else 0.0
+        )
+        spin = spin_of(scene, y, second.body) - spin_of(scene, y, first.body)
+        one.fx = -one.kx * (second.x - first.x) - one.cx * vx
+        one.fy = -one.ky * (second.y - first.y) - one.cy * vy
+        one.m = -one.kt * turn - one.ct * spin
+        one.loss = one.cx * vx * vx + one.cy * vy * vy + one.ct * spin * spin
+        push_apart(scene, one.first, one.second, one.fx, one.fy)
+        push(scene, second.body, 0.0, 0.0, one.m)
+        push(scene, first.body, 0.0, 0.0, -one.m)
+
+
+@inlined
+def powers(scene: Scene, y: Vector, slope: Vector) -> None:
+    """Write the rates of losses and work into `slope`."""
+    damping = friction = work = 0.0
+    for n in range(scene.contacts.size):
+        contact = scene.contacts[n]
+        damping += contact.damping
+        friction -= contact.friction * contact.slip
+    for n in range(scene.oil.size):
+        work, damping = work + scene.oil[n].work, damping + scene.oil[n].loss
+    for n in range(scene.cylinders.size):
+        work, damping = work + scene.cylinders[n].work, damping + scene.cylinders[n].loss
+    for n in range(scene.loads.size):
+        work, damping = work + scene.loads[n].work, damping + scene.loads[n].loss
+    for n in range(scene.bushings.size):
+        damping += scene.bushings[n].loss
+    for n in range(scene.rubbing.size):
+        one = scene.rubbing[n]
+        friction -= one.moment * (spin_of(scene, y, one.body) - spin_of(scene, y, one.other))
+    for n in range(scene.joints.size):
+        joint = scene.joints[n]
+        if joint.course >= 0:
+            work -= scene.courses[joint.course].rate * scene.rows[joint.row].held
+    slope[DAMPING_LOSS], slope[FRICTION_LOSS], slope[WORK] = damping, friction, work

@@ -1,0 +1,431 @@
+"""The run: steps of chosen length, cut at impacts and separations, between two breaks of what drives and loads."""
+
+import math
+
+import numpy as np
+
+from support_exudyn.formulations.compilation import compiled, entry
+from support_exudyn.formulations.compiled.arrays import (
+    ACCEPTED,
+    CLAMPED,
+    CUTS,
+    EVALUATIONS,
+    FINISHED,
+    IMPACTS,
+    LAST_STEP,
+    MEMORY,
+    NOT_A_NUMBER,
+    PAUSED,
+    RECORDS,
+    STEPS,
+    STOPPED_AT,
+    STUCK,
+    TOO_MANY_IMPACTS,
+    TOO_MANY_STEPS,
+    Matrix,
+    Records,
+    Scene,
+    Vector,
+)
+from support_exudyn.formulations.compiled.events import first_event, look
+from support_exudyn.formulations.compiled.masses import renew_mass
+from support_exudyn.formulations.compiled.motion import divide, respond
+from support_exudyn.formulations.compiled.step import (
+    STAGES,
+    advance,
+    evaluate,
+    fit,
+    forget_friction,
+    within,
+)
+from support_exudyn.formulations.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK, NEAR_TOP, PEAK_SAMPLES
+from support_exudyn.formulations.reduced.events import AT_ZERO, CUT, CUT_MET, IMPACT, NOTHING, RETURN, SEPARATION, TOO_LONG
+from support_exudyn.formulations.reduced.integrate import (
+    CLOSE,
+    LANDED,
+    LANDINGS,
+    SHORTEN,
+    SMALLEST_STEP,
+    TURNS,
+    crossing,
+    factor,
+)
+
+# with what a run goes on: whether it is in the midst of a segment, time, next step, last error
+MIDST, AT, NEXT_STEP, LAST_ERROR, GOING = range(5)
+TOGETHER = 1e3 * AT_ZERO  # depth [m] within which corners that land with the first one land at the same instant
+DEPTH_, PUSH_, RATE_ = range(3)  # what is landed on
+
+
+@compiled
+def quantity(scene: Scene, n: int, which: int) -> float:
+    """Depth, push or rate of a contact as it stands in the scene."""
+    if which == DEPTH_:
+        return float(scene.contacts[n].depth)
+    return float(scene.contacts[n].push) if which == PUSH_ else float(scene.contacts[n].rate)
+
+
+@compiled
+def land(
+    scene: Scene,
+    n: int,
+    t: float,
+    h: float,
+    what: int,
+    low: float,
+    high: float,
+    start: Records,
+    y: Vector,
+    k: Matrix,
+    end: Vector,
+    weights: Vector,
+    right: Vector,
+    report: Vector,
+) -> float:
+    """Make a step of h [s] again so that it ends where something happens to a contact; its length [s].
+
+    An impact or a separation is met by Newton's method on the depth at the end of the step, kept by bisection
+    where it was seen. A cut of tension is met by false position (Illinois) on `push`: while tension is cut
+    there is no force, steps grow, and one would miss where the force sets in again. Where a contact is pressed
+    on again, false position on the rate begins at the guess `high`.
+    """
+    which, met, looks = DEPTH_, LANDED, LANDINGS
+    before, after = low * h, high * h
+    length = 0.5 * (before + after)
+    at_before, at_after = start[n].depth, quantity(scene, n, DEPTH_)
+    if what == CUT:
+        which, met = PUSH_, CUT_MET
+        at_before, at_after, before, after = start[n].push, quantity(scene, n, PUSH_), 0.0, h
+        length = crossing(before, after, at_before, at_after)
+    elif what == RETURN:
+        which, met, looks = RATE_, 0.0, TURNS
+        at_before, at_after, before, after = start[n].rate, quantity(scene, n, RATE_), 0.0, h
+        length = high * h
+    for tried in range(1, looks + 1):
+        advance(scene, t, length, y, k, end, weights, right)
+        report[EVALUATIONS] += STAGES - 1
+        value = quantity(scene, n, which)
+        if abs(value) <= met or tried == looks:
+            break
+        if which != DEPTH_:
+            keep = 0.5 if what == CUT else 1.0
+            if (value < 0.0) == (at_before < 0.0):
+                before, at_before = length, value
+                at_after *= keep
+            else:
+                after, at_after = length, value
+                at_before *= keep
+            length = crossing(before, after, at_before, at_after)
+            continue
+        if (value > 0.0) == (what == IMPACT):
+            after = max(length, before)
+        else:
+            before = min(length, after)
+        following = length - value / scene.contacts[n].rate
+        # the step made again may differ from what was seen by its error, so a little more is allowed
+        if not before - 0.1 * h < following < after + 0.1 * h or following <= 0.0:
+            following = 0.5 * (before + after)
+        if following == length:
+            break
+        length = following
+    return length
+
+
+@compiled
+def separate(scene: Scene, n: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> None:
+    """The surfaces of a contact part at t [s]."""
+    contact = scene.contacts[n]
+    contact.closed = contact.impact_velocity = 0.0
+    for i in range(int(report[IMPACTS]) - 1, -1, -1):
+        if onsets[i, 0] == n:
+            onsets[i, 3], onsets[i, 4] = t, max(0.0, -contact.rate)
+            break
+    if contact.state >= 0:
+        y[contact.state] = 0.0
+
+
+@compiled
+def strike(scene: Scene, n: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> bool:
+    """The surfaces of a contact meet at t [s]; whether there is room to note it."""
+    i = int(report[IMPACTS])
+    if i >= onsets.shape[0]:
+        return False
+    contact = scene.contacts[n]
+    contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
+    onsets[i, 0], onsets[i, 1], onsets[i, 2] = n, t, contact.impact_velocity
+    onsets[i, 3], onsets[i, 4] = math.inf, 0.0
+    report[IMPACTS] += 1
+    if contact.state >= 0:
+        y[contact.state] = 0.0
+    return True
+
+
+@compiled
+def happen(scene: Scene, n: int, what: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> bool:
+    """Change what contacts remember as an event of one at t [s] does; whether there is room for it.
+
+    Others that meet at the same instant, as both corners of a face do, impact with it.
+    """
+    contact = scene.contacts[n]
+    if what == SEPARATION:
+        separate(scene, n, t, y, onsets, report)
+    elif what == RETURN and contact.forgets != 0:
+        contact.impact_velocity = 0.0
+    elif what == IMPACT:
+        if not strike(scene, n, t, y, onsets, report):
+            return False
+        for m in range(scene.contacts.size):
+            other = scene.contacts[m]
+            if other.closed == 0.0 and abs(other.depth) <= TOGETHER and other.rate > 0.0:
+                if not strike(scene, m, t, y, onsets, report):
+                    return False
+    return True
+
+
+@compiled
+def size(scene: Scene, n: int) -> float:
+    """Magnitude of a contact's force [N] as it stands in the scene."""
+    return math.hypot(scene.contacts[n].normal, scene.contacts[n].friction)
+
+
+@compiled
+def peak(scene: Scene, n: int, path: Matrix, last: float, y: Vector, slope: Vector) -> float:
+    """The largest force [N] of a contact so far, a step included that ends with the force `last` [N].
+
+    That at points between the ends, and the highest between these, which may be a corner (where what limits
+    the damping changes).
+    """
+    largest = scene.contacts[n].largest
+    top, at = 0.0, 0
+    for i in range(PEAK_SAMPLES + 1):
+        force = last
+        if i < PEAK_SAMPLES:
+            look(scene, n, i / PEAK_SAMPLES, path, y, slope, True)
+            force = size(scene, n)
+        if force > top:
+            top, at = force, i
+    if top <= NEAR_TOP * largest:
+        return float(largest)
+    low, high = max(0.0, (at - 1) / PEAK_SAMPLES), min(1.0, (at + 1) / PEAK_SAMPLES)
+    one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    look(scene, n, one, path, y, slope, True)
+    at_one = size(scene, n)
+    look(scene, n, other, path, y, slope, True)
+    at_other = size(scene, n)
+    for _ in range(NARROWINGS):
+        top = max(top, at_one, at_other)
+        if at_one > at_other:
+            high, other, at_other = other, one, at_one
+            one = high - GOLDEN * (high - low)
+            look(scene, n, one, path, y, slope, True)
+            at_one = size(scene, n)
+        else:
+            low, one, at_one = one, other, at_other
+            other = low + GOLDEN * (high - low)
+            look(scene, n, other, path, y, slope, True)
+            at_other = size(scene, n)
+    return float(max(largest, top))
+
+
+@compiled
+def record(scene: Scene, t: float, y: Vector, slope: Vector, right: Vector, rows: Matrix, n: int) -> None:
+    """Write a record at t [s]: state, accelerations, multipliers, what contacts remember, courses, moments."""
+    forget_friction(scene)
+    evaluate(scene, t, y, slope, right)
+    row = rows[n]
+    row[0] = t
+    i, count = 1, 3 * scene.bodies.size
+    for k in range(y.size):
+        row[i + k] = y[k]
+    i += y.size
+    for k in range(count):
+        row[i + k] = slope[count + k]
+    i += count
+    for k in range(scene.rows.size):
+        row[i + k] = scene.rows[k].held
+    i += scene.rows.size
+    for k in range(scene.contacts.size):
+        one = scene.contacts[k]
+        row[i], row[i + 1], row[i + 2], row[i + 3], row[i + 4] = (
+            one.closed,
+            one.impact_velocity,
+            one.xx,
+            one.xy,
+            one.yy,
+        )
+        i += MEMORY
+    for k in range(scene.courses.size):
+        row[i], row[i + 1] = scene.courses[k].value, scene.courses[k].rate
+        i += 2
+    for k in range(scene.rubbing.size):
+        row[i] = scene.rubbing[k].moment
+        i += 1
+
+
+@entry
+def integrate(
+    scene: Scene,
+    begin: float,
+    stop: float,
+    times: Vector,
+    weights: Vector,
+    going: Vector,
+    most_steps: int,
+    pause: int,
+    y: Vector,
+    k: Matrix,
+    now: Records,
+    rows: Matrix,
+    onsets: Matrix,
+    report: Vector,
+) -> int:
+    """Run from `begin` to `stop` [s], between which all courses are smooth, or go on after a pause.
+
+    Arguments:
+        times: of the records [s], from 0; the first is written already.
+        weights: one over the largest error of a step, for each component.
+        going: with the first step in NEXT_STEP; after a segment or a pause as it was left.
+        most_steps: before giving up. pause: after so many steps it returns PAUSED, to be called again.
+        y: the state at the start; at the end when it returns. k: rates, of which k[0] is that at a pause.
+        now: contacts at the start of a step.
+        rows, onsets, report: are filled.
+    """
+    states, count = y.size, scene.contacts.size
+    path, right = np.empty((5, states)), np.empty(scene.rows.size)
+    end, probe, slope = np.empty(states), np.empty(states), np.empty(states)
+    then = now.copy()
+    h, error_before, t = going[NEXT_STEP], 1e-4, begin
+    if going[MIDST] != 0.0:
+        t, error_before = going[AT], going[LAST_ERROR]
+    else:
+        forget_friction(scene)
+        evaluate(scene, t, y, k[0], right)
+        now[:] = scene.contacts
+    while t < stop:
+        if report[STEPS] >= pause:
+            going[MIDST], going[AT], going[NEXT_STEP], going[LAST_ERROR] = 1.0, t, h, error_before
+            return PAUSED
+        report[STEPS] += 1
+        report[STOPPED_AT], report[LAST_STEP] = t, h
+        if report[STEPS] > most_steps:
+            return TOO_MANY_STEPS
+        if h < SMALLEST_STEP:
+            return STUCK
+        wanted = h
+        last = h >= 0.999999 * (stop - t)
+        if last:
+            h = stop - t
+        error = advance(scene, t, h, y, k, end, weights, right)
+        report[EVALUATIONS] += STAGES - 1
+        report[NOT_A_NUMBER] = 1.0 if math.isnan(error) else 0.0
+        if not error <= 1.0:
+            h *= min(factor(error, 1.0), 1.0)
+            continue
+        then[:] = scene.contacts
+        fit(h, y, end, k, path)
+        n, what, low, high = first_event(scene, h, now, then, path, probe, slope)
+        if what == TOO_LONG:
+            h *= SHORTEN
+            continue
+        follow = wanted if last else h * factor(error, error_before)
+        error_before = max(error, 1e-4)
+        was_cut = n >= 0 and now[n].push < 0.0
+        if what != NOTHING and low < 1.0:
+            scene.contacts[:] = then
+            h = land(scene, n, t, h, what, low, high, now, y, k, end, weights, right, report)
+            then[:] = scene.contacts
+            fit(h, y, end, k, path)
+            last = h >= stop - t
+        scene.contacts[:] = then
+        for m in range(count):
+            if then[m].closed != 0.0:
+                first, final = math.hypot(now[m].normal, now[m].friction), size(scene, m)
+                if max(first, final) > NEAR_PEAK * then[m].largest:
+                    highest = max(first, peak(scene, m, path, final, probe, slope))
+                    if highest > then[m].largest:
+                        then[m].largest, then[m].largest_at = highest, t + h
+            report[CLAMPED] += then[m].push < 0.0
+        report[ACCEPTED] += 1
+        report[CUTS] += what not in (NOTHING, RETURN)
+        until = stop + CLOSE if last else t + h
+        written = int(report[RECORDS])
+        while written < times.size and times[written] <= until:
+            within(path, min(1.0, (times[written] - t) / h), 0, states, probe)
+            scene.contacts[:] = then
+            record(scene, times[written], probe, slope, right, rows, written)
+            written += 1
+        report[RECORDS] = written
+        scene.contacts[:] = then
+        t = stop if last else t + h
+        y[:] = end
+        if what == NOTHING:
+            k[0] = k[STAGES - 1]
+            now[:] = then
+        else:
+            evaluate(scene, t, y, slope, right)  # places and factors are those of what was looked at last
+            if not happen(scene, n, what, t, y, onsets, report):
+                return TOO_MANY_IMPACTS
+            if what in (IMPACT, RETURN):
+                renew_masses(scene, n, what, t, y, onsets, right, report)
+            evaluate(scene, t, y, k[0], right)
+            now[:] = scene.contacts
+            # whatever rounding says
+            if what == RETURN:
+                now[n].rate = max(0.0, now[n].rate)
+            elif what == CUT:
+                now[n].push = 1e-30 if was_cut else -1e-30
+        h = follow
+    going[MIDST], going[NEXT_STEP] = 0.0, h
+    return FINISHED
+
+
+@compiled
+def renew_masses(
+    scene: Scene, n: int, what: int, t: float, y: Vector, onsets: Matrix, right: Vector, report: Vector
+) -> None:
+    """Renew the mass that the law of a contact is told, and of others that have impacted at the same instant."""
+    count, coordinates = scene.contacts.size, 3 * scene.bodies.size
+    rows, answers = np.empty((2 + count, coordinates)), np.empty((2 + count, coordinates))
+    if what == RETURN:
+        if scene.contacts[n].renews != 0:
+            renew_mass(scene, n, y, right, rows, answers)
+        return
+    for i in range(int(report[IMPACTS]) - 1, -1, -1):
+        if onsets[i, 1] != t:
+            break
+        m = int(onsets[i, 0])
+        if scene.contacts[m].renews != 0:
+            renew_mass(scene, m, y, right, rows, answers)
+
+
+@entry
+def begin_run(scene: Scene, y: Vector, rows: Matrix) -> float:
+    """Write the first record at 0 s, with the masses that contacts are told then; see `motion.factor`."""
+    slope, right = np.empty(y.size), np.empty(scene.rows.size)
+    least = evaluate(scene, 0.0, y, slope, right)
+    count, coordinates = scene.contacts.size, 3 * scene.bodies.size
+    space, answers = np.empty((2 + count, coordinates)), np.empty((2 + count, coordinates))
+    for n in range(count):
+        contact = scene.contacts[n]
+        if contact.depth > 0.0:
+            contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
+    for n in range(count):
+        renew_mass(scene, n, y, right, space, answers)
+    record(scene, 0.0, y, slope, right, rows, 0)
+    return least
+
+
+@entry
+def jump(scene: Scene, t: float, y: Vector, jumps: Vector) -> Vector:
+    """Change velocities as speeds of drives jump at t [s], jumps by course; impulses of all rows, against them."""
+    slope, right = np.empty(y.size), np.empty(scene.rows.size)
+    forget_friction(scene)
+    evaluate(scene, t, y, slope, right)
+    right[:] = 0.0
+    for n in range(scene.joints.size):
+        joint = scene.joints[n]
+        if joint.course >= 0:
+            right[joint.row] = -jumps[joint.course]
+    divide(scene, right)
+    respond(scene, right, y, 3 * scene.bodies.size)
+    return right

@@ -1,0 +1,266 @@
+"""Where points are, what joints demand, and the accelerations of all bodies.
+
+Mass matrix M, constraint Jacobian C, applied forces f and what drives demand, w, give
+
+    C M^-1 C^T L = C M^-1 f - w,    a = M^-1 (f - C^T L)
+
+by Cholesky's factors of the square matrix, within the envelope that the order of the rows leaves.
+"""
+
+import math
+
+from support_exudyn.formulations.compilation import compiled, inlined
+from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SLIDE, Scene, Vector
+
+SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
+
+
+@inlined
+def follow_courses(scene: Scene, t: float) -> None:
+    """Write value, rate and second derivative of all time courses at t [s]."""
+    for n in range(scene.courses.size):
+        one = scene.courses[n]
+        low, high = one.low, one.high - 1
+        while low < high:
+            middle = (low + high + 1) // 2
+            if scene.pieces[middle].begin <= t:
+                low = middle
+            else:
+                high = middle - 1
+        piece = scene.pieces[low]
+        x = (t - piece.begin) / piece.half - 1.0
+        value = rate = bend = 0.0
+        for k in range(scene.coefficients.shape[1] - 1, -1, -1):
+            bend = bend * x + 2.0 * rate
+            rate = rate * x + value
+            value = value * x + scene.coefficients[low, k]
+        one.value, one.rate, one.bend = value, rate / piece.half, bend / (piece.half * piece.half)
+
+
+@inlined
+def place(scene: Scene, y: Vector) -> None:
+    """Write directions of bodies, and places and velocities of all points."""
+    count = scene.bodies.size
+    for n in range(count):
+        body = scene.bodies[n]
+        body.c, body.s = math.cos(y[3 * n + 2]), math.sin(y[3 * n + 2])
+    for n in range(scene.points.size):
+        point = scene.points[n]
+        k = point.body
+        if k < 0:
+            continue
+        body = scene.bodies[k]
+        i, j = 3 * k, 3 * (count + k)
+        rx = body.c * point.arm_x - body.s * point.arm_y
+        ry = body.s * point.arm_x + body.c * point.arm_y
+        spin = y[j + 2]
+        point.rx, point.ry = rx, ry
+        point.x, point.y = body.x0 + y[i] + rx, body.y0 + y[i + 1] + ry
+        point.vx, point.vy = y[j] - spin * ry, y[j + 1] + spin * rx
+
+
+@inlined
+def spin_of(scene: Scene, y: Vector, body: int) -> float:
+    """Angular velocity of a body [rad/s]."""
+    return float(y[3 * (scene.bodies.size + body) + 2]) if body >= 0 else 0.0
+
+
+@inlined
+def turn_of(y: Vector, body: int) -> float:
+    """Turn of a body since the start [rad]."""
+    return float(y[3 * body + 2]) if body >= 0 else 0.0
+
+
+@inlined
+def hold(scene: Scene, y: Vector) -> None:
+    """Write the rows of all joints, what C a has to be, what is left of the positions, and rates to have."""
+    for n in range(scene.joints.size):
+        joint = scene.joints[n]
+        row = scene.rows[joint.row]
+        if joint.kind == CRANK:
+            course = scene.courses[joint.course]
+            row.t = 1.0
+            row.wanted, row.rate = course.bend, course.rate
+            row.off = turn_of(y, joint.first) - course.value
+            continue
+        if joint.kind == GEAR:
+            row.t, row.ot = 1.0, -joint.ratio
+            row.wanted = row.rate = 0.0
+            row.off = turn_of(y, joint.second) - joint.ratio * turn_of(y, joint.first)
+            continue
+        first, second = scene.points[joint.first], scene.points[joint.second]
+        one, two = spin_of(scene, y, first.body), spin_of(scene, y, second.body)
+        # what turning does to the acceleration of the second point against the first
+        cx = two * two * second.rx - one * one * first.rx
+        cy = two * two * second.ry - one * one * first.ry
+        dx, dy = second.x - first.x, second.y - first.y
+        if joint.kind == PIN:
+            other = scene.rows[joint.row + 1]
+            row.x, row.t, row.ox, row.ot = 1.0, -second.ry, -1.0, first.ry
+            other.y, other.t, other.oy, other.ot = 1.0, second.rx, -1.0, -first.rx
+            row.wanted, other.wanted = cx, cy
+            row.off, other.off = dx, dy
+            row.rate = other.rate = 0.0
+            continue
+        vx, vy = second.vx - first.vx, second.vy - first.vy
+        if joint.kind == ACTUATOR:
+            length = math.sqrt(dx * dx + dy * dy)
+            ux, uy = dx / length, dy / length
+            rate = ux * vx + uy * vy
+            value = goal = bend = 0.0
+            if joint.course >= 0:
+                course = scene.courses[joint.course]
+                value, goal, bend = course.value, course.rate, course.bend
+            row.wanted = bend - (vx * vx + vy * vy - rate * rate) / length + ux * cx + uy * cy
+            row.off, row.rate = length - joint.length - value, goal
+            carried = 0.0
+        else:  # SLIDE: second is the body's point, first the carrier's, on the line
+            angle = joint.angle + turn_of(y, first.body)
+            ax, ay = math.cos(angle), math.sin(angle)
+            ux, uy = -ay, ax
+            along = ax * dx + ay * dy
+            row.off, row.rate = ux * dx + uy * dy, 0.0
+            row.wanted = 2.0 * one * (ax * vx + ay * vy) + one * one * row.off + ux * cx + uy * cy
+            carried = along
+            if joint.conditions == 2:
+                other = scene.rows[joint.row + 1]
+                other.t, other.ot, other.wanted, other.rate = 1.0, -1.0, 0.0, 0.0
+                other.off = turn_of(y, second.body) - turn_of(y, first.body)
+        row.x, row.y, row.t = ux, uy, second.rx * uy - second.ry * ux
+        row.ox, row.oy, row.ot = -ux, -uy, first.ry * ux - first.rx * uy - carried
+
+
+@inlined
+def factor(scene: Scene) -> float:
+    """Write C M^-1 C^T and its factors; the least share of a row's square that is left of it."""
+    count = scene.rows.size
+    square = scene.square
+    for i in range(count):
+        for j in range(scene.rows[i].first, i + 1):
+            square[i, j] = 0.0
+    for n in range(scene.pairs.size):
+        pair = scene.pairs[n]
+        one, two = scene.rows[pair.i], scene.rows[pair.j]
+        if pair.side == 0:
+            body, x, y, t = scene.bodies[one.body], one.x, one.y, one.t
+        else:
+            body, x, y, t = scene.bodies[one.other], one.ox, one.oy, one.ot
+        if pair.other == 0:
+            u, v, w = two.x, two.y, two.t
+        else:
+            u, v, w = two.ox, two.oy, two.ot
+        square[pair.i, pair.j] += body.light * (x * u + y * v) + body.light_turn * t * w
+    least = 1.0
+    for i in range(count):
+        first = scene.rows[i].first
+        own = square[i, i]
+        for j in range(first, i + 1):
+            total = square[i, j]
+            for k in range(max(first, scene.rows[j].first), j):
+                total -= square[i, k] * square[j, k]
+            if j < i:
+                square[i, j] = total * square[j, j]
+            else:
+                share = total / own
+                if not share > least:
+                    least = share
+                square[i, i] = 1.0 / math.sqrt(total)  # its inverse
+    return least
+
+
+@inlined
+def divide(scene: Scene, right: Vector) -> None:
+    """Solve C M^-1 C^T x = right by the factors; x stands in `right` afterwards."""
+    count = scene.rows.size
+    square = scene.square
+    for i in range(count):
+        total = right[i]
+        for k in range(scene.rows[i].first, i):
+            total -= square[i, k] * right[k]
+        right[i] = total * square[i, i]
+    for i in range(count - 1, -1, -1):
+        value = right[i] * square[i, i]
+        right[i] = value
+        for k in range(scene.rows[i].first, i):
+            right[k] -= square[i, k] * value
+
+
+@inlined
+def rate_of(scene: Scene, row: int, v: Vector, start: int) -> float:
+    """What a row makes of velocities that stand in `v` from `start` on."""
+    one = scene.rows[row]
+    total = 0.0
+    if one.body >= 0:
+        i = start + 3 * one.body
+        total += one.x * v[i] + one.y * v[i + 1] + one.t * v[i + 2]
+    if one.other >= 0:
+        i = start + 3 * one.other
+        total += one.ox * v[i] + one.oy * v[i + 1] + one.ot * v[i + 2]
+    return float(total)
+
+
+@compiled
+def respond(scene: Scene, multipliers: Vector, v: Vector, start: int) -> None:
+    """Take M^-1 C^T L off the velocities or displacements that stand in `v` from `start` on."""
+    for n in range(scene.rows.size):
+        row = scene.rows[n]
+        size = multipliers[n]
+        if row.body >= 0:
+            body, i = scene.bodies[row.body], start + 3 * row.body
+            v[i] -= body.light * row.x * size
+            v[i + 1] -= body.light * row.y * size
+            v[i + 2] -= body.light_turn * row.t * size
+        if row.other >= 0:
+            body, i = scene.bodies[row.other], start + 3 * row.other
+            v[i] -= body.light * row.ox * size
+            v[i + 1] -= body.light * row.oy * size
+            v[i + 2] -= body.light_turn * row.ot * size
+
+
+@inlined
+def push(scene: Scene, body: int, fx: float, fy: float, moment: float) -> None:
+    """Add a force [N] at the centre of mass of a body and a moment [N m] to what acts on it."""
+    if body >= 0:
+        one = scene.bodies[body]
+        one.fx += fx
+        one.fy += fy
+        one.m += moment
+
+
+@inlined
+def push_point(scene: Scene, point: int, fx: float, fy: float) -> None:
+    """Add a force [N] at a point to what acts on its body."""
+    at = scene.points[point]
+    push(scene, at.body, fx, fy, at.rx * fy - at.ry * fx)
+
+
+@inlined
+def solve(scene: Scene, right: Vector) -> None:
+    """Write multipliers and accelerations under the forces that act on the bodies; `right` is overwritten."""
+    for n in range(scene.bodies.size):
+        body = scene.bodies[n]
+        body.ax, body.ay, body.a = body.light * body.fx, body.light * body.fy, body.light_turn * body.m
+    for n in range(scene.rows.size):
+        row = scene.rows[n]
+        total = -row.wanted
+        if row.body >= 0:
+            body = scene.bodies[row.body]
+            total += row.x * body.ax + row.y * body.ay + row.t * body.a
+        if row.other >= 0:
+            body = scene.bodies[row.other]
+            total += row.ox * body.ax + row.oy * body.ay + row.ot * body.a
+        right[n] = total
+    divide(scene, right)
+    for n in range(scene.rows.size):
+        row = scene.rows[n]
+        row.held = right[n]
+        if row.body >= 0:
+            body = scene.bodies[row.body]
+            body.ax -= body.light * row.x * row.held
+            body.ay -= body.light * row.y * row.held
+            body.a -= body.light_turn * row.t * row.held
+        if row.other >= 0:
+            body = scene.bodies[row.other]
+            body.ax -= body.light * row.ox * row.held
+            body.ay -= body.light * row.oy * row.held
+            body.a -= body.light_turn * row.ot * row.held

@@ -1,0 +1,143 @@
+"""What a finished run says: motion and forces at the records."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from support_exudyn.formulations.compiled.arrays import LOSSES, MEMORY, Matrix
+from support_exudyn.formulations.compiled.setup import Model
+from support_exudyn.mechanics.acting_loads import load_series
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.bushing import bushing_series
+from support_exudyn.mechanics.channels import DataNeeds
+from support_exudyn.mechanics.contact_state import PinMemory
+from support_exudyn.mechanics.trajectory import CylinderSeries, Series, Trajectory
+from support_exudyn.model.bushing_pin import BushingPin
+from support_exudyn.scenario.recorded_channels import needs
+
+
+def record_width(model: Model) -> int:
+    """How many numbers a record has, see `integrate.record`."""
+    scene = model.scene
+    return (
+        1
+        + model.states
+        + 3 * scene.bodies.size
+        + scene.rows.size
+        + MEMORY * scene.contacts.size
+        + 2 * scene.courses.size
+        + scene.rubbing.size
+    )
+
+
+class _Records:
+    """The parts of all records, shape (n, ...)."""
+
+    def __init__(self, model: Model, rows: Matrix) -> None:
+        scene, count = model.scene, 3 * model.scene.bodies.size
+        sizes = [
+            1,
+            model.states,
+            count,
+            scene.rows.size,
+            MEMORY * scene.contacts.size,
+            2 * scene.courses.size,
+            scene.rubbing.size,
+        ]
+        parts = np.split(rows, np.cumsum(sizes)[:-1], axis=1)
+        self.time = rows[:, 0].copy()
+        self.state, self.acceleration, held, memory, courses, self.moments = parts[1:]
+        self.position, self.velocity = self.state[:, :count], self.state[:, count : 2 * count]
+        self.held = held[:, model.order]  # as the linkage has them
+        self.memory = memory.reshape(len(rows), scene.contacts.size, MEMORY)
+        self.courses = courses.reshape(len(rows), scene.courses.size, 2)
+
+
+def trajectory(model: Model, rows: Matrix) -> Trajectory:
+    """The run at its records."""
+    scenario, linkage, found = model.scenario, model.scenario.linkage, _Records(model, rows)
+    needed = needs(scenario)
+    motion = BodyMotion(linkage, found.position, found.velocity, found.acceleration)
+    still = np.zeros_like(found.time)
+    course = {name: n for n, name in enumerate((*model.drives, *model.valves))}
+
+    def driven(name: str, which: int) -> Series:
+        return found.courses[:, course[name], which] if name in course else still
+
+    oil = {name: one.series(motion, driven(name, 0), driven(name, 1)) for name, one in model.oil.items()}
+    cylinders: dict[str, CylinderSeries] = {}
+    for record, (name, filled) in zip(model.scene.cylinders, model.cylinders.items(), strict=True):
+        state = int(record["state"])
+        cylinders[name] = filled.series(motion, found.state[:, state : state + 2], driven(name, 0))
+    held, first = found.held, 0
+    pins: dict[str, Series] = {}
+    for name in scenario.held_pins:
+        # rows of pins are second minus first, so that what holds them acts on the second reversed
+        pins[name] = -held[:, first : first + 2]
+        first += 2
+    actuators = {name: one.force for name, one in (oil | cylinders).items()}
+    rigid = [name for name in linkage.actuators if name not in scenario.compliant_actuators]
+    pushed: dict[str, Series] = {}
+    for name in (*rigid, *linkage.cranks):
+        pushed[name] = -held[:, first]
+        first += 1
+    slides: dict[str, Series] = {}
+    for name, slide in scenario.guided_linkage.slides.items():
+        slides[name] = np.zeros((len(held), 2))
+        slides[name][:, : slide.conditions] = np.abs(held[:, first : first + slide.conditions])
+        first += slide.conditions
+    gears = {name: -held[:, first + n] for n, name in enumerate(linkage.gears)}
+    wanted = DataNeeds.CONTACTS in needed
+    contacts = {
+        name: place.series(motion, _memories(model, found, n))
+        for n, (name, place) in enumerate(scenario.contact_places.items())
+        if wanted
+    }
+    bushings = {
+        name: bushing_series(pin, linkage.pins[name], motion)
+        for name, pin in scenario.pins.items()
+        if isinstance(pin, BushingPin)
+    }
+    loads = {
+        name: load_series(load, name, motion, found.time)
+        for name, load in scenario.acting_loads.items()
+        if DataNeeds.LOADS in needed
+    }
+    losses = found.state[:, -LOSSES:]
+    return Trajectory(
+        time=found.time,
+        position=found.position,
+        velocity=found.velocity,
+        acceleration=found.acceleration,
+        ideal_pins=pins,
+        contacts=contacts,
+        friction_moments=dict(zip(scenario.friction_pins, found.moments.T, strict=True)),
+        actuators={**{name: pushed[name] for name in rigid}, **actuators},
+        cranks={name: pushed[name] for name in linkage.cranks},
+        slides=slides,
+        gears=gears,
+        oil_energy=sum((one.energy for one in (oil | cylinders).values()), still),
+        work=losses[:, 2],
+        damping_loss=losses[:, 0],
+        friction_loss=losses[:, 1],
+        loads=loads,
+        cylinders=cylinders,
+        compliant_pins=bushings,
+    )
+
+
+def _memories(model: Model, found: _Records, n: int) -> Series:
+    """What a contact remembers at the records as PinMemory's fields, shape (n, 9)."""
+    closed, velocity, xx, xy, yy = found.memory[:, n].T
+    still = np.zeros_like(closed)
+    state = int(model.scene.contacts[n]["state"])
+    deflection = found.state[:, state] if state >= 0 else still
+    named = {
+        "in_contact": closed,
+        "impact_velocity": velocity,
+        "deflection": deflection,
+        "inverse_mass_xx": xx,
+        "inverse_mass_xy": xy,
+        "inverse_mass_yy": yy,
+    }
+    return np.column_stack([named.get(name, still) for name in PinMemory._fields])

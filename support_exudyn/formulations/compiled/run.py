@@ -1,0 +1,202 @@
+"""The run of the compiled formulation: scenario in, outcome out."""
+
+import numpy as np
+
+from support_exudyn.formulations.compiled import arrays
+from support_exudyn.formulations.compiled.arrays import (
+    ACCEPTED,
+    CLAMPED,
+    CUTS,
+    DEAD_CENTRE,
+    EVALUATIONS,
+    FINISHED,
+    IMPACTS,
+    LAST_STEP,
+    NOT_A_NUMBER,
+    PAUSED,
+    RECORDS,
+    REPORT,
+    STOPPED_AT,
+    STUCK,
+    TOO_MANY_IMPACTS,
+    TOO_MANY_STEPS,
+    Matrix,
+    Vector,
+)
+from support_exudyn.formulations.compiled.integrate import AT, GOING, MIDST, NEXT_STEP, begin_run, integrate, jump
+from support_exudyn.formulations.compiled.motion import SINGULAR
+from support_exudyn.formulations.compiled.outcome import record_width, trajectory
+from support_exudyn.formulations.compiled.setup import Model, model_of
+from support_exudyn.formulations.compiled.start import error_weights, first_state
+from support_exudyn.formulations.compiled.step import STAGES
+from support_exudyn.formulations.contract import Failure, Progress, SimulationError
+from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.trajectory import Counts, Impulse, Outcome
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.expressions.scalar import maximum
+from user_forces.lawful import UNLAWFUL, LawError, look
+from user_forces.normal.law import Impact, LoadError
+
+FIRST_STEP = 1e-5  # [s]
+FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
+AT_ONCE = 20_000  # compiled steps, some 0.3 s: until then it cannot be interrupted, and tells no progress
+CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed far out of its place."
+MOST_IMPACTS = 100_000
+NOTHING_RESTS = "Look at the contact law: nothing comes to rest."
+
+
+class _Run:
+    """A run while it goes on."""
+
+    def __init__(self, model: Model) -> None:
+        self.model, self.scenario = model, model.scenario
+        self.y = first_state(model)
+        self.rows = np.zeros((model.times.size, record_width(model)))
+        self.onsets = np.empty((MOST_IMPACTS if model.contacts else 0, 5))
+        self.report = np.zeros(REPORT)
+        self.impulses: list[Impulse] = []
+        self.code = FINISHED
+        if not begin_run(model.scene, self.y, self.rows) > SINGULAR:
+            self.code = DEAD_CENTRE
+        self.report[RECORDS] = 1.0
+
+    def go(self, progress: Progress) -> None:
+        """Integrate to the end, or to where it cannot go on."""
+        model, scenario = self.model, self.scenario
+        count = 3 * len(scenario.linkage.bodies)
+        fastest = self.rows[0, 1 + self.y.size : 1 + self.y.size + count].reshape(-1, 3)[:, :2]
+        acceleration = float(np.hypot(*fastest.T).max(initial=0.0))
+        weights = error_weights(model, scenario.solver.tolerance, acceleration)
+        going = np.zeros(GOING)
+        going[NEXT_STEP] = FIRST_STEP
+        rates, now = np.zeros((STAGES, self.y.size)), model.scene.contacts.copy()
+        pause = AT_ONCE
+        for segment, begin, end in zip(
+            model.courses.segments, model.edges, model.edges[1:], strict=False
+        ):
+            if self.code != FINISHED:
+                return
+            model.scene.courses[:] = segment
+            self._jump(begin)
+            while True:
+                self.code = integrate(
+                    model.scene,
+                    begin,
+                    end,
+                    model.times,
+                    weights,
+                    going,
+                    scenario.solver.most_steps,
+                    pause,
+                    self.y,
+                    rates,
+                    now,
+                    self.rows,
+                    self.onsets,
+                    self.report,
+                )
+                if self.code != PAUSED:
+                    break
+                pause += AT_ONCE
+                progress(float(going[AT] / scenario.duration))
+            going[MIDST] = 0.0
+
+    def _jump(self, t: float) -> None:
+        """Let velocities jump where speeds of drives do, by impulses of what holds driven lengths and angles."""
+        model, scene = self.model, self.model.scene
+        jumps = np.zeros(scene.courses.size)
+        for n, name in enumerate(model.drives):
+            if t in (drive := self.scenario.drive_of(name)).breaks:
+                jumps[n] = drive.speed_jump(t)
+        held = [n for n, joint in enumerate(scene.joints) if joint["course"] >= 0 and jumps[joint["course"]]]
+        if not held:
+            return
+        count = 3 * scene.bodies.size
+        before = self.y[count : 2 * count].copy()
+        impulses = jump(scene, t, self.y, jumps)
+        mass = 1.0 / np.column_stack([scene.bodies["light"], scene.bodies["light"], scene.bodies["light_turn"]])
+        after = self.y[count : 2 * count]
+        energy = float(0.5 * mass.ravel() @ (after**2 - before**2))
+        self.y[arrays.WORK] += energy
+        found = {name: -float(impulses[row]) for name, row in model.driven_rows.items()}
+        cranks = {name: found.pop(name) for name in self.scenario.linkage.cranks if name in found}
+        self.impulses.append(Impulse(t, found, energy, cranks))
+
+
+def run(scenario: Scenario, progress: Progress) -> Outcome:
+    """Run a scenario. Raises SimulationError if it cannot be finished."""
+    going = _Run(model_of(scenario))
+    going.go(progress)
+    if going.code == FINISHED and not np.isfinite(going.rows.sum()):
+        going.code, going.report[NOT_A_NUMBER] = STUCK, 1.0
+    if going.code != FINISHED:
+        raise SimulationError(_failure(going))
+    progress(1.0)
+    return _outcome(going)
+
+
+def _outcome(going: _Run) -> Outcome:
+    model, report = going.model, going.report
+    impacts: dict[str, list[Onset]] = {name: [] for name in model.contacts}
+    for number, *onset in going.onsets[: int(report[IMPACTS])].tolist():
+        impacts[model.contacts[int(number)]].append(Onset(*onset))
+    contacts = model.scene.contacts
+    return Outcome(
+        trajectory=trajectory(model, going.rows),
+        onsets={name: tuple(found) for name, found in impacts.items()},
+        largest_force=dict(zip(model.contacts, contacts["largest"].tolist(), strict=True)),
+        largest_force_time=dict(zip(model.contacts, contacts["largest_at"].tolist(), strict=True)),
+        impulses=tuple(going.impulses),
+        counts=Counts(
+            steps=int(report[ACCEPTED]),
+            cut_steps=int(report[CUTS]),
+            evaluations=int(report[EVALUATIONS]),
+            clamped_steps=int(report[CLAMPED]),
+        ),
+    )
+
+
+def _failure(going: _Run) -> Failure:
+    """Why a run stopped."""
+    report, scenario = going.report, going.scenario
+    count = 3 * len(scenario.linkage.bodies)
+    state = {"step": float(report[LAST_STEP])}
+    for n, name in enumerate(scenario.linkage.bodies):
+        state[f"{name}.angular_velocity"] = float(going.y[count + 3 * n + 2])
+    state["impacts"] = float(report[IMPACTS])
+    code = going.code
+    if code == TOO_MANY_STEPS:
+        reason, advice = f"more than {scenario.solver.most_steps} steps", FEWER_STEPS
+    elif code == TOO_MANY_IMPACTS:
+        reason, advice = f"more than {MOST_IMPACTS} impacts", NOTHING_RESTS
+    elif broken := _broken_law(going):
+        reason, advice = broken
+    elif code == DEAD_CENTRE:
+        reason, advice = "the linkage is at a dead centre", CLOSES
+    elif report[NOT_A_NUMBER]:
+        reason, advice = "the linkage cannot close, or a value is no longer a finite number", CLOSES
+    else:
+        reason, advice = "the step became too short", "Allow a larger tolerance."
+    return Failure(reason, advice, float(report[STOPPED_AT]), state)
+
+
+def _broken_law(going: _Run) -> tuple[str, str] | None:
+    """What the laws of a contact say, asked in Python, where the run could not go on by what they give."""
+    for name, record in zip(going.model.contacts, going.model.scene.contacts, strict=True):
+        if record["asked_depth"] == 0.0:
+            continue
+        contact = going.scenario.contact_places[name].contact
+        depth, rate, slip = (float(record[f"asked_{what}"]) for what in ("depth", "rate", "slip"))
+        try:
+            impact = Impact(float(record["impact_velocity"]), float(record["asked_mass"]))
+            asked = contact.normal(depth, rate, impact)
+            normal, elastic = maximum(asked, 0.0), contact.normal.elastic_force(depth)
+            friction = contact.friction(slip, normal, float(record["asked_deflection"]))
+            look(contact, depth, rate, slip, normal, friction, elastic, name)
+        except LoadError as error:
+            return "a contact is overloaded", str(error)
+        except LawError as error:
+            return str(error), UNLAWFUL
+        except ArithmeticError:
+            pass
+    return None

@@ -1,0 +1,338 @@
+"""From a scenario to the records of a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import reverse_cuthill_mckee
+
+from support_exudyn.formulations.compilation import compiled_law
+from support_exudyn.formulations.compiled import arrays
+from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, Scene, Vector, Whole
+from support_exudyn.formulations.compiled.courses import Courses, courses, segment_edges
+from support_exudyn.formulations.compiled.written import load_source
+from support_exudyn.formulations.time_grid import record_times
+from support_exudyn.mechanics.contact_places import ContactPlace
+from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
+from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
+from support_exudyn.model.bushing_pin import BushingPin
+from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.model.loads.load import Load
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.compilation.flat import asks_for_mass, friction_source, law_source
+from user_forces.values.value import Vector2
+
+
+@dataclass(frozen=True)
+class Model:
+    """A scenario as arrays, before it is run.
+
+    scene: for the first segment. edges: times between which all courses are smooth [s]. times: of the records
+    [s]. drives, valves: names of the courses, in order. order: of the rows as the linkage has them, by their
+    place in the scene. states: how many the state has.
+    """
+
+    scenario: Scenario
+    scene: Scene
+    courses: Courses
+    edges: list[float]
+    times: Vector
+    drives: tuple[str, ...]
+    valves: tuple[str, ...]
+    order: Whole
+    contacts: tuple[str, ...]
+    oil: Mapping[str, PreloadedActuator]
+    cylinders: Mapping[str, PreloadedCylinder]
+    driven_rows: Mapping[str, int]
+    states: int
+
+
+class _Builder:
+    """Collects points, rows and constants."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        self.linkage = scenario.linkage
+        self.numbers = {name: n for n, name in enumerate(self.linkage.bodies)} | {GROUND: -1}
+        self.points: list[tuple[int, Vector2]] = []
+        self.known: dict[tuple[str, Vector2], int] = {}
+        self.constants: list[float] = []
+
+    def point(self, body: str, point: Vector2) -> int:
+        """The number of a point of a body, start posture."""
+        key = (body, (float(point[0]), float(point[1])))
+        if key not in self.known:
+            self.known[key] = len(self.points)
+            x, y = (0.0, 0.0) if body == GROUND else self.linkage.bodies[body].centre
+            self.points.append((self.numbers[body], (point[0] - x, point[1] - y)))
+        return self.known[key]
+
+    def law(self, source: tuple[str, Sequence[float]]) -> tuple[float, int]:
+        """Address of a compiled function and where its constants begin."""
+        text, constants = source
+        place = len(self.constants)
+        self.constants += constants
+        return float(compiled_law(text).address), place
+
+
+def model_of(scenario: Scenario) -> Model:
+    """The arrays of a scenario that the formulation covers."""
+    build = _Builder(scenario)
+    linkage = scenario.linkage
+    rigid = [name for name in linkage.actuators if name not in scenario.compliant_actuators]
+    driven = [name for name in (*linkage.actuators, *linkage.cranks) if name not in scenario.cylinders]
+    moving = [name for name in driven if scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)]
+    valves = [name for name, one in scenario.cylinders.items() if one.inlet.breaks or one.inlet.opening(0.0)]
+    edges = segment_edges(scenario.breaks, scenario.duration)
+    functions: list[Callable[[float], float]] = [scenario.drive_of(name).extension for name in moving]
+    functions += [scenario.cylinders[name].inlet.opening for name in valves]
+    found = courses(functions, edges)
+    course = {name: n for n, name in enumerate((*moving, *valves))}
+    joints, order, held = _joints(scenario, build, rigid, course)
+    count = len(linkage.bodies)
+    states = 6 * count
+    contacts = np.zeros(len(scenario.contact_places), arrays.CONTACT)
+    for record, place in zip(contacts, scenario.contact_places.values(), strict=True):
+        states = _contact(record, place, build, linkage, states)
+    cylinders = fill_cylinders(linkage, scenario.cylinders, scenario.gravity)
+    cylinder_records = np.zeros(len(cylinders), arrays.CYLINDER)
+    for record, (name, one) in zip(cylinder_records, cylinders.items(), strict=True):
+        _cylinder(record, one, build, course.get(name, -1), states)
+        states += 2
+    oil = fill(linkage, scenario.oil_columns, scenario.gravity)
+    oil_records = np.zeros(len(oil), arrays.OIL)
+    for record, (name, filled) in zip(oil_records, oil.items(), strict=True):
+        _oil(record, filled, build, course.get(name, -1))
+    loads = _loads(scenario, build)
+    bushings = _bushings(scenario, build)
+    rows, pairs, square = _rows(joints, held)
+    rubbing = _rubbing(scenario, build, joints)
+    scene = Scene(
+        bodies=_bodies(scenario),
+        points=_points(build, linkage),
+        courses=found.segments[0].copy(),
+        pieces=found.pieces,
+        coefficients=found.coefficients,
+        joints=joints,
+        rows=rows,
+        pairs=pairs,
+        square=square,
+        contacts=contacts,
+        oil=oil_records,
+        cylinders=cylinder_records,
+        loads=loads,
+        bushings=bushings,
+        rubbing=rubbing,
+        constants=np.array([*build.constants, 0.0]),
+        out=np.zeros(8),
+    )
+    return Model(
+        scenario=scenario,
+        scene=scene,
+        courses=found,
+        edges=edges,
+        times=record_times(scenario.duration, scenario.record_period),
+        drives=tuple(moving),
+        valves=tuple(valves),
+        order=order,
+        contacts=tuple(scenario.contact_places),
+        oil=oil,
+        cylinders=cylinders,
+        driven_rows={name: int(order[n]) for n, name in enumerate((*rigid, *linkage.cranks), 2 * len(scenario.held_pins))},
+        states=states + LOSSES,
+    )
+
+
+def _bodies(scenario: Scenario) -> Records:
+    """Bodies with their weight."""
+    found = np.zeros(len(scenario.linkage.bodies), arrays.BODY)
+    gx, gy = scenario.gravity
+    for record, body in zip(found, scenario.linkage.bodies.values(), strict=True):
+        record["light"], record["light_turn"] = 1.0 / body.mass, 1.0 / body.inertia
+        record["weight_x"], record["weight_y"] = body.mass * gx, body.mass * gy
+        record["x0"], record["y0"] = body.centre
+    return found
+
+
+def _points(build: _Builder, linkage: Linkage) -> Records:
+    """All points that were asked for; those of the ground stand still."""
+    found = np.zeros(len(build.points), arrays.POINT)
+    for record, (body, arm) in zip(found, build.points, strict=True):
+        record["body"] = body
+        record["arm_x"], record["arm_y"] = arm
+        if body < 0:
+            record["x"], record["y"] = arm
+    return found
+
+
+class _Joint(NamedTuple):
+    """A joint before its rows are numbered: its record's numbers, and the two bodies that its rows are of."""
+
+    kind: int
+    first: int
+    second: int
+    bodies: tuple[int, int]
+    rows: int
+    course: int = -1
+    length: float = 0.0
+    angle: float = 0.0
+    ratio: float = 0.0
+
+
+def _held(scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Mapping[str, int]) -> list[_Joint]:
+    """All that is held, in the order of `reactions.HeldJoints`."""
+    linkage, number = scenario.linkage, build.numbers
+    found = []
+    for name in scenario.held_pins:
+        pin = linkage.pins[name]
+        first, second = build.point(pin.first, pin.first_point), build.point(pin.second, pin.second_point)
+        found.append(_Joint(arrays.PIN, first, second, (number[pin.second], number[pin.first]), 2))
+    for name in rigid:
+        one = linkage.actuators[name]
+        foot, head = build.point(one.foot, one.foot_point), build.point(one.head, one.head_point)
+        bodies, length = (number[one.head], number[one.foot]), one.start_length
+        found.append(_Joint(arrays.ACTUATOR, foot, head, bodies, 1, course.get(name, -1), length))
+    for name, crank in linkage.cranks.items():
+        body = number[crank.body]
+        found.append(_Joint(arrays.CRANK, body, -1, (body, -1), 1, course.get(name, -1)))
+    for slide in scenario.guided_linkage.slides.values():
+        carrier = build.point(slide.against, slide.point)
+        guided = build.point(slide.body, slide.point)
+        bodies = number[slide.body], number[slide.against]
+        found.append(
+            _Joint(arrays.SLIDE, carrier, guided, bodies, slide.conditions, angle=slide.direction)
+        )
+    for gear in linkage.gears.values():
+        bodies = number[gear.second], number[gear.first]
+        found.append(_Joint(arrays.GEAR, bodies[1], bodies[0], bodies, 1, ratio=gear.ratio))
+    return found
+
+
+def _joints(
+    scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Mapping[str, int]
+) -> tuple[Records, Whole, list[_Joint]]:
+    """Joints with their rows, numbered so that those of neighbours lie close; and the rows as the linkage has them.
+
+    The order is that of Cuthill and McKee, reversed: factors then have next to nothing outside of a band.
+    """
+    held = _held(scenario, build, rigid, course)
+    touch = np.array([[bool({*one.bodies} & {*other.bodies} - {-1}) for other in held] for one in held])
+    order = reverse_cuthill_mckee(csr_array(touch), symmetric_mode=True).tolist() if held else []
+    first, row = dict[int, int](), 0
+    for n in order:
+        first[n] = row
+        row += held[n].rows
+    found = np.zeros(len(held), arrays.JOINT)
+    for n, (record, one) in enumerate(zip(found, held, strict=True)):
+        record["kind"], record["row"], record["first"], record["second"] = one.kind, first[n], one.first, one.second
+        record["course"], record["conditions"] = one.course, one.rows
+        record["length"], record["angle"], record["ratio"] = one.length, one.angle, one.ratio
+    rows = [first[n] + k for n, one in enumerate(held) for k in range(one.rows)]
+    return found, np.array(rows, np.int64), held
+
+
+def _rows(joints: Records, held: Sequence[_Joint]) -> tuple[Records, Records, Matrix]:
+    """Rows with their bodies and envelope, pairs of rows that share a body, and room for the square matrix."""
+    rows = np.zeros(sum(one.rows for one in held), arrays.ROW)
+    for joint, one in zip(joints, held, strict=True):
+        for k in range(one.rows):
+            rows[joint["row"] + k]["body"], rows[joint["row"] + k]["other"] = one.bodies
+    bodies = [(int(row["body"]), int(row["other"])) for row in rows]
+    pairs = [
+        (i, j, side, other)
+        for i, mine in enumerate(bodies)
+        for j, theirs in enumerate(bodies[: i + 1])
+        for side in (0, 1)
+        for other in (0, 1)
+        if mine[side] == theirs[other] >= 0
+    ]
+    for i in range(len(rows)):
+        rows[i]["first"] = min([i, *(j for k, j, _, _ in pairs if k == i)])
+    found = np.zeros(len(pairs), arrays.PAIR)
+    for record, pair in zip(found, pairs, strict=True):
+        record["i"], record["j"], record["side"], record["other"] = pair
+    return rows, found, np.zeros((len(rows), len(rows)))
+
+
+def _contact(record: Any, place: ContactPlace, build: _Builder, linkage: Linkage, states: int) -> int:
+    """Fill in a contact; how many states there are with that of its friction law."""
+    bearing, contact = place.contact.bearing, place.contact
+    record["first"] = build.point(place.bore, place.bore_point)
+    record["second"] = build.point(place.journal, place.journal_point)
+    record["slot"] = bearing.is_slot
+    record["law"], record["constants"] = build.law(law_source(contact))
+    record["clearance"] = bearing.clearance
+    # distance of the contact point from the bore's centre at no depth, less the clearance in a slot
+    record["radius"] = bearing.contact_arms(0.0)[1] if bearing.is_slot else bearing.contact_arms(0.0)[0]
+    record["angle"] = place.axes(linkage)
+    record["forgets"] = contact.normal.forgets
+    record["renews"] = contact.normal.forgets or asks_for_mass(contact)
+    record["state"] = states if contact.friction.has_state else -1
+    record["xx"] = record["yy"] = 1.0
+    return states + contact.friction.has_state
+
+
+def _cylinder(record: Any, one: PreloadedCylinder, build: _Builder, course: int, state: int) -> None:
+    actuator, model = one.actuator, one.model
+    record["foot"] = build.point(actuator.foot, actuator.foot_point)
+    record["head"] = build.point(actuator.head, actuator.head_point)
+    record["course"], record["state"] = course, state
+    record["bore"], record["rod_side"] = model.bore_area, model.rod_side_area
+    record["oil_length"], record["rod_length"] = model.oil_length, model.rod_side_length
+    record["modulus"], record["supply"], record["tank"] = (
+        model.bulk_modulus,
+        model.system_pressure,
+        model.tank_pressure,
+    )
+    record["flow_factor"], record["damping"] = model.flow_factor, model.damping
+    record["hose"], record["rod_hose"] = model.hose_volume, model.rod_side_hose_volume
+    record["length0"] = actuator.start_length
+
+
+def _oil(record: Any, one: PreloadedActuator, build: _Builder, course: int) -> None:
+    actuator, model = one.actuator, one.model
+    record["foot"] = build.point(actuator.foot, actuator.foot_point)
+    record["head"] = build.point(actuator.head, actuator.head_point)
+    record["course"] = course
+    record["modulus_area"], record["oil_length"] = model.bulk_modulus * model.bore_area, model.oil_length
+    record["time"], record["natural"] = model.damping_time, one.natural_length(0.0)
+
+
+def _loads(scenario: Scenario, build: _Builder) -> Records:
+    found = np.zeros(len(scenario.acting_loads), arrays.LOAD)
+    for record, (name, load) in zip(found, scenario.acting_loads.items(), strict=True):
+        against = load.against(name)
+        forced = isinstance(load, Load)
+        record["point"] = build.point(load.body, load.point if forced else (0.0, 0.0))
+        record["origin"] = build.point(against, load.origin if forced else (0.0, 0.0))
+        record["moment"] = not forced
+        record["law"], record["constants"] = build.law(load_source(load))
+    return found
+
+
+def _bushings(scenario: Scenario, build: _Builder) -> Records:
+    pins = {name: pin for name, pin in scenario.pins.items() if isinstance(pin, BushingPin)}
+    found = np.zeros(len(pins), arrays.BUSHING)
+    for record, (name, pin) in zip(found, pins.items(), strict=True):
+        place = scenario.linkage.pins[name]
+        record["first"] = build.point(place.first, place.first_point)
+        record["second"] = build.point(place.second, place.second_point)
+        (record["kx"], record["ky"]), (record["cx"], record["cy"]) = pin.stiffness, pin.damping
+        record["kt"], record["ct"] = pin.rotational_stiffness, pin.rotational_damping
+    return found
+
+
+def _rubbing(scenario: Scenario, build: _Builder, joints: Records) -> Records:
+    pins, held = scenario.friction_pins, list(scenario.held_pins)
+    found = np.zeros(len(pins), arrays.RUBBING)
+    for record, (name, pin) in zip(found, pins.items(), strict=True):
+        place = scenario.linkage.pins[name]
+        record["row"] = joints[held.index(name)]["row"]
+        record["body"], record["other"] = build.numbers[place.second], build.numbers[place.first]
+        assert pin.friction is not None  # pins without are left out
+        record["law"], record["constants"] = build.law(friction_source(pin.friction))
+        record["radius"] = pin.radius
+    return found

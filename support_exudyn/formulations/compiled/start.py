@@ -1,0 +1,74 @@
+"""The state with which a run begins, and how large its errors may be."""
+
+import math
+
+import numpy as np
+
+from support_exudyn.formulations.compiled.arrays import LOSSES, Vector
+from support_exudyn.formulations.compiled.equilibrium import settle
+from support_exudyn.formulations.compiled.setup import Model
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.scenario.scenario import Scenario
+
+PLAY = 1e-3  # [m], stands for that of a machine without any
+SLOWEST = 1e-3  # [m/s], of what journals may do in their bores, for scenes in which nothing falls
+SHORTEST_ARM = 1e-3  # [m], of bodies whose points all lie at their centre
+SMALL = 1e-9  # normal and friction forces by which the deflection of a friction law is scaled [m]
+
+
+def first_state(model: Model) -> Vector:
+    """The state at the start. Raises SimulationError if a static equilibrium is asked for and not found."""
+    scenario, y = model.scenario, np.zeros(model.states)
+    count = 3 * len(scenario.linkage.bodies)
+    for record, one in zip(model.scene.cylinders, model.cylinders.values(), strict=True):
+        y[record["state"] : record["state"] + 2] = one.start_pressures
+    if scenario.start == "settled":
+        settle(model, y)
+    else:
+        y[count : 2 * count] = _velocities(scenario)
+    return y
+
+
+def _velocities(scenario: Scenario) -> Vector:
+    """Velocities of all bodies at the start: the machine's, with the drive's, all pins ideal."""
+    linkage = scenario.linkage
+    velocity = np.array([part for body in linkage.bodies.values() for part in (*body.velocity, body.spin)])
+    if all(drive.initial_speed == 0.0 for drive in scenario.drives_in_use):
+        return velocity
+    closed = kinetics_of(linkage)
+    still = np.zeros_like(velocity)
+    missing = closed.rates(lambda name: scenario.drive_of(name).initial_speed) - closed.rows(still) @ velocity
+    return np.asarray(velocity + closed.respond(still, still, missing)[0])
+
+
+def error_weights(model: Model, tolerance: float, acceleration: float) -> Vector:
+    """One over the largest error of a step, for each component of the state but the work.
+
+    `tolerance` times: the smallest play, for places; the speed of a fall through half of it, for velocities;
+    the energy of all bodies at that speed, for losses; the pressure that carries their weight, for pressures.
+
+    Arguments:
+        acceleration: of the fastest body at the start [m/s^2], besides gravity's.
+    """
+    scenario = model.scenario
+    bodies = scenario.linkage.bodies.values()
+    play = min((place.play for place in scenario.contact_places.values()), default=PLAY)
+    pull = math.hypot(*scenario.gravity) + acceleration
+    speed = max(math.sqrt(pull * play), SLOWEST)
+    arms = np.full(len(bodies), SHORTEST_ARM)
+    for point in model.scene.points:
+        if point["body"] >= 0:
+            arms[point["body"]] = max(arms[point["body"]], math.hypot(point["arm_x"], point["arm_y"]))
+    reach = np.column_stack([np.ones(len(bodies)), np.ones(len(bodies)), arms]).ravel()
+    mass = sum(body.mass for body in bodies)
+    found = np.zeros(model.states)
+    found[: reach.size] = reach / play
+    found[reach.size : 2 * reach.size] = reach / speed
+    for record in model.scene.cylinders:
+        pressure = max(mass * pull / record["bore"], record["supply"])
+        found[record["state"] : record["state"] + 2] = 1.0 / pressure
+    for record, place in zip(model.scene.contacts, scenario.contact_places.values(), strict=True):
+        if record["state"] >= 0:
+            found[record["state"]] = abs(place.contact.friction(0.0, 1.0, SMALL)) / SMALL
+    found[-LOSSES:] = 1.0 / (mass * speed**2)
+    return np.asarray(found / tolerance)
