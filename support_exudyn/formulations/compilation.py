@@ -27,6 +27,8 @@ except ImportError:  # Windows
 fcntl: Any = _fcntl
 SECONDS = {"reduced": 10, "compiled": 10, "tree": 5}  # that compiling a formulation takes on a quiet machine of 2020
 CONSTANTS_OF = (contact_events, contact)  # modules of which compiled functions use constants
+NO_ALLOCATION = f"{__name__.rpartition('.')[0]}.compiled."  # its functions are given all arrays that they fill
+UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
@@ -89,17 +91,19 @@ def _inner(function: Function, **options: bool) -> Function:
     Without the wrappers for calls from Python and C, which take a third of it.
     """
     options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    options |= UNCOUNTED
     return numba.njit(error_model="numpy", **options)(function)  # type: ignore[no-any-return]
 
 
 def _kept(function: Function) -> Function:
+    options = UNCOUNTED if function.__module__.startswith(NO_ALLOCATION) else {}
     try:
-        dispatcher: Any = numba.njit(cache=True, error_model="numpy")(function)
+        dispatcher: Any = numba.njit(cache=True, error_model="numpy", **options)(function)
         kept = _is_kept_only_while_unchanged(dispatcher)
     except RuntimeError:  # neither beside the program nor in a home may files be written: compiled each time
         kept = False
     if not kept:
-        dispatcher = numba.njit(error_model="numpy")(function)
+        dispatcher = numba.njit(error_model="numpy", **options)(function)
     return dispatcher  # type: ignore[no-any-return]
 
 

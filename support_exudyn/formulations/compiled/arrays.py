@@ -56,8 +56,9 @@ CYLINDER = _record(
     "foot head course state",
     "bore rod_side oil_length rod_length modulus supply flow_factor tank hose rod_hose damping length0 force work loss",
 )
-# a force on point `point` against `origin`, or a moment on the body of `point` against that of `origin`
-LOAD = _record("point origin moment constants hung", "law fx fy work loss")
+# a force on point `point` against `origin`, or a moment on the body of `point` against that of `origin`. hangs: by
+# what spring what it brings along hangs over its point, while a static equilibrium is looked for; else 0
+LOAD = _record("point origin moment constants", "law hangs fx fy work loss")
 BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")
 # friction of an ideal pin, of which `row` is the first row
 RUBBING = _record("row body other constants", "law radius moment")
@@ -84,6 +85,49 @@ class Scene(NamedTuple):
     constants: Vector
     out: Vector
 
+
+class Scratch(NamedTuple):
+    """Room that a run works in.
+
+    right: a number a row. end, probe, slope: states. path: of the interpolation. rates: of a step's stages.
+    now, then: contacts at its start and end. lines, answers, gram, square, sides, sizes: see `masses`.
+    """
+
+    right: Vector
+    end: Vector
+    probe: Vector
+    slope: Vector
+    path: Matrix
+    rates: Matrix
+    now: Records
+    then: Records
+    lines: Matrix
+    answers: Matrix
+    gram: Matrix
+    square: Matrix
+    sides: Matrix
+    sizes: Vector
+
+
+def scratch(scene: Scene, states: int) -> Scratch:
+    """Room for a scene with so many states."""
+    rows, most = scene.rows.size, 2 + scene.contacts.size
+    across = np.zeros((most, 3 * scene.bodies.size))
+    square = np.zeros((most, most))
+    state = np.zeros(states)
+    return Scratch(
+        np.zeros(rows),
+        *(state.copy() for _ in range(3)),
+        np.zeros((5, states)),
+        np.zeros((STAGES, states)),
+        *(scene.contacts.copy() for _ in range(2)),
+        *(across.copy() for _ in range(2)),
+        *(square.copy() for _ in range(3)),
+        np.zeros(most),
+    )
+
+
+STAGES = 7  # of a step
 
 # what a run counts and where it stopped
 (

@@ -7,21 +7,23 @@ halved. So any drive is followed as its own, and its speed and acceleration are 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial import chebyshev, polynomial
+from numpy.polynomial import chebyshev
 
 from support_exudyn.formulations.compiled.arrays import COURSE, PIECE, Matrix, Records, Vector
 from user_forces.lawful import LawError
 
 DEGREE = 8  # of a piece: powers of the place, from -1 to 1, lose two digits by it
 HALVINGS = 24
-EXACT = 8.0  # roundings of the largest value that a piece may be off by
+EXACT = 16.0  # roundings of the function's largest value that a piece may be off by
 ROUGH = 1e-9  # share of it that one may be off by that has been halved so often: it has a kink that nobody told
 NODES = chebyshev.chebpts1(DEGREE + 1)
-TO_POWERS = np.linalg.inv(polynomial.polyvander(NODES, DEGREE))
+# the polynomial through values there, as Chebyshev's series: by sums of cosines, which lose no digits
+TO_SERIES = 2.0 / (DEGREE + 1) * np.cos(np.outer(np.arange(DEGREE + 1), np.arccos(NODES)))
+TO_SERIES[0] /= 2.0
 BETWEEN = np.array([-0.99, -0.37, 0.03, 0.51, 0.995])  # where a piece is looked at
 
 TimeFunction = Callable[[float], float]
@@ -48,11 +50,12 @@ def courses(functions: Sequence[TimeFunction], edges: Sequence[float]) -> Course
     pieces: list[tuple[float, float]] = []
     coefficients: list[Vector] = []
     segments = []
+    sizes = [_size(function, edges) for function in functions]
     for begin, end in zip(edges, edges[1:], strict=False):
         segment = np.zeros(len(functions), COURSE)
-        for record, function in zip(segment, functions, strict=True):
+        for record, function, size in zip(segment, functions, sizes, strict=True):
             record["low"] = len(pieces)
-            for piece, powers in _fitted(function, begin, end):
+            for piece, powers in _fitted(function, begin, end, size):
                 pieces.append(piece)
                 coefficients.append(powers)
             record["high"] = len(pieces)
@@ -65,10 +68,19 @@ def courses(functions: Sequence[TimeFunction], edges: Sequence[float]) -> Course
     return Courses(found, np.ascontiguousarray(table[:, :used]), segments)
 
 
+def _size(function: TimeFunction, edges: Sequence[float]) -> float:
+    """The largest value of a function, as far as it shows at a few times of every segment."""
+    spans = zip(edges, edges[1:], strict=False)
+    return max(abs(function(low + 0.5 * (high - low) * (x + 1.0))) for low, high in spans for x in NODES.tolist())
+
+
 def _fitted(
-    function: TimeFunction, begin: float, end: float
-) -> Iterable[tuple[tuple[float, float], Vector]]:
-    """The pieces of a function between two times [s], in order: begin and half length, and coefficients."""
+    function: TimeFunction, begin: float, end: float, size: float
+) -> Iterator[tuple[tuple[float, float], Vector]]:
+    """The pieces of a function between two times [s], in order: begin and half length, and coefficients.
+
+    size: of its largest value.
+    """
     waiting = [(begin, end, 0)]
     while waiting:
         low, high, depth = waiting.pop()
@@ -76,24 +88,23 @@ def _fitted(
         values = np.array([function(low + half * (x + 1.0)) for x in NODES.tolist()])
         if not np.isfinite(values).all():
             raise LawError(f"a drive or a valve is not finite between {low:.9g} and {high:.9g} s")
-        powers = TO_POWERS @ values
-        largest = float(np.abs(values).max())
-        powers[np.abs(powers) < 4.0 * math.ulp(largest)] = 0.0
+        series = TO_SERIES @ values
+        rounding = math.ulp(max(size, float(np.abs(values).max())))
+        series[np.abs(series) < rounding] = 0.0
         there = np.array([function(low + half * (x + 1.0)) for x in BETWEEN.tolist()])
-        wrong = float(np.abs(polynomial.polyval(BETWEEN, powers) - there).max())
-        if wrong <= EXACT * (math.ulp(largest) + math.ulp(max(abs(low), abs(high))) * _slope(powers) / half):
+        wrong = float(np.abs(chebyshev.chebval(BETWEEN, series) - there).max())
+        steepest = float((np.abs(series) * np.arange(series.size) ** 2).sum()) / half
+        powers = np.zeros(DEGREE + 1)
+        found = chebyshev.cheb2poly(series)
+        powers[: found.size] = found
+        if wrong <= EXACT * (rounding + math.ulp(high) * steepest):
             yield (low, half), powers
         elif depth < HALVINGS:
             middle = low + half
             waiting += [(middle, high, depth + 1), (low, middle, depth + 1)]
-        elif wrong <= ROUGH * largest:
+        elif wrong <= ROUGH * size:
             yield (low, half), powers
         else:
             raise LawError(
                 f"a drive or a valve jumps by {wrong:.3g} near {low:.9g} s; allowed: jumps of the speed at its breaks"
             )
-
-
-def _slope(powers: Vector) -> float:
-    """The largest that the derivative by the place may be."""
-    return float(np.abs(powers[1:] * np.arange(1, powers.size)).sum())

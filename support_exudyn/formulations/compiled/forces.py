@@ -11,7 +11,7 @@ from user_forces.contact import SHALLOWEST, SMALLEST
 from user_forces.lawful import ROUNDING
 
 
-@compiled
+@inlined
 def observe(scene: Scene, n: int, y: Vector) -> None:
     """Write how a journal stands in its bore and moves there, from directions and places of its bodies."""
     contact = scene.contacts[n]
@@ -49,7 +49,7 @@ def observe(scene: Scene, n: int, y: Vector) -> None:
     contact.x, contact.y, contact.vx, contact.vy, contact.nx, contact.ny = x, y_, vx, vy, nx, ny
 
 
-@compiled
+@inlined
 def effective_mass(scene: Scene, n: int) -> float:
     """Mass [kg] that moves along the eccentricity, by the remembered inverse effective mass, in the bore's axes."""
     contact = scene.contacts[n]
@@ -72,7 +72,7 @@ def axes_of(scene: Scene, n: int) -> tuple[float, float]:
     return c, s
 
 
-@compiled
+@inlined
 def press(scene: Scene, n: int, y: Vector, slope: Vector) -> None:
     """Write the force of a contact that has been observed, and the rate of its friction law's state into `slope`.
 
@@ -217,10 +217,12 @@ def press_loads(scene: Scene, t: float, y: Vector) -> None:
     """Forces, moments and powers of loads."""
     for n in range(scene.loads.size):
         one = scene.loads[n]
-        if one.hung != 0:
-            continue
         point, origin = scene.points[one.point], scene.points[one.origin]
         constants = scene.constants[one.constants :]
+        if one.hangs != 0.0:
+            one.fx, one.fy = 0.0, -one.hangs * (point.y - origin.y)
+            push_apart(scene, one.origin, one.point, one.fx, one.fy)
+            continue
         if one.moment != 0:
             turn = (y[3 * point.body + 2] if point.body >= 0 else 0.0) - (
                 y[3 * origin.body + 2] if origin.body >= 0 else 0.0

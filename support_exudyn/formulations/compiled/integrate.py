@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 from support_exudyn.formulations.compilation import compiled, entry
 from support_exudyn.formulations.compiled.arrays import (
     ACCEPTED,
@@ -22,17 +20,19 @@ from support_exudyn.formulations.compiled.arrays import (
     STUCK,
     TOO_MANY_IMPACTS,
     TOO_MANY_STEPS,
+    STAGES,
     Matrix,
     Records,
     Scene,
+    Scratch,
     Vector,
 )
 from support_exudyn.formulations.compiled.events import first_event, look
 from support_exudyn.formulations.compiled.masses import renew_mass
 from support_exudyn.formulations.compiled.motion import divide, respond
 from support_exudyn.formulations.compiled.step import (
-    STAGES,
     advance,
+    close_joints,
     evaluate,
     fit,
     forget_friction,
@@ -63,6 +63,13 @@ def quantity(scene: Scene, n: int, which: int) -> float:
     if which == DEPTH_:
         return float(scene.contacts[n].depth)
     return float(scene.contacts[n].push) if which == PUSH_ else float(scene.contacts[n].rate)
+
+
+@compiled
+def copy_contacts(source: Records, target: Records) -> None:
+    """Copy all contacts."""
+    for n in range(source.size):
+        target[n] = source[n]
 
 
 @compiled
@@ -273,8 +280,7 @@ def integrate(
     most_steps: int,
     pause: int,
     y: Vector,
-    k: Matrix,
-    now: Records,
+    room: Scratch,
     rows: Matrix,
     onsets: Matrix,
     report: Vector,
@@ -286,21 +292,27 @@ def integrate(
         weights: one over the largest error of a step, for each component.
         going: with the first step in NEXT_STEP; after a segment or a pause as it was left.
         most_steps: before giving up. pause: after so many steps it returns PAUSED, to be called again.
-        y: the state at the start; at the end when it returns. k: rates, of which k[0] is that at a pause.
-        now: contacts at the start of a step.
+        y: the state at the start; at the end when it returns.
+        room: after a pause as it was left.
         rows, onsets, report: are filled.
     """
     states, count = y.size, scene.contacts.size
-    path, right = np.empty((5, states)), np.empty(scene.rows.size)
-    end, probe, slope = np.empty(states), np.empty(states), np.empty(states)
-    then = now.copy()
+    right, end, probe, slope, path, k = (
+        room.right,
+        room.end,
+        room.probe,
+        room.slope,
+        room.path,
+        room.rates,
+    )
+    now, then = room.now, room.then
     h, error_before, t = going[NEXT_STEP], 1e-4, begin
     if going[MIDST] != 0.0:
         t, error_before = going[AT], going[LAST_ERROR]
     else:
         forget_friction(scene)
         evaluate(scene, t, y, k[0], right)
-        now[:] = scene.contacts
+        copy_contacts(scene.contacts, now)
     while t < stop:
         if report[STEPS] >= pause:
             going[MIDST], going[AT], going[NEXT_STEP], going[LAST_ERROR] = 1.0, t, h, error_before
@@ -321,7 +333,7 @@ def integrate(
         if not error <= 1.0:
             h *= min(factor(error, 1.0), 1.0)
             continue
-        then[:] = scene.contacts
+        copy_contacts(scene.contacts, then)
         fit(h, y, end, k, path)
         n, what, low, high = first_event(scene, h, now, then, path, probe, slope)
         if what == TOO_LONG:
@@ -331,12 +343,12 @@ def integrate(
         error_before = max(error, 1e-4)
         was_cut = n >= 0 and now[n].push < 0.0
         if what != NOTHING and low < 1.0:
-            scene.contacts[:] = then
+            copy_contacts(then, scene.contacts)
             h = land(scene, n, t, h, what, low, high, now, y, k, end, weights, right, report)
-            then[:] = scene.contacts
+            copy_contacts(scene.contacts, then)
             fit(h, y, end, k, path)
             last = h >= stop - t
-        scene.contacts[:] = then
+        copy_contacts(then, scene.contacts)
         for m in range(count):
             if then[m].closed != 0.0:
                 first, final = math.hypot(now[m].normal, now[m].friction), size(scene, m)
@@ -351,24 +363,27 @@ def integrate(
         written = int(report[RECORDS])
         while written < times.size and times[written] <= until:
             within(path, min(1.0, (times[written] - t) / h), 0, states, probe)
-            scene.contacts[:] = then
+            copy_contacts(then, scene.contacts)
+            close_joints(scene, times[written], probe, right)
             record(scene, times[written], probe, slope, right, rows, written)
             written += 1
         report[RECORDS] = written
-        scene.contacts[:] = then
+        copy_contacts(then, scene.contacts)
         t = stop if last else t + h
-        y[:] = end
+        for i in range(states):
+            y[i] = end[i]
         if what == NOTHING:
-            k[0] = k[STAGES - 1]
-            now[:] = then
+            for i in range(states):
+                k[0, i] = k[STAGES - 1, i]
+            copy_contacts(then, now)
         else:
             evaluate(scene, t, y, slope, right)  # places and factors are those of what was looked at last
             if not happen(scene, n, what, t, y, onsets, report):
                 return TOO_MANY_IMPACTS
             if what in (IMPACT, RETURN):
-                renew_masses(scene, n, what, t, y, onsets, right, report)
+                renew_masses(scene, room, n, what, t, y, onsets, report)
             evaluate(scene, t, y, k[0], right)
-            now[:] = scene.contacts
+            copy_contacts(scene.contacts, now)
             # whatever rounding says
             if what == RETURN:
                 now[n].rate = max(0.0, now[n].rate)
@@ -381,51 +396,51 @@ def integrate(
 
 @compiled
 def renew_masses(
-    scene: Scene, n: int, what: int, t: float, y: Vector, onsets: Matrix, right: Vector, report: Vector
+    scene: Scene, room: Scratch, n: int, what: int, t: float, y: Vector, onsets: Matrix, report: Vector
 ) -> None:
     """Renew the mass that the law of a contact is told, and of others that have impacted at the same instant."""
-    count, coordinates = scene.contacts.size, 3 * scene.bodies.size
-    rows, answers = np.empty((2 + count, coordinates)), np.empty((2 + count, coordinates))
     if what == RETURN:
         if scene.contacts[n].renews != 0:
-            renew_mass(scene, n, y, right, rows, answers)
+            renew_mass(scene, room, n, y)
         return
     for i in range(int(report[IMPACTS]) - 1, -1, -1):
         if onsets[i, 1] != t:
             break
         m = int(onsets[i, 0])
         if scene.contacts[m].renews != 0:
-            renew_mass(scene, m, y, right, rows, answers)
+            renew_mass(scene, room, m, y)
 
 
 @entry
-def begin_run(scene: Scene, y: Vector, rows: Matrix) -> float:
+def begin_run(scene: Scene, room: Scratch, y: Vector, rows: Matrix) -> float:
     """Write the first record at 0 s, with the masses that contacts are told then; see `motion.factor`."""
-    slope, right = np.empty(y.size), np.empty(scene.rows.size)
+    slope, right = room.slope, room.right
     least = evaluate(scene, 0.0, y, slope, right)
-    count, coordinates = scene.contacts.size, 3 * scene.bodies.size
-    space, answers = np.empty((2 + count, coordinates)), np.empty((2 + count, coordinates))
+    count = scene.contacts.size
     for n in range(count):
         contact = scene.contacts[n]
         if contact.depth > 0.0:
             contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
     for n in range(count):
-        renew_mass(scene, n, y, right, space, answers)
+        renew_mass(scene, room, n, y)
     record(scene, 0.0, y, slope, right, rows, 0)
     return least
 
 
 @entry
-def jump(scene: Scene, t: float, y: Vector, jumps: Vector) -> Vector:
-    """Change velocities as speeds of drives jump at t [s], jumps by course; impulses of all rows, against them."""
-    slope, right = np.empty(y.size), np.empty(scene.rows.size)
+def jump(scene: Scene, room: Scratch, t: float, y: Vector, jumps: Vector) -> None:
+    """Change velocities as speeds of drives jump at t [s], jumps by course.
+
+    Impulses of all rows, against them, stand in `room.right` then.
+    """
+    slope, right = room.slope, room.right
     forget_friction(scene)
     evaluate(scene, t, y, slope, right)
-    right[:] = 0.0
+    for n in range(right.size):
+        right[n] = 0.0
     for n in range(scene.joints.size):
         joint = scene.joints[n]
         if joint.course >= 0:
             right[joint.row] = -jumps[joint.course]
     divide(scene, right)
     respond(scene, right, y, 3 * scene.bodies.size)
-    return right

@@ -5,10 +5,8 @@ That module says the same of numpy's matrices; here it is compiled, for every im
 
 import math
 
-import numpy as np
-
 from support_exudyn.formulations.compilation import compiled
-from support_exudyn.formulations.compiled.arrays import Matrix, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import Matrix, Scene, Scratch, Vector
 from support_exudyn.formulations.compiled.forces import axes_of
 from support_exudyn.formulations.compiled.motion import divide, rate_of, respond
 from support_exudyn.mechanics.pressed_pins import GIVES, NEAR, SAME
@@ -17,7 +15,8 @@ from support_exudyn.mechanics.pressed_pins import GIVES, NEAR, SAME
 @compiled
 def row_of(scene: Scene, n: int, ux: float, uy: float, out: Vector) -> None:
     """Write what a contact's eccentricity, or its slip, along a direction gains by velocities of all bodies."""
-    out[:] = 0.0
+    for i in range(out.size):
+        out[i] = 0.0
     contact = scene.contacts[n]
     bore, journal = scene.points[contact.first], scene.points[contact.second]
     if journal.body >= 0:
@@ -97,14 +96,21 @@ def solved(square: Matrix, right: Matrix, count: int, columns: int) -> None:
 
 
 @compiled
-def renew_mass(scene: Scene, n: int, v: Vector, right: Vector, rows: Matrix, answers: Matrix) -> None:
+def renew_mass(scene: Scene, room: Scratch, n: int, v: Vector) -> None:
     """Remember how easily a journal moves against its bore now, held by what else is pressed.
 
     Arguments:
         v: the state, whose velocities tell which corners land at once.
-        right, rows, answers: scratch; rows and answers (2 + contacts, coordinates).
     """
     count = scene.contacts.size
+    rows, answers, gram, square, sides, sizes = (
+        room.lines,
+        room.answers,
+        room.gram,
+        room.square,
+        room.sides,
+        room.sizes,
+    )
     contact = scene.contacts[n]
     row_of(scene, n, 1.0, 0.0, rows[0])
     row_of(scene, n, 0.0, 1.0, rows[1])
@@ -115,8 +121,7 @@ def renew_mass(scene: Scene, n: int, v: Vector, right: Vector, rows: Matrix, ans
             row_of(scene, m, other.nx, other.ny, rows[used])
             used += 1
     for k in range(used):
-        answer(scene, rows[k], right, answers[k])
-    gram = np.zeros((2 + count, 2 + count))
+        answer(scene, rows[k], room.right, answers[k])
     for i in range(used):
         for j in range(used):
             total = 0.0
@@ -124,12 +129,12 @@ def renew_mass(scene: Scene, n: int, v: Vector, right: Vector, rows: Matrix, ans
                 total += rows[i, k] * answers[j, k]
             gram[i, j] = total
     xx, xy, yy = gram[0, 0], gram[0, 1], gram[1, 1]
-    square, sides, sizes = gram.copy(), gram.copy(), gram[0].copy()
     moving = 0
     for k in range(2, used):
         if gram[k, k] > 0.0:
             sizes[moving] = math.sqrt(gram[k, k])
-            rows[2 + moving] = rows[k]
+            for j in range(rows.shape[1]):
+                rows[2 + moving, j] = rows[k, j]
             for j in range(used):
                 gram[2 + moving, j] = gram[k, j]
             for j in range(used):
@@ -151,18 +156,17 @@ def renew_mass(scene: Scene, n: int, v: Vector, right: Vector, rows: Matrix, ans
     contact.xy = (c * c - s * s) * xy + c * s * (yy - xx)
     contact.yy = s * s * xx - 2.0 * c * s * xy + c * c * yy
     if contact.slot != 0 and moving > 0:
-        mass = mass_together(scene, n, v, rows, gram, moving)
+        mass = mass_together(scene, room, n, v, moving)
         if mass > 0.0:
             contact.yy = 1.0 / mass
 
 
 @compiled
-def mass_together(scene: Scene, n: int, v: Vector, rows: Matrix, gram: Matrix, moving: int) -> float:
+def mass_together(scene: Scene, room: Scratch, n: int, v: Vector, moving: int) -> float:
     """The mass of a corner that impacts together with others, see `pressed_pins.struck_together`; 0: none does."""
     contact = scene.contacts[n]
     coordinates = 3 * scene.bodies.size
-    square, right = gram.copy(), gram.copy()
-    sizes = gram[0].copy()
+    rows, gram, square, right, sizes = room.lines, room.gram, room.square, room.sides, room.sizes
     nx, ny = contact.nx, contact.ny
     closing = 0.0
     for i in range(coordinates):

@@ -20,15 +20,13 @@ from support_exudyn.formulations.compiled.arrays import (
     STUCK,
     TOO_MANY_IMPACTS,
     TOO_MANY_STEPS,
-    Matrix,
-    Vector,
+    scratch,
 )
 from support_exudyn.formulations.compiled.integrate import AT, GOING, MIDST, NEXT_STEP, begin_run, integrate, jump
 from support_exudyn.formulations.compiled.motion import SINGULAR
 from support_exudyn.formulations.compiled.outcome import record_width, trajectory
 from support_exudyn.formulations.compiled.setup import Model, model_of
 from support_exudyn.formulations.compiled.start import error_weights, first_state
-from support_exudyn.formulations.compiled.step import STAGES
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse, Outcome
@@ -51,12 +49,13 @@ class _Run:
     def __init__(self, model: Model) -> None:
         self.model, self.scenario = model, model.scenario
         self.y = first_state(model)
+        self.room = scratch(model.scene, self.y.size)
         self.rows = np.zeros((model.times.size, record_width(model)))
         self.onsets = np.empty((MOST_IMPACTS if model.contacts else 0, 5))
         self.report = np.zeros(REPORT)
         self.impulses: list[Impulse] = []
         self.code = FINISHED
-        if not begin_run(model.scene, self.y, self.rows) > SINGULAR:
+        if not begin_run(model.scene, self.room, self.y, self.rows) > SINGULAR:
             self.code = DEAD_CENTRE
         self.report[RECORDS] = 1.0
 
@@ -69,7 +68,6 @@ class _Run:
         weights = error_weights(model, scenario.solver.tolerance, acceleration)
         going = np.zeros(GOING)
         going[NEXT_STEP] = FIRST_STEP
-        rates, now = np.zeros((STAGES, self.y.size)), model.scene.contacts.copy()
         pause = AT_ONCE
         for segment, begin, end in zip(
             model.courses.segments, model.edges, model.edges[1:], strict=False
@@ -89,8 +87,7 @@ class _Run:
                     scenario.solver.most_steps,
                     pause,
                     self.y,
-                    rates,
-                    now,
+                    self.room,
                     self.rows,
                     self.onsets,
                     self.report,
@@ -113,12 +110,12 @@ class _Run:
             return
         count = 3 * scene.bodies.size
         before = self.y[count : 2 * count].copy()
-        impulses = jump(scene, t, self.y, jumps)
+        jump(scene, self.room, t, self.y, jumps)
         mass = 1.0 / np.column_stack([scene.bodies["light"], scene.bodies["light"], scene.bodies["light_turn"]])
         after = self.y[count : 2 * count]
         energy = float(0.5 * mass.ravel() @ (after**2 - before**2))
         self.y[arrays.WORK] += energy
-        found = {name: -float(impulses[row]) for name, row in model.driven_rows.items()}
+        found = {name: -float(self.room.right[row]) for name, row in model.driven_rows.items()}
         cranks = {name: found.pop(name) for name in self.scenario.linkage.cranks if name in found}
         self.impulses.append(Impulse(t, found, energy, cranks))
 

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from support_exudyn.formulations.compilation import call_law, compiled
-from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import LOSSES, STAGES, Matrix, Scene, Vector
 from support_exudyn.formulations.compiled.forces import (
     observe,
     powers,
@@ -36,7 +36,6 @@ from support_exudyn.formulations.compiled.motion import (
     spin_of,
 )
 
-STAGES = 7
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 WEIGHTS = np.array(
     [
@@ -87,10 +86,15 @@ def evaluate(scene: Scene, t: float, y: Vector, slope: Vector, right: Vector) ->
         observe(scene, n, y)
         press(scene, n, y, slope)
         push_contact(scene, n)
-    press_oil(scene)
-    press_cylinders(scene, y, slope)
-    press_loads(scene, t, y)
-    press_bushings(scene, y)
+    # a call costs more than a loop over nothing
+    if scene.oil.size > 0:
+        press_oil(scene)
+    if scene.cylinders.size > 0:
+        press_cylinders(scene, y, slope)
+    if scene.loads.size > 0:
+        press_loads(scene, t, y)
+    if scene.bushings.size > 0:
+        press_bushings(scene, y)
     solve(scene, right)
     if scene.rubbing.size > 0:
         rub(scene, y, right)
