@@ -49,6 +49,14 @@ def inlined(function: Function) -> Function:
     return _inner(function, forceinline=True)
 
 
+def once(function: Function) -> Function:
+    """Decorator: a function that is called in one place is compiled as part of what calls it.
+
+    Each function that is compiled by itself is optimised again with every one that calls it.
+    """
+    return numba.njit(error_model="numpy", inline="always", **UNCOUNTED)(function)  # type: ignore[no-any-return]
+
+
 def entry(function: Function) -> Function:
     """Decorator: compile a function that Python calls, at its first call, or load it from disk."""
     return _kept(function)

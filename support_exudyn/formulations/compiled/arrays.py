@@ -89,11 +89,12 @@ class Scene(NamedTuple):
 class Scratch(NamedTuple):
     """Room that a run works in.
 
-    right: a number a row. end, probe, slope: states. path: of the interpolation. rates: of a step's stages.
+    right, impulses: a number a row. end, probe, slope: states. path: of the interpolation. rates: of a step's stages.
     now, then: contacts at its start and end. lines, answers, gram, square, sides, sizes: see `masses`.
     """
 
     right: Vector
+    impulses: Vector
     end: Vector
     probe: Vector
     slope: Vector
@@ -117,6 +118,7 @@ def scratch(scene: Scene, states: int) -> Scratch:
     state = np.zeros(states)
     return Scratch(
         np.zeros(rows),
+        np.zeros(rows),
         *(state.copy() for _ in range(3)),
         np.zeros((5, states)),
         np.zeros((STAGES, states)),
@@ -137,7 +139,7 @@ STAGES = 7  # of a step
     CUTS,
     CLAMPED,
     IMPACTS,
-    JUMPS,
+    JUMP_ENERGY,
     RECORDS,
     STOPPED_AT,
     LAST_STEP,

@@ -6,7 +6,7 @@ leaves in doubt whether something happens, the step is too long, and is made aga
 
 import math
 
-from support_exudyn.formulations.compilation import compiled
+from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import Matrix, Records, Scene, Vector
 from support_exudyn.formulations.compiled.forces import observe, press
 from support_exudyn.formulations.compiled.step import within
@@ -57,7 +57,7 @@ def look(scene: Scene, n: int, x: float, path: Matrix, y: Vector, slope: Vector,
         press(scene, n, y, slope)
 
 
-@compiled
+@once
 def in_flight(
     scene: Scene, n: int, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
 ) -> Found:
@@ -83,7 +83,7 @@ def in_flight(
     return NOTHING, 1.0, 1.0
 
 
-@compiled
+@once
 def cut_twice(
     scene: Scene, n: int, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
 ) -> bool:
@@ -100,7 +100,7 @@ def cut_twice(
     return False
 
 
-@compiled
+@once
 def closed(
     scene: Scene, n: int, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
 ) -> Found:
@@ -121,7 +121,7 @@ def closed(
     return what, low, high
 
 
-@compiled
+@once
 def first_event(
     scene: Scene, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
 ) -> tuple[int, int, float, float]:

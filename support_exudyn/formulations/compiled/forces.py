@@ -2,7 +2,7 @@
 
 import math
 
-from support_exudyn.formulations.compilation import call_law, compiled, inlined
+from support_exudyn.formulations.compilation import call_law, compiled, inlined, once
 from support_exudyn.formulations.compiled.arrays import DAMPING_LOSS, FRICTION_LOSS, WORK, Scene, Vector
 from support_exudyn.formulations.compiled.motion import push, push_point, spin_of
 from support_exudyn.mechanics.contact_state import HEAVIEST
@@ -260,7 +260,7 @@ def press_bushings(scene: Scene, y: Vector) -> None:
         push(scene, first.body, 0.0, 0.0, -one.m)
 
 
-@inlined
+@once
 def powers(scene: Scene, y: Vector, slope: Vector) -> None:
     """Write the rates of losses and work into `slope`."""
     damping = friction = work = 0.0

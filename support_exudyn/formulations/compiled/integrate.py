@@ -2,14 +2,16 @@
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, entry
+from support_exudyn.formulations.compilation import compiled, entry, once
 from support_exudyn.formulations.compiled.arrays import (
     ACCEPTED,
     CLAMPED,
     CUTS,
+    DEAD_CENTRE,
     EVALUATIONS,
     FINISHED,
     IMPACTS,
+    JUMP_ENERGY,
     LAST_STEP,
     MEMORY,
     NOT_A_NUMBER,
@@ -20,6 +22,7 @@ from support_exudyn.formulations.compiled.arrays import (
     STUCK,
     TOO_MANY_IMPACTS,
     TOO_MANY_STEPS,
+    WORK,
     STAGES,
     Matrix,
     Records,
@@ -29,7 +32,7 @@ from support_exudyn.formulations.compiled.arrays import (
 )
 from support_exudyn.formulations.compiled.events import first_event, look
 from support_exudyn.formulations.compiled.masses import renew_mass
-from support_exudyn.formulations.compiled.motion import divide, respond
+from support_exudyn.formulations.compiled.motion import SINGULAR, divide, respond
 from support_exudyn.formulations.compiled.step import (
     advance,
     close_joints,
@@ -72,7 +75,7 @@ def copy_contacts(source: Records, target: Records) -> None:
         target[n] = source[n]
 
 
-@compiled
+@once
 def land(
     scene: Scene,
     n: int,
@@ -138,7 +141,7 @@ def land(
     return length
 
 
-@compiled
+@once
 def separate(scene: Scene, n: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> None:
     """The surfaces of a contact part at t [s]."""
     contact = scene.contacts[n]
@@ -167,7 +170,7 @@ def strike(scene: Scene, n: int, t: float, y: Vector, onsets: Matrix, report: Ve
     return True
 
 
-@compiled
+@once
 def happen(scene: Scene, n: int, what: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> bool:
     """Change what contacts remember as an event of one at t [s] does; whether there is room for it.
 
@@ -235,11 +238,11 @@ def peak(scene: Scene, n: int, path: Matrix, last: float, y: Vector, slope: Vect
 
 
 @compiled
-def record(scene: Scene, t: float, y: Vector, slope: Vector, right: Vector, rows: Matrix, n: int) -> None:
-    """Write a record at t [s]: state, accelerations, multipliers, what contacts remember, courses, moments."""
-    forget_friction(scene)
-    evaluate(scene, t, y, slope, right)
-    row = rows[n]
+def write_record(scene: Scene, t: float, y: Vector, slope: Vector, row: Vector) -> None:
+    """Write a record of what has been evaluated at t [s].
+
+    That is the state, accelerations, multipliers, what contacts remember, courses, moments of friction.
+    """
     row[0] = t
     i, count = 1, 3 * scene.bodies.size
     for k in range(y.size):
@@ -269,11 +272,60 @@ def record(scene: Scene, t: float, y: Vector, slope: Vector, right: Vector, rows
         i += 1
 
 
+@once
+def begin_run(scene: Scene, room: Scratch, y: Vector, rows: Matrix) -> bool:
+    """Write the first record at 0 s, with the masses that contacts are told then; whether the linkage moves."""
+    least = evaluate(scene, 0.0, y, room.slope, room.right)
+    for n in range(scene.contacts.size):
+        contact = scene.contacts[n]
+        if contact.depth > 0.0:
+            contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
+    for n in range(scene.contacts.size):
+        renew_mass(scene, room, n, y)
+    evaluate(scene, 0.0, y, room.slope, room.right)
+    write_record(scene, 0.0, y, room.slope, rows[0])
+    return least > SINGULAR
+
+
+@compiled
+def kinetic_energy(scene: Scene, y: Vector) -> float:
+    """Kinetic energy of all bodies [J]."""
+    count, total = scene.bodies.size, 0.0
+    for n in range(count):
+        body, i = scene.bodies[n], 3 * (count + n)
+        total += 0.5 * ((y[i] ** 2 + y[i + 1] ** 2) / body.light + y[i + 2] ** 2 / body.light_turn)
+    return total
+
+
+@once
+def jump(scene: Scene, room: Scratch, t: float, y: Vector, jumps: Vector, report: Vector) -> None:
+    """Change velocities as speeds of drives jump at t [s], jumps by course."""
+    jumped = False
+    for n in range(jumps.size):
+        jumped = jumped or jumps[n] != 0.0
+    if not jumped:
+        return
+    forget_friction(scene)
+    evaluate(scene, t, y, room.slope, room.right)
+    for n in range(room.impulses.size):
+        room.impulses[n] = 0.0
+    for n in range(scene.joints.size):
+        joint = scene.joints[n]
+        if joint.course >= 0:
+            room.impulses[joint.row] = -jumps[joint.course]
+    divide(scene, room.impulses)
+    before = kinetic_energy(scene, y)
+    respond(scene, room.impulses, y, 3 * scene.bodies.size)
+    report[JUMP_ENERGY] = kinetic_energy(scene, y) - before
+    y[WORK] += report[JUMP_ENERGY]
+
+
 @entry
 def integrate(
     scene: Scene,
     begin: float,
     stop: float,
+    jumps: Vector,
     times: Vector,
     weights: Vector,
     going: Vector,
@@ -288,7 +340,8 @@ def integrate(
     """Run from `begin` to `stop` [s], between which all courses are smooth, or go on after a pause.
 
     Arguments:
-        times: of the records [s], from 0; the first is written already.
+        jumps: of the rates of courses at `begin`; impulses of all rows, against them, stand in `room.impulses`.
+        times: of the records [s], from 0.
         weights: one over the largest error of a step, for each component.
         going: with the first step in NEXT_STEP; after a segment or a pause as it was left.
         most_steps: before giving up. pause: after so many steps it returns PAUSED, to be called again.
@@ -310,6 +363,10 @@ def integrate(
     if going[MIDST] != 0.0:
         t, error_before = going[AT], going[LAST_ERROR]
     else:
+        if report[RECORDS] == 0.0 and not begin_run(scene, room, y, rows):
+            return DEAD_CENTRE
+        report[RECORDS] = max(1.0, report[RECORDS])
+        jump(scene, room, t, y, jumps, report)
         forget_friction(scene)
         evaluate(scene, t, y, k[0], right)
         copy_contacts(scene.contacts, now)
@@ -365,7 +422,9 @@ def integrate(
             within(path, min(1.0, (times[written] - t) / h), 0, states, probe)
             copy_contacts(then, scene.contacts)
             close_joints(scene, times[written], probe, right)
-            record(scene, times[written], probe, slope, right, rows, written)
+            forget_friction(scene)
+            evaluate(scene, times[written], probe, slope, right)
+            write_record(scene, times[written], probe, slope, rows[written])
             written += 1
         report[RECORDS] = written
         copy_contacts(then, scene.contacts)
@@ -394,7 +453,7 @@ def integrate(
     return FINISHED
 
 
-@compiled
+@once
 def renew_masses(
     scene: Scene, room: Scratch, n: int, what: int, t: float, y: Vector, onsets: Matrix, report: Vector
 ) -> None:
@@ -410,37 +469,3 @@ def renew_masses(
         if scene.contacts[m].renews != 0:
             renew_mass(scene, room, m, y)
 
-
-@entry
-def begin_run(scene: Scene, room: Scratch, y: Vector, rows: Matrix) -> float:
-    """Write the first record at 0 s, with the masses that contacts are told then; see `motion.factor`."""
-    slope, right = room.slope, room.right
-    least = evaluate(scene, 0.0, y, slope, right)
-    count = scene.contacts.size
-    for n in range(count):
-        contact = scene.contacts[n]
-        if contact.depth > 0.0:
-            contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
-    for n in range(count):
-        renew_mass(scene, room, n, y)
-    record(scene, 0.0, y, slope, right, rows, 0)
-    return least
-
-
-@entry
-def jump(scene: Scene, room: Scratch, t: float, y: Vector, jumps: Vector) -> None:
-    """Change velocities as speeds of drives jump at t [s], jumps by course.
-
-    Impulses of all rows, against them, stand in `room.right` then.
-    """
-    slope, right = room.slope, room.right
-    forget_friction(scene)
-    evaluate(scene, t, y, slope, right)
-    for n in range(right.size):
-        right[n] = 0.0
-    for n in range(scene.joints.size):
-        joint = scene.joints[n]
-        if joint.course >= 0:
-            right[joint.row] = -jumps[joint.course]
-    divide(scene, right)
-    respond(scene, right, y, 3 * scene.bodies.size)

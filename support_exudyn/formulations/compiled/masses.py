@@ -5,7 +5,7 @@ That module says the same of numpy's matrices; here it is compiled, for every im
 
 import math
 
-from support_exudyn.formulations.compilation import compiled
+from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import Matrix, Scene, Scratch, Vector
 from support_exudyn.formulations.compiled.forces import axes_of
 from support_exudyn.formulations.compiled.motion import divide, rate_of, respond
@@ -50,7 +50,7 @@ def answer(scene: Scene, row: Vector, right: Vector, out: Vector) -> None:
     respond(scene, right, out, 0)
 
 
-@compiled
+@once
 def is_pressed(scene: Scene, n: int) -> bool:
     """Whether a contact's surfaces overlap, or touch."""
     contact = scene.contacts[n]
@@ -161,7 +161,7 @@ def renew_mass(scene: Scene, room: Scratch, n: int, v: Vector) -> None:
             contact.yy = 1.0 / mass
 
 
-@compiled
+@once
 def mass_together(scene: Scene, room: Scratch, n: int, v: Vector, moving: int) -> float:
     """The mass of a corner that impacts together with others, see `pressed_pins.struck_together`; 0: none does."""
     contact = scene.contacts[n]

@@ -9,7 +9,7 @@ by Cholesky's factors of the square matrix, within the envelope that the order o
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, inlined
+from support_exudyn.formulations.compilation import compiled, inlined, once
 from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SLIDE, Scene, Vector
 
 SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
@@ -130,7 +130,7 @@ def hold(scene: Scene, y: Vector) -> None:
         row.ox, row.oy, row.ot = -ux, -uy, first.ry * ux - first.rx * uy - carried
 
 
-@inlined
+@once
 def factor(scene: Scene) -> float:
     """Write C M^-1 C^T and its factors; the least share of a row's square that is left of it."""
     count = scene.rows.size

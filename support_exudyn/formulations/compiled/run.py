@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from support_exudyn.formulations.compiled import arrays
 from support_exudyn.formulations.compiled.arrays import (
     ACCEPTED,
     CLAMPED,
@@ -11,19 +10,19 @@ from support_exudyn.formulations.compiled.arrays import (
     EVALUATIONS,
     FINISHED,
     IMPACTS,
+    JUMP_ENERGY,
     LAST_STEP,
     NOT_A_NUMBER,
     PAUSED,
-    RECORDS,
     REPORT,
     STOPPED_AT,
     STUCK,
     TOO_MANY_IMPACTS,
     TOO_MANY_STEPS,
+    Vector,
     scratch,
 )
-from support_exudyn.formulations.compiled.integrate import AT, GOING, MIDST, NEXT_STEP, begin_run, integrate, jump
-from support_exudyn.formulations.compiled.motion import SINGULAR
+from support_exudyn.formulations.compiled.integrate import AT, GOING, MIDST, NEXT_STEP, integrate
 from support_exudyn.formulations.compiled.outcome import record_width, trajectory
 from support_exudyn.formulations.compiled.setup import Model, model_of
 from support_exudyn.formulations.compiled.start import error_weights, first_state
@@ -55,17 +54,11 @@ class _Run:
         self.report = np.zeros(REPORT)
         self.impulses: list[Impulse] = []
         self.code = FINISHED
-        if not begin_run(model.scene, self.room, self.y, self.rows) > SINGULAR:
-            self.code = DEAD_CENTRE
-        self.report[RECORDS] = 1.0
 
     def go(self, progress: Progress) -> None:
         """Integrate to the end, or to where it cannot go on."""
         model, scenario = self.model, self.scenario
-        count = 3 * len(scenario.linkage.bodies)
-        fastest = self.rows[0, 1 + self.y.size : 1 + self.y.size + count].reshape(-1, 3)[:, :2]
-        acceleration = float(np.hypot(*fastest.T).max(initial=0.0))
-        weights = error_weights(model, scenario.solver.tolerance, acceleration)
+        weights = error_weights(model, self.y, scenario.solver.tolerance)
         going = np.zeros(GOING)
         going[NEXT_STEP] = FIRST_STEP
         pause = AT_ONCE
@@ -75,12 +68,13 @@ class _Run:
             if self.code != FINISHED:
                 return
             model.scene.courses[:] = segment
-            self._jump(begin)
+            jumps = self._jumps(begin)
             while True:
                 self.code = integrate(
                     model.scene,
                     begin,
                     end,
+                    jumps,
                     model.times,
                     weights,
                     going,
@@ -97,27 +91,23 @@ class _Run:
                 pause += AT_ONCE
                 progress(float(going[AT] / scenario.duration))
             going[MIDST] = 0.0
+            if jumps.any():
+                self._note_jump(begin)
 
-    def _jump(self, t: float) -> None:
-        """Let velocities jump where speeds of drives do, by impulses of what holds driven lengths and angles."""
-        model, scene = self.model, self.model.scene
-        jumps = np.zeros(scene.courses.size)
-        for n, name in enumerate(model.drives):
+    def _jumps(self, t: float) -> Vector:
+        """Jumps of the rates of all courses at t [s]."""
+        found = np.zeros(self.model.scene.courses.size)
+        for n, name in enumerate(self.model.drives):
             if t in (drive := self.scenario.drive_of(name)).breaks:
-                jumps[n] = drive.speed_jump(t)
-        held = [n for n, joint in enumerate(scene.joints) if joint["course"] >= 0 and jumps[joint["course"]]]
-        if not held:
-            return
-        count = 3 * scene.bodies.size
-        before = self.y[count : 2 * count].copy()
-        jump(scene, self.room, t, self.y, jumps)
-        mass = 1.0 / np.column_stack([scene.bodies["light"], scene.bodies["light"], scene.bodies["light_turn"]])
-        after = self.y[count : 2 * count]
-        energy = float(0.5 * mass.ravel() @ (after**2 - before**2))
-        self.y[arrays.WORK] += energy
-        found = {name: -float(self.room.right[row]) for name, row in model.driven_rows.items()}
-        cranks = {name: found.pop(name) for name in self.scenario.linkage.cranks if name in found}
-        self.impulses.append(Impulse(t, found, energy, cranks))
+                found[n] = drive.speed_jump(t)
+        return found
+
+
+    def _note_jump(self, t: float) -> None:
+        """Keep the impulses by which velocities have jumped at t [s]."""
+        found = {name: -float(self.room.impulses[row]) for name, row in self.model.driven_rows.items()}
+        cranks = {name: found.pop(name) for name in self.scenario.linkage.cranks}
+        self.impulses.append(Impulse(t, found, float(self.report[JUMP_ENERGY]), cranks))
 
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:

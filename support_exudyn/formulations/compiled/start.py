@@ -41,16 +41,18 @@ def _velocities(scenario: Scenario) -> Vector:
     return np.asarray(velocity + closed.respond(still, still, missing)[0])
 
 
-def error_weights(model: Model, tolerance: float, acceleration: float) -> Vector:
+def error_weights(model: Model, y: Vector, tolerance: float) -> Vector:
     """One over the largest error of a step, for each component of the state but the work.
 
     `tolerance` times: the smallest play, for places; the speed of a fall through half of it, for velocities;
     the energy of all bodies at that speed, for losses; the pressure that carries their weight, for pressures.
 
     Arguments:
-        acceleration: of the fastest body at the start [m/s^2], besides gravity's.
+        y: the state at the start, of whose velocities turning makes accelerations besides gravity's.
     """
     scenario = model.scenario
+    velocity = y[3 * model.scene.bodies.size : 6 * model.scene.bodies.size].reshape(-1, 3)
+    acceleration = float(np.abs(velocity[:, 2]).max() * np.hypot(*velocity[:, :2].T).max())
     bodies = scenario.linkage.bodies.values()
     play = min((place.play for place in scenario.contact_places.values()), default=PLAY)
     pull = math.hypot(*scenario.gravity) + acceleration

@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from support_exudyn.formulations.compilation import call_law, compiled
+from support_exudyn.formulations.compilation import call_law, compiled, once
 from support_exudyn.formulations.compiled.arrays import LOSSES, STAGES, Matrix, Scene, Vector
 from support_exudyn.formulations.compiled.forces import (
     observe,
@@ -106,7 +106,7 @@ def evaluate(scene: Scene, t: float, y: Vector, slope: Vector, right: Vector) ->
     return least
 
 
-@compiled
+@once
 def rub(scene: Scene, y: Vector, right: Vector) -> None:
     """Find friction in ideal pins and the forces in them together: moment = radius law(radius spin, force)."""
     for _ in range(RUBBINGS):
