@@ -130,8 +130,8 @@ def rise_lines() -> Iterator[BenchmarkLine]:
     ]
     wanted = {
         "redundant": (RISE, coarse, "1/8"),
-        "tree, on oil columns": (OIL, [with_tolerance(oil, "tree", t) for t in tolerances], "1/40"),
-        "reduced": (RISE, [with_tolerance(smooth, "reduced", t) for t in tolerances], ""),
+        "tree, on oil columns": (OIL, [with_tolerance(oil, "compiled", t) for t in tolerances], "1/40"),
+        "compiled": (RISE, [with_tolerance(smooth, "compiled", t) for t in tolerances], ""),
     }
     for name, (scene, tried, asked) in wanted.items():
         what = f"rise to the goal: {name}"
@@ -142,7 +142,7 @@ def rise_lines() -> Iterator[BenchmarkLine]:
         ours, others, finest = in_turns(way.bare, stock.bare, stock_ways[-1].bare, turns=2)
         yield BenchmarkLine(what, way.label, ours, f"stock recipe, {stock.label}", others, asked)
         yield BenchmarkLine(what, way.label, ours, f"stock recipe, {stock_ways[-1].label}", finest, "")
-        if name == "reduced":
+        if name == "compiled":
             yield from _against_the_yardstick(what, way)
 
 
@@ -196,7 +196,7 @@ def slider_crank_lines() -> Iterator[BenchmarkLine]:
     tree = partial(run_tree, two, tree_tolerance)
     for t in (1e-4, 1e-5, 1e-6, 1e-7):
         solver = SolverSettings(tolerance=t, result_checks=False)  # how wrong it is is measured
-        run = replace(half, formulation="reduced", solver=solver)
+        run = replace(half, formulation="compiled", solver=solver)
         if off(simulate(run)["slider.x"]) <= SMALL_ERROR:
             break
     ours = partial(simulate, replace(run, duration=two.duration, solver=replace(solver, result_checks=True)))
@@ -211,7 +211,7 @@ def slider_crank_lines() -> Iterator[BenchmarkLine]:
 
 def long_lines() -> Iterator[BenchmarkLine]:
     """Wall time of a run four times as long."""
-    for name in ("redundant", "reduced"):
+    for name in ("redundant", "compiled"):
         short = restless(name, 5.0)
         long = replace(short, duration=20.0)
         yield versus(f"four times the time: {name}", "20 s", long, "5 s", short, "4")

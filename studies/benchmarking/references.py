@@ -124,11 +124,11 @@ def times_the_goal(off: Mapping[str, float]) -> float:
 def tight_runs(scene: BenchmarkScene) -> tuple[Scenario, Scenario]:
     """The scene as the reference has it, and as its own error is found."""
     if scene.scenario.oil_columns:
-        tree = replace(scene.scenario, formulation="tree", solver=SolverSettings(tolerance=1e-11))
+        tree = replace(scene.scenario, formulation="compiled", solver=SolverSettings(tolerance=1e-11))
         finest = SolverSettings(impact_steps=4096, backend="symbolic")
         return tree, replace(scene.scenario, formulation="redundant", step=6.25e-5, solver=finest)
     solvers = [SolverSettings(tolerance=tolerance) for tolerance in (TIGHTEST, 10.0 * TIGHTEST)]
-    first, second = (replace(scene.scenario, formulation="reduced", solver=solver) for solver in solvers)
+    first, second = (replace(scene.scenario, formulation="compiled", solver=solver) for solver in solvers)
     return first, second
 
 

@@ -78,7 +78,7 @@ def measures(sample: Sample) -> dict[str, dict[str, list[float]]]:
     support, during = machine(sample), watched(sample)
     scenarios = {case: scenario(sample, case, support) for case in CASES}
     solver = SolverSettings(tolerance=TOLERANCE)
-    coarse = {case: replace(item, formulation="reduced", solver=solver) for case, item in scenarios.items()}
+    coarse = {case: replace(item, formulation="compiled", solver=solver) for case, item in scenarios.items()}
     fine = {case: item.refined() for case, item in coarse.items()}
     # with the ideal pin nothing is integrated: there both are the same to the bit
     ideal = {case: simulate(coarse[case]) for case in IDEALS}
@@ -137,7 +137,7 @@ def on_oil(sample: Sample, case: str, support: HydraulicSupport, columns: Mappin
         record_period=OIL_RECORDS,
         pins=_pins(sample, case, support),
         actuators=columns,
-        formulation="redundant" if ideal else "tree",
+        formulation="redundant" if ideal else "compiled",
         solver=SolverSettings(backend="symbolic") if ideal else SolverSettings(tolerance=OIL_TOLERANCE),
     )
 

@@ -107,17 +107,17 @@ class ModePlan:
         if columns == "oil":
             if subject.is_paper:
                 base = replace(base, actuators=paper_machine.oil_columns())
-            return _with_steps(base, "redundant" if ideal else "tree")
+            return _with_steps(base, "redundant" if ideal else "compiled")
         rigid = {name: one for name, one in base.actuators.items() if name not in self.actuators}
         base = replace(base, actuators=rigid)
-        return base if formulation("reduced").covers(base) else _with_steps(base, "redundant")
+        return base if formulation("compiled").covers(base) else _with_steps(base, "redundant")
 
 
 def _with_steps(case: Scenario, name: FormulationName) -> Scenario:
     """A case at the steps, or the tolerance, of the first of its three runs."""
     case = replace(case, accuracy=None, step=STEP)
-    if name == "tree" and formulation("tree").covers(replace(case, solver=ON_OIL)):
-        return replace(case, formulation="tree", solver=ON_OIL)
+    if name == "compiled" and formulation("compiled").covers(replace(case, solver=ON_OIL)):
+        return replace(case, formulation="compiled", solver=ON_OIL)
     return replace(case, formulation="redundant", solver=COARSE if case.clearance_pins else SolverSettings())
 
 

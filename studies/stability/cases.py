@@ -86,7 +86,7 @@ class PinCase:
             record_period=duration / RECORDS,
             pins={self.pin: self.clearance_pin()},
             channels=(f"pin.{self.pin}.*",),
-            formulation="reduced" if reduced else "redundant",
+            formulation="compiled" if reduced else "redundant",
             solver=SolverSettings(result_checks=False, **settings),
         )
 

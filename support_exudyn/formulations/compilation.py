@@ -25,9 +25,9 @@ except ImportError:  # Windows
     _fcntl = None  # type: ignore[assignment]
 
 fcntl: Any = _fcntl
-SECONDS = {"reduced": 10, "compiled": 10, "tree": 5}  # that compiling a formulation takes on a quiet machine of 2020
+SECONDS = {"closed_forms": 8, "compiled": 10}  # that compiling takes on a quiet machine of 2020
 CONSTANTS_OF = (contact_events, contact)  # modules of which compiled functions use constants
-NO_ALLOCATION = f"{__name__.rpartition('.')[0]}.compiled."  # its functions are given all arrays that they fill
+ALLOCATES = ".closed_forms."  # entries there make arrays; elsewhere all functions are given those that they fill
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -104,7 +104,7 @@ def _inner(function: Function, **options: bool) -> Function:
 
 
 def _kept(function: Function) -> Function:
-    options = UNCOUNTED if function.__module__.startswith(NO_ALLOCATION) else {}
+    options = {} if ALLOCATES in function.__module__ else UNCOUNTED
     try:
         dispatcher: Any = numba.njit(cache=True, error_model="numpy", **options)(function)
         kept = _is_kept_only_while_unchanged(dispatcher)
@@ -118,7 +118,7 @@ def _kept(function: Function) -> Function:
 def _source_stamp() -> tuple[str, int]:
     """What identifies the compiled code: a hash of all files that it comes from, and their length."""
     here = Path(__file__).parent
-    files = [file for folder in ("reduced", "compiled", "tree") for file in sorted((here / folder).glob("*.py"))]
+    files = sorted((here / "compiled").rglob("*.py"))
     files += [Path(__file__), *(Path(str(module.__file__)) for module in CONSTANTS_OF)]
     text = b"".join(file.read_bytes() for file in files)
     return hashlib.sha256(text).hexdigest(), len(text)
@@ -193,10 +193,10 @@ def _lock(folder: Path, name: str) -> list[int]:
 @cache
 def _tell(module: str) -> None:
     """Tell why nothing moves."""
-    for formulation in SECONDS.keys() & module.split("."):
-        if sys.stderr is not None:
-            text = f"compiling the {formulation} formulation, once on this machine"
-            print(f"{text}: about {SECONDS[formulation]} s", file=sys.stderr)
+    said = next((name for name in SECONDS if name in module.split(".")), None)
+    if said is not None and sys.stderr is not None:
+        what = said.replace("_", " ")
+        print(f"compiling ({what}), once on this machine: about {SECONDS[said]} s", file=sys.stderr)
 
 
 NUMBER = numba.types.float64

@@ -14,7 +14,7 @@ from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
 
-FormulationName = Literal["redundant", "tree", "compiled", "reduced"]
+FormulationName = Literal["redundant", "compiled"]
 
 
 class Program(Protocol):
@@ -70,10 +70,8 @@ HERE = __name__.rpartition(".")[0]
 FORMULATIONS = {
     one.name: one
     for one in (
-        Formulation("redundant", f"{HERE}.redundant.run", cost=3, safety=3.0),
-        Formulation("compiled", f"{HERE}.compiled", cost=2, safety=2.5),
-        Formulation("tree", f"{HERE}.tree", cost=4, safety=3.5),
-        Formulation("reduced", f"{HERE}.reduced", cost=1, safety=2.5),
+        Formulation("redundant", f"{HERE}.redundant.run", cost=2, safety=3.0),
+        Formulation("compiled", f"{HERE}.compiled", cost=1, safety=2.5),
     )
 }
 CHEAPEST_FIRST = sorted(FORMULATIONS.values(), key=lambda one: one.cost)

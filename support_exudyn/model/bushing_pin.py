@@ -1,7 +1,5 @@
 """A linear bushing in place of a pin: springs and dampers in two directions and about the axis."""
 
-from typing import Literal
-
 from support_exudyn.model.pins import Pin, Refusal
 from user_forces.values.units import (
     NewtonMetreSecondsPerRadian,
@@ -21,7 +19,7 @@ class BushingPin(Pin):
 
         F = -(stiffness d + damping d'),    M = -(rotational_stiffness a + rotational_damping a')
 
-    at its point, and on the first at its own the opposite. Redundant formulation, in the plane.
+    at its point, and on the first at its own the opposite. In the plane.
 
     Arguments:
         stiffness: forward and up [N/m], > 0.
@@ -45,9 +43,8 @@ class BushingPin(Pin):
         """Stiffness against shifts forward and up [N/m] and against turning [N m/rad]."""
         return (*self.stiffness, self.rotational_stiffness)
 
-    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
-        """A bushing is covered by the redundant formulation in the plane only."""
-        del formulation
+    def refused_in_space(self) -> Refusal | None:
+        """A bushing is of the plane alone."""
         return Refusal("", "BushingPin", "IdealPin, ClearancePin")
 
     def losses(self) -> dict[str, object]:

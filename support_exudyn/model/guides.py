@@ -58,9 +58,8 @@ class Guide(Value, ABC):
     def holds(self) -> bool:
         """Whether constraints hold the point on the line; else forces follow from the motion."""
 
-    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
-        """What of the guide a formulation, or "space", the third dimension, does not cover; None: all is."""
-        del formulation
+    def refused_in_space(self) -> Refusal | None:
+        """What of the guide is of the plane alone; None: nothing."""
         return None
 
     def misfit(self, turns: bool) -> str:
@@ -185,9 +184,8 @@ class ClearanceGuide(Guide):
         """Half of the way between the walls [m], as the clearance of a pin is."""
         return 0.5 * sum(self.gaps)
 
-    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
-        """The redundant formulation in the plane alone covers it."""
-        del formulation
+    def refused_in_space(self) -> Refusal | None:
+        """Clearance in a guide is of the plane alone."""
         return Refusal("", type(self).__name__, "IdealGuide")
 
     def misfit(self, turns: bool) -> str:

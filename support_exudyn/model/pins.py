@@ -65,9 +65,8 @@ class Pin(Value, ABC):
         """Stiffness that steps have to follow: against shifts forward and up [N/m], and turning [N m/rad]."""
         return (0.0, 0.0, 0.0)
 
-    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
-        """What of the pin a formulation, or "space", the third dimension, does not cover; None: all is."""
-        del formulation
+    def refused_in_space(self) -> Refusal | None:
+        """What of the pin is of the plane alone; None: nothing."""
         return None
 
     def losses(self) -> dict[str, object]:
@@ -104,9 +103,8 @@ class IdealPin(Pin):
         """An ideal pin holds its two bodies together."""
         return True
 
-    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
-        """Friction is covered by the redundant formulation in the plane only."""
-        del formulation
+    def refused_in_space(self) -> Refusal | None:
+        """Friction is of the plane alone."""
         if self.friction is None:
             return None
         return Refusal("", "IdealPin with friction", "IdealPin without, or ClearancePin")
@@ -221,13 +219,6 @@ class ClearancePin(Pin):
     def holds(self) -> bool:
         """A clearance pin leaves its journal free."""
         return False
-
-    def refused_by(self, formulation: Literal["tree", "compiled", "reduced", "space"]) -> Refusal | None:
-        """Friction laws with a state are covered by the redundant formulation only."""
-        friction = self.contact.friction
-        if formulation == "space" or not friction.has_state:
-            return None
-        return Refusal(".contact.friction", type(friction).__name__, "laws without a state")
 
     def losses(self) -> dict[str, object]:
         """A clearance pin loses energy by the damping and the friction of its contact."""

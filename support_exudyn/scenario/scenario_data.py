@@ -72,8 +72,8 @@ class ScenarioData(Value, ABC):
             formulation if it is "auto"; it estimates its errors and refines until they are as asked.
             None: the settings stand as they are.
         formulation: "redundant": the engine's rigid bodies with constraints, generalised alpha; runs every
-            scene. "tree": the engine's minimal coordinates under an explicit method with error control; for
-            linkages that have no closed loop but through clearance pins and oil columns. "reduced": the free
+            scene. "compiled": the engine's minimal coordinates under an explicit method with error control; for
+            linkages that have no closed loop but through clearance pins and oil columns. "compiled": the free
             coordinates alone, without the engine; for machines whose posture is known in closed form. "auto":
             redundant; with an accuracy the cheapest that covers the scene.
         step: largest time step [s], > 0, of the redundant formulation. Steps are equal parts of the time
@@ -100,7 +100,7 @@ class ScenarioData(Value, ABC):
     start: Literal["concentric", "settled"] = "concentric"
     gravity: MetresPerSecondSquared[Vector2] = (0.0, -9.81)
     accuracy: Accuracy | None = None
-    formulation: Literal["auto", "redundant", "tree", "compiled", "reduced"] = "auto"
+    formulation: Literal["auto", "redundant", "compiled"] = "auto"
     step: Seconds[Annotated[Real, Field(gt=0, le=LARGEST_STEP)]] = 5e-4
     record_period: Seconds[Positive] = 1e-3
     channels: tuple[str, ...] = ALL_CHANNELS

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from user_forces.values.value import Fraction, Real, Value, Whole, value
 
-ERROR_CONTROLLED = ("tree", "compiled", "reduced")  # formulations that choose their steps by a tolerance
+ERROR_CONTROLLED = ("compiled",)  # formulations that choose their steps by a tolerance
 SMALLEST_TOLERANCE = 1e-13  # rounding
 MOST_IMPACT_STEPS = 10000
 MOST_SECTIONS = 64

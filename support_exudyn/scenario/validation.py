@@ -75,11 +75,11 @@ def _check_space(scenario: ScenarioData) -> None:
     for name in scenario.cylinders:
         raise ValueError(f"actuators.{name} = HydraulicCylinder: is planar; allowed in space: OilColumn")
     for name, pin in scenario.pins.items():
-        if refused := pin.refused_by("space"):
+        if refused := pin.refused_in_space():
             part, what, allowed = refused
             raise ValueError(f"pins.{name}{part} = {what}: is planar; allowed in space: {allowed}")
     for name, guide in scenario.guides.items():
-        if refused := guide.refused_by("space"):
+        if refused := guide.refused_in_space():
             part, what, allowed = refused
             raise ValueError(f"guides.{name}{part} = {what}: is planar; allowed in space: {allowed}")
     for name, bearing in space.bearings.items():

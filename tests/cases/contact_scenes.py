@@ -88,7 +88,7 @@ def drawn(seed: int, number: int) -> Scenario:
         pins={PIN: ClearancePin(contact=laws, eccentricity=eccentricity)},
         drive=drive[kind],
         duration=round(end + rng.uniform(0.0, 0.05), 3),
-        formulation="reduced",
+        formulation="compiled",
     )
 
 
@@ -101,7 +101,7 @@ def _slider_crank(rng: np.random.Generator) -> Scenario:
         duration=0.02,
         record_period=1e-4,
         gravity=(0.0, 0.0),
-        formulation="reduced",
+        formulation="compiled",
     )
 
 
@@ -139,7 +139,7 @@ def main(seed: int, count: int, accuracies: list[str]) -> None:
     for number in range(count):
         try:
             scene = drawn(seed, number)
-            formulation("reduced").check(scene)
+            formulation("compiled").check(scene)
             right = finely(scene)
             sure = finely(scene, 0.2 * FINEST)
         except (SimulationError, ValueError) as error:

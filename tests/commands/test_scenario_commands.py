@@ -46,8 +46,8 @@ ROOF = Roof(
 RUBBING = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
 SCENARIOS = {
     "redundant": BASE,
-    "tree": replace(BASE, machine=reference_support(), formulation="tree", actuators=oil_columns()),
-    "reduced": replace(BASE, formulation="reduced", solver=replace(BASE.solver, tolerance=1e-6)),
+    "compiled": replace(BASE, machine=reference_support(), formulation="compiled", actuators=oil_columns()),
+    "compiled": replace(BASE, formulation="compiled", solver=replace(BASE.solver, tolerance=1e-6)),
     "space": replace(BASE, dimensions=3, duration=0.02, record_period=0.005),
     "accuracy": replace(BASE, accuracy="draft", channels=("tip.*",)),
     "oil": replace(BASE, actuators=oil_columns(), start="settled"),
@@ -167,7 +167,7 @@ def test_what_cannot_be_run_is_said_in_a_line(tmp_path: Path, capsys: pytest.Cap
 def test_errors_that_nobody_can_know_end_with_1(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "a.toml"
     path.write_text(
-        'machine = "reference"\nduration_s = 1\nformulation = "reduced"\nsolver.backend = "symbolic"\n'
+        'machine = "reference"\nduration_s = 1\nformulation = "compiled"\nsolver.backend = "symbolic"\n'
     )
     assert "solver.backend = 'symbolic': not covered by formulation" in refused(["run", str(path)], capsys)
 

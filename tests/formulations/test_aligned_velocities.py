@@ -51,7 +51,7 @@ def test_a_shaken_support_is_as_the_reduced_one(
     clearance_mm: float, step: float, gravity: tuple[float, float]
 ) -> None:
     scene = shaken(clearance_mm, step, gravity=gravity)
-    result, exact = simulate(scene), simulate(replace(scene, formulation="reduced", solver=TIGHT))
+    result, exact = simulate(scene), simulate(replace(scene, formulation="compiled", solver=TIGHT))
     assert len(result.onsets[PIN]) >= 3
     assert result.energy_error < OPEN * (step / LONG) ** 2 * turned_over(result.channels)
     # second order; measured: 1.1e-3 of a step, 1.3e-4 of the speed
@@ -84,7 +84,7 @@ def rattling(step: float) -> Scenario:
 def test_a_slider_crank_is_as_the_reduced_one() -> None:
     step = 2e-5
     result = simulate(rattling(step))
-    exact = simulate(replace(rattling(step), formulation="reduced", solver=TIGHT))
+    exact = simulate(replace(rattling(step), formulation="compiled", solver=TIGHT))
     assert len(result.onsets[SLIDER_PIN]) == len(exact.onsets[SLIDER_PIN]) == 3
     for impact, true in zip(result.onsets[SLIDER_PIN], exact.onsets[SLIDER_PIN], strict=True):
         # a crank turns by 0.01 rad in a step; measured: 0.2 %, 4e-7 s

@@ -171,10 +171,10 @@ def test_a_file_says_it(tmp_path: Path) -> None:
     ("changed", "said"),
     [
         (
-            {"formulation": "tree"},
-            r"pins\.rear_base = BushingPin: not covered by formulation = 'tree'; allowed: Ideal",
+            {"formulation": "compiled"},
+            r"pins\.rear_base = BushingPin: not covered by formulation = 'compiled'; allowed: Ideal",
         ),
-        ({"formulation": "reduced"}, r"pins\.rear_base = BushingPin: not covered by formulation = 'reduced'"),
+        ({"formulation": "compiled"}, r"pins\.rear_base = BushingPin: not covered by formulation = 'compiled'"),
         (
             {"dimensions": 3},
             r"pins\.rear_base = BushingPin: is planar; allowed in space: IdealPin, ClearancePin",
@@ -183,7 +183,7 @@ def test_a_file_says_it(tmp_path: Path) -> None:
 )
 def test_where_it_is_not_covered_it_is_refused(changed: dict[str, object], said: str) -> None:
     scene = Scenario(machine=reference_support(), pins={"rear_base": BUSHING}, duration=0.1)
-    covered = [formulation(name).covers(scene) for name in ("redundant", "tree", "reduced")]
+    covered = [formulation(name).covers(scene) for name in ("redundant", "compiled", "compiled")]
     assert covered == [True, False, False]
     with pytest.raises(InputError, match=said):
         simulate(replace(scene, **changed))  # type: ignore[arg-type]

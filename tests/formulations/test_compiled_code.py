@@ -83,7 +83,7 @@ def test_the_compiling_is_told_at_a_terminal_and_elsewhere(
     at_terminal: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(sys.stderr, "isatty", lambda: at_terminal)
-    compiled._tell.__wrapped__("support_exudyn.formulations.reduced.integrate")
+    compiled._tell.__wrapped__("support_exudyn.formulations.compiled.closed_forms.integrate")
     told = "compiling the reduced formulation, once on this machine: about 10 s\n"
     assert capsys.readouterr().err == told
     compiled._tell.__wrapped__("__main__")

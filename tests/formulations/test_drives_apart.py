@@ -95,7 +95,7 @@ def test_the_tree_follows_the_drives_too() -> None:
         "actuators": {"front_column": OIL, "rear_column": OIL},
         "duration": 0.22,
     }
-    tree = simulate(loose_support(formulation="tree", **scene))
+    tree = simulate(loose_support(formulation="compiled", **scene))
     redundant = simulate(loose_support(step=1e-4, **scene))
     # the redundant formulation's error of impacts and steps, as in `test_formulations_agree`
     np.testing.assert_allclose(tree["tip.y"], redundant["tip.y"], atol=2e-6)

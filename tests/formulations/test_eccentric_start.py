@@ -68,7 +68,7 @@ def test_the_tree_and_space_start_and_go_on_alike(bore: str, over: float) -> Non
     place = (0.0, -sense(bore) * (CLEARANCE + over)) if over else (1e-3, -5e-4)
     scenario = eccentric(*place, bore, actuators=oil_columns())
     flat = simulate(scenario)
-    tree = simulate(replace(scenario, formulation="tree"))
+    tree = simulate(replace(scenario, formulation="compiled"))
     space = simulate(replace(scenario, dimensions=3))
     assert len(flat.onsets[PIN]) >= 1
     for other, close in ((tree, 1e-5), (space, 1e-7)):
@@ -107,7 +107,7 @@ def test_several_journals_start_where_they_are_asked_to() -> None:
 @pytest.mark.parametrize("place", [(1e-3, 0.0), (0.0, 1.5e-3), (1.2e-3, -1.6e-3)])
 def test_free_coordinates_start_there_too(place: tuple[float, float]) -> None:
     theirs = simulate(eccentric(*place))
-    mine = simulate(eccentric(*place, formulation="reduced"))
+    mine = simulate(eccentric(*place, formulation="compiled"))
     # errors of the engine's default steps; measured up to 2e-6 of the forces and 1e-8 m
     assert np.abs(mine["tip.x"] - theirs["tip.x"]).max() < 1e-6
     assert mine["pin.rear_base.force"].mean() == pytest.approx(theirs["pin.rear_base.force"].mean(), rel=1e-3)

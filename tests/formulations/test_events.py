@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
 from support_exudyn.formulations.compilation import plain
-from support_exudyn.formulations.reduced import events, integrate, layout
+from support_exudyn.formulations.compiled.closed_forms import events, integrate, layout
 from support_exudyn.formulations.tree.events import EventKind, event
 from support_exudyn.formulations.tree.forces import JournalPlace
 
@@ -111,7 +111,7 @@ def in_tree(course: Course, t: float, h: float) -> EvaluationContext:
     return kinds[found.kind], t + found.fraction * h, t + found.fraction * h
 
 
-FINDERS = {"reduced": in_reduced, "tree": in_tree}
+FINDERS = {"compiled": in_reduced, "compiled": in_tree}
 
 
 def driven(find: Finder, course: Course) -> tuple[EvaluationContext, float]:
@@ -289,7 +289,7 @@ def test_what_is_over_within_a_step_is_seen(finder: str, middle: float) -> None:
     assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (IMPACT, True)
 
 
-@pytest.mark.parametrize("finder", ["reduced", "tree"])
+@pytest.mark.parametrize("finder", ["compiled", "compiled"])
 @pytest.mark.parametrize("bend", [0.03, -0.03])
 def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: float) -> None:
     # s^2 + bend s^4 has the same values and slopes at -1 and 1 as a parabola that is lower by `bend` at 0
@@ -298,7 +298,7 @@ def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: f
     assert FINDERS[finder](Course(close, closed=True), 0.0, 0.125)[0] == UNCLEAR
 
 
-@pytest.mark.parametrize("finder", ["reduced", "tree"])
+@pytest.mark.parametrize("finder", ["compiled", "compiled"])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_dip_that_a_cubic_does_not_show_is_looked_at_more_closely(finder: str, sign: float) -> None:
     # the rate has the values and the mean of s^2 + 0.02, which stays above zero, but is at -0.02 in the middle
@@ -312,7 +312,7 @@ def test_a_dip_that_a_cubic_does_not_show_is_looked_at_more_closely(finder: str,
 @pytest.mark.parametrize("finder", FINDERS)
 @pytest.mark.parametrize("bend", [0.02, -0.02])
 def test_a_top_that_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: float) -> None:
-    s = Polynomial([-1.0, 16.0]) * (1.0 if finder == "tree" else 4.0) + (0.0 if finder == "tree" else 3.0)
+    s = Polynomial([-1.0, 16.0]) * (1.0 if finder == "compiled" else 4.0) + (0.0 if finder == "compiled" else 3.0)
     near = -0.1 * DEPTH * (s**2 + bend * s**4 + 0.5 * bend)
     # the others look at quarters of a step, of which this is the first
     assert FINDERS[finder](Course(near, closed=False), 0.0, 0.125)[0] == UNCLEAR

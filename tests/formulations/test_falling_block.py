@@ -267,7 +267,7 @@ def test_gravity_must_be_that_of_the_law() -> None:
         on_the_held(block(height=0.0))
 
 
-@pytest.mark.parametrize("formulation", ["tree", "reduced"])
+@pytest.mark.parametrize("formulation", ["compiled", "compiled"])
 def test_other_formulations_refuse_it(formulation: str) -> None:
     with pytest.raises((InputError, SimulationError), match=r"loads\.rock"):
         simulate(on_the_held(block(), formulation=formulation))

@@ -61,7 +61,7 @@ SCENES: dict[str, Callable[[Any], Scenario]] = {
         machine=m, actuators=dict.fromkeys(("front_column", "rear_column"), OIL), start="settled", duration=0.02
     ),
     "eccentric": lambda m: Scenario(machine=m, pins=with_clearance(eccentricity=(0.0, -0.001)), duration=0.02),
-    "reduced": lambda m: Scenario(machine=m, pins=with_clearance(), formulation="reduced", duration=0.02),
+    "compiled": lambda m: Scenario(machine=m, pins=with_clearance(), formulation="compiled", duration=0.02),
     "space": lambda m: Scenario(machine=m, drive=Held(), dimensions=3, start="settled", duration=0.005),
 }
 

@@ -37,8 +37,8 @@ SCENES = {
     "ideal slider-crank": slider_crank(1e-4),
 }
 COVERED = {
-    "reduced": {"clearance support", "ideal support", "clearance slider-crank"},
-    "tree": {"clearance support on oil"},
+    "compiled": {"clearance support", "ideal support", "clearance slider-crank"},
+    "compiled": {"clearance support on oil"},
     "redundant": set(SCENES),
 }
 
@@ -63,7 +63,7 @@ def test_a_formulation_covers_what_it_says(name: str, scene: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "scene"), [(n, s) for n in ("reduced", "tree") for s in SCENES if s not in COVERED[n]]
+    ("name", "scene"), [(n, s) for n in ("compiled", "compiled") for s in SCENES if s not in COVERED[n]]
 )
 @pytest.mark.parametrize("accuracy", [None, "draft"])
 def test_what_is_not_covered_is_refused_before_anything_runs(
@@ -87,11 +87,11 @@ def test_settings_that_no_formulation_takes_are_refused_with_the_reason(accuracy
 
 
 def test_an_unknown_formulation_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Scenario\.formulation = 'fastest': .*'auto'.*'reduced'"):
+    with pytest.raises(InputError, match=r"Scenario\.formulation = 'fastest': .*'auto'.*'compiled'"):
         support(formulation="fastest")
 
 
 def test_what_cannot_be_imported_is_no_matter_of_coverage() -> None:
-    broken = Formulation("tree", "support_exudyn.there_is_none", cost=1, safety=1.0)
+    broken = Formulation("compiled", "support_exudyn.there_is_none", cost=1, safety=1.0)
     with pytest.raises(ModuleNotFoundError, match="there_is_none"):
         broken.covers(SCENES["clearance support"])

@@ -74,8 +74,8 @@ ON_OIL = {
 }
 WAYS = {  # with settings that are ten times as fine as what is asserted needs
     "redundant": {"formulation": "redundant", "solver": SolverSettings(impact_steps=512)},
-    "reduced": {"formulation": "reduced", "solver": SolverSettings(tolerance=1e-9)},
-    "tree": {"formulation": "tree", "solver": SolverSettings(tolerance=1e-9)},
+    "compiled": {"formulation": "compiled", "solver": SolverSettings(tolerance=1e-9)},
+    "compiled": {"formulation": "compiled", "solver": SolverSettings(tolerance=1e-9)},
 }
 STEPS = {"slider-crank": 1e-6, "slider-crank, friction, bore in the rod": 1e-6}  # others: 0.1 ms
 
@@ -86,8 +86,8 @@ def run(scene: str, way: str) -> Result:
     return simulate(replace(scenario, step=STEPS.get(scene, 1e-4), **WAYS[way]))  # type: ignore[arg-type]
 
 
-PAIRS = [(scene, "reduced", "redundant") for scene in SCENES]
-PAIRS += [(scene, "tree", "redundant") for scene in ON_OIL]
+PAIRS = [(scene, "compiled", "redundant") for scene in SCENES]
+PAIRS += [(scene, "compiled", "redundant") for scene in ON_OIL]
 # of which every part is in another scene, too
 SLOW = ("up and down", "slider-crank", "rise on oil, damped by depth")
 EVERY_PAIR = pytest.mark.parametrize(
@@ -184,7 +184,7 @@ def test_energies_are_the_same_and_add_up(pair: tuple[str, str, str]) -> None:
 )
 def test_runs_to_an_accuracy_agree_within_what_they_say(scene: str) -> None:
     scenario = (SCENES | ON_OIL)[scene]
-    others = ("tree",) if scene in ON_OIL else ("reduced",)
+    others = ("compiled",) if scene in ON_OIL else ("compiled",)
     runs = [simulate(replace(scenario, formulation=f), accuracy="standard") for f in ("redundant", *others)]
     assert all(result.met for result in runs)
     one, other = (result.numbers() for result in runs)

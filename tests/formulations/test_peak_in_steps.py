@@ -15,7 +15,7 @@ from support_exudyn.formulations.redundant.clearance.clearance_pin import Cleara
 from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 from support_exudyn.formulations.redundant.clearance.pin_motion import Course
 from tests.cases.run_cases import PIN, paper_contact, support
-from tests.reduced import simulate_reduced, simulate_redundant
+from tests.closed_forms import simulate_compiled, simulate_redundant
 from user_forces import Flores, IndentationVelocity
 from user_forces.contact import ContactForce
 from user_forces.lawful import LawError
@@ -32,7 +32,7 @@ def with_a_corner() -> Scenario:
 
 @cache
 def right() -> float:
-    return simulate_reduced(with_a_corner(), 1e-9).largest_force[PIN]
+    return simulate_compiled(with_a_corner(), 1e-9).largest_force[PIN]
 
 
 @pytest.mark.parametrize("impact_steps", [250, 350])

@@ -10,11 +10,11 @@ import pytest
 
 from support_exudyn import ClearancePin, Scenario, UniformSpeed
 from support_exudyn.formulations.compilation import compiled, on_arrays, plain
-from support_exudyn.formulations.reduced import layout, support_model
-from support_exudyn.formulations.reduced.equations import law_at
-from support_exudyn.formulations.reduced.layout import DriveValues, driven
-from support_exudyn.formulations.reduced.setup import parameters
-from support_exudyn.formulations.reduced.support_posture import meeting_point
+from support_exudyn.formulations.compiled.closed_forms import layout, support_model
+from support_exudyn.formulations.compiled.closed_forms.equations import law_at
+from support_exudyn.formulations.compiled.closed_forms.layout import DriveValues, driven
+from support_exudyn.formulations.compiled.closed_forms.setup import parameters
+from support_exudyn.formulations.compiled.closed_forms.support_posture import meeting_point
 from tests.cases.machine_cases import contact, support
 
 PIN = support_model.PIN

@@ -19,7 +19,7 @@ from support_exudyn import (
 )
 from tests.cases.contact_scenes import OFF, drawn, finely, off
 from tests.cases.run_cases import PIN
-from tests.reduced import simulate_reduced
+from tests.closed_forms import simulate_compiled
 from user_forces import STEEL, STEEL_35CRMO, Exact, JournalBearing, JournalContact, external_contact_stiffness
 
 REAR = "rear_column.force"
@@ -45,7 +45,7 @@ LARGEST = 87594.520  # [N], of the rear column, by four formulations and by tole
 @pytest.mark.parametrize("tolerance", [1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10])
 def test_a_short_dip_is_seen_at_every_tolerance(tolerance: float) -> None:
     # missed, the contact stays as damped as its impact was, and the force is 92263 N
-    result = simulate_reduced(dipping(), tolerance)
+    result = simulate_compiled(dipping(), tolerance)
     assert result[REAR].max() == pytest.approx(LARGEST, rel=3e-5)
 
 
@@ -87,7 +87,7 @@ def test_no_number_of_a_met_run_is_far_off(number: int, accuracy: str) -> None:
 def test_a_turn_that_is_met_is_not_met_again(number: int, onsets: int) -> None:
     # rounding leaves the rate a little below zero where it has turned: the run stood still there; in the second
     # scene the step that followed was made again shorter
-    result = simulate_reduced(drawn(1, number), 1e-8, most_steps=10_000)
+    result = simulate_compiled(drawn(1, number), 1e-8, most_steps=10_000)
     assert len(result.onsets[PIN]) == onsets
 
 
@@ -100,7 +100,7 @@ def on_oil(number: int, tolerance: float) -> Result:
     oil = OilColumn(bore_area=0.05, oil_length=0.8, bulk_modulus=1.5e9)
     actuators = {"front_column": oil, "rear_column": oil}
     solver = SolverSettings(tolerance=tolerance)
-    return simulate(replace(drawn(1, number), formulation="tree", actuators=actuators, solver=solver))
+    return simulate(replace(drawn(1, number), formulation="compiled", actuators=actuators, solver=solver))
 
 
 # 22: a dip within a step of the tree: 5e-2 off. 34: a turn at the very start of a step was met at its end: 5e-4

@@ -316,5 +316,5 @@ def test_loads_that_do_not_fit_the_machine_are_refused() -> None:
     with pytest.raises(InputError, match=r"loads\.spring: the machine has something of this name"):
         replace(scene, machine=FREE, loads={"spring": SPRING})
     with pytest.raises(InputError, match="formulation"):
-        simulate(Scenario(machine=reference_support(), duration=0.1, formulation="reduced", loads={
+        simulate(Scenario(machine=reference_support(), duration=0.1, formulation="compiled", loads={
             "m": AppliedTorque(body="canopy", full_torque=1.0)}))  # fmt: skip

@@ -57,7 +57,7 @@ def test_a_line_stands_for_it_in_expressions_of_the_engine(steep: Result) -> Non
 
 def test_the_reduced_formulation_finds_the_same(steep: Result) -> None:
     # a ramp a hundred times as wide, which it needs fewer steps for, loses the same to 1 %
-    wide = simulate(replace(held(100.0 * STEEP), formulation="reduced"))
+    wide = simulate(replace(held(100.0 * STEEP), formulation="compiled"))
     assert steep.dissipated == pytest.approx(wide.dissipated, rel=0.01)
     first, theirs = steep.onsets[PIN][0], wide.onsets[PIN][0]
     assert first[:2] == pytest.approx(theirs[:2], rel=1e-6)  # the fall before any contact

@@ -73,8 +73,8 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     "clearance in space": lambda t: loose_support(
         0.5, drive=cubic(t), dimensions=3, start="settled", **SHORT | {"duration": 0.015}
     ),
-    "tree": lambda t: loose_support(0.5, 0.25, drive=cubic(t), actuators=OILS, formulation="tree", **SHORT),
-    "reduced": lambda t: loose_support(0.5, 0.25, drive=cubic(t), formulation="reduced", **SHORT),
+    "compiled": lambda t: loose_support(0.5, 0.25, drive=cubic(t), actuators=OILS, formulation="compiled", **SHORT),
+    "compiled": lambda t: loose_support(0.5, 0.25, drive=cubic(t), formulation="compiled", **SHORT),
 }
 # of the forces: accelerations jump at smooth breaks by 10 m/s^2 and change within 10 ms, so that forces change
 # by 1e-3 of the weight if a break moves by 1e-6 s; below it is Newton's method, and rounding in steps of 15 us
@@ -109,7 +109,7 @@ def test_a_break_just_beside_a_record_is_as_one_on_it(scene: str, beside: float)
 RISE = support(drive=CubicStep(start=0.1, end=0.9, stroke=0.05), duration=1.0)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "reduced"])
+@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
 def test_records_that_end_just_before_the_run(formulation: Any) -> None:
     period = 0.0333333333  # as a third of a tenth is typed in ms
     rise = replace(RISE, formulation=formulation)

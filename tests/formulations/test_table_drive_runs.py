@@ -14,7 +14,7 @@ from tests.commands.test_scenario_commands import same
 STROKE = CubicStep(stroke=0.02, start=0.02, end=0.08)
 BASE = replace(test_scenario_commands.BASE, drive=STROKE, duration=0.1)
 POINTS = TableDrive(times=(0.0, 0.03, 0.07), extensions=(0.0, 0.01, 0.002))
-REDUCED = replace(BASE, formulation="reduced", solver=SolverSettings(tolerance=1e-6))
+REDUCED = replace(BASE, formulation="compiled", solver=SolverSettings(tolerance=1e-6))
 
 
 def test_a_fine_table_of_a_cubic_step_drives_as_it_does() -> None:
@@ -54,7 +54,7 @@ def test_a_line_from_the_start_on_begins_with_an_impulse() -> None:
 def test_the_tree_follows_a_table() -> None:
     pins = {"rear_base": clearance_joint(1.5, 0.0)}
     oil = oil_columns()
-    scenario = replace(BASE, formulation="tree", actuators=oil, drive=POINTS, duration=0.06, pins=pins)
+    scenario = replace(BASE, formulation="compiled", actuators=oil, drive=POINTS, duration=0.06, pins=pins)
     one = simulate(scenario)
     other = simulate(replace(scenario, formulation="redundant", step=1e-4))
     # until the journal makes contact both integrate the same smooth motion: errors of second order at 0.1 ms
@@ -77,7 +77,7 @@ def test_two_points_on_a_line_drive_the_reduced_support_as_uniform_speed_to_the_
 
 def test_reduced_and_redundant_formulations_follow_a_table_alike() -> None:
     ideal = replace(BASE, pins={}, drive=POINTS)
-    one = simulate(replace(ideal, formulation="reduced"))
+    one = simulate(replace(ideal, formulation="compiled"))
     other, finer = simulate(replace(ideal, step=1e-4)), simulate(replace(ideal, step=5e-5))
     for name in ("tip.y", "pin.rear_base.force"):
         error = np.abs(other[name] - finer[name]).max()

@@ -102,7 +102,7 @@ def test_stiffer_jacks_tend_to_the_fixed_tail_beam_with_order_one() -> None:
 
 def test_a_soft_jack_follows_the_tree() -> None:
     scene = {"drive": RISE, "duration": 0.15, "actuators": oil_columns(), "parts": SOFT}
-    tree = simulate(loose_support(formulation="tree", **scene))
+    tree = simulate(loose_support(formulation="compiled", **scene))
     redundant = simulate(loose_support(step=1e-4, **scene))
     # measured 2e-7 m and 4e-7 rad: the redundant formulation's errors of impacts and steps
     np.testing.assert_allclose(tree["tip.y"], redundant["tip.y"], atol=2e-6)

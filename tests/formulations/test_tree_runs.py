@@ -58,7 +58,7 @@ def tree(tolerance: float = 1e-8, friction: float = 0.25, **changes: object) -> 
     fields: dict[str, object] = {
         "pins": {PIN: ClearancePin(contact=paper_contact(1.5, friction))},
         "actuators": BOTH,
-        "formulation": "tree",
+        "formulation": "compiled",
         "solver": SolverSettings(tolerance=tolerance),
     }
     return support(**fields | changes)
@@ -150,7 +150,7 @@ def test_the_mass_that_moves_is_that_of_the_bores_axes_where_both_bodies_turn() 
         actuators=dict.fromkeys(BOTH, oil),
         drive=Reciprocating(stroke=3.013e-3, period=0.1462),
         duration=0.0245,
-        formulation="tree",
+        formulation="compiled",
         solver=SolverSettings(tolerance=1e-8),
     )
     right = simulate(scene).largest_force["front_shield"]
@@ -293,7 +293,7 @@ class Bars(Machine):
 
 def test_a_pendulum_without_any_loose_pin_swings_as_it_should() -> None:
     result = simulate(
-        Scenario(machine=Bars(number=1, spin=3.0), duration=1.0, formulation="tree", record_period=0.01)
+        Scenario(machine=Bars(number=1, spin=3.0), duration=1.0, formulation="compiled", record_period=0.01)
     )
     about_pivot = 1.0 + 10.0 * 0.25
     turn, spin = result["bar0.angle"], result["bar0.angular_velocity"]
@@ -316,7 +316,7 @@ def test_loose_pins_between_moving_bodies_of_several_branches() -> None:
         machine=Bars(number=3, spin=0.5),
         pins=pins,
         duration=0.15,
-        formulation="tree",
+        formulation="compiled",
         step=5e-5,
         solver=SolverSettings(tolerance=1e-9),
     )
@@ -367,19 +367,19 @@ class Swaying(Drive):
 
 def test_what_is_not_covered_is_refused_with_what_to_do() -> None:
     with pytest.raises(InputError, match=r"actuators\.front_column = rigid.*allowed: OilColumn.*redundant"):
-        simulate(loose_support(formulation="tree"))
+        simulate(loose_support(formulation="compiled"))
     with pytest.raises(
         InputError, match=r"pins\..* = ideal, which closes a loop.*clearance in one pin of every loop"
     ):
-        simulate(support(formulation="tree", actuators=BOTH))
+        simulate(support(formulation="compiled", actuators=BOTH))
     with pytest.raises(InputError, match=r"slides\.guide.*allowed: no slides"):
-        simulate(replace(loose_slider_crank(1e-3), formulation="tree"))
+        simulate(replace(loose_slider_crank(1e-3), formulation="compiled"))
     load_suspension = {
         PIN: ClearancePin(contact=paper_contact(1.0, 0.0)),
         "shield_canopy": ClearancePin(contact=paper_contact(1.0, 0.0)),
     }
     with pytest.raises(InputError, match=r"bodies\.canopy.*no chain of ideal pins to the ground"):
-        simulate(support(formulation="tree", actuators=BOTH, pins=load_suspension))
+        simulate(support(formulation="compiled", actuators=BOTH, pins=load_suspension))
     lugre = ClearancePin(contact=replace(paper_contact(1.0, 0.0), friction=friction_laws(0.25)["lugre"]))
     assert isinstance(lugre.contact.friction, LuGre)
     with pytest.raises(InputError, match=r"friction = LuGre.*laws without a state"):
@@ -404,7 +404,7 @@ def test_laws_are_called_from_python(backend: str) -> None:
 
 def test_velocities_that_tear_a_pin_are_refused() -> None:
     with pytest.raises(InputError, match=r"bodies\.bar0\.velocity: 1 m/s off"):
-        simulate(Scenario(machine=Torn(number=1), duration=0.1, formulation="tree"))
+        simulate(Scenario(machine=Torn(number=1), duration=0.1, formulation="compiled"))
 
 
 @value

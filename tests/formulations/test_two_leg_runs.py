@@ -84,7 +84,7 @@ def test_loose_pins_and_oil_work() -> None:
     assert given["tip.y"][-1] == pytest.approx(ideal["tip.y"][-1], abs=3e-3)
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "tree"])
+@pytest.mark.parametrize("formulation", ["compiled", "compiled"])
 def test_other_formulations_refuse_what_they_do_not_cover(formulation: Any) -> None:
     with pytest.raises(InputError, match=f"formulation = '{formulation}'"):
         simulate(replace(RISE, formulation=formulation))

@@ -35,8 +35,8 @@ WAYS: Mapping[str, Mapping[str, Any]] = {
     "python": {"solver": SolverSettings(backend="python")},
     "symbolic": {"solver": SolverSettings(backend="symbolic")},
     "space": {"dimensions": 3},
-    "tree": {"formulation": "tree", "actuators": {"front_column": OIL, "rear_column": OIL}},
-    "reduced": {"formulation": "reduced"},
+    "compiled": {"formulation": "compiled", "actuators": {"front_column": OIL, "rear_column": OIL}},
+    "compiled": {"formulation": "compiled"},
     "accuracy": {"accuracy": "draft"},
 }
 
@@ -179,7 +179,7 @@ class Failing(Spring):
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("start", ["concentric", "settled"])
 def test_a_law_that_is_none_at_rest_is_refused_before_the_run(law: NormalLaw, way: str, start: str) -> None:
-    if (way, start) != ("reduced", "settled"):  # which always starts concentric
+    if (way, start) != ("compiled", "settled"):  # which always starts concentric
         failure = refused(with_clearance(law, start=start, **WAYS[way]), PIN, type(law).__name__)
         assert failure.time == 0.0
 
@@ -195,7 +195,7 @@ class Branching(Spring):
         return 0.5 * self.stiffness * depth * depth if depth > 0.0 else 0.0
 
 
-@pytest.mark.parametrize("way", sorted(WAYS.keys() - {"reduced"}))  # which refuses what cannot be compiled
+@pytest.mark.parametrize("way", sorted(WAYS.keys() - {"compiled"}))  # which refuses what cannot be compiled
 def test_an_elastic_part_that_branches_is_one(way: str) -> None:
     assert not isinstance(simulate(with_clearance(Branching(), **WAYS[way]), throw=False), Failure)
 
@@ -239,7 +239,7 @@ class Lost(Drive):
         return 0.0, duration**2
 
 
-@pytest.mark.parametrize("way", ["python", "symbolic", "space", "tree"])
+@pytest.mark.parametrize("way", ["python", "symbolic", "space", "compiled"])
 def test_a_drive_is_refused(way: str) -> None:
     refused(with_clearance(Spring(), drive=Lost(), **WAYS[way]), "Lost has an extension of nan")
 

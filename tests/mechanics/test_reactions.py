@@ -66,7 +66,7 @@ def test_rows_hardly_turn_with_bodies_that_hardly_move(speed: float) -> None:
 @pytest.mark.parametrize("drive", [STROKE, Reciprocating(stroke=0.02, period=0.1)])
 def test_forces_are_those_of_free_coordinates_also_after_a_break(drive: Drive) -> None:
     scene = support(duration=0.1, drive=drive, step=1e-3)
-    mine, other = simulate(scene), simulate(replace(scene, formulation="reduced"))
+    mine, other = simulate(scene), simulate(replace(scene, formulation="compiled"))
     for name in mine.channels:
         if name.endswith(".force"):
             # measured: 3e-6. Multipliers overshoot in the first steps after a jump of the drive's acceleration

@@ -243,7 +243,7 @@ def in_free_coordinates(draw: st.DrawFn) -> Scenario:
         drive=draw(strokes(duration)),
         duration=duration,
         record_period=MS,
-        formulation="reduced",
+        formulation="compiled",
         solver=SolverSettings(tolerance=TOLERANCE, impact_steps=IMPACT_STEPS),
     )
 
@@ -262,7 +262,7 @@ def in_a_tree(draw: st.DrawFn) -> Scenario:
         start=draw(st.sampled_from(("concentric", "settled"))),
         duration=duration,
         record_period=MS,
-        formulation="tree",
+        formulation="compiled",
         solver=SolverSettings(tolerance=TOLERANCE, impact_steps=IMPACT_STEPS),
     )
 
@@ -321,6 +321,6 @@ def cranks(draw: st.DrawFn, reduced: bool) -> Scenario:
         record_period=period,
         step=2e-5,
         gravity=draw(st.sampled_from(((0.0, 0.0), GRAVITY))),
-        formulation="reduced" if reduced else "redundant",
+        formulation="compiled" if reduced else "redundant",
         solver=SolverSettings(tolerance=TOLERANCE, impact_steps=IMPACT_STEPS),
     )

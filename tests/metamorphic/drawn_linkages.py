@@ -131,6 +131,6 @@ def opened(draw: st.DrawFn) -> Scenario:
         duration=MS * draw(st.integers(8, 15)),
         record_period=MS,
         step=1e-4,
-        formulation="tree",
+        formulation="compiled",
         solver=SolverSettings(tolerance=TOLERANCE, impact_steps=IMPACT_STEPS),
     )

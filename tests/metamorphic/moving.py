@@ -157,7 +157,7 @@ class Moved(Machine):
 
 def moved_machine(machine: Machine, move: Move, formulation: str) -> Machine:
     """A machine moved, of its own class where the formulation asks for that."""
-    if formulation != "reduced":
+    if formulation != "compiled":
         return Moved(inner=machine, along=move.along, flipped=move.flipped, shift=move.shift, about=move.about)
     if isinstance(machine, SliderCrank):
         assert move == UPSIDE_DOWN  # its guide is along x

@@ -33,7 +33,7 @@ def settled(scene: Scenario) -> Scenario:
     """The scene from rest, with what can be put off."""
     loads = {name: load for name, load in scene.loads.items() if not isinstance(load, FallingBlock)}
     drive = Held() if isinstance(scene.drive, Reciprocating) else scene.drive
-    start = "concentric" if scene.formulation == "reduced" else "settled"
+    start = "concentric" if scene.formulation == "compiled" else "settled"
     return replace(scene, start=start, loads=loads, drive=drive)
 
 

@@ -147,7 +147,7 @@ def test_wrong_cylinders_are_refused() -> None:
         scenario(actuators={"front_column": replace(CYLINDER, oil_length=5.0)})
     with pytest.raises(InputError, match=r"system_pressure = 1000\.0 Pa: allowed: > tank_pressure"):
         scenario(actuators={"front_column": replace(CYLINDER, system_pressure=1e3)})
-    for name in ("tree", "reduced"):
+    for name in ("compiled", "compiled"):
         with pytest.raises(InputError, match="HydraulicCylinder"):
             formulation(name).check(scenario(formulation=name))
     # the other actuator follows the drive

@@ -162,9 +162,9 @@ def test_loads_in_space_are_refused() -> None:
         pressed_support(over_the_canopy(0.1), dimensions=3)
 
 
-@pytest.mark.parametrize("formulation", ["tree", "reduced"])
+@pytest.mark.parametrize("formulation", ["compiled", "compiled"])
 def test_formulations_that_know_no_loads_say_so(formulation: str) -> None:
-    actuators = ON_OIL if formulation == "tree" else {}
+    actuators = ON_OIL if formulation == "compiled" else {}
     scene = pressed_support(
         over_the_canopy(0.1), formulation=formulation, actuators=actuators, pins=loose_support().pins
     )

@@ -159,8 +159,8 @@ def test_its_cubics_are_what_it_does(drive: TableDrive, t: float) -> None:
 
 def test_where_it_is_not_covered_that_is_said() -> None:
     drive = TableDrive(times=(0.0, 1.0), extensions=(0.0, 0.1))
-    scenario = Scenario(machine=ravn_slider_crank(), drive=drive, duration=1.0, formulation="reduced")
-    with pytest.raises(InputError, match=r"drive = TableDrive: not covered by formulation = 'reduced'"):
+    scenario = Scenario(machine=ravn_slider_crank(), drive=drive, duration=1.0, formulation="compiled")
+    with pytest.raises(InputError, match=r"drive = TableDrive: not covered by formulation = 'compiled'"):
         simulate(scenario)
 
 

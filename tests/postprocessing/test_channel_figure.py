@@ -18,7 +18,7 @@ from user_forces import InputError
 
 TIME = np.linspace(0.0, 5.0, 501)
 WAVE = np.sin(2.0 * np.pi * TIME)
-SCENARIO = loose_support(1.5, formulation="reduced")
+SCENARIO = loose_support(1.5, formulation="compiled")
 
 
 def run(error: float = 0.0) -> Result:

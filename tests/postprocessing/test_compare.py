@@ -29,7 +29,7 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     simulate(ideal).save(folder / "plain.h5")
     simulate(replace(ideal, record_period=4e-3)).save(folder / "rare.h5")
     simulate(replace(ideal, record_period=3e-3)).save(folder / "other.h5")
-    simulate(loose_slider_crank(0.05, formulation="reduced", record_period=5e-5)).save(folder / "crank.h5")
+    simulate(loose_slider_crank(0.05, formulation="compiled", record_period=5e-5)).save(folder / "crank.h5")
     return folder
 
 

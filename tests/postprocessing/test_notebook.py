@@ -27,7 +27,7 @@ DURATION = 0.004
 @pytest.fixture(scope="module")
 def runs() -> Mapping[str, Result]:
     ideal = replace(slider_crank(DURATION), step=1e-5)
-    loose = loose_slider_crank(DURATION, formulation="reduced")
+    loose = loose_slider_crank(DURATION, formulation="compiled")
     return {"ideal": simulate(ideal, errors=True), "loose": simulate(loose)}
 
 
@@ -124,7 +124,7 @@ def test_a_result_shows_what_was_run_and_what_came_out(runs: Mapping[str, Result
 
 def test_a_scenario_shows_what_is_run(runs: Mapping[str, Result]) -> None:
     rows = dict(Cells(runs["loose"].scenario._repr_html_()).rows)  # type: ignore[arg-type]
-    assert rows["formulation"] == "reduced"
+    assert rows["formulation"] == "compiled"
     assert rows[f"pin {SLIDER_PIN}"].startswith("0.5 mm clearance in a bore of 10 mm radius")
 
 

@@ -33,7 +33,7 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("runs")
     simulate(loose_support(1.5, 0.25, duration=0.05), accuracy="draft").save(folder / "loose.h5")
     simulate(support(duration=0.05)).save(folder / "ideal.h5")
-    crank = loose_slider_crank(0.005, formulation="reduced", record_period=5e-5)
+    crank = loose_slider_crank(0.005, formulation="compiled", record_period=5e-5)
     simulate(crank).save(folder / "crank.h5")
     return folder
 

@@ -105,7 +105,7 @@ def test_the_worst_time_is_among_those_looked_at() -> None:
 
 @pytest.mark.parametrize(
     ("pin", "formulation"),
-    [("rear_base", "reduced"), ("rear_shield", "redundant"), ("shield_canopy", "redundant")],
+    [("rear_base", "compiled"), ("rear_shield", "redundant"), ("shield_canopy", "redundant")],
 )
 def test_the_equilibrium_is_where_a_run_stays(pin: str, formulation: str) -> None:
     """A journal that starts there goes on with the load's direction, which turns slowly."""

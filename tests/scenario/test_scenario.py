@@ -230,14 +230,14 @@ def test_an_accuracy_is_a_word_or_a_number(accuracy: str | float | None, goal: f
 def test_of_a_scenario_with_an_accuracy_that_is_refined() -> None:
     # errors are of second order in the steps; settings are chosen anew, so they stay
     coarse = scenario(accuracy="draft", solver=SolverSettings(impact_steps=9000))
-    for formulation in ("auto", "redundant", "tree", "reduced"):
+    for formulation in ("auto", "redundant", "compiled", "compiled"):
         one = dataclasses.replace(coarse, formulation=formulation)
         assert one.refined() == dataclasses.replace(one, accuracy=2.5e-3)
     assert scenario(accuracy=2e-8).refined().accuracy == 1e-8
 
 
 def test_a_tolerance_is_refined_where_it_decides() -> None:
-    for formulation in ("tree", "reduced"):
+    for formulation in ("compiled", "compiled"):
         one = scenario(formulation=formulation, solver=SolverSettings(tolerance=8e-7))
         assert one.refined().solver.tolerance == pytest.approx(1e-7, rel=1e-12)
         assert dataclasses.replace(one.refined(), solver=one.solver) == one
@@ -421,7 +421,7 @@ def test_oil_is_checked_against_the_drive_of_its_own_actuator() -> None:
 def test_the_reduced_formulation_takes_one_drive() -> None:
     one = CubicStep()
     reduced_coverage.check(scenario(drive=one, drives={"rear_column": one}))
-    with pytest.raises(InputError, match=r"drives\.rear_column = Held: not covered by .*'reduced'"):
+    with pytest.raises(InputError, match=r"drives\.rear_column = Held: not covered by .*'compiled'"):
         reduced_coverage.check(scenario(drive=one, drives={"rear_column": Held()}))
 
 

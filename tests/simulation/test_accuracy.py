@@ -66,7 +66,7 @@ def drop() -> Result:
 def test_the_result_has_the_settings_that_were_chosen(drop: Result) -> None:
     assert drop.goal == 1e-3
     assert drop.scenario.accuracy is None
-    assert drop.scenario.formulation == "reduced"
+    assert drop.scenario.formulation == "compiled"
     # each run has half the steps' length of the one before, which is an eighth of the tolerance
     middle = drop.coarser
     assert middle is not None
@@ -89,7 +89,7 @@ def test_the_words_for_an_accuracy(accuracy: str, goal: float) -> None:
     assert simulate(DROP, accuracy=accuracy).goal == goal  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "redundant"])
+@pytest.mark.parametrize("formulation", ["compiled", "redundant"])
 def test_the_settings_that_were_chosen_give_the_same_run_again(formulation: str) -> None:
     result = simulate(replace(DROP, formulation=formulation, duration=0.03), accuracy="draft")
     assert result.scenario.formulation == formulation
@@ -144,7 +144,7 @@ def test_progress_only_rises_and_ends_at_one(scene: str) -> None:
 def test_a_machine_with_ideal_pins_has_errors_too(formulation: str) -> None:
     drive = CubicStep(stroke=0.05, start=0.02, end=0.2)
     result = simulate(support(drive=drive, duration=0.25, formulation=formulation), accuracy="standard")
-    exact = simulate(support(drive=drive, duration=0.25, formulation="reduced"))
+    exact = simulate(support(drive=drive, duration=0.25, formulation="compiled"))
     assert result.met
     assert result.onsets == {}
     if formulation == "auto":  # known in closed form: nothing but rounding
@@ -368,11 +368,11 @@ def checked(request: pytest.FixtureRequest) -> list[Case]:
     found = []
     for kind, scenes in cases().items():
         for scene in scenes[:: request.param]:
-            tight = simulate(replace(scene, formulation="reduced", solver=TIGHT))
+            tight = simulate(replace(scene, formulation="compiled", solver=TIGHT))
             known = {n: kind_.measure(tight) for n, kind_ in measures(tight, 0.0, math.inf).items()}
             for goal in GOALS:
                 run = simulate(scene, accuracy=goal)
-                assert run.scenario.formulation == "reduced"
+                assert run.scenario.formulation == "compiled"
                 numbers = {
                     n: number
                     for n, number in numbers_of_records(run).items()
@@ -400,7 +400,7 @@ def test_the_time_of_a_largest_value_is_known_to_its_error() -> None:
     covered = []
     for scenes in cases().values():
         for scene in scenes[::6]:
-            tight = simulate(replace(scene, formulation="reduced", solver=TIGHT))
+            tight = simulate(replace(scene, formulation="compiled", solver=TIGHT))
             known = {n: kind_.measure(tight) for n, kind_ in measures(tight, 0.0, math.inf).items()}
             run = simulate(scene, accuracy=1e-3).numbers()
             times = [n for n in run if n.endswith(("largest_time", "largest_force_time"))]

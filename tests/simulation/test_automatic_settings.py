@@ -40,7 +40,7 @@ DROP = loose_support(drive=Held(), duration=0.02)
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_the_cheapest_that_covers_a_scene_is_taken(scene: str) -> None:
-    expected = next(name for name in ("reduced", "tree", "redundant") if scene in COVERED[name])
+    expected = next(name for name in ("compiled", "compiled", "redundant") if scene in COVERED[name])
     assert settings_for(SCENES[scene], 1e-3).formulation == expected
 
 
@@ -51,14 +51,14 @@ def test_one_that_is_asked_for_is_kept(name: str, scene: str) -> None:
 
 def test_one_that_does_not_cover_the_scene_is_refused() -> None:
     with pytest.raises(InputError, match=r"actuators\.front_column = rigid.*allowed: OilColumn"):
-        settings_for(replace(DROP, formulation="tree"), 1e-3)
+        settings_for(replace(DROP, formulation="compiled"), 1e-3)
 
 
 def test_a_backend_that_is_asked_for_decides_too() -> None:
     symbolic = replace(DROP, solver=SolverSettings(backend="symbolic"))
     assert settings_for(symbolic, 1e-3).formulation == "redundant"
     python = replace(DROP, solver=SolverSettings(backend="python"))
-    assert settings_for(python, 1e-3).formulation == "reduced"  # which has no Python function to choose
+    assert settings_for(python, 1e-3).formulation == "compiled"  # which has no Python function to choose
     assert settings_for(python, 1e-3).solver.backend == "auto"
     named = settings_for(replace(python, formulation="redundant"), 1e-3)
     assert (named.formulation, named.solver.backend) == ("redundant", "python")
@@ -76,7 +76,7 @@ def rubbing(scene: Scenario, ramp: float) -> Scenario:
 
 @pytest.mark.parametrize(
     ("scene", "explicit"),
-    [(DROP, "reduced"), (SCENES["clearance support on oil"], "tree"), (replace(DROP, duration=2.0), "reduced")],
+    [(DROP, "compiled"), (SCENES["clearance support on oil"], "compiled"), (replace(DROP, duration=2.0), "compiled")],
 )
 def test_friction_too_steep_for_explicit_steps_is_left_to_the_implicit_ones(
     scene: Scenario, explicit: str
@@ -121,7 +121,7 @@ def test_settings_can_be_refined_twice_without_which_no_error_is_known(goal: flo
     chosen = settings_for(replace(SCENES[name], formulation="redundant"), goal)
     finer = chosen.refined(2.0).refined(2.0)
     assert finer.solver.impact_steps == 4 * chosen.solver.impact_steps
-    for formulation in ("reduced", "tree"):
+    for formulation in ("compiled", "compiled"):
         if name in COVERED[formulation]:
             first = settings_for(replace(SCENES[name], formulation=formulation), goal)
             second = first.refined(2.0)
@@ -164,9 +164,9 @@ def test_only_the_formulations_that_come_first_are_looked_at(monkeypatch: pytest
 
     def covers(self: Formulation, scenario: Scenario) -> bool:
         asked.append(self.name)
-        return self.name == "tree"
+        return self.name == "compiled"
 
     monkeypatch.setattr(Formulation, "covers", covers)
     scene = replace(SCENES["clearance support on oil"], accuracy=1e-3)
-    assert settings_for(scene, 1e-3).formulation == "tree"
-    assert asked == ["reduced", "tree"]
+    assert settings_for(scene, 1e-3).formulation == "compiled"
+    assert asked == ["compiled", "compiled"]

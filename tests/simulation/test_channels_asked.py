@@ -64,9 +64,9 @@ SCENES = {
     "slider-crank": Scenario(
         machine=ravn_slider_crank(), drive=Steady(rate=500.0), duration=0.005, step=1e-5, record_period=1e-4
     ),
-    "tree": loose_support(0.5, 0.25, **SHORT, actuators=OILS, formulation="tree"),
-    "reduced": loose_support(0.5, 0.25, **SHORT, formulation="reduced"),
-    "reduced, ideal": support(**SHORT, formulation="reduced"),
+    "compiled": loose_support(0.5, 0.25, **SHORT, actuators=OILS, formulation="compiled"),
+    "compiled": loose_support(0.5, 0.25, **SHORT, formulation="compiled"),
+    "reduced, ideal": support(**SHORT, formulation="compiled"),
 }
 
 
@@ -181,7 +181,7 @@ def test_the_file_keeps_what_was_recorded(tmp_path: Path, asked: tuple[str, ...]
 
 
 def test_estimates_do_not_depend_on_what_is_asked(tmp_path: Path) -> None:
-    scenario = replace(SCENES["reduced"], accuracy=1e-3)
+    scenario = replace(SCENES["compiled"], accuracy=1e-3)
     full, few = simulate(scenario), simulate(replace(scenario, channels=("tip.x", "shield.velocity_x")))
     assert few.numbers() == full.numbers()
     assert (few.worst_error, few.fall, few.met) == (full.worst_error, full.fall, full.met)

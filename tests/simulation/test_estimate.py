@@ -37,10 +37,10 @@ from support_exudyn.simulation.estimate import (
 )
 from support_exudyn.simulation.reported_numbers import ONSETS, ROUNDING, measures
 from tests.cases.run_cases import FORCE, PIN, loose_support
-from tests.reduced import simulate_reduced
+from tests.closed_forms import simulate_compiled
 from user_forces import Exact, InputError, JournalBearing, JournalContact
 
-SAFETY = FORMULATIONS["reduced"].safety  # which is what runs here
+SAFETY = FORMULATIONS["compiled"].safety  # which is what runs here
 CLEARANCE = 1.5e-3  # [m], of the clearance pin
 ROUND_OFF = 1e-15  # of a number; distances of two lose as much in the absolute
 rates = st.floats(FASTEST, SLOWEST)
@@ -51,7 +51,7 @@ signs = st.sampled_from([-1.0, 1.0])
 @cache
 def exact() -> Result:
     """A short fall with three impacts; it stands for the exact one, which it says by its tolerance."""
-    return with_tolerance(simulate_reduced(loose_support(drive=Held(), duration=0.08), 1e-6), 1e-13)
+    return with_tolerance(simulate_compiled(loose_support(drive=Held(), duration=0.08), 1e-6), 1e-13)
 
 
 def with_tolerance(run: Result, tolerance: float) -> Result:
@@ -475,7 +475,7 @@ def test_what_newton_leaves_of_a_force_is_more_of_its_spread_where_it_hardly_var
         formulation="redundant",
     )
     result = simulate(scene, errors=True)
-    fine = replace(scene, formulation="reduced", solver=SolverSettings(tolerance=1e-11))
+    fine = replace(scene, formulation="compiled", solver=SolverSettings(tolerance=1e-11))
     right = simulate(fine)
     known = measures(right, 0.0, math.inf)
     for pin in ("main", "crank_pin"):

@@ -111,7 +111,7 @@ def test_progress_only_rises_and_ends_at_one() -> None:
 
 @pytest.fixture(scope="module")
 def tight() -> Result:
-    return simulate(replace(FALL, formulation="reduced", solver=SolverSettings(tolerance=1e-9)))
+    return simulate(replace(FALL, formulation="compiled", solver=SolverSettings(tolerance=1e-9)))
 
 
 def test_errors_cover_the_true_ones(fall: Result, tight: Result) -> None:
@@ -133,9 +133,9 @@ def test_the_worst_error_covers_the_distance_from_the_true_run(fall: Result, tig
     assert 1e-5 < disagreement(fall, tight) < fall.worst_error < 1e-2
 
 
-@pytest.mark.parametrize("formulation", ["tree", "reduced"])
+@pytest.mark.parametrize("formulation", ["compiled", "compiled"])
 def test_methods_with_error_control_have_theirs(formulation: str) -> None:
-    scene = SCENES["clearance support on oil"] if formulation == "tree" else FALL
+    scene = SCENES["clearance support on oil"] if formulation == "compiled" else FALL
     scene = replace(scene, formulation=formulation, duration=0.03, solver=SolverSettings(tolerance=1e-6))
     result = simulate(scene, errors=True)
     tight = simulate(replace(scene, solver=SolverSettings(tolerance=1e-10)))
@@ -148,7 +148,7 @@ def test_no_touch_is_known_better_than_a_step_may_be_though_all_runs_came_to_it_
 ):
     # an explicit method's second step is eight times the first, its third eight times that, at every tolerance
     drive = Reciprocating(stroke=8.7e-5, period=0.0345)
-    scene = loose_support(0.1, drive=drive, duration=0.012, formulation="reduced")
+    scene = loose_support(0.1, drive=drive, duration=0.012, formulation="compiled")
     result = simulate(replace(scene, solver=SolverSettings(tolerance=1e-5)), errors=True)
     tight = simulate(replace(scene, solver=SolverSettings(tolerance=1e-12)))
     impact, exact = result.onsets[PIN][0], tight.onsets[PIN][0]
@@ -162,7 +162,7 @@ def test_no_touch_is_known_better_than_a_step_may_be_though_all_runs_came_to_it_
 
 
 AT_REST = replace(
-    SCENES["clearance support on oil"], drive=Held(), start="settled", duration=0.05, formulation="tree"
+    SCENES["clearance support on oil"], drive=Held(), start="settled", duration=0.05, formulation="compiled"
 )
 
 
@@ -196,7 +196,7 @@ def test_what_newtons_method_leaves_is_among_the_errors() -> None:
     # 1.6e-8 of the first impact's speed is wrong in all runs, which differ by 1e-12 of it
     drive = UniformSpeed(stroke=0.003, start=0.003, end=0.02)
     scene = loose_support(0.3, drive=drive, duration=0.01, formulation="redundant")
-    exact = simulate(replace(scene, formulation="reduced", solver=SolverSettings(tolerance=1e-11)))
+    exact = simulate(replace(scene, formulation="compiled", solver=SolverSettings(tolerance=1e-11)))
     for run in (simulate(scene, accuracy=1e-4), simulate(replace(scene, step=1e-4), errors=True)):
         impact = run.numbers()[f"pin.{PIN}.onset_1.speed"]
         true = abs(impact.value - exact.onsets[PIN][0].speed)
@@ -207,7 +207,7 @@ def test_what_newtons_method_leaves_is_among_the_errors() -> None:
 def test_ideal_pins_have_theirs() -> None:
     scene = support(duration=0.25, drive=CubicStep(stroke=0.05, start=0.02, end=0.2))
     result = simulate(scene, errors=True)
-    exact = simulate(replace(scene, formulation="reduced"))
+    exact = simulate(replace(scene, formulation="compiled"))
     assert disagreement(result, exact) < result.worst_error < 0.05  # measured: 8.4e-3
     assert result.onsets == {}
 
@@ -338,7 +338,7 @@ def test_where_there_are_no_finer_settings_nothing_is_run(monkeypatch: pytest.Mo
         simulate(many, errors=True)
     small = SolverSettings(tolerance=63.0 * SMALLEST_TOLERANCE)
     with pytest.raises(InputError, match=r"tolerance = 6\.3e-12: cannot be made finer twice.*from 6\.4e-12"):
-        simulate(replace(FALL, formulation="reduced", solver=small), errors=True)
+        simulate(replace(FALL, formulation="compiled", solver=small), errors=True)
     assert not begun
 
 

@@ -46,7 +46,7 @@ RUNS = {
     "plane, symbolic": replace(PLANE, solver=SolverSettings(backend="symbolic")),
     "space": replace(PLANE, dimensions=3),
     "space, ideal pins, one channel": replace(PLANE, dimensions=3, pins={}, channels=("tip.x",)),
-    "tree": replace(PLANE, formulation="tree", actuators=ACTUATORS),
+    "compiled": replace(PLANE, formulation="compiled", actuators=ACTUATORS),
     "with an accuracy": replace(PLANE, accuracy="draft", formulation="redundant"),
 }
 
@@ -92,7 +92,7 @@ def test_an_interruption_comes_out_at_once_and_leaves_nothing_behind(name: str, 
 @posix_only
 def test_a_compiled_run_is_interrupted_between_its_pauses() -> None:
     # it strikes for ever: some 200 000 steps a second of the machine's, that is a second of work
-    scenario = loose_slider_crank(1e-3, formulation="reduced", solver=SolverSettings(tolerance=1e-8))
+    scenario = loose_slider_crank(1e-3, formulation="compiled", solver=SolverSettings(tolerance=1e-8))
     before = simulate(scenario)
     told: list[float] = []
     with pytest.raises(KeyboardInterrupt), Interruption(0.15) as sent:
@@ -105,11 +105,11 @@ def test_a_compiled_run_is_interrupted_between_its_pauses() -> None:
 @pytest.mark.parametrize("at_once", [1, 37])
 def test_pauses_of_a_compiled_run_change_nothing(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
     drive = UniformSpeed(stroke=0.01, start=0.02, end=0.06)  # whose speed jumps twice
-    scenario = replace(PLANE, formulation="reduced", drive=drive, duration=0.1)
+    scenario = replace(PLANE, formulation="compiled", drive=drive, duration=0.1)
     before = simulate(scenario)
     assert len(before.impulses) == 2
     assert len(before.onsets[PIN]) > 2
-    monkeypatch.setattr(importlib.import_module("support_exudyn.formulations.reduced.run"), "AT_ONCE", at_once)
+    monkeypatch.setattr(importlib.import_module("support_exudyn.formulations.compiled.closed_forms.run"), "AT_ONCE", at_once)
     told: list[float] = []
     paused = simulate(scenario, progress=told.append)
     assert same(paused, before)
@@ -157,7 +157,7 @@ def interrupting(scenario: Scenario) -> Scenario:
 
 @pytest.mark.parametrize("start", ["concentric", "settled"])
 @pytest.mark.parametrize("call", [1, 3])
-@pytest.mark.parametrize("name", ["plane", "space", "tree"])
+@pytest.mark.parametrize("name", ["plane", "space", "compiled"])
 def test_an_interruption_in_a_law_is_not_taken_for_a_failed_run(name: str, call: int, start: str) -> None:
     Calls.left = call
     with pytest.raises(KeyboardInterrupt):
@@ -193,8 +193,8 @@ def test_an_interruption_waits_for_an_import_to_end(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr("support_exudyn.formulations.registry.import_module", slow)
     handler = signal.getsignal(signal.SIGINT)
     with pytest.raises(KeyboardInterrupt):
-        _ = formulation("reduced").program
-    assert done == ["support_exudyn.formulations.reduced"]
+        _ = formulation("compiled").program
+    assert done == ["support_exudyn.formulations.compiled.closed_forms"]
     assert signal.getsignal(signal.SIGINT) is handler
 
 

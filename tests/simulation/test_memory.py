@@ -39,7 +39,7 @@ def peak(scenario: Scenario) -> int:
         tracemalloc.stop()
 
 
-@pytest.mark.parametrize("formulation", [pytest.param("redundant", marks=pytest.mark.slow), "reduced"])
+@pytest.mark.parametrize("formulation", [pytest.param("redundant", marks=pytest.mark.slow), "compiled"])
 def test_memory_is_flat_in_simulated_time(formulation: str) -> None:
     simulate(held(formulation, 0.2))  # what is made once
     short, long = peak(held(formulation, 0.4)), peak(held(formulation, 2.0))

@@ -15,7 +15,7 @@ from user_forces import InputError
 
 def held(formulation: str) -> Scenario:
     """The drop of the support, as the formulation covers it."""
-    actuators = oil_columns() if formulation == "tree" else {}
+    actuators = oil_columns() if formulation == "compiled" else {}
     return loose_support(
         1.5, 0.25, drive=Held(), duration=0.03, step=1e-4, formulation=formulation, actuators=actuators
     )
@@ -28,8 +28,8 @@ def limited(scenario: Scenario, steps: int) -> Result | Failure:
 
 CASES = {
     "redundant": held("redundant"),
-    "tree": held("tree"),
-    "reduced": held("reduced"),
+    "compiled": held("compiled"),
+    "compiled": held("compiled"),
     "space": replace(held("redundant"), dimensions=3),
     "growing": replace(held("redundant"), solver=SolverSettings(growth=4.0)),
 }

@@ -30,8 +30,8 @@ def soft(**changes: Any) -> Scenario:
 # each with why it is refused
 WRONG: dict[str, tuple[Scenario, str]] = {
     "redundant, deep": (soft(), "mm deep in a bore of 65.5 mm radius"),
-    "tree, deep": (soft(formulation="tree", actuators=OILS), "mm deep in a bore of 65.5 mm radius"),
-    "reduced, deep": (soft(formulation="reduced"), "mm deep in a bore of 65.5 mm radius"),
+    "tree, deep": (soft(formulation="compiled", actuators=OILS), "mm deep in a bore of 65.5 mm radius"),
+    "reduced, deep": (soft(formulation="compiled"), "mm deep in a bore of 65.5 mm radius"),
     "space, deep": (soft(dimensions=3), "mm deep in a bore of 65.5 mm radius"),
     "open": (
         replace(
@@ -62,7 +62,7 @@ def test_a_refusal_is_the_same_whatever_is_recorded(scene: str, data: st.DataObj
 
 
 def test_a_point_alone_does_not_hide_a_journal_far_outside_its_bore() -> None:
-    found = simulate(replace(soft(formulation="reduced"), channels=("tip.x",)), throw=False)
+    found = simulate(replace(soft(formulation="compiled"), channels=("tip.x",)), throw=False)
     assert isinstance(found, Failure)
     assert f"the journal of {PIN} is" in found.reason
 
@@ -73,7 +73,7 @@ PLANTED: dict[str, Callable[[Any], Any]] = {
 }
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "reduced"])
+@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
 @pytest.mark.parametrize("asked", [("*",), ("tip.x",), ()])
 @pytest.mark.parametrize("what", ["energy_open", "joints_apart"])
 def test_every_look_is_taken_whatever_is_recorded(

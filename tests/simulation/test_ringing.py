@@ -115,7 +115,7 @@ def test_redundant_runs_to_an_accuracy_begin_with_steps_that_let_contacts_ring()
 
 @pytest.mark.slow
 def test_what_is_left_of_a_fall_rings_as_told() -> None:
-    scene = replace(narrow(duration=2.4), formulation="reduced")
+    scene = replace(narrow(duration=2.4), formulation="compiled")
     found = max(vibrations(loaded_contacts(scene)[0]), key=lambda one: 1.0 / one.time)
     result = simulate(scene)
     time, force = result.time, result[f"pin.{PIN}.force"]

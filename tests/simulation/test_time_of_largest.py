@@ -13,7 +13,7 @@ from support_exudyn import Held, Result, simulate
 from support_exudyn.simulation.reported_numbers import measures
 from tests import synthetic
 from tests.cases.run_cases import FORCE, SLIDER_PIN, loose_slider_crank, support
-from tests.reduced import simulate_reduced, simulate_redundant
+from tests.closed_forms import simulate_compiled, simulate_redundant
 
 TIME = np.linspace(0.0, 1.0, 101)
 PERIOD = 0.01
@@ -57,7 +57,7 @@ def test_where_another_time_could_be_meant_the_error_reaches_there() -> None:
 DURATION = 0.004
 
 
-@pytest.mark.parametrize("run", [simulate_reduced, simulate_redundant])
+@pytest.mark.parametrize("run", [simulate_compiled, simulate_redundant])
 def test_the_largest_force_at_any_step_is_there_at_its_time_and_not_before(
     run: Callable[..., Result], tmp_path: Path
 ) -> None:
@@ -76,18 +76,18 @@ def test_the_largest_force_at_any_step_is_there_at_its_time_and_not_before(
 
 
 def test_its_time_is_reported_beside_it_with_an_error() -> None:
-    scenario = replace(loose_slider_crank(DURATION, formulation="reduced"), record_period=2e-5)
+    scenario = replace(loose_slider_crank(DURATION, formulation="compiled"), record_period=2e-5)
     result = simulate(scenario, errors=True)
     name = f"pin.{SLIDER_PIN}.largest_force_time"
     numbers = result.numbers()
     assert list(numbers)[list(numbers).index(name) - 1] == f"pin.{SLIDER_PIN}.largest_force"
     assert numbers[name].value == result.largest_force_time[SLIDER_PIN]
-    finer = simulate_reduced(scenario, 1e-10)
+    finer = simulate_compiled(scenario, 1e-10)
     assert abs(numbers[name].value - finer.largest_force_time[SLIDER_PIN]) <= numbers[name].error
 
 
 def test_a_run_of_an_earlier_version_does_not_tell_it(tmp_path: Path) -> None:
-    run = simulate_reduced(loose_slider_crank(0.001))
+    run = simulate_compiled(loose_slider_crank(0.001))
     loaded = Result.load(replace(run, largest_force_time={}).save(tmp_path / "run.h5"))
     assert loaded.largest_force == run.largest_force
     assert f"pin.{SLIDER_PIN}.largest_force_time" not in measures(loaded, 0.0, 1.0)

@@ -61,7 +61,7 @@ def run(
         return Told(number, known[number], scenario)
 
     monkeypatch.setattr(to_accuracy, "single_run", once)
-    scenario = loose_support(drive=Held(), duration=0.05, accuracy=GOAL, formulation="reduced")
+    scenario = loose_support(drive=Held(), duration=0.05, accuracy=GOAL, formulation="compiled")
     found: Any = to_accuracy.run_to_accuracy(scenario, silent)
     assert found.wall_time == len([number for number in made if number not in failing])
     return found, len(made)

@@ -16,7 +16,7 @@ from support_exudyn import Result, Scenario, SolverSettings
 def by_a_tight_run(scenario: Scenario) -> Result:
     """By the same method at a tolerance far below that of any study."""
     solver = SolverSettings(tolerance=1e-10)
-    chosen = replace(scenario, accuracy=None, formulation="reduced", solver=solver)
+    chosen = replace(scenario, accuracy=None, formulation="compiled", solver=solver)
     return run_with_errors({"": chosen}, Options(Path()))[""]
 
 

@@ -51,7 +51,7 @@ def test_ways_are_timed_in_turns_and_the_fastest_counts(monkeypatch: pytest.Monk
 
 def test_the_cheapest_way_meets_the_goal() -> None:
     scene = SCENES["drop"]
-    tried = [with_tolerance(scene, "reduced", t) for t in (1e-2, 1e-8)]
+    tried = [with_tolerance(scene, "compiled", t) for t in (1e-2, 1e-8)]
     way = cheapest_way("drop", tried)
     assert way is tried[1]
     assert cheapest_way("drop", tried[:1]) is None
@@ -62,8 +62,8 @@ def refuse(*unused: object) -> None:
 
 
 def test_a_way_that_cannot_be_finished_is_not_the_cheapest() -> None:
-    fine = with_tolerance(SCENES["drop"], "reduced", 1e-8)
-    broken = Way("reduced", "too coarse", refuse, refuse)  # type: ignore[arg-type]
+    fine = with_tolerance(SCENES["drop"], "compiled", 1e-8)
+    broken = Way("compiled", "too coarse", refuse, refuse)  # type: ignore[arg-type]
     assert cheapest_way("drop", [broken, fine]) is fine
 
 

@@ -78,28 +78,28 @@ def known(formulation: str, value: float, error: float) -> Reference:
 
 def judged(claimed: float, *references: Reference) -> Judged:
     """A value of 100 of the reduced formulation."""
-    return judge(FORCE, 100.0, claimed, "reduced", references)
+    return judge(FORCE, 100.0, claimed, "compiled", references)
 
 
 def test_another_formulation_judges_where_it_is_sharp_enough() -> None:
-    own, other = known("reduced", 100.5, 1e-6), known("redundant", 100.4, 0.1)
+    own, other = known("compiled", 100.5, 1e-6), known("redundant", 100.4, 0.1)
     found = judged(1.0, own, other)
     assert (found.by, found.apart) == ("redundant", False)
     assert found.away == pytest.approx(0.4)
     assert found.ratio == pytest.approx(0.4)
     # with a smaller error claimed it no longer can
-    assert judged(0.39, own, other).by == "reduced"
+    assert judged(0.39, own, other).by == "compiled"
 
 
 def test_what_no_reference_can_tell_is_set_apart() -> None:
-    found = judged(0.01, known("reduced", 100.0, 0.005), known("redundant", 100.01, 0.1))
+    found = judged(0.01, known("compiled", 100.0, 0.005), known("redundant", 100.01, 0.1))
     assert found.apart
-    assert judge(FORCE, 100.0, 1.0, "reduced", ()).apart
-    assert judged(1.0, known("reduced", math.nan, 0.0)).apart
+    assert judge(FORCE, 100.0, 1.0, "compiled", ()).apart
+    assert judged(1.0, known("compiled", math.nan, 0.0)).apart
 
 
 def test_a_blunt_reference_that_is_surely_further_away_counts() -> None:
-    own, other = known("reduced", 100.0, 1e-9), known("redundant", 105.0, 0.5)
+    own, other = known("compiled", 100.0, 1e-9), known("redundant", 105.0, 0.5)
     found = judged(0.01, own, other)
     assert (found.by, found.apart) == ("redundant", False)
     assert found.ratio == pytest.approx(500.0)
@@ -109,7 +109,7 @@ def test_a_reference_that_agrees_by_chance_is_as_wrong_as_its_family() -> None:
     names = [f"pin.p{n}.force.mean" for n in range(5)]
     fine = dict.fromkeys(names, 100.0)
     coarse = dict(zip(names, (100.0, 101.0, 101.0, 102.0, 103.0), strict=True))
-    reference = Reference("tree", fine, coarse, coarse, 0.25)
+    reference = Reference("compiled", fine, coarse, coarse, 0.25)
     assert reference.error(names[0]) == pytest.approx(covered.OF_DISTANCE)
     assert reference.error(names[4]) == pytest.approx(3.0 * covered.OF_DISTANCE)
 
@@ -132,8 +132,8 @@ def test_a_number_of_a_reference_that_does_not_converge_tells_of_no_other_unless
 ) -> None:
     irregular = three(105.0, coarse, coarsest)
     assert not irregular.converges(FORCE)  # too near by chance; further than before; the other way
-    assert judged(0.1, known("reduced", 100.0, 1e-9), irregular).by == "reduced"
-    assert judged(4.0, known("reduced", 100.0, 1e-9), irregular).by == "redundant"
+    assert judged(0.1, known("compiled", 100.0, 1e-9), irregular).by == "compiled"
+    assert judged(4.0, known("compiled", 100.0, 1e-9), irregular).by == "redundant"
 
 
 def test_a_number_near_zero_is_known_as_well_as_the_values_that_it_is_of() -> None:
@@ -153,8 +153,8 @@ def test_what_three_runs_agree_in_but_for_rounding_converges() -> None:
 
 def row(*numbers: tuple[float, float], **changes: object) -> CoveredRun:
     """A run whose numbers have these claimed and true errors."""
-    found = tuple(Judged(FORCE, 1.0, claimed, true, 0.0, "tree") for claimed, true in numbers)
-    return replace(CoveredRun("rear pin", 0, "draft", "reduced", "", True, found), **changes)
+    found = tuple(Judged(FORCE, 1.0, claimed, true, 0.0, "compiled") for claimed, true in numbers)
+    return replace(CoveredRun("rear pin", 0, "draft", "compiled", "", True, found), **changes)
 
 
 def test_shares_are_those_of_the_judged_numbers() -> None:

@@ -340,7 +340,7 @@ def test_a_scene_that_no_other_formulation_covers_is_not_compared() -> None:
     assert independent(impact()) is None
     other = independent(fall())
     assert other is not None
-    assert other.scenario.formulation == "reduced"
+    assert other.scenario.formulation == "compiled"
 
 
 @pytest.mark.parametrize("seconds", [0.2, 2.7, 20.0, 120.0])
@@ -356,7 +356,7 @@ def test_a_check_by_steps_does_not_damp_out_what_the_loaded_contact_still_does(
 
     monkeypatch.setattr("studies.extremes.judge.simulate", simulate_none)
     scene = scenes.fallen(Point(clearance_m=clearance, restitution=0.9))
-    scene = replace(scene, duration=seconds, record_period=seconds / 50.0, formulation="reduced")
+    scene = replace(scene, duration=seconds, record_period=seconds / 50.0, formulation="compiled")
     assert independent(scene) is None
     for other in made:
         # three runs, the last of which has a quarter of the steps: they agreed on what all of them had lost

@@ -6,7 +6,7 @@ import pytest
 
 from studies.claims.plausible import Choice, machine
 from studies.claims.plausible_runs import scenario
-from tests.reduced import simulate_reduced
+from tests.closed_forms import simulate_compiled
 
 # no. 695 of 1024: the contact's force comes down to the cut of tension and turns there
 GRAZING: dict[str, Choice] = {
@@ -40,7 +40,7 @@ GRAZING: dict[str, Choice] = {
 
 def test_a_contact_that_only_grazes_the_cut_of_tension_goes_on() -> None:
     case = scenario(GRAZING, "1.5 mm", machine(GRAZING))
-    coarse, fine = (simulate_reduced(case, tolerance=tolerance) for tolerance in (1e-6, 1e-8))
+    coarse, fine = (simulate_compiled(case, tolerance=tolerance) for tolerance in (1e-6, 1e-8))
     # landing on the cut went back and forth for ever; now 14000 steps
     assert coarse.counts.steps < 30_000
     forces = [run["pin.rear_base.force"].mean() for run in (coarse, fine)]

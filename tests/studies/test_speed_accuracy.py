@@ -136,9 +136,9 @@ def test_references_can_be_made_again(name: str) -> None:
 def test_every_scene_has_its_formulations(name: str) -> None:
     families = {way.family for way in ways(SCENES[name])}
     if SCENES[name].scenario.oil_columns:
-        assert "tree" in families
+        assert "compiled" in families
     else:
-        assert {"reduced", STOCK} <= families
+        assert {"compiled", STOCK} <= families
     assert {"redundant, python", "redundant, symbolic", "redundant, growing steps"} <= families
 
 
@@ -163,7 +163,7 @@ def test_short_scenes_turn_every_knob() -> None:
 
 def test_a_way_gives_what_its_settings_ask_for() -> None:
     scene = SCENES["drop"]
-    done = variants.with_tolerance(scene, "reduced", 1e-5).run()
+    done = variants.with_tolerance(scene, "compiled", 1e-5).run()
     assert done.calls == 0  # nothing is called in Python
     assert times_the_goal(errors(done.sample, references()["drop"])) < 1.0
 
@@ -188,7 +188,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def some_ways(scene: BenchmarkScene) -> list[Way]:
     """Those that take least, and one that fails."""
-    cheap = [way for way in ways(scene) if way.family in ("reduced", STOCK, variants.BUILT_IN)]
+    cheap = [way for way in ways(scene) if way.family in ("compiled", STOCK, variants.BUILT_IN)]
     return [*cheap[::2], Way("x", "y", fails, fails)]
 
 
@@ -267,7 +267,7 @@ def test_scenes_are_of_the_users_machine(own: Subject) -> None:
             each = scene.scenario.record_period / (share * scene.step)
             assert each == pytest.approx(round(each))
         families = {way.family for way in ways(scene)}
-        assert "reduced" in families
+        assert "compiled" in families
         assert STOCK not in families  # which knows no contact along a pin's length
 
 
@@ -301,6 +301,6 @@ def test_an_estimate_that_is_too_small_is_seen() -> None:
 
 def test_a_wrong_run_is_seen() -> None:
     scene = SCENES["drop"]
-    wrong = replace(scene.scenario, formulation="reduced", gravity=(0.0, -9.82), solver=SolverSettings())
+    wrong = replace(scene.scenario, formulation="compiled", gravity=(0.0, -9.82), solver=SolverSettings())
     found = errors(of_result(scene, simulate(wrong)), references()["drop"])
     assert times_the_goal(found) > 1.0

@@ -10,7 +10,7 @@ from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import Matrix, Records, Scene, Vector
 from support_exudyn.formulations.compiled.forces import observe, press
 from support_exudyn.formulations.compiled.step import within
-from support_exudyn.formulations.reduced.events import (
+from support_exudyn.formulations.compiled.depth import (
     CUT,
     CUT_MET,
     CUT_SAMPLES,
@@ -21,11 +21,10 @@ from support_exudyn.formulations.reduced.events import (
     SEPARATION,
     SHORT,
     TOO_LONG,
+    Found,
     in_contact,
     rise,
 )
-
-Found = tuple[int, float, float]  # what, and fractions of the step between which it happens
 
 
 @compiled

@@ -42,8 +42,8 @@ from support_exudyn.formulations.compiled.step import (
     within,
 )
 from support_exudyn.formulations.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK, NEAR_TOP, PEAK_SAMPLES
-from support_exudyn.formulations.reduced.events import AT_ZERO, CUT, CUT_MET, IMPACT, NOTHING, RETURN, SEPARATION, TOO_LONG
-from support_exudyn.formulations.reduced.integrate import (
+from support_exudyn.formulations.compiled.depth import AT_ZERO, CUT, CUT_MET, IMPACT, NOTHING, RETURN, SEPARATION, TOO_LONG
+from support_exudyn.formulations.compiled.step_control import (
     CLOSE,
     LANDED,
     LANDINGS,

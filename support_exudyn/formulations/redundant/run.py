@@ -53,8 +53,8 @@ def check(scenario: Scenario) -> None:
     """Raise InputError if the settings do not fit the scenario."""
     if scenario.solver.backend == "compiled":
         raise InputError(
-            "solver.backend = 'compiled': only formulation = 'reduced' has it; allowed: 'auto', 'python', "
-            "'symbolic', or 'compiled' with formulation = 'reduced'"
+            "solver.backend = 'compiled': only formulation = 'compiled' has it; allowed: 'auto', 'python', "
+            "'symbolic', or 'compiled' with formulation = 'compiled'"
         )
     rigid = [
         name

@@ -11,7 +11,7 @@ ADVICE = (
 )
 STEEP = (
     "Is friction far steeper than steps can follow (mass times the ramp from static to dynamic speed over the "
-    "friction force, against the step)? Widen the ramp, take a smaller step, or formulation = 'reduced' with "
+    "friction force, against the step)? Widen the ramp, take a smaller step, or formulation = 'compiled' with "
     "more `solver.most_steps`."
 )
 FEWER_STEPS = (

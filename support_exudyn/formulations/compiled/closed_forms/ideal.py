@@ -3,9 +3,8 @@
 import math
 
 from support_exudyn.formulations.compilation import compiled, entry
-from support_exudyn.formulations.reduced.contact import closing_force, closing_rates
-from support_exudyn.formulations.reduced.integrate import (
-    CLOSE,
+from support_exudyn.formulations.compiled.closed_forms.contact import closing_force, closing_rates
+from support_exudyn.formulations.compiled.closed_forms.integrate import (
     EVALUATIONS,
     FINISHED,
     JUMPS,
@@ -14,7 +13,8 @@ from support_exudyn.formulations.reduced.integrate import (
     STOPPED_AT,
     STUCK,
 )
-from support_exudyn.formulations.reduced.layout import (
+from support_exudyn.formulations.compiled.step_control import CLOSE
+from support_exudyn.formulations.compiled.closed_forms.layout import (
     BEGIN,
     END,
     FIRST,
@@ -28,8 +28,8 @@ from support_exudyn.formulations.reduced.layout import (
     Vector,
     driven,
 )
-from support_exudyn.formulations.reduced.records import record
-from support_exudyn.formulations.reduced.support import (
+from support_exudyn.formulations.compiled.closed_forms.records import record
+from support_exudyn.formulations.compiled.closed_forms.support import (
     balance,
     closed,
     column_forces,
@@ -38,7 +38,7 @@ from support_exudyn.formulations.reduced.support import (
     rear_pin,
     unforced,
 )
-from support_exudyn.formulations.reduced.support_posture import posture, rates
+from support_exudyn.formulations.compiled.closed_forms.support_posture import posture, rates
 
 ITERATIONS = 30
 CLOSED = 1e-14  # [m], some ten times the rounding of the posture

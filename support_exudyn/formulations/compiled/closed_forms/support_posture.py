@@ -9,7 +9,7 @@ import math
 from typing import NamedTuple
 
 from support_exudyn.formulations.compilation import inlined
-from support_exudyn.formulations.reduced.layout import (
+from support_exudyn.formulations.compiled.closed_forms.layout import (
     FRONT_BASE_X,
     FRONT_BASE_Y,
     FRONT_FOOT_X,

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from support_exudyn.formulations.compilation import compiled, entry
-from support_exudyn.formulations.reduced.equations import (
+from support_exudyn.formulations.compiled.closed_forms.equations import (
     STAGES,
     advance,
     evaluate,
@@ -15,7 +15,7 @@ from support_exudyn.formulations.reduced.equations import (
     move_with_the_drive,
     within,
 )
-from support_exudyn.formulations.reduced.events import (
+from support_exudyn.formulations.compiled.depth import (
     CUT,
     CUT_MET,
     IMPACT,
@@ -23,9 +23,9 @@ from support_exudyn.formulations.reduced.events import (
     RETURN,
     SEPARATION,
     TOO_LONG,
-    event,
 )
-from support_exudyn.formulations.reduced.layout import (
+from support_exudyn.formulations.compiled.closed_forms.events import event
+from support_exudyn.formulations.compiled.closed_forms.layout import (
     ASKED_DEPTH,
     BEGIN,
     CLOSED,
@@ -45,8 +45,18 @@ from support_exudyn.formulations.reduced.layout import (
     Matrix,
     Vector,
 )
-from support_exudyn.formulations.reduced.records import peak, record, size
-from support_exudyn.formulations.reduced.support import jump
+from support_exudyn.formulations.compiled.step_control import (
+    CLOSE,
+    LANDED,
+    LANDINGS,
+    SHORTEN,
+    SMALLEST_STEP,
+    TURNS,
+    crossing,
+    factor,
+)
+from support_exudyn.formulations.compiled.closed_forms.records import peak, record, size
+from support_exudyn.formulations.compiled.closed_forms.support import jump
 
 FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED = range(6)
 # what is reported of a run
@@ -59,32 +69,8 @@ MIDST, AT, NEXT_STEP, LAST_ERROR, RATES = range(5)
 CONTEXT = RATES + STATES
 GOING = CONTEXT + CONTACT
 
-SAFETY, SLOWEST, FASTEST = 0.9, 0.2, 8.0  # change of the step: margin, smallest and largest factor
-SHORTEN = 0.25  # factor for a step in which too much happens
-STEADY = 0.04  # weight of the last error in the choice of a step (Gustafsson), against hunting
-ORDER = 0.2 - 0.75 * STEADY
-SMALLEST_STEP = 1e-13  # [s]
-LANDED = 1e-14  # depth [m] at which an impact or separation is met; rounding of the posture is some 1e-16
-LANDINGS = 12
-TURNS = 3  # looks for where a contact is pressed on again; the force is continuous there
 SMALLEST_SINE = 0.01  # of the angles that vanish at a dead centre: nearer to it the run is given up
 SHARE_OF_WAY = 0.5  # of the way to a dead centre is the longest step, so that none is stepped over
-CLOSE = 1e-12  # [s]: a record that lies so little behind the end of a step belongs to it
-
-
-@compiled
-def factor(error: float, before: float) -> float:
-    """By which the next step may be longer than one with this error, in units of what is allowed."""
-    if not error < 1e30:
-        return SLOWEST
-    wanted: float = SAFETY * max(error, 1e-9) ** -ORDER * before**STEADY
-    return min(FASTEST, max(SLOWEST, wanted))
-
-
-@compiled
-def crossing(low: float, high: float, at_low: float, at_high: float) -> float:
-    """Where a line through two points passes zero."""
-    return (low * at_high - high * at_low) / (at_high - at_low)
 
 
 @compiled

@@ -16,7 +16,7 @@ from tests.cases.run_cases import (
     slider_crank_contact,
 )
 from tests.formulations.test_slider_crank import SPEEDS, TIMES
-from tests.reduced import from_its_source, same_channels, simulate_reduced, simulate_redundant
+from tests.closed_forms import from_its_source, same_channels, simulate_compiled, simulate_redundant
 from user_forces import IndentationVelocity, LankaraniNikravesh
 
 GRAVITY = (300.0, -981.0)  # so strong that what is forgotten of it shows [m/s^2]
@@ -53,7 +53,7 @@ def check_onsets(result: Result, time: float, speed: float) -> None:
 
 
 def test_printed_onsets() -> None:
-    result = simulate_reduced(loose_slider_crank(1.3e-3), 1e-11)
+    result = simulate_compiled(loose_slider_crank(1.3e-3), 1e-11)
     # half of the last printed digit: 1e-9 s, 1e-6 m/s
     check_onsets(result, 6e-10, 6e-7)
     # printed as "about 4.59e4 N"
@@ -62,7 +62,7 @@ def test_printed_onsets() -> None:
 
 def test_onsets_at_the_usual_tolerance() -> None:
     # five impacts at 1e-7; measured 9e-10 s and 1.6e-5 m/s
-    check_onsets(simulate_reduced(loose_slider_crank(1.3e-3), 1e-7), 5e-9, 5e-5)
+    check_onsets(simulate_compiled(loose_slider_crank(1.3e-3), 1e-7), 5e-9, 5e-5)
 
 
 @BORES
@@ -74,9 +74,9 @@ def test_the_familys_formulas_are_the_source_of_its_laws(
     scenario = scene(drive, bore, mu)
     # each of twenty knocks multiplies the errors of the ones before
     tolerance = 1e-11 if drive == "held" else 1e-9
-    family = simulate_reduced(scenario, tolerance)
+    family = simulate_compiled(scenario, tolerance)
     from_its_source(monkeypatch)
-    source = simulate_reduced(scenario, tolerance)
+    source = simulate_compiled(scenario, tolerance)
     # other steps at a tolerance of 1e-9 through up to nine impacts; measured 2e-6 m/s
     np.testing.assert_allclose(source.onsets[SLIDER_PIN], family.onsets[SLIDER_PIN], rtol=0, atol=1e-5)
     assert len(source.onsets[SLIDER_PIN]) >= 4
@@ -99,7 +99,7 @@ def test_the_familys_formulas_are_the_source_of_its_laws(
 def test_all_channels_are_the_engines(drive: str, bore: str) -> None:
     mu = 0.0 if (drive, bore) == ("from rest", "first") else 0.1
     scenario = scene(drive, bore, mu)
-    ours, theirs = simulate_reduced(scenario, 1e-9), simulate_redundant(scenario)
+    ours, theirs = simulate_compiled(scenario, 1e-9), simulate_redundant(scenario)
     one, other = np.array(ours.onsets[SLIDER_PIN]), np.array(theirs.onsets[SLIDER_PIN])
     # the engine's errors at 512 steps an impact, magnified from impact to impact; measured 2e-7 s, 4e-4 m/s
     assert one.shape == other.shape
@@ -123,7 +123,7 @@ def test_all_channels_are_the_engines(drive: str, bore: str) -> None:
 
 def test_a_steady_crank_is_not_accelerated_at_any_instant() -> None:
     scenario = scene("steady", "first", 0.0)
-    ours, theirs = simulate_reduced(scenario, 1e-9), simulate_redundant(scenario)
+    ours, theirs = simulate_compiled(scenario, 1e-9), simulate_redundant(scenario)
     assert (ours["crank.angular_acceleration"] == 0.0).all()
     # rounding of the engine's angle by the square of the step: measured 0.4 rad/s^2 where the rod has 1.9e6
     assert np.abs(theirs["crank.angular_acceleration"]).max() < 10.0
@@ -132,7 +132,7 @@ def test_a_steady_crank_is_not_accelerated_at_any_instant() -> None:
 def test_the_moment_of_the_crank_does_the_work() -> None:
     # by the trapezoidal rule over records that do not see the impacts' kinks: measured 3e-6
     scenario = loose_slider_crank(1.3e-3, gravity=GRAVITY, record_period=2e-8)
-    result = simulate_reduced(scenario, 1e-9)
+    result = simulate_compiled(scenario, 1e-9)
     power = CRANK_SPEED * result["crank.moment"]
     work = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(result.time) * (power[1:] + power[:-1]))])
     largest = np.abs(work).max()
@@ -148,9 +148,9 @@ def test_a_law_that_asks_for_the_moving_mass(bore: str, monkeypatch: pytest.Monk
     scenario = slider_crank(
         2.5e-3, pins={SLIDER_PIN: ClearancePin(contact=contact, bore=bore)}, gravity=GRAVITY
     )
-    fast, theirs = simulate_reduced(scenario, 1e-9), simulate_redundant(scenario)
+    fast, theirs = simulate_compiled(scenario, 1e-9), simulate_redundant(scenario)
     from_its_source(monkeypatch)
-    assert simulate_reduced(scenario, 1e-9).dissipated == pytest.approx(fast.dissipated, rel=1e-6)
+    assert simulate_compiled(scenario, 1e-9).dissipated == pytest.approx(fast.dissipated, rel=1e-6)
     # the engine's steps, measured 3e-6; with the inverse effective mass in the axes of the ground it is 3e-5
     assert fast.dissipated == pytest.approx(theirs.dissipated, rel=1e-5)
     for name, item in same_channels(fast, theirs).items():

@@ -19,7 +19,7 @@ from tests.cases.law_cases import (
 )
 from tests.cases.run_cases import PIN, loose_support, paper_contact
 from tests.formulations.test_every_law_is_located import SPEED, TIME
-from tests.reduced import same_channels, simulate_reduced, simulate_redundant
+from tests.closed_forms import same_channels, simulate_compiled, simulate_redundant
 from user_forces import Anagnostopoulos, FrictionLaw, Johnson, KelvinVoigt, NormalLaw, value
 from user_forces.expressions.scalar import exp, magnitude, where
 
@@ -34,7 +34,7 @@ def drop(bore: str = "first", duration: float = 0.042, **laws: Any) -> Scenario:
 
 def check(scenario: Scenario) -> None:
     """Both formulations do the same."""
-    ours, theirs = simulate_reduced(scenario, 1e-8), simulate_redundant(scenario)
+    ours, theirs = simulate_compiled(scenario, 1e-8), simulate_redundant(scenario)
     first = ours.onsets[PIN][0]
     # half of the last printed digit of the independent integrator's fall
     assert first.time == pytest.approx(TIME, abs=6e-9)
@@ -72,13 +72,13 @@ def test_friction_laws(law: FrictionLaw, bore: str) -> None:
 def test_a_contact_that_is_pressed_on_again_feels_the_mass_of_then() -> None:
     # the law has no memory of its speed, but of the mass that moved; the journal rolls to where that is 30 t
     scenario = drop(normal=Anagnostopoulos(stiffness=1e9, restitution=0.7))
-    ours, theirs = simulate_reduced(scenario, 1e-8), simulate_redundant(scenario)
+    ours, theirs = simulate_compiled(scenario, 1e-8), simulate_redundant(scenario)
     # with the mass of the impact 2e-3 is missing; the engine's error is 3e-5
     assert ours.dissipated == pytest.approx(theirs.dissipated, rel=2e-4)
 
 
 def test_a_cut_of_tension_is_met_once() -> None:
-    result = simulate_reduced(drop(normal=KelvinVoigt(stiffness=1e9, damping=5e4)), 1e-8)
+    result = simulate_compiled(drop(normal=KelvinVoigt(stiffness=1e9, damping=5e4)), 1e-8)
     # two impacts, a separation, and tension that sets in before it and ends with it
     assert result.counts.cut_steps <= 6
     assert result.counts.clamped_steps >= 1
@@ -96,7 +96,7 @@ def pressed(length: float) -> Scenario:
 def test_a_contact_beyond_the_range_of_its_law_stops_the_run(tolerance: float) -> None:
     scenario = pressed(1e-3)
     with pytest.raises(SimulationError) as caught:
-        simulate_reduced(scenario, tolerance)
+        simulate_compiled(scenario, tolerance)
     failure = caught.value.failure
     assert failure.reason == "a contact is overloaded"
     assert "Johnson: depth = 0.000812" in failure.advice
@@ -113,7 +113,7 @@ def test_a_step_that_was_tried_too_far_does_not_stop_the_run(tolerance: float) -
     # depths up to 0.793 of the largest, while the first try at a step may go beyond
     scenario = pressed(3e-3)
     law = scenario.clearance_pins[PIN].contact.normal
-    result = simulate_reduced(scenario, tolerance)
+    result = simulate_compiled(scenario, tolerance)
     # measured 2.4e-3 at the coarsest
     assert result[f"pin.{PIN}.depth"].max() / law.largest_depth == pytest.approx(
         0.79299, abs=3e-3 if tolerance == 1e-2 else 1e-4
@@ -152,11 +152,11 @@ def breaking(kind: str) -> Scenario:
 )
 def test_a_law_that_gives_no_number_stops_the_run(kind: str, reason: str) -> None:
     with pytest.raises(SimulationError) as caught:
-        simulate_reduced(breaking(kind))
+        simulate_compiled(breaking(kind))
     assert 0.01 < caught.value.failure.time < 0.04
     assert caught.value.failure.reason.startswith(reason)
 
 
 def test_a_bug_in_a_law_is_not_hidden() -> None:
     with pytest.raises(LookupError, match="a bug in the law"):
-        simulate_reduced(breaking("bug"))
+        simulate_compiled(breaking("bug"))

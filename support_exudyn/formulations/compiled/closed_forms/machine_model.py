@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from support_exudyn.formulations.reduced.layout import Matrix, Vector
+from support_exudyn.formulations.compiled.closed_forms.layout import Matrix, Vector
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import Linkage
 

@@ -5,8 +5,8 @@ Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section I
 """
 
 from support_exudyn.formulations.compilation import compiled, inlined
-from support_exudyn.formulations.reduced import slider_crank, support
-from support_exudyn.formulations.reduced.contact import (
+from support_exudyn.formulations.compiled.closed_forms import slider_crank, support
+from support_exudyn.formulations.compiled.closed_forms.contact import (
     Balance,
     PinState,
     accelerations,
@@ -14,7 +14,7 @@ from support_exudyn.formulations.reduced.contact import (
     contact_force,
     inverse_mass,
 )
-from support_exudyn.formulations.reduced.layout import (
+from support_exudyn.formulations.compiled.closed_forms.layout import (
     DAMPING,
     DAMPING_LOSS,
     FIRST,

@@ -30,16 +30,16 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.formulations.compilation import compiled_law, plain
-from support_exudyn.formulations.reduced import layout, support_model
-from support_exudyn.formulations.reduced.contact import PinState, contact_force
-from support_exudyn.formulations.reduced.layout import driven
-from support_exudyn.formulations.reduced.records import peak
-from support_exudyn.formulations.reduced.setup import parameters, segments
+from support_exudyn.formulations.compiled.closed_forms import layout, support_model
+from support_exudyn.formulations.compiled.closed_forms.contact import PinState, contact_force
+from support_exudyn.formulations.compiled.closed_forms.layout import driven
+from support_exudyn.formulations.compiled.closed_forms.records import peak
+from support_exudyn.formulations.compiled.closed_forms.setup import parameters, segments
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.sweeps.precompile import precompile
 from tests.cases.law_cases import LUGRE
 from tests.cases.machine_cases import contact, support
-from tests.reduced import simulate_reduced
+from tests.closed_forms import simulate_compiled
 from user_forces import (
     Ambrosio,
     CarvalhoMartins,
@@ -198,14 +198,14 @@ def pin_with(law: NormalLaw) -> ClearancePin:
 def test_what_is_not_covered_is_refused(case: str) -> None:
     make, backend, what = REFUSED[case]
     with pytest.raises(InputError, match=what) as caught:
-        simulate_reduced(make(), backend=backend)
+        simulate_compiled(make(), backend=backend)
     assert "allowed:" in str(caught.value)
     assert str(caught.value).endswith("formulation = 'redundant' covers it.")
 
 
 def test_a_changed_law_is_not_taken_for_one_of_its_family() -> None:
-    softened = simulate_reduced(scene(pin_with(Softened(stiffness=1e10, restitution=0.5))))
-    original = simulate_reduced(scene(pin_with(LankaraniNikravesh(stiffness=1e10, restitution=0.5))))
+    softened = simulate_compiled(scene(pin_with(Softened(stiffness=1e10, restitution=0.5))))
+    original = simulate_compiled(scene(pin_with(LankaraniNikravesh(stiffness=1e10, restitution=0.5))))
     assert softened.counts.user_function_calls == original.counts.user_function_calls == 0
     assert softened.largest_force[PIN] < 0.9 * original.largest_force[PIN]
 
@@ -233,12 +233,12 @@ def test_a_law_that_cannot_be_compiled_is_left_to_the_redundant_formulation(
 @pytest.mark.parametrize("tolerance", [0.0, -1e-7, 0.1, float("nan")])
 def test_a_tolerance_that_makes_no_sense_is_refused(tolerance: float) -> None:
     with pytest.raises(InputError, match="tolerance"):
-        simulate_reduced(scene(), tolerance)
+        simulate_compiled(scene(), tolerance)
 
 
 def test_a_pin_may_be_said_to_be_ideal() -> None:
-    said = simulate_reduced(scene(pins={PIN: IdealPin()}))
-    unsaid = simulate_reduced(scene(pins={}))
+    said = simulate_compiled(scene(pins={PIN: IdealPin()}))
+    unsaid = simulate_compiled(scene(pins={}))
     np.testing.assert_array_equal(said[FORCE], unsaid[FORCE])
     assert said.onsets == {}
     assert said.largest_force == {}
@@ -246,7 +246,7 @@ def test_a_pin_may_be_said_to_be_ideal() -> None:
 
 def test_an_unknown_channel_is_named() -> None:
     with pytest.raises(KeyError, match="no such channel"):
-        simulate_reduced(scene(pins={}))["pin.front_base.depth"]
+        simulate_compiled(scene(pins={}))["pin.front_base.depth"]
 
 
 # --- failures ---
@@ -254,7 +254,7 @@ def test_an_unknown_channel_is_named() -> None:
 
 def test_a_support_that_falls_through_its_pin_stops_at_a_dead_centre() -> None:
     with pytest.raises(SimulationError) as caught:
-        simulate_reduced(scene(hertz(1e3), duration=5.0))
+        simulate_compiled(scene(hertz(1e3), duration=5.0))
     failure = caught.value.failure
     assert "dead centre" in failure.reason
     assert 0.5 < failure.time < 2.0  # a fall of metres
@@ -263,21 +263,21 @@ def test_a_support_that_falls_through_its_pin_stops_at_a_dead_centre() -> None:
 
 def test_a_run_with_too_many_steps_is_given_up() -> None:
     with pytest.raises(SimulationError, match="more than 10 steps") as caught:
-        simulate_reduced(scene(), most_steps=10)
+        simulate_compiled(scene(), most_steps=10)
     assert 0.0 < caught.value.failure.time < 0.05
 
 
 def test_a_run_with_too_many_touches_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("run", "setup"):
-        module = importlib.import_module(f"support_exudyn.formulations.reduced.{name}")
+        module = importlib.import_module(f"support_exudyn.formulations.compiled.closed_forms.{name}")
         monkeypatch.setattr(module, "MOST_IMPACTS", 1)
     with pytest.raises(SimulationError, match="more than 1 impacts"):
-        simulate_reduced(scene(hertz(1e10), duration=0.3))
+        simulate_compiled(scene(hertz(1e10), duration=0.3))
 
 
 def test_progress_rises_to_one() -> None:
     told: list[float] = []
-    simulate_reduced(scene(), progress=told.append)
+    simulate_compiled(scene(), progress=told.append)
     assert told == sorted(told)
     assert told[-1] == 1.0
     assert all(0.0 < share <= 1.0 for share in told)
@@ -391,7 +391,7 @@ def test_records_are_multiples_of_the_period_and_the_end() -> None:
 )
 def test_energy_adds_up(law: Hertz | Exact, bore: str, drive: Drive) -> None:
     pin = ClearancePin(contact=replace(contact(), normal=law), bore=bore)
-    result = simulate_reduced(scene(pin, duration=0.3, gravity=(2.0, -9.0), drive=drive), 1e-10)
+    result = simulate_compiled(scene(pin, duration=0.3, gravity=(2.0, -9.0), drive=drive), 1e-10)
     # measured 3e-7 at this tolerance, in proportion to it; friction's kinks leave the most
     assert result.dissipated > 1.0
     assert result.energy_error < 1e-6 * result.dissipated
@@ -427,7 +427,7 @@ def test_the_largest_force_is_found_wherever_it_lies_in_a_step(top: float) -> No
 
 
 def _bytes() -> bytes:
-    result = simulate_reduced(scene(duration=0.2))
+    result = simulate_compiled(scene(duration=0.2))
     return b"".join(channel.values.tobytes() for channel in result.channels.values())
 
 
@@ -440,7 +440,7 @@ def test_runs_are_the_same_bit_for_bit_also_in_another_process() -> None:
 
 
 def test_records_do_not_change_the_run() -> None:
-    coarse = simulate_reduced(scene(duration=0.2, record_period=0.1))
-    fine = simulate_reduced(scene(duration=0.2, record_period=1e-4))
+    coarse = simulate_compiled(scene(duration=0.2, record_period=0.1))
+    fine = simulate_compiled(scene(duration=0.2, record_period=1e-4))
     assert coarse.onsets == fine.onsets
     assert coarse[FORCE][-1] == fine[FORCE][-1]

@@ -21,7 +21,7 @@ from support_exudyn import (
     reference_support,
 )
 from tests.cases.run_cases import FORCE, PIN, loose_support, paper_contact, support
-from tests.reduced import from_its_source, same_channels, simulate_reduced, simulate_redundant
+from tests.closed_forms import from_its_source, same_channels, simulate_compiled, simulate_redundant
 from user_forces import (
     Ambrosio,
     Frictionless,
@@ -56,7 +56,7 @@ def run() -> Callable[[Scenario, float], Result]:
     def get(scenario: Scenario, tolerance: float) -> Result:
         key = f"{scenario} {tolerance}"
         if key not in made:
-            made[key] = simulate_reduced(scenario, tolerance)
+            made[key] = simulate_compiled(scenario, tolerance)
         return made[key]
 
     return get
@@ -88,7 +88,7 @@ def test_ideal_pins(run: Run, t: float) -> None:
 
 
 def test_onsets_of_the_drop() -> None:
-    result = simulate_reduced(loose_support(drive=Held(), duration=0.08), 1e-10)
+    result = simulate_compiled(loose_support(drive=Held(), duration=0.08), 1e-10)
     # half of the last printed digit
     np.testing.assert_allclose([onset[:2] for onset in result.onsets[PIN]], DROP, rtol=0, atol=6e-9)
 
@@ -166,7 +166,7 @@ DAMPING = {"impact": ImpactVelocity(floor=1e-3), "depth": IndentationVelocity()}
 )
 def test_a_drop_is_the_engines(damping: str, mu: float, bore: str) -> None:
     scenario = dropping(law(DAMPING[damping]), mu, bore)
-    theirs, ours = simulate_redundant(scenario), simulate_reduced(scenario, 1e-8)
+    theirs, ours = simulate_redundant(scenario), simulate_compiled(scenario, 1e-8)
     first, second = (np.array(result.onsets[PIN]) for result in (theirs, ours))
     # the engine's errors at 256 steps an impact; each impact magnifies those of the last
     assert first.shape == second.shape
@@ -201,7 +201,7 @@ IDEAL_DRIVES: dict[str, Drive] = {
 @pytest.mark.parametrize("drive", IDEAL_DRIVES)
 def test_ideal_channels_are_the_engines(drive: str) -> None:
     scenario = support(step=1e-3, drive=IDEAL_DRIVES[drive], duration=1.5)
-    ours, theirs = simulate_reduced(scenario), simulate_redundant(scenario)
+    ours, theirs = simulate_compiled(scenario), simulate_redundant(scenario)
     # generalised alpha at 1e-3 s: 1e-6 in forces, 1e-5 in the canopy's small accelerations
     assert_same_channels(ours, theirs, 1e-4, 1e-4)
     if isinstance(scenario.drive, Steady):  # already in motion at the start, in both
@@ -218,7 +218,7 @@ def test_jumps_of_the_actuators_speed_are_the_engines(with_clearance: bool) -> N
     # a period that does not divide the duration, and records that do not meet the jumps
     pins = dropping(law(ImpactVelocity(floor=1e-3)), 0.25, "first").pins if with_clearance else {}
     scenario = support(drive=drive, duration=0.45, step=5e-4, record_period=7e-3, pins=pins)
-    theirs, ours = simulate_redundant(scenario), simulate_reduced(scenario, 1e-9)
+    theirs, ours = simulate_redundant(scenario), simulate_compiled(scenario, 1e-9)
     assert len(ours.impulses) == 2
     # ideal: the engine's velocities before the second jump are right to 1e-9; loose: they carry its error of
     # some impacts on, 1e-4
@@ -237,7 +237,7 @@ def test_jumps_of_the_actuators_speed_are_the_engines(with_clearance: bool) -> N
 def test_a_loose_support_on_actuators_that_move_from_the_start_on(bore: str) -> None:
     base = loose_support(0.5, 0.25, drive=Steady(rate=0.1), duration=0.05)
     scenario = replace(base, pins={PIN: replace(base.clearance_pins[PIN], bore=bore)})
-    theirs, ours = simulate_redundant(scenario), simulate_reduced(scenario, 1e-8)
+    theirs, ours = simulate_redundant(scenario), simulate_compiled(scenario, 1e-8)
     one, other = (np.array(result.onsets[PIN]) for result in (ours, theirs))
     np.testing.assert_allclose(one[:, :2], other[:, :2], rtol=1e-6)
     # a separation is where the engine's first step behind it ends: measured 3e-6
@@ -269,9 +269,9 @@ def test_the_familys_formulas_are_the_source_of_its_laws(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     scenario = replace(dropping(law(DAMPING[damping]), mu, bore), drive=DRIVES[drive], duration=0.12)
-    family = simulate_reduced(scenario, 1e-9)
+    family = simulate_compiled(scenario, 1e-9)
     from_its_source(monkeypatch)
-    source = simulate_reduced(scenario, 1e-9)
+    source = simulate_compiled(scenario, 1e-9)
     # cuts of tension are met by another measure, so other steps at 1e-9; measured 2e-7 m/s
     np.testing.assert_allclose(source.onsets[PIN], family.onsets[PIN], rtol=0, atol=1e-6)
     for name, wrong in same_channels(source, family).items():
@@ -285,7 +285,7 @@ def test_the_familys_formulas_are_the_source_of_its_laws(
 def test_velocities_after_a_jump_are_the_closed_form_ones() -> None:
     machine, small = reference_support(), 1e-5
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
-    result = simulate_reduced(support(drive=drive, duration=0.1))
+    result = simulate_compiled(support(drive=drive, duration=0.1))
     at = 0.25 * 0.1
     lower, upper = machine.extended(at - small), machine.extended(at + small)
     assert lower is not None
@@ -302,7 +302,7 @@ def test_velocities_after_a_jump_are_the_closed_form_ones() -> None:
 def test_a_loose_pin_transmits_no_impulse() -> None:
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
     ideal, with_clearance = (
-        simulate_reduced(scenario(drive=drive, duration=0.01)) for scenario in (support, loose_support)
+        simulate_compiled(scenario(drive=drive, duration=0.01)) for scenario in (support, loose_support)
     )
     (closed,), (free,) = ideal.impulses, with_clearance.impulses
     # Bertrand's theorem: with fewer constraints the same speeds of the actuators take less energy
@@ -313,10 +313,10 @@ def test_a_loose_pin_transmits_no_impulse() -> None:
 
 def test_largest_force_is_that_of_the_peak_between_records() -> None:
     scenario = loose_support(drive=Held(), duration=0.03)
-    fine = simulate_reduced(replace(scenario, record_period=1e-6), 1e-9)
+    fine = simulate_compiled(replace(scenario, record_period=1e-6), 1e-9)
     # the parabola through neighbours of the peak, 1 us of 5 ms; what 1e-5 makes of an impact: measured 2e-5
     for tolerance, close in ((1e-9, 1e-6), (1e-5, 1e-4)):
-        result = simulate_reduced(scenario, tolerance)
+        result = simulate_compiled(scenario, tolerance)
         assert result.largest_force[PIN] == pytest.approx(fine[FORCE].max(), rel=close)
         assert result[FORCE].max() < result.largest_force[PIN]
 
@@ -325,7 +325,7 @@ def test_largest_force_is_that_of_the_peak_between_records() -> None:
 def test_the_first_record_is_of_the_state_before_a_jump_at_the_start(with_clearance: bool) -> None:
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
     scenario = (loose_support if with_clearance else support)(drive=drive, duration=0.01)
-    ours, theirs = simulate_reduced(scenario), simulate_redundant(scenario)
+    ours, theirs = simulate_compiled(scenario), simulate_redundant(scenario)
     assert ours["energy.kinetic"][0] == theirs["energy.kinetic"][0] == 0.0
     for name in (name for name in ours.channels if "velocity" in name):
         assert ours[name][0] == 0.0, name

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from support_exudyn.formulations.compilation import compiled_law
-from support_exudyn.formulations.reduced import layout
-from support_exudyn.formulations.reduced.coverage import model_of
-from support_exudyn.formulations.reduced.integrate import REPORT
-from support_exudyn.formulations.reduced.layout import Matrix, Vector
-from support_exudyn.formulations.reduced.machine_model import Model
+from support_exudyn.formulations.compiled.closed_forms import layout
+from support_exudyn.formulations.compiled.closed_forms.coverage import model_of
+from support_exudyn.formulations.compiled.closed_forms.integrate import REPORT
+from support_exudyn.formulations.compiled.closed_forms.layout import Matrix, Vector
+from support_exudyn.formulations.compiled.closed_forms.machine_model import Model
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.model.drives.drive import Drive, Reciprocating, Steady, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive

@@ -9,11 +9,11 @@ import pytest
 
 from support_exudyn import Result, Scenario, simulate
 from support_exudyn.formulations.contract import Progress, silent
-from support_exudyn.formulations.reduced import setup
+from support_exudyn.formulations.compiled.closed_forms import setup
 from support_exudyn.scenario.solver_settings import MOST_STEPS
 
 
-def simulate_reduced(
+def simulate_compiled(
     scenario: Scenario,
     tolerance: float = 1e-7,
     backend: str = "auto",
@@ -22,7 +22,7 @@ def simulate_reduced(
 ) -> Result:
     """Run a scenario in its free coordinates."""
     solver = replace(scenario.solver, tolerance=tolerance, backend=backend, most_steps=most_steps)
-    return simulate(replace(scenario, formulation="reduced", solver=solver), progress=progress)
+    return simulate(replace(scenario, formulation="compiled", solver=solver), progress=progress)
 
 
 def from_its_source(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,11 +4,11 @@ import numpy as np
 
 from support_exudyn.formulations.compilation import on_arrays
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
-from support_exudyn.formulations.reduced import layout
-from support_exudyn.formulations.reduced.contact import accelerations
-from support_exudyn.formulations.reduced.equations import law_at
-from support_exudyn.formulations.reduced.ideal import run_ideal
-from support_exudyn.formulations.reduced.integrate import (
+from support_exudyn.formulations.compiled.closed_forms import layout
+from support_exudyn.formulations.compiled.closed_forms.contact import accelerations
+from support_exudyn.formulations.compiled.closed_forms.equations import law_at
+from support_exudyn.formulations.compiled.closed_forms.ideal import run_ideal
+from support_exudyn.formulations.compiled.closed_forms.integrate import (
     ACCEPTED,
     AT,
     CLAMPED,
@@ -32,9 +32,9 @@ from support_exudyn.formulations.reduced.integrate import (
     TOO_MANY_STEPS,
     integrate,
 )
-from support_exudyn.formulations.reduced.layout import DriveValues, Matrix, Vector
-from support_exudyn.formulations.reduced.machine_model import Model
-from support_exudyn.formulations.reduced.setup import MOST_IMPACTS, RunArrays, outline
+from support_exudyn.formulations.compiled.closed_forms.layout import DriveValues, Matrix, Vector
+from support_exudyn.formulations.compiled.closed_forms.machine_model import Model
+from support_exudyn.formulations.compiled.closed_forms.setup import MOST_IMPACTS, RunArrays, outline
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.contact_history import RelativeMotion, acting, journal_arm, series

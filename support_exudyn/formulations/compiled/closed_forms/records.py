@@ -10,8 +10,8 @@ from support_exudyn.formulations.peak_force import (
     NEAR_TOP,
     PEAK_SAMPLES,
 )
-from support_exudyn.formulations.reduced.equations import observe, within
-from support_exudyn.formulations.reduced.layout import (
+from support_exudyn.formulations.compiled.closed_forms.equations import observe, within
+from support_exudyn.formulations.compiled.closed_forms.layout import (
     ACCELERATION,
     EXTENSION,
     FRICTION,

@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from support_exudyn.formulations.compilation import inlined
-from support_exudyn.formulations.reduced import layout
-from support_exudyn.formulations.reduced.contact import Balance, PinState
-from support_exudyn.formulations.reduced.layout import (
+from support_exudyn.formulations.compiled.closed_forms import layout
+from support_exudyn.formulations.compiled.closed_forms.contact import Balance, PinState
+from support_exudyn.formulations.compiled.closed_forms.layout import (
     BORE_FIRST,
     CRANK_ANGLE,
     CRANK_INERTIA,
@@ -31,7 +31,7 @@ from support_exudyn.formulations.reduced.layout import (
     Matrix,
     Vector,
 )
-from support_exudyn.formulations.reduced.machine_model import Bodies, BodyPlace, moved, placed
+from support_exudyn.formulations.compiled.closed_forms.machine_model import Bodies, BodyPlace, moved, placed
 from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.drives.drive import CubicStep, Held, Reciprocating, Steady
 from support_exudyn.model.linkage import Linkage

@@ -8,7 +8,7 @@ import math
 from typing import NamedTuple
 
 from support_exudyn.formulations.compilation import call_law, compiled, inlined
-from support_exudyn.formulations.reduced.layout import (
+from support_exudyn.formulations.compiled.closed_forms.layout import (
     ASKED_DEPTH,
     ASKED_MASS,
     ASKED_RATE,

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from support_exudyn.formulations.compilation import on_arrays
-from support_exudyn.formulations.reduced import layout
-from support_exudyn.formulations.reduced.contact import closing_force
-from support_exudyn.formulations.reduced.layout import DriveValues, Matrix, Vector
-from support_exudyn.formulations.reduced.machine_model import Bodies, moved, placed
-from support_exudyn.formulations.reduced.support import (
+from support_exudyn.formulations.compiled.closed_forms import layout
+from support_exudyn.formulations.compiled.closed_forms.contact import closing_force
+from support_exudyn.formulations.compiled.closed_forms.layout import DriveValues, Matrix, Vector
+from support_exudyn.formulations.compiled.closed_forms.machine_model import Bodies, moved, placed
+from support_exudyn.formulations.compiled.closed_forms.support import (
     arms,
     balance,
     closed,
@@ -18,7 +18,7 @@ from support_exudyn.formulations.reduced.support import (
     rear_pin,
     unforced,
 )
-from support_exudyn.formulations.reduced.support_posture import posture, rates
+from support_exudyn.formulations.compiled.closed_forms.support_posture import posture, rates
 from support_exudyn.machines.four_column_support import BODIES, HydraulicSupport, Posture
 from support_exudyn.model.drives.drive import CubicStep, Held, Reciprocating, Steady, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive

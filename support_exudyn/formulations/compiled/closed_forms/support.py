@@ -8,9 +8,9 @@ sums equal the power of the contact force.
 from typing import NamedTuple
 
 from support_exudyn.formulations.compilation import compiled, inlined
-from support_exudyn.formulations.reduced import support_posture
-from support_exudyn.formulations.reduced.contact import Balance, PinState, closing_force, closing_rates, solved
-from support_exudyn.formulations.reduced.layout import (
+from support_exudyn.formulations.compiled.closed_forms import support_posture
+from support_exudyn.formulations.compiled.closed_forms.contact import Balance, PinState, closing_force, closing_rates, solved
+from support_exudyn.formulations.compiled.closed_forms.layout import (
     BEGIN,
     BORE_FIRST,
     CANOPY_INERTIA,
@@ -51,7 +51,7 @@ from support_exudyn.formulations.reduced.layout import (
     Vector,
     driven,
 )
-from support_exudyn.formulations.reduced.support_posture import Rates, SupportMotion, posture, rates
+from support_exudyn.formulations.compiled.closed_forms.support_posture import Rates, SupportMotion, posture, rates
 
 
 class Arms(NamedTuple):

@@ -1,0 +1,28 @@
+"""How long steps are: by their error, and to end where something happens."""
+
+from support_exudyn.formulations.compilation import compiled
+
+SAFETY, SLOWEST, FASTEST = 0.9, 0.2, 8.0  # change of the step: margin, smallest and largest factor
+SHORTEN = 0.25  # factor for a step in which too much happens
+STEADY = 0.04  # weight of the last error in the choice of a step (Gustafsson), against hunting
+ORDER = 0.2 - 0.75 * STEADY
+SMALLEST_STEP = 1e-13  # [s]
+LANDED = 1e-14  # depth [m] at which an impact or separation is met; rounding of the posture is some 1e-16
+LANDINGS = 12
+TURNS = 3  # looks for where a contact is pressed on again; the force is continuous there
+CLOSE = 1e-12  # [s]: a record that lies so little behind the end of a step belongs to it
+
+
+@compiled
+def factor(error: float, before: float) -> float:
+    """By which the next step may be longer than one with this error, in units of what is allowed."""
+    if not error < 1e30:
+        return SLOWEST
+    wanted: float = SAFETY * max(error, 1e-9) ** -ORDER * before**STEADY
+    return min(FASTEST, max(SLOWEST, wanted))
+
+
+@compiled
+def crossing(low: float, high: float, at_low: float, at_high: float) -> float:
+    """Where a line through two points passes zero."""
+    return (low * at_high - high * at_low) / (at_high - at_low)
