@@ -30,8 +30,9 @@ def _record(whole: str, numbers: str) -> np.dtype[np.void]:
 BODY = _record("", "light light_turn weight_x weight_y x0 y0 c s fx fy m ax ay a")
 # arm: from the centre of mass at the start, of the ground the place itself | arm now, place, velocity
 POINT = _record("body", "arm_x arm_y rx ry x y vx vy")
-# a time course: its pieces in the segment | its value there, and both derivatives
-COURSE = _record("low high", "value rate bend")
+# a time course: its pieces in the segment; still: for a record before it begins, at a break at 0 s | its jump of
+# the rate then; its value, and both derivatives
+COURSE = _record("low high still", "jump value rate bend")
 PIECE = _record("", "begin half")
 # kinds: see PIN and so on. ratio: of a gear. length, angle: at the start
 JOINT = _record("kind row first second course conditions", "length angle ratio")

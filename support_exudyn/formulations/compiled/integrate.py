@@ -38,7 +38,6 @@ from support_exudyn.formulations.compiled.step import (
     close_joints,
     evaluate,
     fit,
-    forget_friction,
     within,
 )
 from support_exudyn.formulations.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK, NEAR_TOP, PEAK_SAMPLES
@@ -284,6 +283,8 @@ def begin_run(scene: Scene, room: Scratch, y: Vector, rows: Matrix) -> bool:
         renew_mass(scene, room, n, y)
     evaluate(scene, 0.0, y, room.slope, room.right)
     write_record(scene, 0.0, y, room.slope, rows[0])
+    for n in range(scene.courses.size):
+        scene.courses[n].still = 0
     return least > SINGULAR
 
 
@@ -305,7 +306,6 @@ def jump(scene: Scene, room: Scratch, t: float, y: Vector, jumps: Vector, report
         jumped = jumped or jumps[n] != 0.0
     if not jumped:
         return
-    forget_friction(scene)
     evaluate(scene, t, y, room.slope, room.right)
     for n in range(room.impulses.size):
         room.impulses[n] = 0.0
@@ -367,7 +367,6 @@ def integrate(
             return DEAD_CENTRE
         report[RECORDS] = max(1.0, report[RECORDS])
         jump(scene, room, t, y, jumps, report)
-        forget_friction(scene)
         evaluate(scene, t, y, k[0], right)
         copy_contacts(scene.contacts, now)
     while t < stop:
@@ -422,7 +421,6 @@ def integrate(
             within(path, min(1.0, (times[written] - t) / h), 0, states, probe)
             copy_contacts(then, scene.contacts)
             close_joints(scene, times[written], probe, right)
-            forget_friction(scene)
             evaluate(scene, times[written], probe, slope, right)
             write_record(scene, times[written], probe, slope, rows[written])
             written += 1

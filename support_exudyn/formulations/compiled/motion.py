@@ -35,6 +35,8 @@ def follow_courses(scene: Scene, t: float) -> None:
             rate = rate * x + value
             value = value * x + scene.coefficients[low, k]
         one.value, one.rate, one.bend = value, rate / piece.half, bend / (piece.half * piece.half)
+        if one.still != 0:
+            one.rate, one.bend = one.rate - one.jump, 0.0
 
 
 @inlined

@@ -30,6 +30,8 @@ from support_exudyn.formulations.compiled.start import error_weights, first_stat
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse, Outcome
+from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.hydraulic_cylinder import Inlet
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.expressions.scalar import maximum
 from user_forces.lawful import UNLAWFUL, LawError, look
@@ -70,6 +72,9 @@ class _Run:
                 return
             model.scene.courses[:] = segment
             jumps = self._jumps(begin)
+            if begin == 0.0:
+                model.scene.courses["jump"] = jumps
+                model.scene.courses["still"] = [0.0 in one.breaks for one in self._followed()]
             while True:
                 self.code = integrate(
                     model.scene,
@@ -94,6 +99,11 @@ class _Run:
             going[MIDST] = 0.0
             if jumps.any():
                 self._note_jump(begin)
+
+    def _followed(self) -> list[Drive | Inlet]:
+        """What every course follows, in order."""
+        drives = [self.scenario.drive_of(name) for name in self.model.drives]
+        return [*drives, *(self.scenario.cylinders[name].inlet for name in self.model.valves)]
 
     def _jumps(self, t: float) -> Vector:
         """Jumps of the rates of all courses at t [s]."""

@@ -30,6 +30,7 @@ from support_exudyn.formulations.compiled.motion import (
     follow_courses,
     hold,
     place,
+    push,
     rate_of,
     respond,
     solve,
@@ -95,6 +96,10 @@ def evaluate(scene: Scene, t: float, y: Vector, slope: Vector, right: Vector) ->
         press_loads(scene, t, y)
     if scene.bushings.size > 0:
         press_bushings(scene, y)
+    for n in range(scene.rubbing.size):  # from that of the evaluation before
+        one = scene.rubbing[n]
+        push(scene, one.body, 0.0, 0.0, one.moment)
+        push(scene, one.other, 0.0, 0.0, -one.moment)
     solve(scene, right)
     if scene.rubbing.size > 0:
         rub(scene, y, right)
@@ -120,21 +125,12 @@ def rub(scene: Scene, y: Vector, right: Vector) -> None:
             moment = one.radius * size
             change = moment - one.moment
             one.moment = moment
-            if one.body >= 0:
-                scene.bodies[one.body].m += change
-            if one.other >= 0:
-                scene.bodies[one.other].m -= change
+            push(scene, one.body, 0.0, 0.0, change)
+            push(scene, one.other, 0.0, 0.0, -change)
             changed, largest = max(changed, abs(change)), max(largest, abs(moment))
         if not changed > SETTLED * largest:
             break
         solve(scene, right)
-
-
-@compiled
-def forget_friction(scene: Scene) -> None:
-    """Before an evaluation: friction of ideal pins is looked for from none on."""
-    for n in range(scene.rubbing.size):
-        scene.rubbing[n].moment = 0.0
 
 
 @compiled
@@ -195,14 +191,13 @@ def advance(
         if not least > SINGULAR:
             return math.nan
     square = 0.0
-    weighed = size - 1
-    for i in range(weighed):
+    for i in range(size):
         wrong = 0.0
         for j in range(STAGES):
             wrong += ERROR[j] * k[j, i]
         part = h * wrong * weights[i]
         square += part * part
-    return math.sqrt(square / weighed)
+    return math.sqrt(square / size)
 
 
 @compiled
