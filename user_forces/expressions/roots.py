@@ -1,7 +1,7 @@
 """Roots of functions of one variable.
 
-Brent's method is written out here, operation by operation as `scipy.optimize.brentq` has it, so that it gives the
-same root to the bit: importing scipy.optimize takes longer than all that a run asks of it.
+Brent's method is written out here, operation by operation as `scipy.optimize.brentq` has it, so that it gives
+the same root to the bit: importing scipy.optimize takes longer than all that a run asks of it.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ from typing_extensions import Never
 
 from support_exudyn.files.toml.faults import said
 from user_forces.values.units import Unit
-from user_forces.values.value import InputError, Value
+from user_forces.values.value import InputError, Value, known_classes
 
 Shape = Mapping[str, Any]
 # keywords of JSON Schema, each with its name in metadata, its sign and what fits it
@@ -90,7 +90,7 @@ class GroupShape:
     @property
     def kinds(self) -> dict[str, type[Value]]:
         """The classes of which values can be made, by name."""
-        known = Value._register.items()
+        known = known_classes().items()
         return {name: kind for name, kind in sorted(known) if issubclass(kind, self.bases) and _is_kind(kind)}
 
     @property
