@@ -24,11 +24,13 @@ NAMES = {  # of commands, each with a line of what it does
     "channels": "all channels of a scenario or a machine before a run: names, units, meanings",
     "run": "simulate a scenario's file and save the run",
     "sweep": "run a scenario with fields of it varied, into a store that can be continued",
-    "chart": "figure of a sweep as PNG and PDF: a number over a varied field with errors, a histogram, or a tornado",
+    "chart": "figure of a sweep as PNG and PDF: a number over a varied field with errors, a histogram, or a "
+    "tornado",
     "table": "table of a sweep's runs for a text, as Markdown, CSV or LaTeX",
     "show": "tables of what a run or a sweep was and what came out of it",
     "compare": "by how much a second run differs from a first, channel by channel, with errors",
-    "plot": "figures of runs as PNG and PDF: channels over time, journal orbit, Poincare section, force spectrum",
+    "plot": "figures of runs as PNG and PDF: channels over time, journal orbit, Poincare section, force "
+    "spectrum",
     "report": "a page on runs: what was run, the machine, numbers with errors, live figures, a picture",
     "render": "ray-traced frames and a movie of a run, without a display",
     "view": "open Exudyn's solution viewer on a run",

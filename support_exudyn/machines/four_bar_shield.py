@@ -86,7 +86,7 @@ class FourBarShield(ShieldLayout[P], ABC, Generic[P]):
         return None
 
     def corrected(self, lengths: Sequence[float], near: P) -> P | None:
-        """Posture a step of Newton's method nearer to these lengths of its columns [m]; None if there is none."""
+        """Posture a step of Newton's method nearer to these lengths of its columns [m]; None if none."""
         rates = self.column_rates(near)
         if not np.isfinite(rates).all() or abs(np.linalg.det(rates)) < LOCKED:
             return None

@@ -50,6 +50,6 @@ def place(name: str) -> str | None:
 
 def import_all() -> None:
     """Import all modules of ours that have classes of values."""
-    for module in dict.fromkeys(_of_classes.values()):
-        if module not in sys.modules:
+    while missing := set(_of_classes.values()) - sys.modules.keys():  # each may tell of others
+        for module in sorted(missing):
             import_module(module)

@@ -96,10 +96,10 @@ class GroupShape:
     @property
     def usual(self) -> type[Value] | None:
         """The class that is meant where a table says none; None if it has to."""
+        if len(self.bases) == 1 and _is_kind(self.bases[0]):
+            return self.bases[0]
         kinds = list(self.kinds.values())
-        if len(kinds) == 1:
-            return kinds[0]
-        return self.bases[0] if len(self.bases) == 1 and self.bases[0] in kinds else None
+        return kinds[0] if len(kinds) == 1 else None
 
     @property
     def says_type(self) -> bool:
