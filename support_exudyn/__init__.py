@@ -79,20 +79,15 @@ if TYPE_CHECKING:
         Slide,
         TracePoint,
     )
-    from support_exudyn.model.loads import (
-        AppliedForce,
-        AppliedTorque,
-        FallingBlock,
-        HarmonicCourse,
-        Load,
-        LoadedPoint,
-        MomentLoad,
-        Roof,
-        SpringDamper,
-        TableCourse,
-        TorsionSpring,
-        TurnedBody,
-    )
+    from support_exudyn.model.loads.applied_force import AppliedForce
+    from support_exudyn.model.loads.applied_torque import AppliedTorque
+    from support_exudyn.model.loads.course import HarmonicCourse, TableCourse
+    from support_exudyn.model.loads.falling_block import FallingBlock
+    from support_exudyn.model.loads.load import Load, LoadedPoint
+    from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
+    from support_exudyn.model.loads.roof import Roof
+    from support_exudyn.model.loads.spring_damper import SpringDamper
+    from support_exudyn.model.loads.torsion_spring import TorsionSpring
     from support_exudyn.model.machine import Machine
     from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
     from support_exudyn.model.to_space import Width
@@ -244,20 +239,15 @@ _PLACES = {
         "Slide",
         "TracePoint",
     ),
-    ".model.loads": (
-        "AppliedForce",
-        "AppliedTorque",
-        "FallingBlock",
-        "HarmonicCourse",
-        "Load",
-        "LoadedPoint",
-        "MomentLoad",
-        "Roof",
-        "SpringDamper",
-        "TableCourse",
-        "TorsionSpring",
-        "TurnedBody",
-    ),
+    ".model.loads.applied_force": ("AppliedForce",),
+    ".model.loads.applied_torque": ("AppliedTorque",),
+    ".model.loads.course": ("HarmonicCourse", "TableCourse"),
+    ".model.loads.falling_block": ("FallingBlock",),
+    ".model.loads.load": ("Load", "LoadedPoint"),
+    ".model.loads.moment_load": ("MomentLoad", "TurnedBody"),
+    ".model.loads.roof": ("Roof",),
+    ".model.loads.spring_damper": ("SpringDamper",),
+    ".model.loads.torsion_spring": ("TorsionSpring",),
     ".model.machine": ("Machine",),
     ".model.pins": ("ClearancePin", "IdealPin", "Pin"),
     ".model.to_space": ("Width",),

@@ -20,7 +20,6 @@ from abc import ABC
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from difflib import get_close_matches
-from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 import annotated_types
@@ -137,8 +136,8 @@ class Value:
     @staticmethod
     def of_name(name: str) -> type[Value]:
         """The class of this name. Raises KeyError that says which names are near if there is none."""
-        found = known_class(name)
-        return Named(known_classes(), "class of values")[name] if found is None else found
+        known_class(name)
+        return Named(Value._register, "class of values")[name]
 
     @staticmethod
     def from_data(data: Mapping[str, Any]) -> Any:
@@ -151,8 +150,8 @@ class Value:
 
 def known_class(name: str) -> type[Value] | None:
     """The class of this name, imported if it is one of ours; None if there is none."""
-    if name not in Value._register and (module := places.place(name)) is not None:
-        import_module(module)
+    if name not in Value._register:
+        places.import_place_of(name)
     return Value._register.get(name)
 
 
