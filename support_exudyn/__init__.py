@@ -273,13 +273,8 @@ _SHOWN = {
     ".postprocessing.side_by_side": ("RunsSideBySide", "compare"),
 }
 
-__getattr__ = offered(__name__, _PLACES | _SHOWN)
+__getattr__, __dir__ = offered(__name__, _PLACES | _SHOWN)
 keep_classes(__name__, _PLACES)
-
-
-def __dir__() -> list[str]:
-    """All names, also those that are imported when they are asked for."""
-    return sorted({*globals(), *__all__})
 
 
 def _presenter() -> Presenter:

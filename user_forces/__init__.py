@@ -130,10 +130,5 @@ _PLACES = {
     ".values.value": ("InputError", "Value", "value"),
 }
 
-__getattr__ = offered(__name__, _PLACES)
+__getattr__, __dir__ = offered(__name__, _PLACES)
 keep_classes(__name__, _PLACES)
-
-
-def __dir__() -> list[str]:
-    """All names, also those that are imported when they are asked for."""
-    return sorted({*globals(), *(name for names in _PLACES.values() for name in names)})

@@ -37,7 +37,7 @@ __all__ = [
     "toml_text",
 ]
 
-__getattr__ = offered(
+__getattr__, __dir__ = offered(
     __name__,
     {
         ".scenarios.drive_table": ("read_drives",),

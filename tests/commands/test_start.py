@@ -91,6 +91,7 @@ def test_what_a_package_offers_is_what_it_is_declared_to_offer(module: object) -
         if isinstance(item, ast.ImportFrom) for one in item.names
     }  # fmt: skip
     assert {name for name, _ in declared} >= set(getattr(module, "__all__", ()))
+    assert {name for name, _ in declared} <= set(dir(module))
     assert len(declared) > 2
     for name, place in declared:
         assert place is not None

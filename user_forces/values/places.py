@@ -17,8 +17,10 @@ from user_forces.values.names import meant
 _of_classes: dict[str, str] = {}  # the modules in which classes of values lie, and names that lie there too
 
 
-def offered(package: str, places: Mapping[str, Sequence[str]]) -> Callable[[str], Any]:
-    """What a package calls `__getattr__`: imports a name when it is asked for.
+def offered(
+    package: str, places: Mapping[str, Sequence[str]]
+) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
+    """What a package calls `__getattr__`, which imports a name when it is asked for, and `__dir__`.
 
     places: names by the module that has them; one of the package itself begins with a dot.
     """
@@ -26,12 +28,12 @@ def offered(package: str, places: Mapping[str, Sequence[str]]) -> Callable[[str]
 
     def found(name: str) -> Any:
         if name not in where:
-            raise AttributeError(f"module {package!r} has no attribute {name!r}; {meant(name, where)}")
+            raise AttributeError(f"module {package!r} has no attribute {name!r}; {meant(name, sorted(where))}")
         item = getattr(import_module(where[name]), name)
         setattr(sys.modules[package], name, item)  # from now on it is there
         return item
 
-    return found
+    return found, lambda: sorted({*vars(sys.modules[package]), *where})
 
 
 def keep_classes(package: str, places: Mapping[str, Sequence[str]]) -> None:

@@ -10,4 +10,6 @@ if TYPE_CHECKING:
 
 __all__ = ["CheckReport", "CheckTable", "check_machine"]
 
-__getattr__ = offered(__name__, {".any_kind": ("check_machine",), ".report": ("CheckReport", "CheckTable")})
+__getattr__, __dir__ = offered(
+    __name__, {".any_kind": ("check_machine",), ".report": ("CheckReport", "CheckTable")}
+)
