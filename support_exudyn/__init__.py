@@ -12,106 +12,100 @@ One entry, `simulate`; everything else is a value that is handed in. SI units an
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from support_exudyn.simulation import at_start as at_start
 
 # isort: split
 
-from support_exudyn.files.machines import (
-    cylinders_and_rods,
-    load_machine,
-    load_support,
-    machine,
-    reference_support,
-)
-from support_exudyn.formulations.contract import Failure, SimulationError
-from support_exudyn.machines.four_column_support import HydraulicSupport
-from support_exudyn.machines.free_impact import ImpactStand
-from support_exudyn.machines.planar_linkage import PlanarLinkage
-from support_exudyn.machines.slider_crank import SliderCrank, ravn_slider_crank
-from support_exudyn.machines.two_leg_shield import TwoLegShield
-from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.trajectory import Impulse
-from support_exudyn.model.actuators import (
-    ActuatorModel,
-    CylinderAndRod,
-    Lumped,
-    OilColumn,
-    OwnBody,
-    PartModel,
-    RigidActuator,
-    bore_area,
-)
-from support_exudyn.model.bushing_pin import BushingPin
-from support_exudyn.model.drives.drive import (
-    CubicStep,
-    Drive,
-    Held,
-    Reciprocating,
-    Steady,
-    Stroke,
-    UniformSpeed,
-)
-from support_exudyn.model.drives.table_drive import TableDrive
-from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
-from support_exudyn.model.hydraulic_cylinder import (
-    ClosedInlet,
-    HydraulicCylinder,
-    Inlet,
-    RampedOpening,
-    SuddenOpening,
-)
-from support_exudyn.model.linkage import (
-    Body,
-    Crank,
-    Gear,
-    LinearActuator,
-    Linkage,
-    Part,
-    PinPlace,
-    Slide,
-    TracePoint,
-)
-from support_exudyn.model.loads import (
-    AppliedForce,
-    AppliedTorque,
-    FallingBlock,
-    HarmonicCourse,
-    Load,
-    LoadedPoint,
-    MomentLoad,
-    Roof,
-    SpringDamper,
-    TableCourse,
-    TorsionSpring,
-    TurnedBody,
-)
-from support_exudyn.model.machine import Machine
-from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
-from support_exudyn.model.to_space import Width
 from support_exudyn.scenario.presentation import Presenter, present_by
-from support_exudyn.scenario.recorded_channels import Channel
-from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.scenario.solver_settings import SolverSettings
-from support_exudyn.simulation.estimate import Estimate
-from support_exudyn.simulation.recommend import Recommendation, recommend
-from support_exudyn.simulation.result import Result
-from support_exudyn.simulation.simulate import simulate
-from user_forces.contact import JournalContact
-from user_forces.friction.law import FrictionLaw
-from user_forces.journal import JournalBearing
-from user_forces.normal.law import NormalLaw
-from user_forces.values.names import meant
-from user_forces.values.value import InputError, value
+from user_forces.values.places import keep_classes, offered
 
 if TYPE_CHECKING:
+    from support_exudyn.files.machines import (
+        cylinders_and_rods,
+        load_machine,
+        load_support,
+        machine,
+        reference_support,
+    )
     from support_exudyn.files.scenarios.scenario_file import read_scenario
     from support_exudyn.files.scenarios.simple_scenario import simple_scenario
+    from support_exudyn.formulations.contract import Failure, SimulationError
+    from support_exudyn.machines.four_column_support import HydraulicSupport
+    from support_exudyn.machines.free_impact import ImpactStand
+    from support_exudyn.machines.planar_linkage import PlanarLinkage
+    from support_exudyn.machines.slider_crank import SliderCrank, ravn_slider_crank
+    from support_exudyn.machines.two_leg_shield import TwoLegShield
+    from support_exudyn.mechanics.contact_state import Onset
+    from support_exudyn.mechanics.trajectory import Impulse
+    from support_exudyn.model.actuators import (
+        ActuatorModel,
+        CylinderAndRod,
+        Lumped,
+        OilColumn,
+        OwnBody,
+        PartModel,
+        RigidActuator,
+        bore_area,
+    )
+    from support_exudyn.model.bushing_pin import BushingPin
+    from support_exudyn.model.drives.drive import (
+        CubicStep,
+        Drive,
+        Held,
+        Reciprocating,
+        Steady,
+        Stroke,
+        UniformSpeed,
+    )
+    from support_exudyn.model.drives.table_drive import TableDrive
+    from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
+    from support_exudyn.model.hydraulic_cylinder import (
+        ClosedInlet,
+        HydraulicCylinder,
+        Inlet,
+        RampedOpening,
+        SuddenOpening,
+    )
+    from support_exudyn.model.linkage import (
+        Body,
+        Crank,
+        Gear,
+        LinearActuator,
+        Linkage,
+        Part,
+        PinPlace,
+        Slide,
+        TracePoint,
+    )
+    from support_exudyn.model.loads.applied_force import AppliedForce
+    from support_exudyn.model.loads.applied_torque import AppliedTorque
+    from support_exudyn.model.loads.course import HarmonicCourse, TableCourse
+    from support_exudyn.model.loads.falling_block import FallingBlock
+    from support_exudyn.model.loads.load import Load, LoadedPoint
+    from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
+    from support_exudyn.model.loads.roof import Roof
+    from support_exudyn.model.loads.spring_damper import SpringDamper
+    from support_exudyn.model.loads.torsion_spring import TorsionSpring
+    from support_exudyn.model.machine import Machine
+    from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
+    from support_exudyn.model.to_space import Width
     from support_exudyn.postprocessing.export.solution_file import save_solution
     from support_exudyn.postprocessing.known_channels import channels
     from support_exudyn.postprocessing.side_by_side import RunsSideBySide, compare
+    from support_exudyn.scenario.recorded_channels import Channel
+    from support_exudyn.scenario.scenario import Scenario
+    from support_exudyn.scenario.solver_settings import SolverSettings
+    from support_exudyn.simulation.estimate import Estimate
+    from support_exudyn.simulation.recommend import Recommendation, recommend
+    from support_exudyn.simulation.result import Result
+    from support_exudyn.simulation.simulate import simulate
+    from user_forces.contact import JournalContact
+    from user_forces.friction.law import FrictionLaw
+    from user_forces.journal import JournalBearing
+    from user_forces.normal.law import NormalLaw
+    from user_forces.values.value import InputError, value
 
 __all__ = [
     "ActuatorModel",
@@ -202,27 +196,85 @@ __all__ = [
     "value",
 ]
 
-
-# what needs the engine, reads scenarios or draws: imported when it is asked for, so that others need not wait
-_LATER = {
-    "RunsSideBySide": "postprocessing.side_by_side",
-    "channels": "postprocessing.known_channels",
-    "compare": "postprocessing.side_by_side",
-    "read_scenario": "files.scenarios.scenario_file",
-    "save_solution": "postprocessing.export.solution_file",
-    "simple_scenario": "files.scenarios.simple_scenario",
+# imported when they are asked for, so that others need not wait: what a run is made of, and what it is read by
+_PLACES = {
+    ".files.machines": ("cylinders_and_rods", "load_machine", "load_support", "machine", "reference_support"),
+    ".formulations.contract": ("Failure", "SimulationError"),
+    ".machines.four_column_support": ("HydraulicSupport",),
+    ".machines.free_impact": ("ImpactStand",),
+    ".machines.planar_linkage": ("PlanarLinkage",),
+    ".machines.slider_crank": ("SliderCrank", "ravn_slider_crank"),
+    ".machines.two_leg_shield": ("TwoLegShield",),
+    ".mechanics.contact_state": ("Onset",),
+    ".mechanics.trajectory": ("Impulse",),
+    ".model.actuators": (
+        "ActuatorModel",
+        "CylinderAndRod",
+        "Lumped",
+        "OilColumn",
+        "OwnBody",
+        "PartModel",
+        "RigidActuator",
+        "bore_area",
+    ),
+    ".model.bushing_pin": ("BushingPin",),
+    ".model.drives.drive": ("CubicStep", "Drive", "Held", "Reciprocating", "Steady", "Stroke", "UniformSpeed"),
+    ".model.drives.table_drive": ("TableDrive",),
+    ".model.guides": ("ClearanceGuide", "Guide", "IdealGuide"),
+    ".model.hydraulic_cylinder": (
+        "ClosedInlet",
+        "HydraulicCylinder",
+        "Inlet",
+        "RampedOpening",
+        "SuddenOpening",
+    ),
+    ".model.linkage": (
+        "Body",
+        "Crank",
+        "Gear",
+        "LinearActuator",
+        "Linkage",
+        "Part",
+        "PinPlace",
+        "Slide",
+        "TracePoint",
+    ),
+    ".model.loads.applied_force": ("AppliedForce",),
+    ".model.loads.applied_torque": ("AppliedTorque",),
+    ".model.loads.course": ("HarmonicCourse", "TableCourse"),
+    ".model.loads.falling_block": ("FallingBlock",),
+    ".model.loads.load": ("Load", "LoadedPoint"),
+    ".model.loads.moment_load": ("MomentLoad", "TurnedBody"),
+    ".model.loads.roof": ("Roof",),
+    ".model.loads.spring_damper": ("SpringDamper",),
+    ".model.loads.torsion_spring": ("TorsionSpring",),
+    ".model.machine": ("Machine",),
+    ".model.pins": ("ClearancePin", "IdealPin", "Pin"),
+    ".model.to_space": ("Width",),
+    ".scenario.recorded_channels": ("Channel",),
+    ".scenario.scenario": ("Scenario",),
+    ".scenario.solver_settings": ("SolverSettings",),
+    ".simulation.estimate": ("Estimate",),
+    ".simulation.recommend": ("Recommendation", "recommend"),
+    ".simulation.result": ("Result",),
+    ".simulation.simulate": ("simulate",),
+    "user_forces.contact": ("JournalContact",),
+    "user_forces.friction.law": ("FrictionLaw",),
+    "user_forces.journal": ("JournalBearing",),
+    "user_forces.normal.law": ("NormalLaw",),
+    "user_forces.values.value": ("InputError", "value"),
+    ".files.scenarios.scenario_file": ("read_scenario",),
+    ".files.scenarios.simple_scenario": ("simple_scenario",),
+}
+# what needs the engine or draws
+_SHOWN = {
+    ".postprocessing.export.solution_file": ("save_solution",),
+    ".postprocessing.known_channels": ("channels",),
+    ".postprocessing.side_by_side": ("RunsSideBySide", "compare"),
 }
 
-
-def __getattr__(name: str) -> Any:
-    if name in _LATER:
-        return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}; {meant(name, __all__)}")
-
-
-def __dir__() -> list[str]:
-    """All names, also those that are imported when they are asked for."""
-    return sorted({*globals(), *__all__})
+__getattr__, __dir__ = offered(__name__, _PLACES | _SHOWN)
+keep_classes(__name__, _PLACES)
 
 
 def _presenter() -> Presenter:

@@ -4,6 +4,7 @@ import sys
 from collections.abc import Sequence
 
 from support_exudyn.commands.command_line import answered
+from support_exudyn.simulation.at_start import be_interruptible
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -12,10 +13,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _asked(argv: Sequence[str] | None) -> None:
-    # with their libraries: long enough to be interrupted
     from support_exudyn.commands.parser import at_work, command, import_modules, parser
 
-    given = parser().parse_args(argv)
+    given = parser().parse_args(argv)  # with the libraries of the command: long enough to be interrupted
+    be_interruptible()
     import_modules(given.imports)
     with at_work(given.imports):
         command(given.command).run(given)

@@ -8,7 +8,7 @@ from dataclasses import field
 
 from support_exudyn import Body, Crank, Linkage, Machine, value
 from support_exudyn.model.linkage import bar, pinned
-from support_exudyn.model.loads import ActingLoad
+from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.value import Vector2
 
 LENGTHS = (0.1, 0.4, 0.3, 0.35)  # crank, coupler, rocker, ground [m]

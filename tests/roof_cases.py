@@ -21,7 +21,7 @@ from support_exudyn import (
     bore_area,
     reference_support,
 )
-from support_exudyn.model.loads import Powers
+from support_exudyn.model.loads.load import Powers
 from user_forces import value
 from user_forces.expressions.scalar import maximum
 from user_forces.values.value import Vector2

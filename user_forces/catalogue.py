@@ -25,7 +25,7 @@ def laws(kind: type[Value]) -> dict[str, Any]:
     """Classes of the published laws of a kind, such as `PowerLaw`, by name: the reference, then by year."""
     names = {module.__name__: module.__name__.rpartition(".")[2] for module in MODULES}
     found = [law for law in kinds_of(kind).values() if law.__module__ in names and source(law)]
-    found.sort(key=lambda law: (law.__name__ not in FIRST, year(law)))
+    found.sort(key=lambda law: (law.__name__ not in FIRST, year(law), law.__module__))
     return {names[law.__module__]: law for law in found}
 
 

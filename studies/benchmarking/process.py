@@ -11,7 +11,12 @@ from pathlib import Path
 from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.provenance import versions
 
-IMPORT = "import time, exudyn; t = time.perf_counter(); import support_exudyn; print(time.perf_counter() - t)"
+IMPORT = """
+import time, exudyn
+t = time.perf_counter()
+from support_exudyn import ClearancePin, Scenario, machine, simulate  # imported when asked for
+print(time.perf_counter() - t)
+"""
 IMPORTS = 5  # timed, of which the fastest counts
 GROW = """
 import sys
@@ -71,11 +76,10 @@ def memory() -> str:
 
 
 def importing() -> str:
-    """What importing the package takes beyond the engine's import."""
+    """What importing what a run is made of takes beyond the engine's import."""
     times = [
         float(subprocess.run([sys.executable, "-c", IMPORT], capture_output=True, text=True, check=True).stdout)
         for _ in range(IMPORTS)
     ]
-    return (
-        f"Importing the package takes {min(times):.2f} s beyond exudyn's import (of {IMPORTS}; asked: 0.5 s)."
-    )
+    took = f"{min(times):.2f} s beyond exudyn's import (of {IMPORTS}; asked: 0.5 s)"
+    return f"Importing what a run is made of takes {took}."

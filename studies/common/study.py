@@ -26,6 +26,7 @@ from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.drawing_data import save_drawing_data
 from support_exudyn.postprocessing.page.live import of_drawing
 from support_exudyn.postprocessing.page.pieces import HARD_SPACE, Sheet, unbroken
+from support_exudyn.simulation.at_start import be_interruptible
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
@@ -192,6 +193,7 @@ def output_folder(out: Path) -> Iterator[None]:
 
     Raises OSError if it cannot be made or written to, or if another process is writing there.
     """
+    be_interruptible()
     with ExitStack() as held:
         try:
             out.mkdir(parents=True, exist_ok=True)

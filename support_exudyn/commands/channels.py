@@ -6,8 +6,6 @@ from support_exudyn.commands.command_line import add_json, answer
 from support_exudyn.commands.tables import printed, show_table
 from support_exudyn.postprocessing.known_channels import ALLOWED, HEADER, channels
 
-HELP = "all channels of a scenario or a machine before a run: names, units, meanings"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The file, and which channels."""

@@ -7,8 +7,6 @@ from support_exudyn.commands.command_line import add_out, folder, say
 from support_exudyn.commands.runs import file_name
 from user_forces.values.value import InputError
 
-HELP = "figure of a sweep as PNG and PDF: a number over a varied field with errors, a histogram, or a tornado"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The sweep's store, and what is drawn."""

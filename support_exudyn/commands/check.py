@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from support_exudyn.scenario.pin_stability import PinOutlook
     from support_exudyn.scenario.scenario import Scenario
 
-HELP = "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong"
 FARTHEST = 1e5  # [mm]
 # assumed of a machine alone: the clearance and the friction of its pins, and the time for its stroke [s]
 PLAY_MM, FRICTION, RISE_TIME = 1.0, 0.25, 2.0

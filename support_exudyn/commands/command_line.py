@@ -13,9 +13,8 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from support_exudyn.formulations.contract import Progress, SimulationError, told
-from support_exudyn.simulation.at_start import EXIT_CODE, INTERRUPTED, be_interruptible, be_readable
-from support_exudyn.sweeps.workers import NoProcessError, ProcessEndedError
-from user_forces.values.value import InputError, cleaned, short
+from support_exudyn.simulation.at_start import EXIT_CODE, INTERRUPTED, be_readable
+from user_forces.values.texts import InputError, cleaned, short
 
 LONGEST_REFUSAL = 400  # characters
 
@@ -38,12 +37,19 @@ class Parser(argparse.ArgumentParser):
 
 
 class CommandParser(Parser):
-    """The line of one command: its options may stand before, between and behind its names."""
+    """The line of one command: its options may stand before, between and behind its names.
 
+    What the command takes is told by `arguments` when its line is read: the others are not imported for that.
+    """
+
+    arguments: Callable[[argparse.ArgumentParser], None] | None = None
     _is_mixing = False
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """The arguments, and nothing that is left: what the command does not know is refused here."""
+        if self.arguments is not None:
+            arguments, self.arguments = self.arguments, None
+            arguments(self)
         if self._is_mixing:  # argparse comes back here, first for the options and then for the names
             return super().parse_known_args(args, namespace)
         self._is_mixing = True
@@ -200,19 +206,25 @@ def _sentence(error: Exception) -> str:
     return str(error)
 
 
+def mendable() -> tuple[type[Exception], ...]:
+    """The errors that tell what the user can mend."""
+    from support_exudyn.sweeps.workers import NoProcessError, ProcessEndedError  # and all that processes need
+
+    return SimulationError, InputError, OSError, ProcessEndedError, NoProcessError
+
+
 def answered(work: Callable[[], None]) -> int:
     """Do it; what the user can mend is said in a sentence. Returns the exit code."""
     be_readable()
-    be_interruptible()
     try:
         work()
-    except (SimulationError, InputError, OSError, ProcessEndedError, NoProcessError) as error:
-        warn(f"error: {_sentence(error)}")
-        return 1
-    except MemoryError as error:
-        warn(f"error: {told(error)}; allowed: fewer records or channels, a smaller file")
-        return 1
     except KeyboardInterrupt:
         print(INTERRUPTED, file=sys.stderr)
         return EXIT_CODE
+    except MemoryError as error:
+        warn(f"error: {told(error)}; allowed: fewer records or channels, a smaller file")
+        return 1
+    except mendable() as error:
+        warn(f"error: {_sentence(error)}")
+        return 1
     return 0

@@ -17,7 +17,6 @@ from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
-HELP = "by how much a second run differs from a first, channel by channel, with errors"
 WHOLE = (0.0, math.inf)  # run
 
 

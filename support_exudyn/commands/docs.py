@@ -6,8 +6,6 @@ from pathlib import Path
 
 from support_exudyn.commands.command_line import Parser, add_out, folder, say
 
-HELP = "build the documentation as a site: pages, reference, gallery; needs the extra [docs]"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Where it goes, and what the studies have left."""

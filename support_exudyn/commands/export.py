@@ -24,7 +24,6 @@ from support_exudyn.formulations.contract import Progress
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
-HELP = "moving meshes for ParaView (XDMF, VTU) and tables of all channels (CSV, HDF5)"
 USUAL = ("xdmf", "vtu", "csv", "hdf5")
 FORMATS = (*USUAL, "solution")
 SLOWEST, FASTEST = 1e-9, 1e9  # frames a second

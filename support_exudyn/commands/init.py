@@ -6,8 +6,6 @@ from pathlib import Path
 from support_exudyn.commands.command_line import add_out, say
 from support_exudyn.files.starters import KINDS, write_starter
 
-HELP = "write a commented set of files to start from: machine, scenarios, sweep"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Which set, and where it goes."""

@@ -1,44 +1,44 @@
 """The commands of `python -m support_exudyn`, one per file.
 
-A command is a module with HELP, a line of what it does; `add_arguments(parser)`; and `run(given)`, which does
-it with the arguments that were given and raises InputError, OSError or SimulationError. Its name is the
-module's. A further one is a file here and its name in NAMES.
+A command is a module with `add_arguments(parser)` and `run(given)`, which does it with the arguments that were
+given and raises InputError, OSError or SimulationError. Its name is the module's. A further one is a file here,
+and in NAMES its name and a line of what it does. It is imported when the command line asks for it.
 """
 
 import argparse
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Protocol, cast
 
-from support_exudyn.commands.command_line import CommandParser, Parser, say
-from support_exudyn.files.own_modules import OURS
-from support_exudyn.formulations.contract import SimulationError, told
-from support_exudyn.simulation.provenance import versions
-from support_exudyn.sweeps.workers import NoProcessError, ProcessEndedError
-from user_forces.values.value import InputError, Value, kinds_of, short
+from support_exudyn.commands.command_line import CommandParser, Parser, mendable, say
+from support_exudyn.formulations.contract import told
+from user_forces.values.texts import InputError, short
 
-NAMES: tuple[str, ...] = (
-    "init",
-    "check",
-    "channels",
-    "run",
-    "sweep",
-    "chart",
-    "table",
-    "show",
-    "compare",
-    "plot",
-    "report",
-    "render",
-    "view",
-    "export",
-    "scenario",
-    "schema",
-    "docs",
-)
+NAMES = {  # of commands, each with a line of what it does
+    "init": "write a commented set of files to start from: machine, scenarios, sweep",
+    "check": "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong",
+    "channels": "all channels of a scenario or a machine before a run: names, units, meanings",
+    "run": "simulate a scenario's file and save the run",
+    "sweep": "run a scenario with fields of it varied, into a store that can be continued",
+    "chart": "figure of a sweep as PNG and PDF: a number over a varied field with errors, a histogram, or a "
+    "tornado",
+    "table": "table of a sweep's runs for a text, as Markdown, CSV or LaTeX",
+    "show": "tables of what a run or a sweep was and what came out of it",
+    "compare": "by how much a second run differs from a first, channel by channel, with errors",
+    "plot": "figures of runs as PNG and PDF: channels over time, journal orbit, Poincare section, force "
+    "spectrum",
+    "report": "a page on runs: what was run, the machine, numbers with errors, live figures, a picture",
+    "render": "ray-traced frames and a movie of a run, without a display",
+    "view": "open Exudyn's solution viewer on a run",
+    "export": "moving meshes for ParaView (XDMF, VTU) and tables of all channels (CSV, HDF5)",
+    "scenario": "the scenario of a run as a TOML file, which `run` takes",
+    "schema": "all keys of scenario files, or of machine files: as a table, or as a JSON Schema for editors",
+    "docs": "build the documentation as a site: pages, reference, gallery; needs the extra [docs]",
+}
 
 INSTALLED = "support-exudyn"
 EPILOG = """\
@@ -57,8 +57,6 @@ exit codes:
 
 class Command(Protocol):
     """What a module of a command offers."""
-
-    HELP: str
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         """Tell the parser what the command takes."""
@@ -92,12 +90,15 @@ def parser() -> Parser:
     several = whole.add_subparsers(
         dest="command", required=True, metavar="COMMAND", parser_class=CommandParser, title="commands"
     )
-    for name in NAMES:
-        one = command(name)
-        one.add_arguments(
-            several.add_parser(name, help=one.HELP, description=f"{one.HELP[:1].upper()}{one.HELP[1:]}.")
-        )
+    for name, does in NAMES.items():
+        one = several.add_parser(name, help=does, description=f"{does[:1].upper()}{does[1:]}.")
+        one.arguments = partial(_add_arguments, name)
     return whole
+
+
+def _add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
+    """Tell the parser what a command takes."""
+    command(name).add_arguments(parser)
 
 
 def _called() -> str:
@@ -109,6 +110,8 @@ class _Versions(argparse.Action):
     """Print the versions, asking for them only now, and end."""
 
     def __call__(self, parser: argparse.ArgumentParser, *others: object) -> None:
+        from support_exudyn.simulation.provenance import versions
+
         say("\n".join(f"{name} {number}" for name, number in versions().items()))
         parser.exit()
 
@@ -145,9 +148,9 @@ def at_work(names: Sequence[str]) -> Iterator[None]:
     """
     try:
         yield
-    except (InputError, SimulationError, OSError, ProcessEndedError, NoProcessError, MemoryError):
-        raise
     except Exception as error:
+        if isinstance(error, (*mendable(), MemoryError)):
+            raise
         own = [f"--import {name}" for name in names] or sorted(_own_modules())
         if not own:
             raise
@@ -156,5 +159,8 @@ def at_work(names: Sequence[str]) -> Iterator[None]:
 
 def _own_modules() -> set[str]:
     """Modules that have classes of one's own."""
+    from support_exudyn.files.own_modules import OURS
+    from user_forces.values.value import Value, kinds_of
+
     modules = {kind.__module__ for kind in kinds_of(Value).values()}
     return {name for name in modules if name.partition(".")[0] not in (*OURS, "tests")}

@@ -37,7 +37,6 @@ from user_forces.values.value import InputError
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-HELP = "figures of runs as PNG and PDF: channels over time, journal orbit, Poincare section, force spectrum"
 Draw = Callable[[], "Figure"]
 OVER_TIME = "channels"
 KINDS = ("orbit", "poincare", "spectrum")  # of figures of a pin

@@ -18,7 +18,6 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
 SOON, LONG = 5.0, 60.0  # [s] from which on it is said how long it takes, and how it takes less
-HELP = "ray-traced frames and a movie of a run, without a display"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

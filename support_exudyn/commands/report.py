@@ -7,7 +7,6 @@ from support_exudyn.commands.runs import named_runs, runs_and_channels
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.simulation.result import Result
 
-HELP = "a page on runs: what was run, the machine, numbers with errors, live figures, a picture"
 FILE = "report.html"
 
 

@@ -17,7 +17,6 @@ from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
 from user_forces.values.value import InputError, short
 
-HELP = "simulate a scenario's file and save the run"
 WHOLE = (0.0, float("inf"))  # run
 
 

@@ -8,8 +8,6 @@ from support_exudyn.files import save_scenario, scenario_text
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 
-HELP = "the scenario of a run as a TOML file, which `run` takes"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and where the scenario goes."""

@@ -14,7 +14,6 @@ from support_exudyn.commands.tables import printed, show_table
 from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError
 
-HELP = "all keys of scenario files, or of machine files: as a table, or as a JSON Schema for editors"
 # where the schemas are made: module and function
 MADE_BY = {
     "scenario": ("support_exudyn.files", "scenario_schema"),

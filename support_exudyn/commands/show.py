@@ -28,7 +28,6 @@ from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
-HELP = "tables of what a run or a sweep was and what came out of it"
 WHOLE = (0.0, math.inf)  # run
 
 

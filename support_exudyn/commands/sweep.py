@@ -17,7 +17,6 @@ from user_forces.values.value import cleaned
 if TYPE_CHECKING:
     from support_exudyn.sweeps.run import SweepOutcome, Told
 
-HELP = "run a scenario with fields of it varied, into a store that can be continued"
 EPILOG = """
 The store is a folder with a file for every run, named by a key of its inputs and of the program's versions,
 and one table, table.parquet and table.csv, with a row for every run. A sweep that was interrupted goes on

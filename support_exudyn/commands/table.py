@@ -4,7 +4,6 @@ import argparse
 
 from support_exudyn.commands.command_line import add_out, folder, say
 
-HELP = "table of a sweep's runs for a text, as Markdown, CSV or LaTeX"
 FORMATS = ("md", "csv", "latex")
 
 

@@ -5,8 +5,6 @@ import argparse
 from support_exudyn.commands.command_line import add_run, count, folder
 from support_exudyn.simulation.result import Result
 
-HELP = "open Exudyn's solution viewer on a run"
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and what of it is shown."""

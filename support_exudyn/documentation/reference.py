@@ -40,7 +40,7 @@ def public_names() -> dict[str, Any]:
 
 def _imported(module: Any) -> Iterator[str]:
     tree = inspect.getsource(module)
-    for line in tree.splitlines():
+    for line in map(str.strip, tree.splitlines()):
         if line.startswith("from ") and " as " in line:
             yield line.rpartition(" as ")[2]
 

@@ -78,23 +78,26 @@ class FourBarShield(ShieldLayout[P], ABC, Generic[P]):
 
     def reached(self, lengths: Sequence[float], near: P) -> P | None:
         """Posture with these lengths of its columns [m], searched for from one close to it; None if none."""
-        posture, turns = near, np.array([near.rear_link, near.canopy])
+        posture: P | None = near
         for _ in range(MOST_CORRECTIONS):
-            misfit = np.subtract(lengths, self.column_lengths(posture))
-            if float(np.abs(misfit).max()) < PRECISE:
+            if posture is None or float(np.abs(self._short(lengths, posture)).max()) < PRECISE:
                 return posture
-            rates = self.column_rates(posture)
-            if not np.isfinite(rates).all() or abs(np.linalg.det(rates)) < LOCKED:
-                return None
-            step = np.linalg.solve(rates, misfit)
-            if float(np.abs(step).max()) > LONGEST_STEP:
-                return None
-            turns = turns + step
-            found = self.posture(float(turns[0]), float(turns[1]))
-            if found is None:
-                return None
-            posture = found
+            posture = self.corrected(lengths, posture)
         return None
+
+    def corrected(self, lengths: Sequence[float], near: P) -> P | None:
+        """Posture a step of Newton's method nearer to these lengths of its columns [m]; None if none."""
+        rates = self.column_rates(near)
+        if not np.isfinite(rates).all() or abs(np.linalg.det(rates)) < LOCKED:
+            return None
+        step = np.linalg.solve(rates, self._short(lengths, near))
+        if float(np.abs(step).max()) > LONGEST_STEP:
+            return None
+        return self.posture(near.rear_link + float(step[0]), near.canopy + float(step[1]))
+
+    def _short(self, lengths: Sequence[float], posture: P) -> np.ndarray:
+        """By how much the columns are shorter than these lengths [m]."""
+        return np.subtract(lengths, self.column_lengths(posture))
 
     @abstractmethod
     def extended(self, extension: float, near: P | None = None) -> P | None:

@@ -62,11 +62,16 @@ class HydraulicSupport(FourBarShield[Posture]):
 
         `near`: a posture to search from, the start by default; steps of some centimetres are safe.
         """
-        from scipy.optimize import root  # slow to import
-
         start = self.start()
         front, rear = (length + extension for length in self.column_lengths(start))
         near = near or start
+        found = self.reached((front, rear), near)
+        exact = found and self.corrected((front, rear), found)  # to rounding
+        return exact or self._searched(front, rear, near)
+
+    def _searched(self, front: float, rear: float, near: Posture) -> Posture | None:
+        """Posture with these lengths of its columns [m], where Newton's method does not lead to it."""
+        from scipy.optimize import root  # slow to import
 
         def turned(by: np.ndarray) -> Posture | None:
             return self.posture(near.rear_link + float(by[0]), near.canopy + float(by[1]))

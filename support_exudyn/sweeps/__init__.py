@@ -10,10 +10,9 @@ A run has a key, made of its inputs and of the program; what the store holds und
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from user_forces.values.names import meant
+from user_forces.values.places import offered
 
 if TYPE_CHECKING:
     from support_exudyn.sweeps.file import read_sweep
@@ -34,25 +33,12 @@ __all__ = [
 ]
 
 # imported when they are asked for: the processes that run have no use for tables
-_PLACES = {
-    "SweepOutcome": "run",
-    "Plan": "plan",
-    "Record": "plan",
-    "grid": "plan",
-    "latin_hypercube": "plan",
-    "read_sweep": "file",
-    "read_table": "table",
-    "side_by_side": "plan",
-    "sweep": "run",
-}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _PLACES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}; {meant(name, _PLACES)}")
-    return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)
-
-
-def __dir__() -> list[str]:
-    """All names, also those that are imported when they are asked for."""
-    return sorted({*globals(), *__all__})
+__getattr__, __dir__ = offered(
+    __name__,
+    {
+        ".file": ("read_sweep",),
+        ".plan": ("Plan", "Record", "grid", "latin_hypercube", "side_by_side"),
+        ".run": ("SweepOutcome", "sweep"),
+        ".table": ("read_table",),
+    },
+)

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 from support_exudyn.files.machines import reference_support
-from support_exudyn.formulations import reduced, tree
 from support_exudyn.formulations.contract import silent
 from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.pins import ClearancePin
@@ -18,6 +17,8 @@ def precompile() -> None:
 
     Runs of a moment: compiled code does not depend on the numbers.
     """
+    from support_exudyn.formulations import reduced, tree  # and the compiler
+
     contact = JournalContact(
         bearing=JournalBearing(bore_radius=0.0655, clearance=0.001), normal=Hertz(stiffness=1e10)
     )

@@ -43,7 +43,7 @@ options = st.sampled_from(
 )
 
 
-@given(command=st.sampled_from(NAMES) | words, rest=st.lists(options | words, max_size=6))
+@given(command=st.sampled_from(list(NAMES)) | words, rest=st.lists(options | words, max_size=6))
 @some.tried("options")
 def test_words_are_taken_or_refused(command: str, rest: list[str]) -> None:
     given_, code, said = outcome(lambda: parser().parse_args([command, *rest]))

@@ -22,7 +22,7 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.model.loads import Powers
+from support_exudyn.model.loads.load import Powers
 from tests.roof_cases import MASS, OVER_THE_COLUMNS, TOP, Ram
 from user_forces import value
 from user_forces.values.value import InputError, Vector2

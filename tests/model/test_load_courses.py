@@ -25,7 +25,7 @@ from support_exudyn import (
 )
 from support_exudyn.files.scenarios.scenario_file import scenario_of
 from support_exudyn.files.toml.text import parsed
-from support_exudyn.model.loads import ActingLoad
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.summary import what_is_run
 from tests.linkage_cases import CrankRocker

@@ -24,7 +24,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.mechanics.pin_stability import painleve_friction
-from support_exudyn.model.loads import ActingLoad
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.postprocessing.pin_shaking import rows
 from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from tests.metamorphic.moving import MIRROR, Move, moved, turn

@@ -22,6 +22,7 @@ del sys.modules["{name}"]
 os.kill(os.getpid(), signal.SIGINT)
 import {name}
 """
+SHOWING = ["-m", "support_exudyn", "show", "--help"]  # which needs libraries; --version does not
 STARTS = [
     ["-m", "support_exudyn", "--version"],
     ["-m", "studies", "--help"],
@@ -45,7 +46,9 @@ def started(words: list[str], folder: Path, more: dict[str, str]) -> subprocess.
 
 @posix_only
 @pytest.mark.parametrize("name", ["numpy", "h5py"])
-@pytest.mark.parametrize("words", [STARTS[0], STARTS[1], STARTS[4], STARTS[-1]], ids=lambda words: words[1])
+@pytest.mark.parametrize(
+    "words", [SHOWING, STARTS[1], STARTS[4], ["support-exudyn", *SHOWING[2:]]], ids=lambda words: words[1]
+)
 def test_an_interruption_while_libraries_are_imported_is_a_line(
     tmp_path: Path, words: list[str], name: str
 ) -> None:

@@ -42,7 +42,7 @@ def numbers(out: Path) -> dict[tuple[str, str], dict[str, Any]]:
 
 def laws(kind: type) -> set[type]:
     """All laws of a kind that the package offers."""
-    members = vars(user_forces).values()
+    members = [getattr(user_forces, name) for name in dir(user_forces)]
     return {m for m in members if inspect.isclass(m) and issubclass(m, kind) and not inspect.isabstract(m)}
 
 

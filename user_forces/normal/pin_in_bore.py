@@ -16,7 +16,7 @@ from user_forces.expressions.scalar import log, maximum, where
 from user_forces.normal.cylinder import CylinderLaw
 from user_forces.normal.power_law import PowerLaw
 from user_forces.values.units import NewtonsPerMetre
-from user_forces.values.value import Positive, kinds_of, value
+from user_forces.values.value import Positive, Value, is_kind_of, kinds_of, known_class, value
 
 DEGREE = 16  # of the polynomial that stands for the inverted law
 SHALLOWEST = 1e-6  # depth over clearance below which the force is linear in the depth
@@ -67,8 +67,9 @@ class PinInBore(CylinderLaw):
 
     @model_validator(mode="after")
     def _damping_is_known(self) -> PinInBore:
-        known = {name: law for name, law in kinds_of(PowerLaw).items() if lends_damping(law)}
-        if self.damping not in known:
+        law = known_class(self.damping)
+        if law is None or not is_kind_of(law, PowerLaw) or not lends_damping(law):
+            known = [name for name, law in kinds_of(PowerLaw).items() if lends_damping(law)]
             raise ValueError(
                 f"damping = {self.damping!r}: allowed: {', '.join(sorted(known))}; one's own is imported first"
             )
@@ -82,7 +83,7 @@ class PinInBore(CylinderLaw):
     @cached_property
     def _lender(self) -> type[Any]:
         """The class that `damping` names."""
-        return kinds_of(PowerLaw)[self.damping]
+        return Value.of_name(self.damping)
 
     @property
     def largest_depth(self) -> float:

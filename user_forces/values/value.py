@@ -28,7 +28,11 @@ from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, Validat
 from pydantic.dataclasses import dataclass as pydantic_dataclass
 from typing_extensions import Self, dataclass_transform
 
+from user_forces.values import places
 from user_forces.values.names import Named, no_attribute
+from user_forces.values.texts import InputError as InputError
+from user_forces.values.texts import cleaned as cleaned
+from user_forces.values.texts import short as short
 
 LARGEST = 1e30  # of any number: products of several neither overflow nor vanish
 NEAR = 4  # names that are told of many
@@ -88,18 +92,19 @@ Vector2 = tuple[Real, Real]
 Vector3 = tuple[Real, Real, Real]
 
 
-class InputError(ValueError):
-    """A value that cannot be used: says which field, what it was, and what is allowed."""
-
-
 class Value:
-    """Base of all data classes made with `value`; keeps a register of them by class name."""
+    """Base of all data classes made with `value`; keeps a register of them by class name.
+
+    Classes that our packages offer are imported into it when they are asked for.
+    """
 
     _register: ClassVar[dict[str, type[Value]]] = {}
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
-        Value._register[cls.__name__] = cls
+        name, known = cls.__name__, Value._register.get(cls.__name__)
+        if known is None or known.__module__ == cls.__module__ or places.place(name) != cls.__module__:
+            Value._register[name] = cls  # one's own takes the place of ours, whichever is imported first
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
         """The new value.
@@ -131,6 +136,7 @@ class Value:
     @staticmethod
     def of_name(name: str) -> type[Value]:
         """The class of this name. Raises KeyError that says which names are near if there is none."""
+        known_class(name)
         return Named(Value._register, "class of values")[name]
 
     @staticmethod
@@ -142,10 +148,27 @@ class Value:
         return _value_of(data, 0)
 
 
+def known_class(name: str) -> type[Value] | None:
+    """The class of this name, imported if it is one of ours; None if there is none."""
+    if name not in Value._register:
+        places.import_place_of(name)
+    return Value._register.get(name)
+
+
+def known_classes() -> dict[str, type[Value]]:
+    """All classes of values by name, those that only group others among them."""
+    places.import_all()
+    return Value._register
+
+
 def kinds_of(cls: type[Value]) -> dict[str, type[Value]]:
     """The classes under a class of which values can be made, by name."""
-    known = {name: kind for name, kind in Value._register.items() if issubclass(kind, cls)}
-    return {name: kind for name, kind in known.items() if _has_fields(kind) and not inspect.isabstract(kind)}
+    return {name: kind for name, kind in known_classes().items() if is_kind_of(kind, cls)}
+
+
+def is_kind_of(kind: type[Value], cls: type[Value]) -> bool:
+    """Whether a class is under another, and values can be made of it."""
+    return issubclass(kind, cls) and _has_fields(kind) and not inspect.isabstract(kind)
 
 
 def _has_fields(cls: Any) -> bool:
@@ -197,14 +220,15 @@ def _plain(item: Any) -> Any:
 
 def _value_of(data: Any, depth: int) -> Any:
     kind = data.get("type") if isinstance(data, Mapping) else None
-    known = kinds_of(Value)
-    if not isinstance(kind, str) or kind not in known:
+    found = known_class(kind) if isinstance(kind, str) else None
+    if found is None or not is_kind_of(found, Value):
+        known = kinds_of(Value)
         near = ", ".join(get_close_matches(kind if isinstance(kind, str) else "", known, NEAR, 0.0))
         raise InputError(
             f"type = {short(kind)}: not a known type; allowed: those of {len(known)} classes, such as {near}; "
             "one's own have to be imported first, on a command line by --import MODULE"
         )
-    return known[kind](**{_name(k): _rebuilt(v, depth + 1) for k, v in data.items() if k != "type"})
+    return found(**{_name(k): _rebuilt(v, depth + 1) for k, v in data.items() if k != "type"})
 
 
 def _name(key: Any) -> str:
@@ -327,21 +351,3 @@ def step(part: Any) -> str:
     """A field, a name or a number on the way to what is wrong."""
     text = str(part)
     return text if len(text) <= 80 and text.isprintable() else short(part)
-
-
-def cleaned(text: str) -> str:
-    r"""A text of somebody else's, fit to be printed and written.
-
-    What steers a terminal, turns the direction of writing or is no letter at all stands in it by its number,
-    such as \x1b.
-    """
-    return "".join(one if one.isprintable() or one in " \t\n" else f"{one!a}"[1:-1] for one in text)
-
-
-def short(item: Any) -> str:
-    """An input as text that fits into a line."""
-    try:
-        text = " ".join(repr(item).split())
-    except Exception:  # of someone else's class, of data nested too deep, of a number of 5000 digits
-        text = f"<{type(item).__name__}>"
-    return text if len(text) <= 80 else text[:77] + "..."

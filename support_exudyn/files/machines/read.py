@@ -1,37 +1,46 @@
 """Machine data files are read into machines here, and have their JSON Schema.
 
 A further kind of machine is a class of values with a method `data`, whose fields are what its files hold, and a
-line in `FILES`.
+line in `FILES`. It is imported when a file of its kind is read.
 """
+
+from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
-from importlib import resources
+from importlib import import_module, resources
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
-from support_exudyn.files.machines.linkage import LinkageFile
-from support_exudyn.files.machines.slider_crank import SliderCrankFile
-from support_exudyn.files.machines.supports import FourColumnSupportFile, TwoLegShieldFile
 from support_exudyn.files.toml.reading import read_value
 from support_exudyn.files.toml.schema import Schemas, without
 from support_exudyn.files.toml.text import parsed, text_of
 from support_exudyn.files.whole_file import missing_file
-from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import CylinderAndRod, OilColumn, RigidActuator
 from support_exudyn.model.machine import Machine
+from user_forces.values.places import keep_classes
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.value import InputError, short
 
-FILES: Mapping[str, type[FourColumnSupportFile | TwoLegShieldFile | SliderCrankFile | LinkageFile]] = {
-    "four_column_support": FourColumnSupportFile,
-    "two_leg_shield": TwoLegShieldFile,
-    "slider_crank": SliderCrankFile,
-    "linkage": LinkageFile,
+if TYPE_CHECKING:
+    from support_exudyn.files.machines.linkage import LinkageFile
+    from support_exudyn.files.machines.slider_crank import SliderCrankFile
+    from support_exudyn.files.machines.supports import FourColumnSupportFile, TwoLegShieldFile
+    from support_exudyn.machines.four_column_support import HydraulicSupport
+
+    MachineFile = FourColumnSupportFile | TwoLegShieldFile | SliderCrankFile | LinkageFile
+
+FILES: Mapping[str, tuple[str, str]] = {  # by kind: module and class
+    "four_column_support": (".supports", "FourColumnSupportFile"),
+    "two_leg_shield": (".supports", "TwoLegShieldFile"),
+    "slider_crank": (".slider_crank", "SliderCrankFile"),
+    "linkage": (".linkage", "LinkageFile"),
 }
+for _module, _name in FILES.values():
+    keep_classes(__package__, {_module: (_name,)})
 SHIPPED = (  # each a data file
     "reference",
     "zf18000",
@@ -104,7 +113,7 @@ def _of_text(text: str) -> MachineData:
     """
     data = parsed(text, "")
     sourced: dict[str, SourcedNumber] = {}
-    file = read_value(FILES[_kind(data)], data, sourced=sourced)
+    file = read_value(_file_of(_kind(data)), data, sourced=sourced)
     named = {key: replace(one, source=file.sources.get(one.source, one.source)) for key, one in sourced.items()}
     return replace(file.data(), sourced=named)
 
@@ -127,7 +136,7 @@ def shipped(name: str) -> MachineData:
 
 def reference_support() -> HydraulicSupport:
     """The reference support that comes with the package."""
-    return cast(HydraulicSupport, shipped("reference").machine)
+    return cast("HydraulicSupport", shipped("reference").machine)
 
 
 def load_support(path: str | Path) -> HydraulicSupport:
@@ -135,6 +144,8 @@ def load_support(path: str | Path) -> HydraulicSupport:
 
     Arguments and errors as of `load_machine`.
     """
+    from support_exudyn.machines.four_column_support import HydraulicSupport
+
     machine = load_machine(path).machine
     if not isinstance(machine, HydraulicSupport):
         raise InputError(f"{path}: kind: is another machine; allowed: 'four_column_support'")
@@ -161,12 +172,18 @@ def machine_schema() -> dict[str, Any]:
     """The JSON Schema (2020-12) of machine data files, which are told apart by their key `kind`."""
     schemas = Schemas(sourced=True)
     tables = []
-    for kind in FILES.values():
+    for kind in map(_file_of, FILES):
         schemas.defs[kind.__name__] = without(schemas.table(kind), "type")
         tables.append(schemas.value(kind))
     about = "Bodies, pivots and masses of one machine; mm, kg and degrees are usual."
     top = {"description": about, "type": "object", "required": ["kind"], "oneOf": tables}
     return schemas.whole("machine of support-exudyn", top)
+
+
+def _file_of(kind: str) -> type[MachineFile]:
+    """The class of the files of a kind of machine."""
+    module, name = FILES[kind]
+    return cast("type[MachineFile]", getattr(import_module(module, __package__), name))
 
 
 def _kind(data: dict[str, Any]) -> str:

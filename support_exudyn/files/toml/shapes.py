@@ -24,7 +24,7 @@ from typing_extensions import Never
 
 from support_exudyn.files.toml.faults import said
 from user_forces.values.units import Unit
-from user_forces.values.value import InputError, Value
+from user_forces.values.value import InputError, Value, known_classes
 
 Shape = Mapping[str, Any]
 # keywords of JSON Schema, each with its name in metadata, its sign and what fits it
@@ -90,16 +90,16 @@ class GroupShape:
     @property
     def kinds(self) -> dict[str, type[Value]]:
         """The classes of which values can be made, by name."""
-        known = Value._register.items()
+        known = known_classes().items()
         return {name: kind for name, kind in sorted(known) if issubclass(kind, self.bases) and _is_kind(kind)}
 
     @property
     def usual(self) -> type[Value] | None:
         """The class that is meant where a table says none; None if it has to."""
+        if len(self.bases) == 1 and _is_kind(self.bases[0]):
+            return self.bases[0]
         kinds = list(self.kinds.values())
-        if len(kinds) == 1:
-            return kinds[0]
-        return self.bases[0] if len(self.bases) == 1 and self.bases[0] in kinds else None
+        return kinds[0] if len(kinds) == 1 else None
 
     @property
     def says_type(self) -> bool:
