@@ -1,15 +1,18 @@
-"""The reduced formulation at a tolerance, and the engine for comparison."""
+"""The compiled formulation at a tolerance, in closed forms or in general, and the engine for comparison."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from support_exudyn import Result, Scenario, simulate
-from support_exudyn.formulations.contract import Progress, silent
+from support_exudyn.formulations.compiled import closed_forms
 from support_exudyn.formulations.compiled.closed_forms import setup
+from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.scenario.solver_settings import MOST_STEPS
 
 
@@ -20,9 +23,27 @@ def simulate_compiled(
     progress: Progress = silent,
     most_steps: int = MOST_STEPS,
 ) -> Result:
-    """Run a scenario in its free coordinates."""
+    """Run a scenario by the compiled formulation, in closed forms where these cover it."""
     solver = replace(scenario.solver, tolerance=tolerance, backend=backend, most_steps=most_steps)
     return simulate(replace(scenario, formulation="compiled", solver=solver), progress=progress)
+
+
+@contextmanager
+def general_equations() -> Iterator[None]:
+    """Runs of the compiled formulation take the equations of any linkage, whatever the closed forms cover."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(closed_forms, "covers", lambda scenario: False)
+        yield
+
+
+def simulate_general(scenario: Scenario, tolerance: float = 1e-7) -> Result:
+    """Run a scenario by the equations of any linkage."""
+    with general_equations():
+        return simulate_compiled(scenario, tolerance)
+
+
+FORMS = {"closed forms": simulate_compiled, "general": simulate_general}
+EVERY_FORM = pytest.mark.parametrize("form", FORMS.values(), ids=FORMS)
 
 
 def from_its_source(monkeypatch: pytest.MonkeyPatch) -> None:

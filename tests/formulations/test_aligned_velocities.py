@@ -47,7 +47,7 @@ CASES = [(1.5, 2.0 * LONG), (1.65, 2.0 * LONG), (1.7, LONG), (1.75, LONG), (2.0,
 
 @pytest.mark.parametrize("gravity", [WEIGHTLESS, HEAVY])
 @pytest.mark.parametrize(("clearance_mm", "step"), CASES)
-def test_a_shaken_support_is_as_the_reduced_one(
+def test_a_shaken_support_is_as_the_compiled_one(
     clearance_mm: float, step: float, gravity: tuple[float, float]
 ) -> None:
     scene = shaken(clearance_mm, step, gravity=gravity)
@@ -81,7 +81,7 @@ def rattling(step: float) -> Scenario:
     return loose_slider_crank(0.0008, step=step, record_period=1e-4, solver=SOLVER)
 
 
-def test_a_slider_crank_is_as_the_reduced_one() -> None:
+def test_a_slider_crank_is_as_the_compiled_one() -> None:
     step = 2e-5
     result = simulate(rattling(step))
     exact = simulate(replace(rattling(step), formulation="compiled", solver=TIGHT))

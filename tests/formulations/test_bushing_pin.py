@@ -167,26 +167,12 @@ def test_a_file_says_it(tmp_path: Path) -> None:
     assert pin == BushingPin(stiffness=(5e7, 8e7), damping=(1e4, 2e4), rotational_stiffness=9.0)
 
 
-@pytest.mark.parametrize(
-    ("changed", "said"),
-    [
-        (
-            {"formulation": "compiled"},
-            r"pins\.rear_base = BushingPin: not covered by formulation = 'compiled'; allowed: Ideal",
-        ),
-        ({"formulation": "compiled"}, r"pins\.rear_base = BushingPin: not covered by formulation = 'compiled'"),
-        (
-            {"dimensions": 3},
-            r"pins\.rear_base = BushingPin: is planar; allowed in space: IdealPin, ClearancePin",
-        ),
-    ],
-)
-def test_where_it_is_not_covered_it_is_refused(changed: dict[str, object], said: str) -> None:
+def test_space_refuses_it() -> None:
     scene = Scenario(machine=reference_support(), pins={"rear_base": BUSHING}, duration=0.1)
-    covered = [formulation(name).covers(scene) for name in ("redundant", "compiled", "compiled")]
-    assert covered == [True, False, False]
+    assert all(formulation(name).covers(scene) for name in ("redundant", "compiled"))
+    said = r"pins\.rear_base = BushingPin: is planar; allowed in space: IdealPin, ClearancePin"
     with pytest.raises(InputError, match=said):
-        simulate(replace(scene, **changed))  # type: ignore[arg-type]
+        simulate(replace(scene, dimensions=3))
 
 
 def test_a_stiffness_is_positive() -> None:
@@ -194,8 +180,12 @@ def test_a_stiffness_is_positive() -> None:
         BushingPin(stiffness=(1e6, 0.0))
 
 
+COMPILED = ("arrays", "coverage", "equilibrium", "forces", "outcome", "setup", "step")
+
+
 def test_a_kind_of_pin_asks_for_a_few_lines_outside_its_own_files() -> None:
-    # its data, its channels, its part in the engine; and where each of these three is registered
+    # its data, its channels, its part in the engine; where each of these three is registered; and a record of
+    # the compiled formulation, with its forces
     root = Path(support_exudyn.__file__).parent
     own = {"model/bushing_pin.py", "mechanics/bushing.py", "formulations/redundant/scene/bushing.py"}
     told = {
@@ -208,16 +198,19 @@ def test_a_kind_of_pin_asks_for_a_few_lines_outside_its_own_files() -> None:
         "__init__.py",
         "mechanics/plane_channels.py",
         "formulations/redundant/scene/scene_builder.py",
+        *(f"formulations/compiled/{name}.py" for name in COMPILED),
     }
 
 
 def test_no_stage_asks_which_kind_a_pin_is() -> None:
-    # but for the list of those that have contacts, and of those that rub
+    # but for the list of those that have contacts, and of those that rub; and of the bushings among the records
     root = Path(support_exudyn.__file__).parent
     asks = [file for file in root.rglob("*.py") if "isinstance(pin, " in file.read_text()]
     assert {file.relative_to(root).as_posix() for file in asks} <= {
         "scenario/scenario_data.py",
         "postprocessing/summary.py",
+        "formulations/compiled/setup.py",
+        "formulations/compiled/outcome.py",
     }
     assert IdealPin().holds
 

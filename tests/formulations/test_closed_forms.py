@@ -1,4 +1,4 @@
-"""The reduced formulation: what it refuses, how it fails, and its parts."""
+"""The closed forms of two machines: what they cover, how a run in them fails, and their parts."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import (
+    AppliedForce,
+    BushingPin,
     ClearancePin,
     CubicStep,
     Drive,
@@ -30,11 +32,13 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.formulations.compilation import compiled_law, plain
+from support_exudyn.formulations.compiled import closed_forms
 from support_exudyn.formulations.compiled.closed_forms import layout, support_model
 from support_exudyn.formulations.compiled.closed_forms.contact import PinState, contact_force
 from support_exudyn.formulations.compiled.closed_forms.layout import driven
 from support_exudyn.formulations.compiled.closed_forms.records import peak
 from support_exudyn.formulations.compiled.closed_forms.setup import parameters, segments
+from support_exudyn.formulations.registry import formulation
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.sweeps.precompile import precompile
 from tests.cases.law_cases import LUGRE
@@ -139,37 +143,28 @@ def stand() -> Scenario:
 
 
 OIL = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
+# what is left to the equations of any linkage
+GENERAL: dict[str, Callable[[], Scenario]] = {
+    "machine": stand,
+    "jump of the crank's speed": lambda: crank(drive=UniformSpeed(stroke=1.0, start=0.0, end=1.0)),
+    "start": lambda: scene(start="settled"),
+    "oil": lambda: scene(actuators={"rear_column": OIL}),
+    "other pin": lambda: scene(pins={"front_base": hertz(1e10)}),
+    "two pins": lambda: scene(pins={PIN: hertz(1e10), "front_base": hertz(1e10)}),
+    "other pin of the crank": lambda: crank(pins={"crank_pin": small()}),
+    "crank without a clearance pin": lambda: crank(pins={}),
+    "bushing": lambda: scene(pins={PIN: BushingPin(stiffness=(1e8, 1e8))}),
+    "friction with a state": lambda: scene(ClearancePin(contact=replace(contact(), friction=LUGRE))),
+    "friction of an ideal pin": lambda: scene(
+        pins={"front_base": IdealPin(friction=Ambrosio(sliding_coefficient=0.1), radius=0.06)}
+    ),
+    "two drives": lambda: scene(drives={"rear_column": CubicStep(stroke=0.01)}),
+    "load": lambda: scene(
+        loads={"press": AppliedForce(body="canopy", point=(0.5, 3.0), full_force=(0.0, -1e5))}
+    ),
+}
 Case = tuple[Callable[[], Scenario], str, str]  # scenario, backend, what the message says
 REFUSED: dict[str, Case] = {
-    "machine": (stand, "auto", "machine = ImpactStand.*HydraulicSupport, SliderCrank"),
-    "jump of the crank's speed": (
-        lambda: crank(drive=UniformSpeed(stroke=1.0, start=0.0, end=1.0)),
-        "auto",
-        "drive = UniformSpeed.*Held, Steady, CubicStep",
-    ),
-    "start": (lambda: scene(start="settled"), "auto", "start = 'settled'"),
-    "oil": (lambda: scene(actuators={"rear_column": OIL}), "auto", "actuators.rear_column = OilColumn"),
-    "other pin": (
-        lambda: scene(pins={"front_base": hertz(1e10)}),
-        "auto",
-        "pins.front_base = ClearancePin.*rear_base only",
-    ),
-    "two pins": (
-        lambda: scene(pins={PIN: hertz(1e10), "front_base": hertz(1e10)}),
-        "auto",
-        "pins.front_base = ClearancePin",
-    ),
-    "other pin of the crank": (
-        lambda: crank(pins={"crank_pin": small()}),
-        "auto",
-        "pins.crank_pin = ClearancePin.*slider_pin only",
-    ),
-    "crank without a clearance pin": (lambda: crank(pins={}), "auto", "pins.slider_pin = IdealPin"),
-    "friction with a state": (
-        lambda: scene(ClearancePin(contact=replace(contact(), friction=LUGRE))),
-        "auto",
-        "contact.friction = LuGre",
-    ),
     "symbolic": (scene, "symbolic", "solver.backend = 'symbolic'"),
     "python": (scene, "python", "solver.backend = 'python'.*'auto', 'compiled'"),
     "a law that branches": (
@@ -192,6 +187,18 @@ REFUSED: dict[str, Case] = {
 
 def pin_with(law: NormalLaw) -> ClearancePin:
     return ClearancePin(contact=replace(contact(), normal=law))
+
+
+def test_closed_forms_cover_a_machine_with_its_clearance_pin() -> None:
+    for covered in (scene(), scene(pins={}), crank()):
+        assert closed_forms.covers(covered)
+
+
+@pytest.mark.parametrize("case", GENERAL)
+def test_everything_else_is_left_to_the_equations_of_any_linkage(case: str) -> None:
+    scenario = GENERAL[case]()
+    assert not closed_forms.covers(scenario)
+    assert formulation("compiled").covers(scenario)
 
 
 @pytest.mark.parametrize("case", REFUSED)

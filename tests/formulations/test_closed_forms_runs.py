@@ -1,4 +1,4 @@
-"""The reduced formulation against printed values of an independent integrator, and against the engine."""
+"""The support, in closed forms and in general, against an independent integrator and the engine."""
 
 from __future__ import annotations
 
@@ -21,7 +21,14 @@ from support_exudyn import (
     reference_support,
 )
 from tests.cases.run_cases import FORCE, PIN, loose_support, paper_contact, support
-from tests.closed_forms import from_its_source, same_channels, simulate_compiled, simulate_redundant
+from tests.closed_forms import (
+    EVERY_FORM,
+    FORMS,
+    from_its_source,
+    same_channels,
+    simulate_compiled,
+    simulate_redundant,
+)
 from user_forces import (
     Ambrosio,
     Frictionless,
@@ -48,21 +55,22 @@ RISE = {
 }
 
 
-@pytest.fixture(scope="module")
-def run() -> Callable[[Scenario, float], Result]:
+@pytest.fixture(scope="module", params=FORMS)
+def run(request: pytest.FixtureRequest) -> Callable[[Scenario, float], Result]:
     """Runs, each made once."""
     made: dict[str, Result] = {}
 
     def get(scenario: Scenario, tolerance: float) -> Result:
         key = f"{scenario} {tolerance}"
         if key not in made:
-            made[key] = simulate_compiled(scenario, tolerance)
+            made[key] = FORMS[request.param](scenario, tolerance)
         return made[key]
 
     return get
 
 
 Run = Callable[[Scenario, float], Result]
+Form = Callable[..., Result]
 
 
 def statistics(result: Result) -> np.ndarray:
@@ -87,8 +95,9 @@ def test_ideal_pins(run: Run, t: float) -> None:
     np.testing.assert_allclose(got[3:], IDEAL[t][3:], rtol=0, atol=6e-7)
 
 
-def test_onsets_of_the_drop() -> None:
-    result = simulate_compiled(loose_support(drive=Held(), duration=0.08), 1e-10)
+@EVERY_FORM
+def test_onsets_of_the_drop(form: Form) -> None:
+    result = form(loose_support(drive=Held(), duration=0.08), 1e-10)
     # half of the last printed digit
     np.testing.assert_allclose([onset[:2] for onset in result.onsets[PIN]], DROP, rtol=0, atol=6e-9)
 
@@ -164,9 +173,10 @@ DAMPING = {"impact": ImpactVelocity(floor=1e-3), "depth": IndentationVelocity()}
         pytest.param("depth", 0.25, "second", marks=pytest.mark.slow),
     ],
 )
-def test_a_drop_is_the_engines(damping: str, mu: float, bore: str) -> None:
+@EVERY_FORM
+def test_a_drop_is_the_engines(damping: str, mu: float, bore: str, form: Form) -> None:
     scenario = dropping(law(DAMPING[damping]), mu, bore)
-    theirs, ours = simulate_redundant(scenario), simulate_compiled(scenario, 1e-8)
+    theirs, ours = simulate_redundant(scenario), form(scenario, 1e-8)
     first, second = (np.array(result.onsets[PIN]) for result in (theirs, ours))
     # the engine's errors at 256 steps an impact; each impact magnifies those of the last
     assert first.shape == second.shape
@@ -199,9 +209,10 @@ IDEAL_DRIVES: dict[str, Drive] = {
 
 
 @pytest.mark.parametrize("drive", IDEAL_DRIVES)
-def test_ideal_channels_are_the_engines(drive: str) -> None:
+@EVERY_FORM
+def test_ideal_channels_are_the_engines(drive: str, form: Form) -> None:
     scenario = support(step=1e-3, drive=IDEAL_DRIVES[drive], duration=1.5)
-    ours, theirs = simulate_compiled(scenario), simulate_redundant(scenario)
+    ours, theirs = form(scenario), simulate_redundant(scenario)
     # generalised alpha at 1e-3 s: 1e-6 in forces, 1e-5 in the canopy's small accelerations
     assert_same_channels(ours, theirs, 1e-4, 1e-4)
     if isinstance(scenario.drive, Steady):  # already in motion at the start, in both
@@ -213,12 +224,13 @@ def test_ideal_channels_are_the_engines(drive: str) -> None:
 
 
 @pytest.mark.parametrize("with_clearance", [False, pytest.param(True, marks=pytest.mark.slow)])
-def test_jumps_of_the_actuators_speed_are_the_engines(with_clearance: bool) -> None:
+@EVERY_FORM
+def test_jumps_of_the_actuators_speed_are_the_engines(with_clearance: bool, form: Form) -> None:
     drive = UniformSpeed(stroke=0.1, start=0.2, end=0.4)
     # a period that does not divide the duration, and records that do not meet the jumps
     pins = dropping(law(ImpactVelocity(floor=1e-3)), 0.25, "first").pins if with_clearance else {}
     scenario = support(drive=drive, duration=0.45, step=5e-4, record_period=7e-3, pins=pins)
-    theirs, ours = simulate_redundant(scenario), simulate_compiled(scenario, 1e-9)
+    theirs, ours = simulate_redundant(scenario), form(scenario, 1e-9)
     assert len(ours.impulses) == 2
     # ideal: the engine's velocities before the second jump are right to 1e-9; loose: they carry its error of
     # some impacts on, 1e-4
@@ -233,11 +245,12 @@ def test_jumps_of_the_actuators_speed_are_the_engines(with_clearance: bool) -> N
     assert np.abs(ours["energy.work"]).max() > 1e3
 
 
+@EVERY_FORM
 @pytest.mark.parametrize("bore", ["first", "second"])
-def test_a_loose_support_on_actuators_that_move_from_the_start_on(bore: str) -> None:
+def test_a_loose_support_on_actuators_that_move_from_the_start_on(bore: str, form: Form) -> None:
     base = loose_support(0.5, 0.25, drive=Steady(rate=0.1), duration=0.05)
     scenario = replace(base, pins={PIN: replace(base.clearance_pins[PIN], bore=bore)})
-    theirs, ours = simulate_redundant(scenario), simulate_compiled(scenario, 1e-8)
+    theirs, ours = simulate_redundant(scenario), form(scenario, 1e-8)
     one, other = (np.array(result.onsets[PIN]) for result in (ours, theirs))
     np.testing.assert_allclose(one[:, :2], other[:, :2], rtol=1e-6)
     # a separation is where the engine's first step behind it ends: measured 3e-6
@@ -282,10 +295,11 @@ def test_the_familys_formulas_are_the_source_of_its_laws(
     assert source.energy_error < 1e-5
 
 
-def test_velocities_after_a_jump_are_the_closed_form_ones() -> None:
+@EVERY_FORM
+def test_velocities_after_a_jump_are_the_closed_form_ones(form: Form) -> None:
     machine, small = reference_support(), 1e-5
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
-    result = simulate_compiled(support(drive=drive, duration=0.1))
+    result = form(support(drive=drive, duration=0.1))
     at = 0.25 * 0.1
     lower, upper = machine.extended(at - small), machine.extended(at + small)
     assert lower is not None
@@ -299,10 +313,11 @@ def test_velocities_after_a_jump_are_the_closed_form_ones() -> None:
         assert rate == pytest.approx(0.25 * turn / (2 * small), rel=1e-7)
 
 
-def test_a_loose_pin_transmits_no_impulse() -> None:
+@EVERY_FORM
+def test_a_loose_pin_transmits_no_impulse(form: Form) -> None:
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
     ideal, with_clearance = (
-        simulate_compiled(scenario(drive=drive, duration=0.01)) for scenario in (support, loose_support)
+        form(scenario(drive=drive, duration=0.01)) for scenario in (support, loose_support)
     )
     (closed,), (free,) = ideal.impulses, with_clearance.impulses
     # Bertrand's theorem: with fewer constraints the same speeds of the actuators take less energy
@@ -311,21 +326,23 @@ def test_a_loose_pin_transmits_no_impulse() -> None:
     assert closed.energy == pytest.approx(0.5 * 0.25 * sum(closed.actuators.values()), rel=1e-12)
 
 
-def test_largest_force_is_that_of_the_peak_between_records() -> None:
+@EVERY_FORM
+def test_largest_force_is_that_of_the_peak_between_records(form: Form) -> None:
     scenario = loose_support(drive=Held(), duration=0.03)
-    fine = simulate_compiled(replace(scenario, record_period=1e-6), 1e-9)
+    fine = form(replace(scenario, record_period=1e-6), 1e-9)
     # the parabola through neighbours of the peak, 1 us of 5 ms; what 1e-5 makes of an impact: measured 2e-5
     for tolerance, close in ((1e-9, 1e-6), (1e-5, 1e-4)):
-        result = simulate_compiled(scenario, tolerance)
+        result = form(scenario, tolerance)
         assert result.largest_force[PIN] == pytest.approx(fine[FORCE].max(), rel=close)
         assert result[FORCE].max() < result.largest_force[PIN]
 
 
+@EVERY_FORM
 @pytest.mark.parametrize("with_clearance", [False, True])
-def test_the_first_record_is_of_the_state_before_a_jump_at_the_start(with_clearance: bool) -> None:
+def test_the_first_record_is_of_the_state_before_a_jump_at_the_start(with_clearance: bool, form: Form) -> None:
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
     scenario = (loose_support if with_clearance else support)(drive=drive, duration=0.01)
-    ours, theirs = simulate_compiled(scenario), simulate_redundant(scenario)
+    ours, theirs = form(scenario), simulate_redundant(scenario)
     assert ours["energy.kinetic"][0] == theirs["energy.kinetic"][0] == 0.0
     for name in (name for name in ours.channels if "velocity" in name):
         assert ours[name][0] == 0.0, name

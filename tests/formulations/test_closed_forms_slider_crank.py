@@ -1,7 +1,8 @@
-"""The slider-crank in its free coordinates: against printed onsets, against the engine, plain and compiled."""
+"""The slider-crank, in closed forms and in general, against printed onsets and the engine."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -15,10 +16,11 @@ from tests.cases.run_cases import (
     slider_crank,
     slider_crank_contact,
 )
+from tests.closed_forms import EVERY_FORM, from_its_source, same_channels, simulate_compiled, simulate_redundant
 from tests.formulations.test_slider_crank import SPEEDS, TIMES
-from tests.closed_forms import from_its_source, same_channels, simulate_compiled, simulate_redundant
 from user_forces import IndentationVelocity, LankaraniNikravesh
 
+Form = Callable[..., Result]
 GRAVITY = (300.0, -981.0)  # so strong that what is forgotten of it shows [m/s^2]
 DRIVES: dict[str, Drive] = {
     "steady": Steady(rate=CRANK_SPEED),
@@ -52,17 +54,19 @@ def check_onsets(result: Result, time: float, speed: float) -> None:
     np.testing.assert_allclose(onsets[:, 1], SPEEDS, rtol=0, atol=speed)
 
 
-def test_printed_onsets() -> None:
-    result = simulate_compiled(loose_slider_crank(1.3e-3), 1e-11)
+@EVERY_FORM
+def test_printed_onsets(form: Form) -> None:
+    result = form(loose_slider_crank(1.3e-3), 1e-11)
     # half of the last printed digit: 1e-9 s, 1e-6 m/s
     check_onsets(result, 6e-10, 6e-7)
     # printed as "about 4.59e4 N"
     assert result.largest_force[SLIDER_PIN] == pytest.approx(4.59e4, rel=1e-3)
 
 
-def test_onsets_at_the_usual_tolerance() -> None:
+@EVERY_FORM
+def test_onsets_at_the_usual_tolerance(form: Form) -> None:
     # five impacts at 1e-7; measured 9e-10 s and 1.6e-5 m/s
-    check_onsets(simulate_compiled(loose_slider_crank(1.3e-3), 1e-7), 5e-9, 5e-5)
+    check_onsets(form(loose_slider_crank(1.3e-3), 1e-7), 5e-9, 5e-5)
 
 
 @BORES
@@ -96,10 +100,11 @@ def test_the_familys_formulas_are_the_source_of_its_laws(
         *(pytest.param(*case, marks=pytest.mark.slow) for case in SLOW),
     ],
 )
-def test_all_channels_are_the_engines(drive: str, bore: str) -> None:
+@EVERY_FORM
+def test_all_channels_are_the_engines(drive: str, bore: str, form: Form) -> None:
     mu = 0.0 if (drive, bore) == ("from rest", "first") else 0.1
     scenario = scene(drive, bore, mu)
-    ours, theirs = simulate_compiled(scenario, 1e-9), simulate_redundant(scenario)
+    ours, theirs = form(scenario, 1e-9), simulate_redundant(scenario)
     one, other = np.array(ours.onsets[SLIDER_PIN]), np.array(theirs.onsets[SLIDER_PIN])
     # the engine's errors at 512 steps an impact, magnified from impact to impact; measured 2e-7 s, 4e-4 m/s
     assert one.shape == other.shape
@@ -129,10 +134,11 @@ def test_a_steady_crank_is_not_accelerated_at_any_instant() -> None:
     assert np.abs(theirs["crank.angular_acceleration"]).max() < 10.0
 
 
-def test_the_moment_of_the_crank_does_the_work() -> None:
+@EVERY_FORM
+def test_the_moment_of_the_crank_does_the_work(form: Form) -> None:
     # by the trapezoidal rule over records that do not see the impacts' kinks: measured 3e-6
     scenario = loose_slider_crank(1.3e-3, gravity=GRAVITY, record_period=2e-8)
-    result = simulate_compiled(scenario, 1e-9)
+    result = form(scenario, 1e-9)
     power = CRANK_SPEED * result["crank.moment"]
     work = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(result.time) * (power[1:] + power[:-1]))])
     largest = np.abs(work).max()

@@ -12,7 +12,7 @@ from typing import Any
 import numba
 import pytest
 
-from support_exudyn.formulations import compiled
+from support_exudyn.formulations import compilation
 
 
 def twice(value: float) -> float:
@@ -30,7 +30,7 @@ def test_what_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.Monkey
         return njit(*args, **options)
 
     monkeypatch.setattr(numba, "njit", without_a_place)
-    dispatcher = compiled._kept(twice)
+    dispatcher = compilation._kept(twice)
     assert dispatcher(21.0) == 42.0
     assert asked[:2] == [True, False]  # then numba compiles helpers of its own
 
@@ -47,19 +47,19 @@ def test_a_law_that_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.
 
     monkeypatch.setattr(numba, "cfunc", without_a_place)
     source = "def law(depth, rate, slip, speed, mass, constants, out):\n    return constants[0] * depth"
-    assert compiled.compiled_law(source).address > 0
+    assert compilation.compiled_law(source).address > 0
     assert asked == [True, False]
 
 
 def test_what_an_older_program_has_kept_is_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It may name classes that are no longer there."""
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-    dispatcher = compiled._kept(twice)
+    dispatcher = compilation._kept(twice)
     index = Path(dispatcher._cache._cache_file._index_path)
     index.parent.mkdir(parents=True, exist_ok=True)
     index.write_bytes(pickle.dumps(numba.__version__) + b"\x80\x04cno.module\nNoClass\n.")
     assert dispatcher(21.0) == 42.0
-    assert compiled.STAMP[0].encode() in index.read_bytes()
+    assert compilation.STAMP[0].encode() in index.read_bytes()
 
 
 def test_a_function_that_another_process_compiles_is_waited_for(
@@ -67,8 +67,8 @@ def test_a_function_that_another_process_compiles_is_waited_for(
 ) -> None:
     pytest.importorskip("fcntl")
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-    dispatcher, other = compiled._kept(twice), compiled._kept(twice)
-    (lock,) = compiled._lock(Path(dispatcher._cache.cache_path), "twice")  # the other process begins
+    dispatcher, other = compilation._kept(twice), compilation._kept(twice)
+    (lock,) = compilation._lock(Path(dispatcher._cache.cache_path), "twice")  # the other process begins
     with ThreadPoolExecutor(1) as pool:
         found = pool.submit(dispatcher, 21.0)
         assert wait([found], timeout=0.3).not_done
@@ -79,12 +79,22 @@ def test_a_function_that_another_process_compiles_is_waited_for(
 
 
 @pytest.mark.parametrize("at_terminal", [True, False])
+@pytest.mark.parametrize(
+    ("module", "told"),
+    [
+        ("compiled.integrate", "compiling (compiled)"),
+        ("compiled.closed_forms.integrate", "compiling (closed forms)"),
+    ],
+)
 def test_the_compiling_is_told_at_a_terminal_and_elsewhere(
-    at_terminal: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    module: str,
+    told: str,
+    at_terminal: bool,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.setattr(sys.stderr, "isatty", lambda: at_terminal)
-    compiled._tell.__wrapped__("support_exudyn.formulations.compiled.closed_forms.integrate")
-    told = "compiling the reduced formulation, once on this machine: about 10 s\n"
-    assert capsys.readouterr().err == told
-    compiled._tell.__wrapped__("__main__")
+    compilation._tell.__wrapped__(f"support_exudyn.formulations.{module}")
+    assert capsys.readouterr().err.startswith(f"{told}, once on this machine: about ")
+    compilation._tell.__wrapped__("__main__")
     assert capsys.readouterr().err == ""

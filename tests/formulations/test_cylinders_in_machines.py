@@ -113,4 +113,4 @@ def test_errors_are_known_and_files_keep_cylinders(tmp_path: object) -> None:
     np.testing.assert_array_equal(again["rear_column.pressure"], result["rear_column.pressure"])
     asked = replace(result.scenario, channels=("rear_column.pressure", "energy.balance"))
     np.testing.assert_array_equal(simulate(asked)["rear_column.pressure"], result["rear_column.pressure"])
-    assert simulate(replace(scenario, accuracy=1e-2)).scenario.formulation == "redundant"
+    assert simulate(replace(scenario, accuracy=1e-2)).scenario.formulation == "compiled"

@@ -88,19 +88,19 @@ def test_breaks_of_all_drives_are_met() -> None:
     assert scenario.drive_of("rear_column") == REAR
 
 
-def test_the_tree_follows_the_drives_too() -> None:
+def test_the_compiled_formulation_follows_the_drives_too() -> None:
     scene = {
         "drive": FRONT,
         "drives": {"rear_column": REAR},
         "actuators": {"front_column": OIL, "rear_column": OIL},
         "duration": 0.22,
     }
-    tree = simulate(loose_support(formulation="compiled", **scene))
+    compiled = simulate(loose_support(formulation="compiled", **scene))
     redundant = simulate(loose_support(step=1e-4, **scene))
     # the redundant formulation's error of impacts and steps, as in `test_formulations_agree`
-    np.testing.assert_allclose(tree["tip.y"], redundant["tip.y"], atol=2e-6)
+    np.testing.assert_allclose(compiled["tip.y"], redundant["tip.y"], atol=2e-6)
     np.testing.assert_allclose(
-        tree["energy.work"], redundant["energy.work"], atol=1e-3 * tree["energy.work"].max()
+        compiled["energy.work"], redundant["energy.work"], atol=1e-3 * compiled["energy.work"].max()
     )
-    mean = [run[FORCE][run.time > 0.15].mean() for run in (tree, redundant)]
+    mean = [run[FORCE][run.time > 0.15].mean() for run in (compiled, redundant)]
     assert mean[0] == pytest.approx(mean[1], rel=1e-3)

@@ -63,18 +63,18 @@ def test_a_journal_pressed_in_starts_with_the_force_of_its_law(bore: str) -> Non
         pytest.param("second", 1e-4, marks=pytest.mark.slow),
     ],
 )
-def test_the_tree_and_space_start_and_go_on_alike(bore: str, over: float) -> None:
+def test_the_compiled_formulation_and_space_start_and_go_on_alike(bore: str, over: float) -> None:
     # pressed in on the side from which it flies across the bore, or free
     place = (0.0, -sense(bore) * (CLEARANCE + over)) if over else (1e-3, -5e-4)
     scenario = eccentric(*place, bore, actuators=oil_columns())
     flat = simulate(scenario)
-    tree = simulate(replace(scenario, formulation="compiled"))
+    compiled = simulate(replace(scenario, formulation="compiled"))
     space = simulate(replace(scenario, dimensions=3))
     assert len(flat.onsets[PIN]) >= 1
-    for other, close in ((tree, 1e-5), (space, 1e-7)):
+    for other, close in ((compiled, 1e-5), (space, 1e-7)):
         assert other[FORCE][0] == pytest.approx(flat[FORCE][0], rel=1e-7, abs=1e-6)  # rounding of the depth
         first, theirs = flat.onsets[PIN][0], other.onsets[PIN][0]
-        # 14 ms of flight by both methods; measured 7e-7 s and 5e-6 of the speed with the tree, else 1e-10
+        # 14 ms of flight by both methods; measured 7e-7 s and 5e-6 of the speed compiled, else 1e-10
         assert theirs.time == pytest.approx(first.time, abs=0.2 * close)
         assert theirs.speed == pytest.approx(first.speed, rel=10.0 * close)
         assert other.energy_error < 5e-3

@@ -1,4 +1,4 @@
-"""Events of contacts on courses whose turning points and zeros are known, in all formulations that seek them.
+"""Events of contacts on courses whose turning points and zeros are known, in closed forms and in general.
 
 Every finder is driven as its integrator drives it: steps that are too long are made again shorter, and grow
 again.
@@ -17,9 +17,10 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
 from support_exudyn.formulations.compilation import plain
-from support_exudyn.formulations.compiled.closed_forms import events, integrate, layout
-from support_exudyn.formulations.tree.events import EventKind, event
-from support_exudyn.formulations.tree.forces import JournalPlace
+from support_exudyn.formulations.compiled import depth as depths
+from support_exudyn.formulations.compiled import events as general_events
+from support_exudyn.formulations.compiled.arrays import CONTACT
+from support_exudyn.formulations.compiled.closed_forms import events, layout
 
 C = 10.0  # clearance [m], large: dips of a thousandth of a step are then far above what is called still
 DEPTH = 1.0  # [m], of the order of all depths
@@ -27,12 +28,12 @@ LENGTH = 1.0  # of a course [s]
 FIRST, SHORTEN, GROWTH = LENGTH / 16.0, 0.25, 4.0  # step at first [s] and at most, and its changes
 NOTHING, IMPACT, SEPARATION, RETURN, UNCLEAR = "nothing", "impact", "separation", "return", "unclear"
 NAMES = {
-    events.NOTHING: NOTHING,
-    events.IMPACT: IMPACT,
-    events.SEPARATION: SEPARATION,
-    events.RETURN: RETURN,
-    events.CUT: "cut",
-    events.TOO_LONG: UNCLEAR,
+    depths.NOTHING: NOTHING,
+    depths.IMPACT: IMPACT,
+    depths.SEPARATION: SEPARATION,
+    depths.RETURN: RETURN,
+    depths.CUT: "cut",
+    depths.TOO_LONG: UNCLEAR,
 }
 EvaluationContext = tuple[str, float, float]  # what, between which times [s]
 
@@ -68,8 +69,8 @@ def crossings(curve: Polynomial, sign: float) -> list[float]:
 Finder = Callable[[Course, float, float], EvaluationContext]
 
 
-def in_reduced(course: Course, t: float, h: float) -> EvaluationContext:
-    """The finder of the reduced formulation."""
+def in_closed_forms(course: Course, t: float, h: float) -> EvaluationContext:
+    """The finder of the closed forms."""
 
     def contact(time: float) -> list[float]:
         found = [0.0] * layout.CONTACT
@@ -92,26 +93,45 @@ def in_reduced(course: Course, t: float, h: float) -> EvaluationContext:
     return NAMES[what], t + low * h, t + high * h
 
 
-def in_tree(course: Course, t: float, h: float) -> EvaluationContext:
-    """The finder of the tree; the journal moves along one axis."""
+class Fake(NamedTuple):
+    """What the general finder takes of a scene."""
 
-    def place(time: float) -> JournalPlace:
-        depth, rate = float(course.depth(time)), float(course.rate(time))
-        return JournalPlace(C + depth, 0.0, rate, 0.0, depth, rate)
-
-    found = event(course.closed, True, place(t), place(t + h), h, C)
-    if found is None:
-        return NOTHING, t, t + h
-    kinds = {
-        EventKind.IMPACT: IMPACT,
-        EventKind.SEPARATION: SEPARATION,
-        EventKind.RETURN: RETURN,
-        EventKind.UNCLEAR: UNCLEAR,
-    }
-    return kinds[found.kind], t + found.fraction * h, t + found.fraction * h
+    contacts: np.recarray
 
 
-FINDERS = {"compiled": in_reduced, "compiled": in_tree}
+def contacts(depth: float, rate: float, push: float = 1.0, closed: bool = True) -> np.recarray:
+    """The one contact of a scene, which moves along one axis."""
+    found = np.zeros(1, CONTACT).view(np.recarray)
+    one = found[0]
+    one.depth, one.rate, one.push, one.closed, one.renews, one.clearance = depth, rate, push, closed, 1, C
+    one.x, one.vx, one.nx = C + depth, rate, 1.0
+    return found
+
+
+def found_in_general(at: Callable[[float], np.recarray], t: float, h: float) -> EvaluationContext:
+    """What the general finder sees of a contact over time."""
+    scene = Fake(at(t + h))
+
+    def look(scene: Fake, n: int, x: float, path: object, y: object, slope: object, forced: bool) -> None:
+        scene.contacts[:] = at(t + x * h)
+
+    look_for = plain(general_events.first_event, look=look)
+    n, what, low, high = look_for(scene, h, at(t), at(t + h), None, None, None)
+    if n < 0:
+        return NOTHING, t + h, t + h
+    return NAMES[what], t + low * h, t + high * h
+
+
+def in_general(course: Course, t: float, h: float) -> EvaluationContext:
+    """The finder of the equations of any linkage."""
+
+    def at(time: float) -> np.recarray:
+        return contacts(float(course.depth(time)), float(course.rate(time)), closed=course.closed)
+
+    return found_in_general(at, t, h)
+
+
+FINDERS = {"closed forms": in_closed_forms, "general": in_general}
 
 
 def driven(find: Finder, course: Course) -> tuple[EvaluationContext, float]:
@@ -195,10 +215,13 @@ def test_the_first_touch_of_a_flight_is_found(
 # --- tension that is cut ---
 
 
-def cut(
+Cut = Callable[..., EvaluationContext]
+
+
+def cut_in_closed_forms(
     push: Callable[[float], float], depth: Polynomial, h: float = 0.125, start: float = 0.0
 ) -> EvaluationContext:
-    """What the compiled finder sees in a step of a contact that asks for tension where `push` is below zero."""
+    """What is seen in a step of a contact that asks for tension where `push` is below zero."""
 
     def contact(time: float) -> list[float]:
         found = [0.0] * layout.CONTACT
@@ -219,35 +242,54 @@ def cut(
     return NAMES[what], start + low * h, start + high * h
 
 
+def cut_in_general(
+    push: Callable[[float], float], depth: Polynomial, h: float = 0.125, start: float = 0.0
+) -> EvaluationContext:
+    """The same by the equations of any linkage."""
+
+    def at(time: float) -> np.recarray:
+        return contacts(float(depth(time)), float(depth.deriv()(time)), push(time))
+
+    return found_in_general(at, start, h)
+
+
+EVERY_CUT = pytest.mark.parametrize("cut", [cut_in_closed_forms, cut_in_general])
+
+
 DEEP = Polynomial([5e-4, -1e-3])  # on its way out, still closed after a tenth of a second
 PARTS_EARLY = Polynomial([5e-5, -1e-3])  # parts at 0.05 s
 
 
-def test_a_cut_is_found_between_the_ends_of_its_step() -> None:
+@EVERY_CUT
+def test_a_cut_is_found_between_the_ends_of_its_step(cut: Cut) -> None:
     assert cut(lambda t: 0.1 - t, DEEP) == ("cut", 0.0, 0.125)
     assert cut(lambda t: t - 0.1, DEEP) == ("cut", 0.0, 0.125)
     assert cut(lambda t: 0.2 - t, DEEP) == (NOTHING, 0.125, 0.125)
 
 
+@EVERY_CUT
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("middle", [0.3, 0.5, 0.7])
-def test_two_cuts_within_a_step_are_seen(middle: float, sign: float) -> None:
+def test_two_cuts_within_a_step_are_seen(middle: float, sign: float, cut: Cut) -> None:
     found = cut(lambda t: sign * 0.4 * ((8.0 * t - middle) ** 2 - 0.035), DEEP)
     assert found[0] == UNCLEAR
 
 
-def test_what_stays_on_one_side_of_a_cut_is_left_alone() -> None:
+@EVERY_CUT
+def test_what_stays_on_one_side_of_a_cut_is_left_alone(cut: Cut) -> None:
     assert cut(lambda t: 0.4 * ((8.0 * t - 0.5) ** 2 + 0.04), DEEP)[0] == NOTHING
     # far from a cut nothing is looked at
     assert cut(lambda t: 0.6 if t in (0.0, 0.125) else -1.0, DEEP)[0] == NOTHING
 
 
-def test_where_a_cut_is_met_a_step_begins_on_neither_side() -> None:
+@EVERY_CUT
+def test_where_a_cut_is_met_a_step_begins_on_neither_side(cut: Cut) -> None:
     assert cut(lambda t: -1e-12 + t, DEEP)[0] == NOTHING
     assert cut(lambda t: 1e-12 - t, DEEP)[0] == NOTHING
 
 
-def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones() -> None:
+@EVERY_CUT
+def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones(cut: Cut) -> None:
     assert cut(lambda t: 0.07 - t, PARTS_EARLY)[0] == UNCLEAR
     assert cut(lambda t: 0.04 - t, PARTS_EARLY, h=0.045) == ("cut", 0.0, 0.045)
     what, low, high = cut(lambda t: 0.07 - t, PARTS_EARLY, h=0.06)
@@ -258,7 +300,8 @@ def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones() -> Non
     assert cut(lambda t: 2e-11 - t, tiny, h=1e-10)[0] == SEPARATION
 
 
-def test_a_cut_comes_before_the_contact_is_pressed_on_again() -> None:
+@EVERY_CUT
+def test_a_cut_comes_before_the_contact_is_pressed_on_again(cut: Cut) -> None:
     # where the rate passes zero the law asks for no tension
     turning = Polynomial([5e-4, -1e-3, 8e-3])
     assert cut(lambda t: t - 0.03, turning)[0] == "cut"
@@ -289,7 +332,7 @@ def test_what_is_over_within_a_step_is_seen(finder: str, middle: float) -> None:
     assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (IMPACT, True)
 
 
-@pytest.mark.parametrize("finder", ["compiled", "compiled"])
+@pytest.mark.parametrize("finder", FINDERS)
 @pytest.mark.parametrize("bend", [0.03, -0.03])
 def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: float) -> None:
     # s^2 + bend s^4 has the same values and slopes at -1 and 1 as a parabola that is lower by `bend` at 0
@@ -298,7 +341,7 @@ def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: f
     assert FINDERS[finder](Course(close, closed=True), 0.0, 0.125)[0] == UNCLEAR
 
 
-@pytest.mark.parametrize("finder", ["compiled", "compiled"])
+@pytest.mark.parametrize("finder", FINDERS)
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_dip_that_a_cubic_does_not_show_is_looked_at_more_closely(finder: str, sign: float) -> None:
     # the rate has the values and the mean of s^2 + 0.02, which stays above zero, but is at -0.02 in the middle
@@ -312,9 +355,9 @@ def test_a_dip_that_a_cubic_does_not_show_is_looked_at_more_closely(finder: str,
 @pytest.mark.parametrize("finder", FINDERS)
 @pytest.mark.parametrize("bend", [0.02, -0.02])
 def test_a_top_that_a_cubic_cannot_tell_is_looked_at_more_closely(finder: str, bend: float) -> None:
-    s = Polynomial([-1.0, 16.0]) * (1.0 if finder == "compiled" else 4.0) + (0.0 if finder == "compiled" else 3.0)
+    # they look at quarters of a step, of which this is the first
+    s = Polynomial([-1.0, 64.0])
     near = -0.1 * DEPTH * (s**2 + bend * s**4 + 0.5 * bend)
-    # the others look at quarters of a step, of which this is the first
     assert FINDERS[finder](Course(near, closed=False), 0.0, 0.125)[0] == UNCLEAR
 
 
@@ -372,39 +415,3 @@ def test_contacts_that_nearly_part_are_told_from_those_that_do(finder: str, left
     t = Polynomial([-0.47, 1.0])
     course = Course(DEPTH * (left + (t / 0.3) ** 2 + 0.3 * (t / 0.3) ** 3), closed=True)
     assert driven(FINDERS[finder], course)[0][0] == (RETURN if left > 0.0 else SEPARATION)
-
-
-# --- a step made again to end where it is pressed on again ---
-
-
-@given(turn=st.floats(0.05, 0.95), guess=st.floats(0.02, 0.98), flat=st.floats(1.0, 8.0), late=st.booleans())
-@example(turn=0.16, guess=0.9, flat=8.0, late=False)  # the rate hardly changes from the guess on
-@example(turn=0.84, guess=0.1, flat=8.0, late=True)
-def test_a_turn_is_sought_between_the_nearest_looks_on_either_side(
-    turn: float, guess: float, flat: float, late: bool
-) -> None:
-    h, looked = 0.125, []
-
-    def rate(x: float) -> float:
-        """Rises; steeply first or last."""
-        if late:
-            return x**flat - turn**flat
-        return (1.0 - turn) ** flat - (1.0 - x) ** flat
-
-    def advance(p: object, segment: object, memory: object, t: float, length: float, *rest: list) -> None:
-        looked.append(length / h)
-        rest[3][layout.RATE] = rate(length / h)
-
-    contact, report = [0.0] * layout.CONTACT, [0.0] * integrate.REPORT
-    contact[layout.RATE] = rate(1.0)
-    start = [0.0] * layout.CONTACT
-    start[layout.RATE] = rate(0.0)
-    land = plain(integrate.land, advance=advance)
-    length = land([], [], [], 0.0, h, events.RETURN, 0.0, guess, start, [], [], [], contact, [], report)
-    assert length / h == looked[-1]  # where it ends is what was made last
-    assert looked[0] == pytest.approx(guess)
-    for n, x in enumerate(looked[1:], 1):
-        low = max([0.0, *(other for other in looked[:n] if rate(other) < 0.0)])
-        high = min([1.0, *(other for other in looked[:n] if rate(other) >= 0.0)])
-        # rounding
-        assert low - 1e-9 <= x <= high + 1e-9

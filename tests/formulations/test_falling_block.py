@@ -17,7 +17,6 @@ from support_exudyn import (
     LoadedPoint,
     Result,
     Scenario,
-    SimulationError,
     SolverSettings,
     reference_support,
     simulate,
@@ -265,12 +264,6 @@ def test_gravity_must_be_that_of_the_law() -> None:
         InputError, match=r"loads\.rock\.height = 0\.0 m, speed = 0\.0 m/s: allowed: one of them > 0"
     ):
         on_the_held(block(height=0.0))
-
-
-@pytest.mark.parametrize("formulation", ["compiled", "compiled"])
-def test_other_formulations_refuse_it(formulation: str) -> None:
-    with pytest.raises((InputError, SimulationError), match=r"loads\.rock"):
-        simulate(on_the_held(block(), formulation=formulation))
 
 
 def test_it_can_be_saved_and_read(tmp_path: object) -> None:

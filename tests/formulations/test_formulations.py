@@ -8,14 +8,36 @@ from typing import get_args, get_type_hints
 
 import pytest
 
-from support_exudyn import Held, OilColumn, Scenario, SolverSettings, bore_area, simulate
+from support_exudyn import (
+    Body,
+    Held,
+    IdealPin,
+    Linkage,
+    Machine,
+    OilColumn,
+    Scenario,
+    SolverSettings,
+    bore_area,
+    simulate,
+)
 from support_exudyn.formulations.registry import FORMULATIONS, Formulation, formulation
+from support_exudyn.model.linkage import GROUND, pinned
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, slider_crank, support
-from user_forces import InputError, LuGre
+from user_forces import Impact, InputError, LankaraniNikravesh, LuGre, value
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 BOTH = {"front_column": OIL, "rear_column": OIL}
+
+
+@value
+class Twice(Machine):
+    """A bar that one pin holds twice."""
+
+    def linkage(self) -> Linkage:
+        pin = pinned(GROUND, "bar", (0.0, 0.0))
+        bar = Body(mass=1.0, inertia=0.1, centre=(0.5, 0.0))
+        return Linkage(bodies={"bar": bar}, pins={"one": pin, "other": pin})
 
 
 def with_a_state() -> Scenario:
@@ -24,6 +46,27 @@ def with_a_state() -> Scenario:
     pin = scene.clearance_pins[PIN]
     friction = LuGre(static_coefficient=0.1, sliding_coefficient=0.05)
     return replace(scene, pins={PIN: replace(pin, contact=replace(pin.contact, friction=friction))})
+
+
+@value
+class Branching(LankaraniNikravesh):
+    """A law that branches on its arguments."""
+
+    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+        return super().__call__(depth, rate, impact) if rate > 0.0 else self.elastic_force(depth)
+
+
+def with_a_branch() -> Scenario:
+    """A support whose contact law is no formula."""
+    scene = loose_support(drive=Held(), duration=0.02)
+    pin = scene.clearance_pins[PIN]
+    law = Branching(stiffness=1e10, restitution=0.5)
+    return replace(scene, pins={PIN: replace(pin, contact=replace(pin.contact, normal=law))})
+
+
+@value
+class Walked(IdealPin):
+    """A kind of pin that no formulation but the engine's knows."""
 
 
 SCENES = {
@@ -35,12 +78,16 @@ SCENES = {
     "friction with a state": with_a_state(),
     "clearance slider-crank": loose_slider_crank(1e-4),
     "ideal slider-crank": slider_crank(1e-4),
+    "a law that branches": with_a_branch(),
+    "a kind of pin of one's own": support(drive=Held(), duration=0.02, pins={PIN: Walked()}),
+    "joints that hold the same twice": Scenario(machine=Twice(), duration=0.02),
 }
-COVERED = {
-    "compiled": {"clearance support", "ideal support", "clearance slider-crank"},
-    "compiled": {"clearance support on oil"},
-    "redundant": set(SCENES),
+NOT_COMPILED = {
+    "a law that branches": r"pins\.rear_base\.contact = Branching, which cannot be written out",
+    "a kind of pin of one's own": r"pins\.rear_base = Walked",
+    "joints that hold the same twice": "machine = joints that hold the same twice",
 }
+COVERED = {"compiled": set(SCENES) - set(NOT_COMPILED), "redundant": set(SCENES)}
 
 
 def test_every_formulation_offers_a_check_and_a_run() -> None:
@@ -62,27 +109,35 @@ def test_a_formulation_covers_what_it_says(name: str, scene: str) -> None:
     assert formulation(name).covers(replace(SCENES[scene], formulation="redundant")) == (scene in COVERED[name])
 
 
-@pytest.mark.parametrize(
-    ("name", "scene"), [(n, s) for n in ("compiled", "compiled") for s in SCENES if s not in COVERED[n]]
-)
+@pytest.mark.parametrize("scene", NOT_COMPILED)
 @pytest.mark.parametrize("accuracy", [None, "draft"])
-def test_what_is_not_covered_is_refused_before_anything_runs(
-    name: str, scene: str, accuracy: str | None
-) -> None:
+def test_what_is_not_covered_is_refused_before_anything_runs(scene: str, accuracy: str | None) -> None:
     heard: list[float] = []
+    asked = replace(SCENES[scene], formulation="compiled")
     # what, why, and what to do
-    with pytest.raises(InputError, match=r" = .*: .*allowed: .*redundant.* covers it"):
-        simulate(
-            replace(SCENES[scene], formulation=name), accuracy=accuracy, progress=heard.append, throw=False
-        )
+    with pytest.raises(InputError, match=rf"{NOT_COMPILED[scene]}.*: .*allowed: .*redundant.* covers it"):
+        simulate(asked, accuracy=accuracy, progress=heard.append, throw=False)
     assert heard == []
+
+
+@pytest.mark.parametrize("backend", ["symbolic", "python"])
+def test_a_backend_of_the_engine_is_refused(backend: str) -> None:
+    scene = replace(SCENES["clearance support"], formulation="compiled", solver=SolverSettings(backend=backend))
+    with pytest.raises(InputError, match=rf"solver\.backend = '{backend}'.*allowed: 'auto', 'compiled'"):
+        simulate(scene)
+
+
+def test_space_is_refused() -> None:
+    with pytest.raises(InputError, match=r"formulation = 'compiled': is planar.*'redundant'"):
+        support(dimensions=3, formulation="compiled")
+    assert not formulation("compiled").covers(support(dimensions=3))
 
 
 @pytest.mark.parametrize("accuracy", [None, "draft"])
 def test_settings_that_no_formulation_takes_are_refused_with_the_reason(accuracy: str | None) -> None:
-    scene = replace(SCENES["settled support"], solver=SolverSettings(backend="compiled"))
+    scene = replace(SCENES["a law that branches"], solver=SolverSettings(backend="compiled"))
     assert not any(formulation(name).covers(scene) for name in COVERED)
-    with pytest.raises(InputError, match=r"solver\.backend = 'compiled': .*reduced.*allowed: .*'python'"):
+    with pytest.raises(InputError, match=r"solver\.backend = 'compiled': .*allowed: .*'python'"):
         simulate(scene, accuracy=accuracy)
 
 

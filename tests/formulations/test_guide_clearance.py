@@ -25,7 +25,6 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.formulations.redundant.scene.scene_builder import build
-from support_exudyn.formulations.registry import FORMULATIONS
 from support_exudyn.model.guides import ClearanceGuide, IdealGuide
 from support_exudyn.model.linkage import GROUND, pinned
 from support_exudyn.scenario.timescales import loaded_contacts
@@ -511,8 +510,6 @@ def test_what_does_not_fit_is_refused() -> None:
         ClearanceGuide(gaps=(GAP, GAP), normal=KEPT)
     with pytest.raises(InputError, match=r"corner_radius = 0\.001 m: allowed: one of them"):
         ClearanceGuide.simple(gaps=1e-3, block=BLOCK, stiffness=1e9, corner_radius=1e-3)
-    for name in ("compiled", "compiled"):
-        assert not FORMULATIONS[name].covers(scene)
     with pytest.raises(InputError, match="knows no lateral dimensions"):
         replace(scene, dimensions=3)
 

@@ -21,9 +21,8 @@ from support_exudyn import (
     cylinders_and_rods,
     simulate,
 )
-from support_exudyn.formulations.registry import formulation
 from support_exudyn.model.linkage import pinned
-from tests.cases.run_cases import loose_support, paper_contact, support
+from tests.cases.run_cases import paper_contact, support
 from user_forces import Ambrosio, InputError, LuGre, value
 
 MASS, INERTIA, G, RADIUS, MU = 50.0, 2.0, 9.81, 0.05, 0.3
@@ -140,14 +139,6 @@ def test_energy_adds_up_with_friction_in_the_pins_of_actuators_and_a_sudden_star
     )
     assert len(result.impulses) == 2
     assert result.energy_error < 1e-3 * result.dissipated  # steps after a jump are known by their ends only
-
-
-@pytest.mark.parametrize("name", ["compiled", "compiled"])
-def test_friction_in_an_ideal_pin_needs_the_redundant_formulation(name: str) -> None:
-    scenario = loose_support(duration=0.1)
-    pins = {**scenario.pins, "front_base": SUPPORT_PIN}
-    with pytest.raises(InputError, match=r"pins\.front_base = IdealPin with friction.*'redundant' covers it"):
-        formulation(name).check(support(pins=pins))
 
 
 def test_friction_and_radius_go_together() -> None:

@@ -91,23 +91,25 @@ def test_a_turn_that_is_met_is_not_met_again(number: int, onsets: int) -> None:
     assert len(result.onsets[PIN]) == onsets
 
 
-# --- the tree ---
+# --- the equations of any linkage ---
 
 
 @cache
 def on_oil(number: int, tolerance: float) -> Result:
-    """A drawn scene with oil in its actuators, in the tree."""
+    """A drawn scene with oil in its actuators, by the equations of any linkage."""
     oil = OilColumn(bore_area=0.05, oil_length=0.8, bulk_modulus=1.5e9)
     actuators = {"front_column": oil, "rear_column": oil}
     solver = SolverSettings(tolerance=tolerance)
     return simulate(replace(drawn(1, number), formulation="compiled", actuators=actuators, solver=solver))
 
 
-# 22: a dip within a step of the tree: 5e-2 off. 34: a turn at the very start of a step was met at its end: 5e-4
-# off. 39: a largest force that is a corner: 1e-4 off
+# 22: a dip within a step: 5e-2 off where it is missed. 34: a turn at the very start of a step, met at its end:
+# 5e-4 off. 39: a largest force that is a corner: 1e-4 off
 @pytest.mark.parametrize(("number", "tolerance"), [(22, 1e-7), (22, 1e-5), (34, 1e-6), (39, 1e-6)])
-def test_the_tree_sees_what_happens_within_its_steps(number: int, tolerance: float) -> None:
+def test_what_happens_within_steps_is_seen(number: int, tolerance: float) -> None:
+    # three impacts multiply the errors of steps: measured 30 times the tolerance, 24 at 1e-5
+    close = 50.0 * tolerance
     found, right = on_oil(number, tolerance), on_oil(number, 1e-9)
-    assert found.largest_force[PIN] == pytest.approx(right.largest_force[PIN], rel=3e-5)
-    assert found[f"pin.{PIN}.force"].std() == pytest.approx(right[f"pin.{PIN}.force"].std(), rel=3e-5)
-    assert found[REAR].max() == pytest.approx(right[REAR].max(), rel=3e-5)
+    assert found.largest_force[PIN] == pytest.approx(right.largest_force[PIN], rel=close)
+    assert found[f"pin.{PIN}.force"].std() == pytest.approx(right[f"pin.{PIN}.force"].std(), rel=close)
+    assert found[REAR].max() == pytest.approx(right[REAR].max(), rel=close)

@@ -28,13 +28,8 @@ from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.formulations.redundant.scene.static_equilibrium import find_static_equilibrium
 from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
-from support_exudyn.formulations.tree.branches import branches
-from support_exudyn.formulations.tree.dynamics import TreePosture, pin_inverse_mass
-from support_exudyn.formulations.tree.forces import Forces
-from support_exudyn.formulations.tree.start import first_memory
-from support_exudyn.mechanics.contact_state import InverseMass
 from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.pressed_pins import GIVES, EffectiveMasses, inverse_masses, normal
+from support_exudyn.mechanics.pressed_pins import GIVES, inverse_masses, normal
 from support_exudyn.model.linkage import GROUND, PinPlace, pinned
 from tests.cases.run_cases import paper_contact, support
 from tests.often import often
@@ -171,20 +166,6 @@ def test_a_pin_is_pressed_where_its_surfaces_overlap() -> None:
     np.testing.assert_allclose(normal(3.0, 4.0, CLEARANCE), (0.6, 0.8))
 
 
-def test_tree_and_redundant_formulation_find_the_same() -> None:
-    linkage = Levers().linkage()
-    tree = branches(linkage, {"hit", "stop"})
-    along = np.array([0.6, 0.8])
-    still = np.zeros((1, 2))
-    ours = pin_inverse_mass(
-        TreePosture(tree, still, still), linkage.pins["hit"], [(linkage.pins["stop"], along)]
-    )
-    theirs = kinetics_of(linkage, ("pivot", "other_pivot")).pin_inverse_mass(
-        np.zeros(6), "hit", {"stop": along}
-    )
-    np.testing.assert_allclose(ours, theirs, atol=1e-12)
-
-
 # --- what pins begin with ---
 
 
@@ -205,18 +186,6 @@ def test_a_scene_holds_the_pins_that_are_pressed_at_its_start() -> None:
     assert hit.mass(0.0, 1.0) == pytest.approx(10.0, rel=2e-4)
     assert apart.clearance_joints["hit"].kept.inverse_mass == apart.inverse_masses("hit", INITIAL).alone
     assert apart.clearance_joints["hit"].kept.inverse_mass.mass(0.0, 1.0) == pytest.approx(1.0 / 10.1, rel=1e-9)
-
-
-def test_a_tree_begins_with_what_is_held() -> None:
-    law = Exact(stiffness=1e9, restitution=0.7)
-    pins = {"hit": with_clearance(law), "stop": with_clearance(law)}
-    scene = Scenario(machine=Levers(resting=1.01 * CLEARANCE), pins=pins, duration=1e-3)
-    forces = Forces(branches(scene.linkage, pins), scene, {})
-    forces(None, 0.0, 0, [0.0, 0.0], [0.0, 0.0])
-    found = EffectiveMasses(InverseMass(1.0, 2.0, 3.0), InverseMass(4.0, 5.0, 6.0))
-    memory = first_memory(forces.pins["stop"], found)
-    assert memory.in_contact
-    assert memory.inverse_mass == found.held
 
 
 def default_law(clearance_mm: float = 1.5, friction: float = 0.0) -> ClearancePin:
@@ -280,7 +249,7 @@ def test_formulations_agree_on_two_pins_in_series(way: str) -> None:
         name = f"pin.{pin}.force"
         largest = np.abs(one[name]).max()
         assert len(one.onsets[pin]) >= 4
-        # measured 4e-6 for the tree, 2e-11 for the engine's own evaluation of the same formulas
+        # measured 4e-6 for the compiled formulation, 2e-11 for the engine's own evaluation of the same formulas
         np.testing.assert_allclose(other[name], one[name], atol=(1e-4 if way == "compiled" else 1e-8) * largest)
 
 

@@ -315,6 +315,3 @@ def test_loads_that_do_not_fit_the_machine_are_refused() -> None:
         replace(scene, machine=CrankRocker(springs={"spring": replace(SPRING, body="wheel")}))
     with pytest.raises(InputError, match=r"loads\.spring: the machine has something of this name"):
         replace(scene, machine=FREE, loads={"spring": SPRING})
-    with pytest.raises(InputError, match="formulation"):
-        simulate(Scenario(machine=reference_support(), duration=0.1, formulation="compiled", loads={
-            "m": AppliedTorque(body="canopy", full_torque=1.0)}))  # fmt: skip

@@ -55,7 +55,7 @@ def test_a_line_stands_for_it_in_expressions_of_the_engine(steep: Result) -> Non
         np.testing.assert_allclose(symbolic[channel], steep[channel], rtol=0.0, atol=1e-5 * largest)
 
 
-def test_the_reduced_formulation_finds_the_same(steep: Result) -> None:
+def test_the_compiled_formulation_finds_the_same(steep: Result) -> None:
     # a ramp a hundred times as wide, which it needs fewer steps for, loses the same to 1 %
     wide = simulate(replace(held(100.0 * STEEP), formulation="compiled"))
     assert steep.dissipated == pytest.approx(wide.dissipated, rel=0.01)

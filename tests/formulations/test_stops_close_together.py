@@ -73,8 +73,14 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     "clearance in space": lambda t: loose_support(
         0.5, drive=cubic(t), dimensions=3, start="settled", **SHORT | {"duration": 0.015}
     ),
-    "compiled": lambda t: loose_support(0.5, 0.25, drive=cubic(t), actuators=OILS, formulation="compiled", **SHORT),
-    "compiled": lambda t: loose_support(0.5, 0.25, drive=cubic(t), formulation="compiled", **SHORT),
+    "compiled": lambda t: loose_support(
+        0.5, 0.25, drive=cubic(t), actuators=OILS, formulation="compiled", **SHORT
+    ),
+    "closed forms": lambda t: loose_support(0.5, 0.25, drive=cubic(t), formulation="compiled", **SHORT),
+    "compiled, struck": lambda t: support(
+        drive=uniform(t), drives={"rear_column": table(t, "smooth")}, formulation="compiled", **SHORT
+    ),
+    "compiled, load": lambda t: support(loads={"press": pressed(t)}, formulation="compiled", **SHORT),
 }
 # of the forces: accelerations jump at smooth breaks by 10 m/s^2 and change within 10 ms, so that forces change
 # by 1e-3 of the weight if a break moves by 1e-6 s; below it is Newton's method, and rounding in steps of 15 us

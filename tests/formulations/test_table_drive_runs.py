@@ -14,7 +14,7 @@ from tests.commands.test_scenario_commands import same
 STROKE = CubicStep(stroke=0.02, start=0.02, end=0.08)
 BASE = replace(test_scenario_commands.BASE, drive=STROKE, duration=0.1)
 POINTS = TableDrive(times=(0.0, 0.03, 0.07), extensions=(0.0, 0.01, 0.002))
-REDUCED = replace(BASE, formulation="compiled", solver=SolverSettings(tolerance=1e-6))
+COMPILED = replace(BASE, formulation="compiled", solver=SolverSettings(tolerance=1e-6))
 
 
 def test_a_fine_table_of_a_cubic_step_drives_as_it_does() -> None:
@@ -51,7 +51,7 @@ def test_a_line_from_the_start_on_begins_with_an_impulse() -> None:
     same(one, other)
 
 
-def test_the_tree_follows_a_table() -> None:
+def test_the_compiled_formulation_follows_a_table() -> None:
     pins = {"rear_base": clearance_joint(1.5, 0.0)}
     oil = oil_columns()
     scenario = replace(BASE, formulation="compiled", actuators=oil, drive=POINTS, duration=0.06, pins=pins)
@@ -62,20 +62,20 @@ def test_the_tree_follows_a_table() -> None:
     assert np.abs(one["tip.y"] - other["tip.y"])[before].max() < 1e-6
 
 
-def test_two_points_drive_the_reduced_support_as_a_cubic_step_to_the_bit() -> None:
+def test_two_points_drive_the_compiled_support_as_a_cubic_step_to_the_bit() -> None:
     points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02))
-    same(simulate(replace(REDUCED, drive=points)), simulate(REDUCED))
+    same(simulate(replace(COMPILED, drive=points)), simulate(COMPILED))
 
 
-def test_two_points_on_a_line_drive_the_reduced_support_as_uniform_speed_to_the_bit() -> None:
+def test_two_points_on_a_line_drive_the_compiled_support_as_uniform_speed_to_the_bit() -> None:
     points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02), between="linear")
-    one = simulate(replace(REDUCED, drive=points))
-    other = simulate(replace(REDUCED, drive=UniformSpeed(stroke=0.02, start=0.02, end=0.08)))
+    one = simulate(replace(COMPILED, drive=points))
+    other = simulate(replace(COMPILED, drive=UniformSpeed(stroke=0.02, start=0.02, end=0.08)))
     assert len(one.impulses) == 2
     same(one, other)
 
 
-def test_reduced_and_redundant_formulations_follow_a_table_alike() -> None:
+def test_compiled_and_redundant_formulations_follow_a_table_alike() -> None:
     ideal = replace(BASE, pins={}, drive=POINTS)
     one = simulate(replace(ideal, formulation="compiled"))
     other, finer = simulate(replace(ideal, step=1e-4)), simulate(replace(ideal, step=5e-5))

@@ -1,8 +1,7 @@
-"""The tree formulation against the redundant one, closed forms, and its own refinement."""
+"""A support on columns of oil in the compiled formulation: against the engine, and its own refinement."""
 
 from __future__ import annotations
 
-import gc
 import math
 from dataclasses import replace
 from functools import cache
@@ -16,7 +15,6 @@ from support_exudyn import (
     ClearancePin,
     CubicStep,
     Drive,
-    Failure,
     Held,
     Linkage,
     Machine,
@@ -30,21 +28,17 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
-from support_exudyn.formulations.tree.integration import Integration
 from support_exudyn.model.linkage import GROUND, pinned
-from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact, support
+from tests.cases.run_cases import FORCE, PIN, paper_contact, support
 from user_forces import (
     Anagnostopoulos,
     BrownMcPhee,
     Flores,
-    Impact,
     IndentationVelocity,
     InputError,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
-    LoadError,
-    LuGre,
     value,
 )
 
@@ -53,7 +47,7 @@ BOTH = {"front_column": OIL, "rear_column": OIL}
 STIFF = dict.fromkeys(BOTH, replace(OIL, bulk_modulus=1.5e10))  # 3e9 N/m
 
 
-def tree(tolerance: float = 1e-8, friction: float = 0.25, **changes: object) -> Scenario:
+def on_oil(tolerance: float = 1e-8, friction: float = 0.25, **changes: object) -> Scenario:
     """The support on oil with a clearance of 1.5 mm."""
     fields: dict[str, object] = {
         "pins": {PIN: ClearancePin(contact=paper_contact(1.5, friction))},
@@ -71,8 +65,8 @@ DRIVES = {"mode 2": CubicStep(start=0.05, end=0.25, stroke=0.02), "mode 1": Unif
 
 @cache
 def both(drive: str, actuators: str) -> tuple[Result, Result]:
-    """The same scene in the tree and in the redundant formulation."""
-    scene = tree(
+    """The same scene in the compiled and in the redundant formulation."""
+    scene = on_oil(
         drive=DRIVES[drive], actuators={"oil": BOTH, "stiff": STIFF}[actuators], duration=0.15, step=2e-4
     )
     return simulate(scene), simulate(replace(scene, formulation="redundant"))
@@ -111,10 +105,10 @@ def test_all_channels_are_those_of_the_redundant_formulation(case: tuple[str, st
         assert spread <= 5e-3 * max(np.abs(theirs[name]).max(), 1e-30), name
 
 
-def test_the_redundant_formulation_tends_to_the_tree() -> None:
-    ours = simulate(tree(1e-11, drive=Held(), duration=0.06))
+def test_the_redundant_formulation_tends_to_the_compiled_one() -> None:
+    ours = simulate(on_oil(1e-11, drive=Held(), duration=0.06))
     settings = SolverSettings(impact_steps=256)
-    base = tree(drive=Held(), duration=0.06, formulation="redundant", step=1e-4, solver=settings)
+    base = on_oil(drive=Held(), duration=0.06, formulation="redundant", step=1e-4, solver=settings)
 
     def off(scene: Scenario) -> float:
         return float(np.sqrt(np.mean((ours[FORCE] - simulate(scene)[FORCE]) ** 2)))
@@ -133,7 +127,9 @@ FRICTIONS = (pytest.param(0.0, marks=pytest.mark.slow), 0.25)
 @cache
 def rise(tolerance: float, friction: float) -> Result:
     """A short rise that begins in the middle of the impacts."""
-    return simulate(tree(tolerance, friction, drive=CubicStep(start=0.03, end=0.4, stroke=0.05), duration=0.2))
+    return simulate(
+        on_oil(tolerance, friction, drive=CubicStep(start=0.03, end=0.4, stroke=0.05), duration=0.2)
+    )
 
 
 def test_the_mass_that_moves_is_that_of_the_bores_axes_where_both_bodies_turn() -> None:
@@ -199,7 +195,7 @@ def test_largest_forces_lie_between_the_records() -> None:
 
 
 def test_a_sudden_start_needs_no_impulse() -> None:
-    result = simulate(tree(drive=UniformSpeed(start=0.05, end=2.05), duration=0.06, record_period=1e-5))
+    result = simulate(on_oil(drive=UniformSpeed(start=0.05, end=2.05), duration=0.06, record_period=1e-5))
     assert result.impulses == ()
     jump = int(np.searchsorted(result.time, 0.05 + 1e-9))
     # at once the damping of the oil has the whole speed: k T v
@@ -208,7 +204,7 @@ def test_a_sudden_start_needs_no_impulse() -> None:
 
 
 def test_records_do_not_change_the_run() -> None:
-    often, seldom = (simulate(tree(1e-6, drive=Held(), duration=0.05, record_period=p)) for p in (1e-4, 7e-3))
+    often, seldom = (simulate(on_oil(1e-6, drive=Held(), duration=0.05, record_period=p)) for p in (1e-4, 7e-3))
     assert often.counts.steps == seldom.counts.steps
     assert often.onsets == seldom.onsets
     assert seldom.time.tolist() == pytest.approx([7e-3 * n for n in range(8)] + [0.05])
@@ -221,7 +217,7 @@ def test_records_do_not_change_the_run() -> None:
 def test_laws_of_every_kind(name: str, restitution: float) -> None:
     # one that forgets an impact when it is pressed on again, a dashpot, one that asks for tension, cylinders
     pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), normal=normal_laws(1.5, restitution)[name]))
-    coarse, fine = (simulate(tree(t, drive=Held(), duration=0.06, pins={PIN: pin})) for t in (1e-7, 1e-10))
+    coarse, fine = (simulate(on_oil(t, drive=Held(), duration=0.06, pins={PIN: pin})) for t in (1e-7, 1e-10))
     assert len(coarse.onsets[PIN]) == len(fine.onsets[PIN]) >= 1
     for one, other in zip(coarse.onsets[PIN], fine.onsets[PIN], strict=True):
         assert one.speed == pytest.approx(other.speed, rel=1e-3, abs=1e-5)
@@ -231,7 +227,7 @@ def test_laws_of_every_kind(name: str, restitution: float) -> None:
 @pytest.mark.parametrize("name", ["stribeck", "threlfall"])
 def test_friction_laws(name: str) -> None:
     pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), friction=friction_laws(0.25)[name]))
-    result = simulate(tree(1e-6, drive=Held(), duration=0.04, pins={PIN: pin}))
+    result = simulate(on_oil(1e-6, drive=Held(), duration=0.04, pins={PIN: pin}))
     assert result["energy.friction_loss"][-1] > 0.1
     # of only 1.3 J after two impacts
     assert result.energy_error < 1e-4 * result.dissipated
@@ -241,7 +237,7 @@ def test_friction_laws(name: str) -> None:
 
 
 def test_a_settled_machine_stays_at_rest() -> None:
-    scene = tree(start="settled", drive=Held(), duration=0.1)
+    scene = on_oil(start="settled", drive=Held(), duration=0.1)
     result = simulate(scene)
     # steps grow to the limit of stability, where errors of the tolerance come and go
     np.testing.assert_allclose(result[FORCE], result[FORCE][0], rtol=1e-6)
@@ -252,7 +248,7 @@ def test_a_settled_machine_stays_at_rest() -> None:
 
 
 def test_a_drive_that_moves_from_the_start_on_finds_the_machine_moving() -> None:
-    scene = tree(drive=Steady(rate=0.05), duration=0.01)
+    scene = on_oil(drive=Steady(rate=0.05), duration=0.01)
     ours, theirs = simulate(scene), simulate(replace(scene, formulation="redundant", step=1e-4))
     for name in ("rear_link.angular_velocity", "canopy.velocity_y"):
         assert ours[name][0] == pytest.approx(theirs[name][0], rel=1e-9)
@@ -333,10 +329,10 @@ def test_loose_pins_between_moving_bodies_of_several_branches() -> None:
 
 def test_a_drive_that_is_no_cubic_is_followed_too() -> None:
     drive = Swaying(stroke=0.01, rate=40.0)
-    ours, cut = (simulate(tree(t, drive=drive, duration=0.02)) for t in (1e-7, 1e-10))
+    ours, cut = (simulate(on_oil(t, drive=drive, duration=0.02)) for t in (1e-7, 1e-10))
     assert ours["front_column.force"][-1] == pytest.approx(cut["front_column.force"][-1], rel=1e-6)
     assert ours.energy_error < 1e-6 * abs(ours["energy.work"]).max()
-    theirs = simulate(tree(drive=drive, duration=0.02, formulation="redundant", step=1e-5))
+    theirs = simulate(on_oil(drive=drive, duration=0.02, formulation="redundant", step=1e-5))
     # second order of an implicit step of 10 us
     assert ours["front_column.force"][-1] == pytest.approx(theirs["front_column.force"][-1], rel=1e-5)
 
@@ -362,28 +358,7 @@ class Swaying(Drive):
         return 0.0, self.stroke
 
 
-# --- what is refused, and what fails ---
-
-
-def test_what_is_not_covered_is_refused_with_what_to_do() -> None:
-    with pytest.raises(InputError, match=r"actuators\.front_column = rigid.*allowed: OilColumn.*redundant"):
-        simulate(loose_support(formulation="compiled"))
-    with pytest.raises(
-        InputError, match=r"pins\..* = ideal, which closes a loop.*clearance in one pin of every loop"
-    ):
-        simulate(support(formulation="compiled", actuators=BOTH))
-    with pytest.raises(InputError, match=r"slides\.guide.*allowed: no slides"):
-        simulate(replace(loose_slider_crank(1e-3), formulation="compiled"))
-    load_suspension = {
-        PIN: ClearancePin(contact=paper_contact(1.0, 0.0)),
-        "shield_canopy": ClearancePin(contact=paper_contact(1.0, 0.0)),
-    }
-    with pytest.raises(InputError, match=r"bodies\.canopy.*no chain of ideal pins to the ground"):
-        simulate(support(formulation="compiled", actuators=BOTH, pins=load_suspension))
-    lugre = ClearancePin(contact=replace(paper_contact(1.0, 0.0), friction=friction_laws(0.25)["lugre"]))
-    assert isinstance(lugre.contact.friction, LuGre)
-    with pytest.raises(InputError, match=r"friction = LuGre.*laws without a state"):
-        simulate(tree(pins={PIN: lugre}))
+# --- what is refused ---
 
 
 @value
@@ -395,46 +370,9 @@ class Torn(Bars):
         return replace(good, bodies={"bar0": replace(good.bodies["bar0"], velocity=(1.0, 0.0))})
 
 
-@pytest.mark.parametrize("backend", ["symbolic", "compiled"])
-def test_laws_are_called_from_python(backend: str) -> None:
-    scenario = tree()
-    with pytest.raises(InputError, match=rf"solver\.backend = '{backend}'.*allowed: 'auto', 'python'"):
-        simulate(replace(scenario, solver=replace(scenario.solver, backend=backend)))
-
-
 def test_velocities_that_tear_a_pin_are_refused() -> None:
     with pytest.raises(InputError, match=r"bodies\.bar0\.velocity: 1 m/s off"):
         simulate(Scenario(machine=Torn(number=1), duration=0.1, formulation="compiled"))
-
-
-@value
-class Thin(LankaraniNikravesh):
-    """Is not valid below 10 micrometres."""
-
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
-        if depth > 1e-5:
-            raise LoadError(f"Thin: depth = {depth} m: allowed: up to 1e-05 m")
-        return super().__call__(depth, rate, impact)
-
-
-def test_a_contact_that_is_overloaded_says_what_the_law_takes() -> None:
-    good = paper_contact(1.5, 0.0)
-    contact = replace(good, normal=Thin(stiffness=good.normal.stiffness, restitution=0.9))
-    failure = simulate(
-        tree(pins={PIN: ClearancePin(contact=contact)}, drive=Held(), duration=0.05), throw=False
-    )
-    assert isinstance(failure, Failure)
-    assert failure.reason == "a contact is overloaded"
-    assert "allowed: up to 1e-05 m" in failure.advice
-    assert 0.017 < failure.time < 0.018  # the first impact is at 17.3 ms
-    assert failure.state[f"pin.{PIN}.depth"] == pytest.approx(1e-5, rel=1e-6)
-
-
-def test_nothing_of_a_run_stays_behind() -> None:
-    simulate(tree(1e-5, drive=Held(), duration=0.01))
-    gc.collect()
-    # the engine would keep what its user functions refer to, and the collector does not see through it
-    assert not [item for item in gc.get_objects() if type(item) is Integration]
 
 
 # --- contacts that are pressed on again ---
@@ -456,7 +394,7 @@ PRESSED_AGAIN = {
 )
 def test_a_contact_that_is_pressed_on_again_renews_what_it_remembers(law: str, bore: str) -> None:
     pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), normal=PRESSED_AGAIN[law]), bore=bore)
-    scene = tree(1e-9, drive=Held(), duration=0.08, pins={PIN: pin})
+    scene = on_oil(1e-9, drive=Held(), duration=0.08, pins={PIN: pin})
     ours = simulate(scene)
     finest = SolverSettings(impact_steps=512)
     theirs = simulate(replace(scene, formulation="redundant", step=1e-4, solver=finest))
