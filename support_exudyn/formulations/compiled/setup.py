@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -20,10 +21,12 @@ from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
 from support_exudyn.model.bushing_pin import BushingPin
+from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import Load
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.compilation.flat import asks_for_mass, friction_source, law_source
+from user_forces.lawful import LawError
 from user_forces.values.value import Vector2
 
 
@@ -87,7 +90,7 @@ def model_of(scenario: Scenario) -> Model:
     moving = [name for name in driven if scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)]
     valves = [name for name, one in scenario.cylinders.items() if one.inlet.breaks or one.inlet.opening(0.0)]
     edges = segment_edges(scenario.breaks, scenario.duration)
-    functions: list[Callable[[float], float]] = [scenario.drive_of(name).extension for name in moving]
+    functions: list[Callable[[float], float]] = [_extension(scenario.drive_of(name)) for name in moving]
     functions += [scenario.cylinders[name].inlet.opening for name in valves]
     found = courses(functions, edges)
     course = {name: n for n, name in enumerate((*moving, *valves))}
@@ -144,6 +147,18 @@ def model_of(scenario: Scenario) -> Model:
         driven_rows={name: int(order[n]) for n, name in enumerate((*rigid, *linkage.cranks), 2 * len(scenario.held_pins))},
         states=states + LOSSES,
     )
+
+
+def _extension(drive: Drive) -> Callable[[float], float]:
+    """The extension of a drive; raises LawError where that is no number."""
+
+    def asked(t: float) -> float:
+        found = drive.extension(t)
+        if not math.isfinite(found):
+            raise LawError(f"{type(drive).__name__} has an extension of {found:g} at {t:.9g} s")
+        return found
+
+    return asked
 
 
 def _bodies(scenario: Scenario) -> Records:
