@@ -164,7 +164,8 @@ class _Search:
         scenario = model.scenario
         self.count = 3 * len(scenario.linkage.bodies)
         size = self.count + self.scene.rows.size
-        self.x, self.left, self.other = np.zeros(size), np.zeros(size + 2), np.zeros(size + 2)
+        room = max(size, y.size)  # rates of pressures are written at their places in the state
+        self.x, self.left, self.other = np.zeros(size), np.zeros(room), np.zeros(room)
         self.slope = np.zeros((size, size))
         self.weight = sum(body.mass for body in scenario.linkage.bodies.values()) * math.hypot(*scenario.gravity)
         self.volumes = np.array(
