@@ -42,7 +42,15 @@ def simulate_general(scenario: Scenario, tolerance: float = 1e-7) -> Result:
         return simulate_compiled(scenario, tolerance)
 
 
-FORMS = {"closed forms": simulate_compiled, "general": simulate_general}
+def simulate_as_fine(scenario: Scenario, tolerance: float = 1e-7) -> Result:
+    """Run by the equations of any linkage to what the closed forms reach at a tolerance: a tenth of it.
+
+    It is of the root mean square over all components of the state, of which there are four times as many.
+    """
+    return simulate_general(scenario, 0.1 * tolerance)
+
+
+FORMS = {"closed forms": simulate_compiled, "general": simulate_as_fine}
 EVERY_FORM = pytest.mark.parametrize("form", FORMS.values(), ids=FORMS)
 
 

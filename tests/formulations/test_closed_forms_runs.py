@@ -219,8 +219,8 @@ def test_ideal_channels_are_the_engines(drive: str, form: Form) -> None:
         for name, wrong in same_channels(ours, theirs).items():
             # the engine's small accelerations lag by a step; measured 6e-4
             assert wrong.max() < (2e-3 if "acceleration" in name else 1e-4), name
-    # work by Simpson's rule from record to record: measured 5e-11 J of 5 to 23 kJ
-    assert ours.energy_error < 1e-8
+    # of 5 to 23 kJ: in closed forms work is by Simpson's rule from record to record, measured 5e-11 J
+    assert ours.energy_error < (1e-8 if form is simulate_compiled else 1e-6)
 
 
 @pytest.mark.parametrize("with_clearance", [False, pytest.param(True, marks=pytest.mark.slow)])

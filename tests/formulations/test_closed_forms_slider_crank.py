@@ -120,9 +120,10 @@ def test_all_channels_are_the_engines(drive: str, bore: str, form: Form) -> None
         # beside an impact may see it before in one and after it in the other
         assert np.median(item) < 1e-4, name
         assert np.quantile(item, 0.999) < 5e-2, name
-    # the guide leaves the slider no motion but along it; in the engine to the tolerance of Newton's method
+    # the guide leaves the slider no motion but along it; in the engine to the tolerance of Newton's method, in
+    # general to rounding of what is projected
     for name in ("slider.y", "slider.velocity_y", "slider.angular_velocity", "slider.angular_acceleration"):
-        assert (ours[name] == 0.0).all()
+        assert np.abs(ours[name]).max() <= (0.0 if form is simulate_compiled else 1e-9)
         assert name not in wrong
 
 

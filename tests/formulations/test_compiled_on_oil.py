@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cache
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ from support_exudyn import (
     Reciprocating,
     Result,
     Scenario,
+    SimulationError,
     SolverSettings,
     Steady,
     UniformSpeed,
@@ -35,7 +37,6 @@ from user_forces import (
     BrownMcPhee,
     Flores,
     IndentationVelocity,
-    InputError,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -171,8 +172,9 @@ def test_errors_fall_with_the_tolerance(friction: float) -> None:
 
 @pytest.mark.parametrize("friction", FRICTIONS)
 def test_the_first_touches_are_right_at_a_loose_tolerance(friction: float) -> None:
+    # of what its errors are see `simulate_as_fine`; measured 1.1e-6 s at 1e-5
     for one, other in zip(
-        rise(1e-5, friction).onsets[PIN][:2], rise(1e-11, friction).onsets[PIN][:2], strict=True
+        rise(1e-6, friction).onsets[PIN][:2], rise(1e-11, friction).onsets[PIN][:2], strict=True
     ):
         assert one.speed == pytest.approx(other.speed, rel=1e-3)
         assert one.time == pytest.approx(other.time, abs=1e-6)
@@ -227,7 +229,7 @@ def test_laws_of_every_kind(name: str, restitution: float) -> None:
 @pytest.mark.parametrize("name", ["stribeck", "threlfall"])
 def test_friction_laws(name: str) -> None:
     pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), friction=friction_laws(0.25)[name]))
-    result = simulate(on_oil(1e-6, drive=Held(), duration=0.04, pins={PIN: pin}))
+    result = simulate(on_oil(1e-7, drive=Held(), duration=0.04, pins={PIN: pin}))
     assert result["energy.friction_loss"][-1] > 0.1
     # of only 1.3 J after two impacts
     assert result.energy_error < 1e-4 * result.dissipated
@@ -329,7 +331,7 @@ def test_loose_pins_between_moving_bodies_of_several_branches() -> None:
 
 def test_a_drive_that_is_no_cubic_is_followed_too() -> None:
     drive = Swaying(stroke=0.01, rate=40.0)
-    ours, cut = (simulate(on_oil(t, drive=drive, duration=0.02)) for t in (1e-7, 1e-10))
+    ours, cut = (simulate(on_oil(t, drive=drive, duration=0.02)) for t in (1e-8, 1e-10))
     assert ours["front_column.force"][-1] == pytest.approx(cut["front_column.force"][-1], rel=1e-6)
     assert ours.energy_error < 1e-6 * abs(ours["energy.work"]).max()
     theirs = simulate(on_oil(drive=drive, duration=0.02, formulation="redundant", step=1e-5))
@@ -370,9 +372,10 @@ class Torn(Bars):
         return replace(good, bodies={"bar0": replace(good.bodies["bar0"], velocity=(1.0, 0.0))})
 
 
-def test_velocities_that_tear_a_pin_are_refused() -> None:
-    with pytest.raises(InputError, match=r"bodies\.bar0\.velocity: 1 m/s off"):
-        simulate(Scenario(machine=Torn(number=1), duration=0.1, formulation="compiled"))
+@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+def test_velocities_that_tear_a_pin_are_refused(formulation: Literal["redundant", "compiled"]) -> None:
+    with pytest.raises(SimulationError, match="energy does not add up: it is open by 1"):
+        simulate(Scenario(machine=Torn(number=1), duration=0.1, formulation=formulation))
 
 
 # --- contacts that are pressed on again ---

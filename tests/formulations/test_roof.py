@@ -23,7 +23,6 @@ from support_exudyn import (
 )
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.scenario.timescales import timescales
-from support_exudyn.simulation.automatic_settings import settings_for
 from tests.cases.run_cases import PIN, loose_support
 from tests.roof_cases import (
     GAP,
@@ -340,11 +339,16 @@ def test_a_settled_start_takes_the_roof_as_it_is(gap: float) -> None:
 def test_runs_to_an_accuracy_know_the_roof() -> None:
     lowered = over_the_canopy(GAP + 0.01 + GIVES["oil, ideal"])
     scene = pressed_support(lowered, actuators=ON_OIL, duration=0.2)
-    result = simulate(scene, accuracy="standard")
+    result, other = (
+        simulate(replace(scene, formulation=name), accuracy="standard") for name in ("redundant", "auto")
+    )
     assert result.met
-    # the engine's steps are a fifth of sqrt(m/k) and less; the default is ten times as long as a reference's
-    engine = settings_for(replace(scene, formulation="redundant"), 1e-3)
-    assert engine.step < 1e-3
+    # a fifth of sqrt(m/k) and less; the default step is ten times as long as that of a reference
+    assert result.scenario.step < 1e-3
+    assert other.met
+    assert other.scenario.formulation == "compiled"
+    ours, theirs = other.numbers(), result.numbers()
+    assert ours["roof.force.largest"].value == pytest.approx(theirs["roof.force.largest"].value, rel=2e-3)
 
 
 def test_a_result_under_a_roof_survives_its_file(tmp_path: object) -> None:

@@ -87,7 +87,7 @@ def test_the_compiled_formulation_moves_it_alike(rise: Result) -> None:
     # a ram that follows the leg by a curve of its own
     other = simulate(replace(RISE, formulation="compiled"))
     assert np.abs(other["canopy.angle"]).max() < 1e-10
-    for name in ("leg.force", "ram.force", "pin.lower_front.force"):
+    for name in ("leg.force", "ram.force", "pin.front_base.force"):
         # second order of steps of 1 ms, of accelerations that are small beside the weight
         np.testing.assert_allclose(other[name], rise[name], atol=1e-4 * np.abs(rise[name]).max(), err_msg=name)
 
