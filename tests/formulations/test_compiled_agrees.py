@@ -22,6 +22,7 @@ from support_exudyn import (
     CubicStep,
     Held,
     IdealPin,
+    OwnBody,
     Reciprocating,
     Result,
     Scenario,
@@ -31,6 +32,7 @@ from support_exudyn import (
     TableDrive,
     TorsionSpring,
     UniformSpeed,
+    cylinders_and_rods,
     simulate,
 )
 from support_exudyn.files.machines.read import read_machine
@@ -43,6 +45,7 @@ from tests.formulations import test_slots_and_gears as slots
 from tests.formulations.test_compiled_on_oil import Swaying
 from tests.formulations.test_falling_block import block, on_the_held
 from tests.formulations.test_springs import FREE
+from tests.formulations.test_tail_beam import SOFT
 from tests.linkage_cases import CrankRocker
 from tests.roof_cases import GAP, over_the_canopy, pressed_support
 from user_forces import Ambrosio
@@ -119,6 +122,11 @@ SCENES: dict[str, Callable[[], Scenario]] = {
     "oil, settled": lambda: loose_support(actuators=oil_columns(), drive=RISE, start="settled", duration=0.05),
     "oil under one end": lambda: support(
         actuators={"rear_column": oil_columns()["rear_column"]}, drive=RISE, duration=0.08
+    ),
+    "actuators of two bodies": lambda: loose_support(actuators=cylinders_and_rods(), drive=RISE, duration=0.03),
+    "tail beam on a jack": lambda: support(parts={"tail_beam": OwnBody()}, drive=RISE, duration=0.08),
+    "tail beam on a soft jack": lambda: loose_support(
+        parts=SOFT, actuators=oil_columns(), drive=RISE, start="settled", duration=0.05
     ),
     # drives
     "two drives": lambda: support(drive=RISE, drives={"rear_column": TABLE}, duration=0.08),

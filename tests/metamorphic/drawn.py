@@ -232,7 +232,7 @@ def loads(draw: st.DrawFn, kind: Machine, level: bool) -> Mapping[str, Load]:
 
 @st.composite
 def in_free_coordinates(draw: st.DrawFn) -> Scenario:
-    """A support for the reduced formulation, mostly compiled."""
+    """A support that closed forms cover, mostly with laws of the family that they have formulas of."""
     duration = MS * draw(st.integers(15, 40))
     compiled = draw(st.sampled_from((True, True, False)))
     pin: Pin = draw(with_clearance(0.0655, 2.7e10, compiled, apart=True))
@@ -249,8 +249,16 @@ def in_free_coordinates(draw: st.DrawFn) -> Scenario:
 
 
 @st.composite
-def in_a_tree(draw: st.DrawFn) -> Scenario:
-    """A support on oil for the tree formulation; one pin of its four-bar is with clearance."""
+def in_general(draw: st.DrawFn, level: bool = True) -> Scenario:
+    """Any support for the compiled formulation by the equations of any linkage; `level`: see `in_bodies`."""
+    if draw(st.booleans()):
+        return draw(on_columns_of_oil())
+    return replace(draw(in_bodies(level)), formulation="compiled", solver=SolverSettings(tolerance=TOLERANCE))
+
+
+@st.composite
+def on_columns_of_oil(draw: st.DrawFn) -> Scenario:
+    """A support on oil; one pin of its four-bar is with clearance, in which the journal may start anywhere."""
     duration = MS * draw(st.integers(10, 25))
     kind = machine(draw(st.sampled_from(SUPPORTS)))
     return Scenario(
@@ -307,20 +315,23 @@ def cylinders_in(made_of: Mapping[str, ActuatorModel]) -> list[str]:
 
 
 @st.composite
-def cranks(draw: st.DrawFn, reduced: bool) -> Scenario:
-    """The slider-crank at some thousand turns a minute, its slider's pin with clearance."""
+def cranks(draw: st.DrawFn, free: bool) -> Scenario:
+    """The slider-crank at some thousand turns a minute, its slider's pin with clearance.
+
+    free: in its free coordinates, which closed forms cover.
+    """
     rate = draw(between(100.0, 550.0)) * draw(st.sampled_from((1.0, -1.0)))
-    compiled = reduced and draw(st.booleans())
-    pin = draw(with_clearance(0.01, 6.6e10, compiled, apart=reduced))
+    compiled = free and draw(st.booleans())
+    pin = draw(with_clearance(0.01, 6.6e10, compiled, apart=free))
     period = 1e-4
     return Scenario(
         machine=replace(ravn_slider_crank(), start_angle=draw(between(-3.0, 3.0))),
         pins={"slider_pin": pin},
         drive=Steady(rate=rate),
-        duration=period * draw(st.integers(10, 20) if reduced else st.integers(5, 8)),
+        duration=period * draw(st.integers(10, 20) if free else st.integers(5, 8)),
         record_period=period,
         step=2e-5,
         gravity=draw(st.sampled_from(((0.0, 0.0), GRAVITY))),
-        formulation="compiled" if reduced else "redundant",
+        formulation="compiled" if free else "redundant",
         solver=SolverSettings(tolerance=TOLERANCE, impact_steps=IMPACT_STEPS),
     )

@@ -25,6 +25,7 @@ from support_exudyn import (
     Steady,
     TorsionSpring,
 )
+from support_exudyn.formulations.compiled import closed_forms
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.model.linkage import Part, turned_moments
 from user_forces import value
@@ -155,9 +156,9 @@ class Moved(Machine):
         return self.inner.coupled_drive(name, lead, duration)
 
 
-def moved_machine(machine: Machine, move: Move, formulation: str) -> Machine:
-    """A machine moved, of its own class where the formulation asks for that."""
-    if formulation != "compiled":
+def moved_machine(machine: Machine, move: Move, of_its_class: bool) -> Machine:
+    """A machine moved, of its own class where closed forms ask for that."""
+    if not of_its_class:
         return Moved(inner=machine, along=move.along, flipped=move.flipped, shift=move.shift, about=move.about)
     if isinstance(machine, SliderCrank):
         assert move == UPSIDE_DOWN  # its guide is along x
@@ -228,9 +229,10 @@ def moved(scenario: Scenario, move: Move) -> Scenario:
         for name, pin in scenario.pins.items()
     }
     turned = move.flipped and bool(scenario.linkage.cranks)
+    of_its_class = scenario.formulation == "compiled" and closed_forms.covers(scenario)
     return replace(
         scenario,
-        machine=moved_machine(scenario.machine, move, scenario.formulation),
+        machine=moved_machine(scenario.machine, move, of_its_class),
         gravity=move.vector(scenario.gravity),
         pins=pins,
         loads=loads,

@@ -22,9 +22,9 @@ def test_a_support_in_free_coordinates(scene: Scenario) -> None:
     mirrored(scene)
 
 
-@given(scene=drawn.in_a_tree())
+@given(scene=drawn.in_general())
 @scenes(8)
-def test_a_support_as_a_tree(scene: Scenario) -> None:
+def test_a_support_in_general(scene: Scenario) -> None:
     mirrored(scene)
 
 
@@ -34,13 +34,13 @@ def test_a_support_of_bodies(scene: Scenario) -> None:
     mirrored(scene)
 
 
-@given(scene=drawn.cranks(reduced=True))
+@given(scene=drawn.cranks(free=True))
 @scenes(6)
 def test_a_slider_crank_in_free_coordinates(scene: Scenario) -> None:
     mirrored(scene, UPSIDE_DOWN)
 
 
-@given(scene=drawn.cranks(reduced=False))
+@given(scene=drawn.cranks(free=False))
 @scenes(2)
 def test_a_slider_crank_of_bodies(scene: Scenario) -> None:
     mirrored(scene)

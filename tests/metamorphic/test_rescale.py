@@ -29,9 +29,9 @@ def test_a_support_in_free_coordinates(scene: Scenario, scale: Scale) -> None:
     rescaled(scene, scale)
 
 
-@given(scene=drawn.in_a_tree(), scale=scales)
+@given(scene=drawn.in_general(), scale=scales)
 @scenes(8)
-def test_a_support_as_a_tree(scene: Scenario, scale: Scale) -> None:
+def test_a_support_in_general(scene: Scenario, scale: Scale) -> None:
     rescaled(scene, scale)
 
 
@@ -41,7 +41,7 @@ def test_a_support_of_bodies(scene: Scenario, scale: Scale) -> None:
     rescaled(scene, scale)
 
 
-@given(scene=drawn.cranks(reduced=True), scale=scales)
+@given(scene=drawn.cranks(free=True), scale=scales)
 @scenes(6)
 def test_a_slider_crank_in_free_coordinates(scene: Scenario, scale: Scale) -> None:
     rescaled(scene, scale)

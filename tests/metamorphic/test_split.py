@@ -135,9 +135,9 @@ def test_a_body_in_two_in_free_coordinates(scene: Scenario, where: tuple[str, fl
     run(scene).check(plain(told(cut(scene, *where))))
 
 
-@given(scene=drawn.in_a_tree(), where=cuts)
+@given(scene=drawn.in_general(), where=cuts)
 @scenes(6)
-def test_a_body_in_two_as_a_tree(scene: Scenario, where: tuple[str, float, float]) -> None:
+def test_a_body_in_two_in_general(scene: Scenario, where: tuple[str, float, float]) -> None:
     run(scene).check(plain(told(cut(scene, *where))))
 
 

@@ -27,9 +27,9 @@ def test_a_support_in_free_coordinates(scene: Scenario, degrees: float) -> None:
     turned(scene, turn(degrees, about=scene.machine.start().hinge))
 
 
-@given(scene=drawn.in_a_tree(), degrees=ANY_WAY)
+@given(scene=drawn.in_general(level=False), degrees=ANY_WAY)
 @scenes(8)
-def test_a_support_as_a_tree(scene: Scenario, degrees: float) -> None:
+def test_a_support_in_general(scene: Scenario, degrees: float) -> None:
     turned(scene, turn(degrees))
 
 
@@ -39,7 +39,7 @@ def test_a_support_of_bodies(scene: Scenario, degrees: float) -> None:
     turned(scene, turn(degrees))
 
 
-@given(scene=drawn.cranks(reduced=False), degrees=ANY_WAY)
+@given(scene=drawn.cranks(free=False), degrees=ANY_WAY)
 @scenes(2)
 def test_a_slider_crank_of_bodies(scene: Scenario, degrees: float) -> None:
     turned(scene, turn(degrees))

@@ -23,7 +23,6 @@ from support_exudyn import (
     SuddenOpening,
     reference_support,
 )
-from support_exudyn.formulations.registry import formulation
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
@@ -147,9 +146,6 @@ def test_wrong_cylinders_are_refused() -> None:
         scenario(actuators={"front_column": replace(CYLINDER, oil_length=5.0)})
     with pytest.raises(InputError, match=r"system_pressure = 1000\.0 Pa: allowed: > tank_pressure"):
         scenario(actuators={"front_column": replace(CYLINDER, system_pressure=1e3)})
-    for name in ("compiled", "compiled"):
-        with pytest.raises(InputError, match="HydraulicCylinder"):
-            formulation(name).check(scenario(formulation=name))
     # the other actuator follows the drive
     mixed = scenario(actuators={"front_column": CYLINDER}, drive=CubicStep())
     assert mixed.driven == ("rear_column",)

@@ -162,17 +162,6 @@ def test_loads_in_space_are_refused() -> None:
         pressed_support(over_the_canopy(0.1), dimensions=3)
 
 
-@pytest.mark.parametrize("formulation", ["compiled", "compiled"])
-def test_formulations_that_know_no_loads_say_so(formulation: str) -> None:
-    actuators = ON_OIL if formulation == "compiled" else {}
-    scene = pressed_support(
-        over_the_canopy(0.1), formulation=formulation, actuators=actuators, pins=loose_support().pins
-    )
-    with pytest.raises(InputError, match=r"loads\.roof = Roof: not covered by .* 'redundant' covers it"):
-        simulate(scene)
-    simulate(replace(scene, loads={}, duration=1e-3))
-
-
 @pytest.mark.parametrize(
     ("field", "number", "allowed"),
     [("stiffness", 0.0, "> 0"), ("gap", -1e-3, ">= 0"), ("damping", -1.0, ">= 0")],

@@ -317,7 +317,6 @@ def scenario(**changes: object) -> Scenario:
         ({"machine": narrow_support()}, "dimensions = 3: HydraulicSupport: knows no lateral dimensions"),
         ({"machine": ravn_slider_crank()}, "dimensions = 3: SliderCrank: knows no lateral dimensions"),
         ({"formulation": "compiled"}, "formulation = 'compiled': is planar"),
-        ({"formulation": "compiled"}, "formulation = 'compiled': is planar"),
         (
             {"drives": {"front_column_left": CubicStep(start=0.1, end=0.5, stroke=0.01)}},
             "drives.front_column_left: is not the drive of front_column_right, .*allowed for a pair of rigid",

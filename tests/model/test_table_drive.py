@@ -12,7 +12,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.interpolate import PchipInterpolator
 
-from support_exudyn import CubicStep, Scenario, TableDrive, UniformSpeed, ravn_slider_crank, simulate
+from support_exudyn import CubicStep, TableDrive, UniformSpeed
 from support_exudyn.files import parsed, read_value, table_of, toml_text
 from user_forces import InputError
 
@@ -155,13 +155,6 @@ def test_its_cubics_are_what_it_does(drive: TableDrive, t: float) -> None:
     x = (t - one.begin) / one.length
     # rounding of a polynomial whose terms are up to 3 rises of 4 m and slopes of 3 of them
     assert one.a0 + x * (one.a1 + x * (one.a2 + x * one.a3)) == pytest.approx(drive.extension(t), abs=1e-14)
-
-
-def test_where_it_is_not_covered_that_is_said() -> None:
-    drive = TableDrive(times=(0.0, 1.0), extensions=(0.0, 0.1))
-    scenario = Scenario(machine=ravn_slider_crank(), drive=drive, duration=1.0, formulation="compiled")
-    with pytest.raises(InputError, match=r"drive = TableDrive: not covered by formulation = 'compiled'"):
-        simulate(scenario)
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,6 @@ import json
 import math
 import re
 from collections.abc import Collection
-from typing import Any
 
 import pytest
 
@@ -27,8 +26,6 @@ from support_exudyn import (
     cylinders_and_rods,
     reference_support,
 )
-from support_exudyn.formulations import reduced as reduced_coverage
-from support_exudyn.formulations import tree as tree_coverage
 from support_exudyn.model.linkage import Body, Part
 from tests.cases.machine_cases import contact, support
 from user_forces import InputError, JournalBearing, Value, value
@@ -230,20 +227,19 @@ def test_an_accuracy_is_a_word_or_a_number(accuracy: str | float | None, goal: f
 def test_of_a_scenario_with_an_accuracy_that_is_refined() -> None:
     # errors are of second order in the steps; settings are chosen anew, so they stay
     coarse = scenario(accuracy="draft", solver=SolverSettings(impact_steps=9000))
-    for formulation in ("auto", "redundant", "compiled", "compiled"):
+    for formulation in ("auto", "redundant", "compiled"):
         one = dataclasses.replace(coarse, formulation=formulation)
         assert one.refined() == dataclasses.replace(one, accuracy=2.5e-3)
     assert scenario(accuracy=2e-8).refined().accuracy == 1e-8
 
 
 def test_a_tolerance_is_refined_where_it_decides() -> None:
-    for formulation in ("compiled", "compiled"):
-        one = scenario(formulation=formulation, solver=SolverSettings(tolerance=8e-7))
-        assert one.refined().solver.tolerance == pytest.approx(1e-7, rel=1e-12)
-        assert dataclasses.replace(one.refined(), solver=one.solver) == one
-        finest = dataclasses.replace(one, solver=SolverSettings(tolerance=2e-13)).refined()
-        assert finest.solver.tolerance == 1e-13
-        assert finest.refined() == finest
+    one = scenario(formulation="compiled", solver=SolverSettings(tolerance=8e-7))
+    assert one.refined().solver.tolerance == pytest.approx(1e-7, rel=1e-12)
+    assert dataclasses.replace(one.refined(), solver=one.solver) == one
+    finest = dataclasses.replace(one, solver=SolverSettings(tolerance=2e-13)).refined()
+    assert finest.solver.tolerance == 1e-13
+    assert finest.refined() == finest
 
 
 def test_a_drive_is_refused_if_it_leaves_the_reach_only_late_in_the_run() -> None:
@@ -418,13 +414,6 @@ def test_oil_is_checked_against_the_drive_of_its_own_actuator() -> None:
         scenario(actuators={"rear_column": oil}, drives=lowers)
 
 
-def test_the_reduced_formulation_takes_one_drive() -> None:
-    one = CubicStep()
-    reduced_coverage.check(scenario(drive=one, drives={"rear_column": one}))
-    with pytest.raises(InputError, match=r"drives\.rear_column = Held: not covered by .*'compiled'"):
-        reduced_coverage.check(scenario(drive=one, drives={"rear_column": Held()}))
-
-
 # --- levels of detail ---
 
 HEAVY = cylinders_and_rods()
@@ -507,16 +496,3 @@ def test_a_name_that_is_taken_is_refused() -> None:
     fields = {f.name: getattr(SUPPORT, f.name) for f in dataclasses.fields(SUPPORT)}
     with pytest.raises(InputError, match=r"actuators\.rear_column: rear_column_rod is a name of the machine"):
         scenario(machine=Taken(**fields), actuators=HEAVY)
-
-
-@pytest.mark.parametrize("formulation", [tree_coverage, reduced_coverage])
-def test_actuators_of_two_bodies_and_rigid_jacks_need_the_redundant_formulation(formulation: Any) -> None:
-    with pytest.raises(InputError, match=r"actuators\.front_column = CylinderAndRod.*'redundant' covers it"):
-        formulation.check(scenario(actuators=HEAVY))
-    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1e9)
-    actuators = dict.fromkeys(HEAVY, oil) if formulation is tree_coverage else {}
-    own = Scenario(
-        machine=reference_support(), actuators=actuators, parts={"tail_beam": OwnBody()}, duration=1.0
-    )
-    with pytest.raises(InputError, match=r"parts\.tail_beam.*'redundant' covers it"):
-        formulation.check(own)

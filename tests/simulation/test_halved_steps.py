@@ -133,10 +133,9 @@ def test_the_worst_error_covers_the_distance_from_the_true_run(fall: Result, tig
     assert 1e-5 < disagreement(fall, tight) < fall.worst_error < 1e-2
 
 
-@pytest.mark.parametrize("formulation", ["compiled", "compiled"])
-def test_methods_with_error_control_have_theirs(formulation: str) -> None:
-    scene = SCENES["clearance support on oil"] if formulation == "compiled" else FALL
-    scene = replace(scene, formulation=formulation, duration=0.03, solver=SolverSettings(tolerance=1e-6))
+@pytest.mark.parametrize("scene", [SCENES["clearance support on oil"], FALL], ids=["general", "closed forms"])
+def test_methods_with_error_control_have_theirs(scene: Scenario) -> None:
+    scene = replace(scene, formulation="compiled", duration=0.03, solver=SolverSettings(tolerance=1e-6))
     result = simulate(scene, errors=True)
     tight = simulate(replace(scene, solver=SolverSettings(tolerance=1e-10)))
     assert result.scenario.solver.tolerance == pytest.approx(1e-6 / 64.0, rel=1e-12)

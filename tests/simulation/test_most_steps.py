@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -13,12 +14,9 @@ from tests.formulations.test_momentum import ONE, TWO
 from user_forces import InputError
 
 
-def held(formulation: str) -> Scenario:
-    """The drop of the support, as the formulation covers it."""
-    actuators = oil_columns() if formulation == "compiled" else {}
-    return loose_support(
-        1.5, 0.25, drive=Held(), duration=0.03, step=1e-4, formulation=formulation, actuators=actuators
-    )
+def held(formulation: str, **changes: Any) -> Scenario:
+    """The drop of the support."""
+    return loose_support(1.5, 0.25, drive=Held(), duration=0.03, step=1e-4, formulation=formulation, **changes)
 
 
 def limited(scenario: Scenario, steps: int) -> Result | Failure:
@@ -28,8 +26,8 @@ def limited(scenario: Scenario, steps: int) -> Result | Failure:
 
 CASES = {
     "redundant": held("redundant"),
-    "compiled": held("compiled"),
-    "compiled": held("compiled"),
+    "compiled": held("compiled", actuators=oil_columns()),
+    "closed forms": held("compiled"),
     "space": replace(held("redundant"), dimensions=3),
     "growing": replace(held("redundant"), solver=SolverSettings(growth=4.0)),
 }
@@ -39,7 +37,7 @@ CASES = {
 def test_a_run_is_given_up_after_so_many_steps(case: str) -> None:
     scenario = CASES[case]
     whole = simulate(scenario)
-    # what counts: steps, and those that were repeated; of the reduced formulation's the latter are not told
+    # what counts: steps, and those that were repeated; of the compiled formulation's the latter are not told
     most = whole.counts.steps + whole.counts.cut_steps + whole.counts.failed_newton
     half = whole.counts.steps // 2
     failure = limited(scenario, half)

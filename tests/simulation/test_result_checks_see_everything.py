@@ -30,8 +30,8 @@ def soft(**changes: Any) -> Scenario:
 # each with why it is refused
 WRONG: dict[str, tuple[Scenario, str]] = {
     "redundant, deep": (soft(), "mm deep in a bore of 65.5 mm radius"),
-    "tree, deep": (soft(formulation="compiled", actuators=OILS), "mm deep in a bore of 65.5 mm radius"),
-    "reduced, deep": (soft(formulation="compiled"), "mm deep in a bore of 65.5 mm radius"),
+    "compiled, deep": (soft(formulation="compiled", actuators=OILS), "mm deep in a bore of 65.5 mm radius"),
+    "closed forms, deep": (soft(formulation="compiled"), "mm deep in a bore of 65.5 mm radius"),
     "space, deep": (soft(dimensions=3), "mm deep in a bore of 65.5 mm radius"),
     "open": (
         replace(
