@@ -24,6 +24,10 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
+from support_exudyn.formulations.compiled.outcome import _Records
+from support_exudyn.formulations.compiled.run import _Run
+from support_exudyn.formulations.compiled.setup import model_of
+from support_exudyn.formulations.contract import silent
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.formulations.redundant.scene.static_equilibrium import find_static_equilibrium
@@ -186,6 +190,19 @@ def test_a_scene_holds_the_pins_that_are_pressed_at_its_start() -> None:
     assert hit.mass(0.0, 1.0) == pytest.approx(10.0, rel=2e-4)
     assert apart.clearance_joints["hit"].kept.inverse_mass == apart.inverse_masses("hit", INITIAL).alone
     assert apart.clearance_joints["hit"].kept.inverse_mass.mass(0.0, 1.0) == pytest.approx(1.0 / 10.1, rel=1e-9)
+
+
+def test_a_compiled_run_begins_with_the_pins_that_are_pressed_held() -> None:
+    law = Exact(stiffness=1e9, restitution=0.7)
+    pins = {"hit": with_clearance(law), "stop": with_clearance(law)}
+    scene = Scenario(machine=Levers(resting=1.01 * CLEARANCE), pins=pins, duration=1e-3, formulation="compiled")
+    run = _Run(model_of(scene))
+    run.go(silent)
+    known = build(scene).clearance_joints
+    for n, name in enumerate(pins):
+        closed, _, *mass = _Records(run.model, run.rows).memory[0, n]
+        assert bool(closed) == known[name].kept.in_contact == (name == "stop")
+        assert mass == pytest.approx(tuple(known[name].kept.inverse_mass), rel=1e-9, abs=1e-12)
 
 
 def default_law(clearance_mm: float = 1.5, friction: float = 0.0) -> ClearancePin:
