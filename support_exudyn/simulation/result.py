@@ -23,6 +23,7 @@ from support_exudyn.scenario.presentation import presenter
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.simulation.data_frames import to_pandas, to_xarray
 from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
+from support_exudyn.simulation.horizon import horizon
 from support_exudyn.simulation.memory import available
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import measures
@@ -109,6 +110,15 @@ class Result(RecordedRun):
     def met(self) -> bool:
         """Whether the estimated error is as small as was asked for."""
         return self.goal is not None and self.worst_error <= self.goal
+
+    @property
+    def horizon(self) -> float:
+        """The time [s] of the first impact that shorter steps change, see `simulation.horizon`; infinite: none.
+
+        Up to it the run is determined; beyond it means and spreads may be results, single impacts are not.
+        """
+        self._check()
+        return horizon(self)
 
     def _check(self) -> None:
         if self.coarser is None:
