@@ -90,7 +90,7 @@ class Scene(NamedTuple):
 class Scratch(NamedTuple):
     """Room that a run works in.
 
-    right, impulses: a number a row. end, probe, slope: states. path: of the interpolation. rates: of a step's stages.
+    right, impulses: a number a row. end, probe, slope, along: states; see `stabilised`. path: of the interpolation. rates: of a step's stages.
     now, then: contacts at its start and end. lines, answers, gram, square, sides, sizes: see `masses`.
     """
 
@@ -99,6 +99,7 @@ class Scratch(NamedTuple):
     end: Vector
     probe: Vector
     slope: Vector
+    along: Vector
     path: Matrix
     rates: Matrix
     now: Records
@@ -120,7 +121,7 @@ def scratch(scene: Scene, states: int) -> Scratch:
     return Scratch(
         np.zeros(rows),
         np.zeros(rows),
-        *(state.copy() for _ in range(3)),
+        *(state.copy() for _ in range(4)),
         np.zeros((5, states)),
         np.zeros((STAGES, states)),
         *(scene.contacts.copy() for _ in range(2)),

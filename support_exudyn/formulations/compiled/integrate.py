@@ -18,6 +18,7 @@ from support_exudyn.formulations.compiled.arrays import (
     PAUSED,
     RECORDS,
     STEPS,
+    STIFF,
     STOPPED_AT,
     STUCK,
     TOO_MANY_IMPACTS,
@@ -33,6 +34,20 @@ from support_exudyn.formulations.compiled.arrays import (
 from support_exudyn.formulations.compiled.events import first_event, look
 from support_exudyn.formulations.compiled.masses import renew_mass
 from support_exudyn.formulations.compiled.motion import SINGULAR, divide, respond
+from support_exudyn.formulations.compiled.stabilised import (
+    FEWEST_STAGES,
+    AT_FIRST,
+    FIRST_PATIENCE,
+    LONGEST_PATIENCE,
+    RENEWED,
+    ROUNDS,
+    advance_stabilised,
+    fastest_decay,
+    fit_cubic,
+    longest,
+    stages_for,
+)
+from support_exudyn.formulations.compiled.stabilised import STIFF as STIFF_AT
 from support_exudyn.formulations.compiled.step import (
     advance,
     close_joints,
@@ -44,7 +59,10 @@ from support_exudyn.formulations.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK
 from support_exudyn.formulations.compiled.depth import AT_ZERO, CUT, CUT_MET, IMPACT, NOTHING, RETURN, SEPARATION, TOO_LONG
 from support_exudyn.formulations.compiled.step_control import (
     CLOSE,
+    FASTEST,
     LANDED,
+    SAFETY,
+    SLOWEST,
     LANDINGS,
     SHORTEN,
     SMALLEST_STEP,
@@ -53,8 +71,9 @@ from support_exudyn.formulations.compiled.step_control import (
     factor,
 )
 
-# with what a run goes on: whether it is in the midst of a segment, time, next step, last error
-MIDST, AT, NEXT_STEP, LAST_ERROR, GOING = range(5)
+# With what a run goes on: whether it is in the midst of a segment, time, next step, last error; the fastest decay,
+# above 0 while steps are stabilised; steps since it was looked for, and after how many it is
+MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, STIFF_STEPS, PATIENCE, GOING = range(8)
 TOGETHER = 1e3 * AT_ZERO  # depth [m] within which corners that land with the first one land at the same instant
 DEPTH_, PUSH_, RATE_ = range(3)  # what is landed on
 
@@ -271,6 +290,62 @@ def write_record(scene: Scene, t: float, y: Vector, slope: Vector, row: Vector) 
         i += 1
 
 
+@compiled
+def factor_of(error: float, before: float, decay: float) -> float:
+    """By which the next step may be longer; of the stabilised method, if there is a decay, of order 2."""
+    if not decay > 0.0:
+        return factor(error, before)
+    if not error < 1e30:
+        return SLOWEST
+    return min(FASTEST, max(SLOWEST, SAFETY * max(error, 1e-9) ** (-1.0 / 3.0)))
+
+
+@compiled
+def leave_stabilised(going: Vector, h: float) -> float:
+    """Go on by the explicit method; the step [s] that it takes, at most that of its stability."""
+    h = min(h, STIFF_AT / going[DECAY])
+    going[DECAY] = going[STIFF_STEPS] = 0.0
+    return h
+
+
+@once
+def choose_method(
+    scene: Scene,
+    room: Scratch,
+    going: Vector,
+    t: float,
+    h: float,
+    follow: float,
+    y: Vector,
+    weights: Vector,
+    quiet: bool,
+    report: Vector,
+) -> float:
+    """See which method takes the next step, after one of h [s] without an event or with one; its length [s]."""
+    if going[DECAY] > 0.0:
+        going[STIFF_STEPS] += 1
+        if going[STIFF_STEPS] < RENEWED:
+            return min(follow, longest(going[DECAY]))
+        going[STIFF_STEPS] = 0.0
+        report[EVALUATIONS] += ROUNDS
+        decay = fastest_decay(scene, t, y, room.rates, room.along, weights, room.right)
+        if not STIFF_AT < follow * decay < math.inf or stages_for(follow * decay) < FEWEST_STAGES:
+            return leave_stabilised(going, follow)
+        going[DECAY], going[PATIENCE] = decay, FIRST_PATIENCE
+        return min(follow, longest(decay))
+    going[STIFF_STEPS] += 1
+    if not quiet or going[STIFF_STEPS] < going[PATIENCE]:
+        return follow
+    going[STIFF_STEPS] = 0.0
+    report[EVALUATIONS] += ROUNDS
+    decay = fastest_decay(scene, t, y, room.rates, room.along, weights, room.right)
+    if STIFF_AT / h < decay < math.inf:
+        going[DECAY] = decay
+        going[PATIENCE] = min(2.0 * going[PATIENCE], LONGEST_PATIENCE)
+        return AT_FIRST * h
+    return follow
+
+
 @once
 def begin_run(scene: Scene, room: Scratch, y: Vector, rows: Matrix) -> bool:
     """Write the first record at 0 s, with the masses that contacts are told then; whether the linkage moves."""
@@ -369,6 +444,10 @@ def integrate(
         jump(scene, room, t, y, jumps, report)
         evaluate(scene, t, y, k[0], right)
         copy_contacts(scene.contacts, now)
+    if going[PATIENCE] == 0.0:
+        going[PATIENCE] = FIRST_PATIENCE
+        for i in range(states):  # some direction to begin with
+            room.along[i] = (1.0 + 0.1 * (i % 7)) / weights[i]
     while t < stop:
         if report[STEPS] >= pause:
             going[MIDST], going[AT], going[NEXT_STEP], going[LAST_ERROR] = 1.0, t, h, error_before
@@ -383,19 +462,31 @@ def integrate(
         last = h >= 0.999999 * (stop - t)
         if last:
             h = stop - t
-        error = advance(scene, t, h, y, k, end, weights, right)
-        report[EVALUATIONS] += STAGES - 1
+        decay = going[DECAY]
+        if decay > 0.0:
+            error = advance_stabilised(scene, t, h, decay, y, k, end, weights, right)
+            report[EVALUATIONS] += stages_for(h * decay)
+            report[STIFF] += 1
+        else:
+            error = advance(scene, t, h, y, k, end, weights, right)
+            report[EVALUATIONS] += STAGES - 1
         report[NOT_A_NUMBER] = 1.0 if math.isnan(error) else 0.0
         if not error <= 1.0:
-            h *= min(factor(error, 1.0), 1.0)
+            h *= min(factor_of(error, 1.0, decay), 1.0)
             continue
         copy_contacts(scene.contacts, then)
-        fit(h, y, end, k, path)
+        if decay > 0.0:
+            fit_cubic(h, y, end, k, path)
+        else:
+            fit(h, y, end, k, path)
         n, what, low, high = first_event(scene, h, now, then, path, probe, slope)
+        if decay > 0.0 and what != NOTHING:  # events are met by the explicit method
+            h = leave_stabilised(going, h)
+            continue
         if what == TOO_LONG:
             h *= SHORTEN
             continue
-        follow = wanted if last else h * factor(error, error_before)
+        follow = wanted if last else h * factor_of(error, error_before, decay)
         error_before = max(error, 1e-4)
         was_cut = n >= 0 and now[n].push < 0.0
         if what != NOTHING and low < 1.0:
@@ -446,7 +537,7 @@ def integrate(
                 now[n].rate = max(0.0, now[n].rate)
             elif what == CUT:
                 now[n].push = 1e-30 if was_cut else -1e-30
-        h = follow
+        h = choose_method(scene, room, going, t, h, follow, y, weights, what == NOTHING, report)
     going[MIDST], going[NEXT_STEP] = 0.0, h
     return FINISHED
 
