@@ -34,7 +34,7 @@ def modules_of(data: Any) -> dict[str, dict[str, str]]:
     """
     found = {}
     for name in dict.fromkeys(classes_in(data)):
-        module = kinds_of(Value)[name].__module__
+        module = Value.of_name(name).__module__
         if module.partition(".")[0] not in OURS:
             path = getattr(sys.modules.get(module), "__file__", None)
             found[name] = {"module": module, "path": str(Path(path).resolve()) if path else ""}

@@ -40,7 +40,7 @@ def key(scenario: Scenario, errors: bool = False) -> str:
 
 def _own(data: Any) -> dict[str, str]:
     """Digests of the modules of one's own whose classes these data are of, by name."""
-    modules = {Value.of_name(kind).__module__ for kind in classes_in(data)}
+    modules = {Value.of_name(kind).__module__ for kind in set(classes_in(data))}
     return {name: _source(name) for name in modules if name.partition(".")[0] not in OURS}
 
 

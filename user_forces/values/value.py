@@ -131,7 +131,8 @@ class Value:
     @staticmethod
     def of_name(name: str) -> type[Value]:
         """The class of this name. Raises KeyError that says which names are near if there is none."""
-        return Named(Value._register, "class of values")[name]
+        known = Value._register.get(name)
+        return Named(Value._register, "class of values")[name] if known is None else known
 
     @staticmethod
     def from_data(data: Mapping[str, Any]) -> Any:
