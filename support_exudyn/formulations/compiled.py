@@ -48,7 +48,10 @@ def inlined(function: Function) -> Function:
 
 
 def entry(function: Function) -> Function:
-    """Decorator: compile a function that Python calls, at its first call, or load it from disk."""
+    """Decorator: compile a function that Python calls, at its first call, or load it from disk.
+
+    Other threads of Python go on meanwhile.
+    """
     return _kept(function)
 
 
@@ -94,12 +97,12 @@ def _inner(function: Function, **options: bool) -> Function:
 
 def _kept(function: Function) -> Function:
     try:
-        dispatcher: Any = numba.njit(cache=True, error_model="numpy")(function)
+        dispatcher: Any = numba.njit(cache=True, error_model="numpy", nogil=True)(function)
         kept = _is_kept_only_while_unchanged(dispatcher)
     except RuntimeError:  # neither beside the program nor in a home may files be written: compiled each time
         kept = False
     if not kept:
-        dispatcher = numba.njit(error_model="numpy")(function)
+        dispatcher = numba.njit(error_model="numpy", nogil=True)(function)
     return dispatcher  # type: ignore[no-any-return]
 
 

@@ -164,9 +164,9 @@ class Result(RecordedRun):
 
         Raises OSError that names the file if it cannot be written; an older one is then as it was.
         """
-        image = self.image()
+        pieces = with_digest(self.image())
         with whole_file(path) as temporary, temporary.open("wb") as file:
-            file.writelines((checksum_block(image, FORMAT), image))
+            file.writelines(pieces)
         return Path(path)
 
     def image(self) -> bytearray:
@@ -211,6 +211,11 @@ class Result(RecordedRun):
             raise InputError(
                 f"{path}: not a result file of this program, or damaged ({cleaned(str(error))})"
             ) from None
+
+
+def with_digest(image: bytearray) -> tuple[bytes, bytearray]:
+    """The bytes of a run's file, in pieces: the digest before those of `Result.image`."""
+    return checksum_block(image, FORMAT), image
 
 
 def _series(result: Result, above: str = "") -> Iterator[tuple[str, tuple[np.ndarray, dict[str, str]]]]:
