@@ -219,7 +219,7 @@ def with_digest(image: bytearray) -> tuple[bytes, bytearray]:
 
 
 def _series(result: Result, above: str = "") -> Iterator[tuple[str, tuple[np.ndarray, dict[str, str]]]]:
-    """All channels of a run and of the coarser ones by the paths of their data sets, with what is said of them."""
+    """All channels of a run and of coarser ones by the paths of their data sets, with what is said of them."""
     for name, channel in result.channels.items():
         texts = {"unit": channel.unit, "meaning": channel.meaning}
         yield f"{above}channels/{name}", (channel.values, texts)

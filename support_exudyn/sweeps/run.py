@@ -162,7 +162,7 @@ class _Keeper:
                 self._note(self._places[row.key], row)
 
     def _run_points(self, first: int, workers: int) -> list[int]:
-        """Run points from one on; the processes make their scenarios. Returns which of them they cannot read."""
+        """Run points from one on; the processes make their scenarios. Returns which of them they cannot."""
         points, here = self._plan.points, list[int]()
 
         def sent() -> Iterator[Numbered]:

@@ -228,13 +228,15 @@ def _read(sent: bytes) -> Wanted:
 
 def _looked_up(store: Store, wanted: Wanted, points: Iterable[Inputs]) -> Iterator[Task | Ended]:
     """What is to be run of some points, and what came of the others."""
-    for inputs in points:
-        try:
-            found = wanted.looked_up(store, wanted.task(inputs))
-        except Exception as error:  # of classes of one's own any
-            yield Ended(refused(error))
-        else:
-            yield found if isinstance(found, Task) else Ended(found, before=True)
+    return (_found(store, wanted, inputs) for inputs in points)
+
+
+def _found(store: Store, wanted: Wanted, inputs: Inputs) -> Task | Ended:
+    try:
+        found = wanted.looked_up(store, wanted.task(inputs))
+    except Exception as error:  # of classes of one's own any
+        return Ended(refused(error))
+    return found if isinstance(found, Task) else Ended(found, before=True)
 
 
 def _all(store: Store, asked: Iterable[Task | Ended]) -> Chunk:
