@@ -111,7 +111,7 @@ def _force(contact: Contact, moving: RelativeMotion, memory: dict[str, Series]) 
 
 
 def of_depth(function: Callable[[float], float], depth: Series) -> Series:
-    """What a law says of every depth: its elastic force [N] or energy [J]; or a function written as laws are."""
+    """What a law says of every depth, its force [N] or energy [J]; or any function written as laws are."""
     try:
         return values_of(function(as_number(depth)), depth.size)
     except TypeError:  # it branches

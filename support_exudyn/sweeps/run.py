@@ -183,7 +183,7 @@ class _Keeper:
                 if ended is None:
                     here += numbers
                 elif isinstance(ended, ProcessEndedError):
-                    self._note(numbers, StoredRun(self._wanted.task(inputs).key, "killed", ended.reason))
+                    self._note(numbers, StoredRun("", "killed", ended.reason))
                 else:
                     self._outcome.found += ended.before and ended.row.key not in self._rows
                     self._note(numbers, ended.row)
