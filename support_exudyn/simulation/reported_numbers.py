@@ -79,7 +79,8 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
     Raises InputError if no record lies between the times.
     """
     after, until = _time(after, "after"), _time(until, "until")
-    if not _inside(result, after, until).any():
+    chosen = inside(result, after, until)
+    if chosen.start == chosen.stop:
         first, last = result.time[[0, -1]]
         raise InputError(
             f"after = {after} s, until = {until} s: no record lies between; allowed: times around at least "
@@ -92,7 +93,7 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
     fastest = max((float(np.abs(result[name]).max()) for name in turning), default=0.0)
     for name, channel in result.channels.items():
         if name.endswith(FORCE) and channel.is_determined:
-            forces = result[name][_inside(result, after, until)]
+            forces = result[name][chosen]
             most = largest(forces)
             for word, statistic in STATISTICS.items():
                 if word in SIGNED and name.startswith("pin."):
@@ -183,16 +184,18 @@ def _time(item: Any, name: str) -> float:
     raise InputError(f"{name} = {short(item)}: allowed: a time in s")
 
 
-def _inside(run: RecordedRun, after: float, until: float) -> npt.NDArray[np.bool_]:
-    """Which records lie between two times [s]."""
-    return (run.time >= after - 1e-9) & (run.time <= until + 1e-9)
+def inside(run: RecordedRun, after: float, until: float) -> slice:
+    """Which records lie between two times [s]; none if one of these is no number."""
+    after, until = after - 1e-9, until + 1e-9  # times of records are sums of periods
+    first = int(run.time.searchsorted(after))
+    return slice(first, int(run.time.searchsorted(until, "right")) if until >= after else first)
 
 
 def over(name: str, statistic: Callable[[np.ndarray], float], after: float, until: float) -> Measure:
     """A statistic of a channel's records between two times [s], in its unit."""
 
     def measure(run: RecordedRun) -> float:
-        return float(statistic(run[name][_inside(run, after, until)]))
+        return float(statistic(run[name][inside(run, after, until)]))
 
     return measure
 
@@ -201,8 +204,8 @@ def time_of_largest(name: str, after: float, until: float) -> Measure:
     """The time [s] of the record, between two times [s], at which a channel is largest in magnitude."""
 
     def measure(run: RecordedRun) -> float:
-        inside = _inside(run, after, until)
-        return float(run.time[inside][np.abs(run[name][inside]).argmax()])
+        chosen = inside(run, after, until)
+        return float(run.time[chosen][np.abs(run[name][chosen]).argmax()])
 
     return measure
 
@@ -215,11 +218,11 @@ def _other_times(name: str, after: float, until: float) -> Measure:
     """
 
     def measure(run: RecordedRun) -> float:
-        inside = _inside(run, after, until)
-        time, values = run.time[inside], np.abs(run[name][inside])
-        doubt, other = missed("largest", run[name][inside], time, run.scenario.breaks), run.coarser
+        chosen = inside(run, after, until)
+        time, values = run.time[chosen], np.abs(run[name][chosen])
+        doubt, other = missed("largest", run[name][chosen], time, run.scenario.breaks), run.coarser
         while other is not None:
-            doubt = max(doubt, abs(float(values.max()) - largest(other[name][_inside(other, after, until)])))
+            doubt = max(doubt, abs(float(values.max()) - largest(other[name][inside(other, after, until)])))
             other = other.coarser
         # the one may be less and the other more
         near = time[values >= values.max() - 2.0 * doubt]
@@ -230,8 +233,8 @@ def _other_times(name: str, after: float, until: float) -> Measure:
 
 def _missed(word: str, name: str, after: float, until: float) -> Measure:
     def measure(run: RecordedRun) -> float:
-        inside = _inside(run, after, until)
-        return missed(word, run[name][inside], run.time[inside], run.scenario.breaks)
+        chosen = inside(run, after, until)
+        return missed(word, run[name][chosen], run.time[chosen], run.scenario.breaks)
 
     return measure
 
