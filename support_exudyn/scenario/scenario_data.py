@@ -107,8 +107,13 @@ class ScenarioData(Value, ABC):
     solver: SolverSettings = field(default_factory=SolverSettings)
 
     def __getstate__(self) -> dict[str, Any]:
-        """What is sent to another process: all but functions within functions."""
-        return {name: item for name, item in vars(self).items() if name != "channel_definitions"}
+        """What is sent to another process: all but functions within functions, and what takes much room."""
+        return {name: item for name, item in vars(self).items() if name not in ("channel_definitions", "plain")}
+
+    @cached_property
+    def plain(self) -> Mapping[str, Any]:
+        """What `to_data` gives, once for all that only read it."""
+        return self.to_data()
 
     @abstractmethod
     def refined(self, factor: float = 2) -> ScenarioData:

@@ -73,8 +73,12 @@ class ReportedNumber(NamedTuple):
     settles: bool = True
 
 
-def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, ReportedNumber]:
+def measures(
+    result: RecordedRun, after: float, until: float, sized: bool = True
+) -> Mapping[str, ReportedNumber]:
     """The numbers that every result reports: name, unit and how it is measured, see `Result.numbers`.
+
+    sized: whether sizes are told, too, which take as long as the numbers and which errors alone are told by.
 
     Raises InputError if no record lies between the times.
     """
@@ -90,18 +94,18 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
     left = left_by_newton(result.scenario)
     steps_chosen = result.scenario.chooses_steps
     turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
-    fastest = max((float(np.abs(result[name]).max()) for name in turning), default=0.0)
+    fastest = max((largest(result[name]) for name in turning), default=0.0) if sized else 0.0
     for name, channel in result.channels.items():
         if name.endswith(FORCE) and channel.is_determined:
             forces = result[name][chosen]
-            most = largest(forces)
+            most = largest(forces) if sized else 0.0
             for word, statistic in STATISTICS.items():
                 if word in SIGNED and name.startswith("pin."):
                     continue  # a magnitude, which has no sign
                 measure, between = over(name, statistic, after, until), _missed(word, name, after, until)
                 of = name if word in AVERAGED else ""  # of a single record, which others average out
                 share, values = left, most
-                if word == "std":
+                if word == "std" and sized:
                     spread, mean = measure(result), float(np.abs(forces).mean())
                     # rounding of the forces scatters, and what scatters beside more adds next to nothing
                     values = spread + (math.hypot(spread, ROUNDING * most) - spread) / ROUNDING
@@ -125,7 +129,7 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
     for point in result.scenario.linkage.points:
         if not {f"{point}.x", f"{point}.y"} <= result.channels.keys():
             continue  # it was not asked for, and no error either, for whose sake it would have been recorded
-        farthest = float(np.abs(path_of(result, point)).max())
+        farthest = largest(path_of(result, point)) if sized else 0.0
         for axis in ("x", "y"):
             measure = over(f"{point}.{axis}", np.mean, after, until)
             found[f"{point}.{axis}.mean"] = ReportedNumber("m", measure, farthest, "place")

@@ -173,7 +173,7 @@ class Result(RecordedRun):
         """The bytes of the HDF5 file that `save` writes, behind its digest."""
 
         def write(file: h5py.File) -> None:
-            data = self.scenario.to_data()
+            data = self.scenario.plain
             own = modules_of(data)
             write_texts(file, {"format": FORMAT} | ({"own_classes": json.dumps(own)} if own else {}))
             _write(file, self, data)
@@ -245,7 +245,7 @@ def _write(group: h5py.Group, result: Result, scenario: Mapping[str, Any]) -> No
         if name in result.largest_force_time:
             data.attrs["largest_force_time_s"] = result.largest_force_time[name]
     if result.coarser is not None:
-        _write(group["coarser"], result.coarser, result.coarser.scenario.to_data())
+        _write(group["coarser"], result.coarser, result.coarser.scenario.plain)
 
 
 def _read(group: Inside) -> Result:

@@ -33,7 +33,7 @@ def key(scenario: Scenario, errors: bool = False) -> str:
 
     errors: whether it is made with estimated errors, see `simulate`.
     """
-    data = scenario.to_data()
+    data = scenario.plain
     text = json.dumps([data, errors, program(), _own(data)], sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
 

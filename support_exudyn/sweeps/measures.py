@@ -41,7 +41,7 @@ def numbers(result: Result, record: Record) -> dict[str, StoredNumber]:
 
     Raises InputError if no record lies between the times.
     """
-    usual = measures(result, record.after, record.until)
+    usual = measures(result, record.after, record.until, sized=result.coarser is not None)
     found: dict[str, ReportedNumber] = {}
     if not record.numbers:
         found.update(usual)
