@@ -289,7 +289,7 @@ def _start(shares: Any) -> None:
     global _shares
     _shares = shares
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    _keep_memory()
+    keep_memory()
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
@@ -300,7 +300,7 @@ def _do(slot: int, work: Callable[..., T], number: int, given: tuple[Any, ...]) 
     return work(number, *given)
 
 
-def _keep_memory() -> None:
+def keep_memory() -> None:
     """Let the C library keep what a run gives back, for the next one.
 
     Otherwise the system takes and clears thousands of pages in every run, which takes longer than the run is
