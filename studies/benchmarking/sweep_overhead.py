@@ -180,10 +180,10 @@ def steps() -> list[tuple[str, str]]:
 
 
 def busy() -> str:
-    """How much the machine has to do besides."""
+    """How much the machine has to do before anything is measured."""
     if not hasattr(os, "getloadavg"):
         return ""
-    return f" When it was begun, {os.getloadavg()[0]:.1f} other processes were at work on the machine."
+    return f" The load of the machine was {os.getloadavg()[0]:.1f} when it was begun."
 
 
 def study(out: Path) -> None:
