@@ -58,7 +58,10 @@ def once(function: Function) -> Function:
 
 
 def entry(function: Function) -> Function:
-    """Decorator: compile a function that Python calls, at its first call, or load it from disk."""
+    """Decorator: compile a function that Python calls, at its first call, or load it from disk.
+
+    Other threads of Python go on meanwhile.
+    """
     return _kept(function)
 
 
@@ -104,7 +107,7 @@ def _inner(function: Function, **options: bool) -> Function:
 
 
 def _kept(function: Function) -> Function:
-    options = {} if ALLOCATES in function.__module__ else UNCOUNTED
+    options = {"nogil": True} | ({} if ALLOCATES in function.__module__ else UNCOUNTED)
     try:
         dispatcher: Any = numba.njit(cache=True, error_model="numpy", **options)(function)
         kept = _is_kept_only_while_unchanged(dispatcher)
