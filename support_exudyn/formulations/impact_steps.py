@@ -49,7 +49,7 @@ class ImpactSteps:
     @property
     def step(self) -> float:
         """Largest length of the next step [s]; infinite if there is no impact."""
-        return math.ldexp(self._length, -self._halvings)
+        return math.ldexp(self._length, -self._halvings) if self._halvings else self._length
 
     @property
     def begins_with_a_jump(self) -> bool:
@@ -83,6 +83,12 @@ class ImpactSteps:
     def calm(self, depth: float) -> bool:
         """Whether nothing is in an impact, nor is it after a step to this depth [m]."""
         return self._length == math.inf and not (depth > 0.0 and abs(depth - self._depth) > QUIET * depth)
+
+    def asks_for_mass(self, depth: float, rate: float, least: float) -> bool:
+        """Whether `follow` would have to know the mass, which is so much at least [kg]."""
+        if self._length == math.inf:
+            return not self.calm(depth)
+        return depth > 0.0 and self._energy_speed(depth, rate, least) > GROWTH * self._speed
 
     def follow(self, depth: float, rate: float, mass: float) -> None:
         """A step has been accepted, without an impact at its end; state and effective mass at its end."""

@@ -18,7 +18,7 @@ from support_exudyn.formulations.redundant.clearance.symbolic_force import Symbo
 from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
 from support_exudyn.mechanics.pressed_pins import NOT_KNOWN, EffectiveMasses
 from support_exudyn.scenario.solver_settings import SolverSettings
-from user_forces.compilation.flat import flat_force
+from user_forces.compilation.flat import asks_for_mass, flat_force
 from user_forces.contact import Contact, ContactForce
 from user_forces.lawful import PROBED, look
 from user_forces.normal.law import Impact
@@ -55,6 +55,7 @@ class ClearanceJoint:
         self.locates, self.share = settings.locate, share
         frames = SlotFrames if contact.bearing.is_slot else PinFrames
         self.frames = frames(connector, moving, bore_spin)
+        self._follows = self.frames.follows
         self._on_line = connector.at is Attachment.LINE
         self.impact_steps = ImpactSteps(contact.normal, settings.impact_steps)
 
@@ -64,16 +65,20 @@ class ClearanceJoint:
             return PythonForce(contact, connector.at, bore_spin, straight)
 
         self._friction = SteepFriction(contact.friction, engine_force)
+        self.engine_force = self._friction.acting  # what the engine asks for the force
+        self.is_straight = False  # whether a line stands for friction
+        self._is_symbolic = isinstance(self.engine_force, SymbolicForce)
         self.connector.set_force(self.engine_force.function)
         self._force = flat_force(contact)
+        self._asks_for_mass = not self._on_line and asks_for_mass(contact)
+        self._has_state = contact.friction.has_state
         # whether the force depends on more than the impact from step to step
-        self._changes = contact.friction.has_state or connector.at is Attachment.MIDDLE or self.frames.turns
+        self._changes = self._has_state or connector.at is Attachment.MIDDLE or self.frames.turns
         self._impact: tuple[object, ...] = ()
         # at the last accepted step
         self.kept = PinMemory(False, 0.0, 0.0, 0.0)
-        self._alone = (
-            NOT_KNOWN.alone
-        )  # the journal's inverse effective mass by itself, when the memory's was found
+        # the journal's inverse effective mass by itself, when the memory's was found, and its least mass [kg]
+        self._alone, self._lightest = NOT_KNOWN.alone, NOT_KNOWN.alone.lightest
         # the step being tried
         self.memory = self.kept  # with which its force is computed
         # in the axes of the connector's displacement: the memory's inverse effective mass, and that of the
@@ -86,23 +91,21 @@ class ClearanceJoint:
         self.landing = math.inf  # where steps are to end, seen in one that was then cut [s]
         self._step = 0.0  # its length [s]
         self._motion = Relative(0.0, 0.0, 0.0, 0.0)  # at its end
-        self._mass = 1.0  # that moves as the depth does at its end, while in contact [kg]
-        self._least_mass = 1.0  # the same if no other clearance pin holds anything, which steps follow [kg]
         # at the end of the last accepted step
         self._swing_step = math.inf  # see `longest_step`
-        self._angle: float | None = None  # of the journal's place in the bore [rad]
+        # the journal's place in the connector's axes [m], and their angle, at the end of a step and at its start
+        self._place_reached: tuple[float, float, float] | None = None
+        self._place_before = self._place_reached
         self._size = 0.0  # of the force [N]
-        self.course: Course | None = None  # of a step just accepted over which the contact went on
+        self._was_decided = False  # whether the step's end is more than that all went on
+        # of a step just accepted over which the contact went on: its memory at the start, and if asked its course
+        self._went_on_from: PinMemory | None = None
+        self._course: Course | None = None
         # over the run
         self.onsets: list[Onset] = []
         self.clamped_steps = 0
         self.largest_force = 0.0
         self.largest_force_time = 0.0  # end of the step that has it [s]
-
-    @property
-    def engine_force(self) -> EngineForce:
-        """What the engine asks for the force."""
-        return self._friction.acting
 
     @property
     def calls(self) -> int:
@@ -112,7 +115,7 @@ class ClearanceJoint:
     @property
     def longest_step(self) -> float:
         """The longest step [s] for the impact going on, or for what friction holds at the end of the last."""
-        return min(self.impact_steps.step, self._swing_step)
+        return min(self.impact_steps.step, self._swing_step) if self._has_state else self.impact_steps.step
 
     # --- called by the solver ---
 
@@ -161,60 +164,82 @@ class ClearanceJoint:
         self.onset = None
         self.wants_cut = False
         self._step = step
-        self._friction.begin()
-        self.frames.begin(step)
+        if self.is_straight:
+            self._friction.begin()
+        if self._follows:
+            self.frames.begin(step)
         self._recall(self.kept)
 
     def accept(self, t: float) -> None:
         """Keep what happened in a step that ends at t [s] and stands."""
-        was_in_contact = self.kept.in_contact
-        self.course = self._course() if self.memory.in_contact and self.onset is None else None
+        start, onset = self.kept, self.onset
+        self._went_on_from = start if self.memory.in_contact and onset is None else None
+        self._course = None
         self.kept = reached = self.reached
-        if not reached.in_contact and self._friction.part():
-            self._let_act()
-        if was_in_contact and not reached.in_contact and self.onsets:
-            self.onsets[-1] = self.onsets[-1].separated(t, -reached.rate)
-        self.frames.accept()
+        if not reached.in_contact:
+            self._separated(start, t)
+        if self._follows:
+            self.frames.accept()
         if self.locates:
-            after = self.impact_steps.follow if self.onset is None else self.impact_steps.impact
-            unknown = self._on_line and (self.onset is not None or not self.impact_steps.calm(reached.depth))
-            after(reached.depth, reached.rate, self._find_least_mass() if unknown else self._least_mass)
-            self._swing_step = self.impact_steps.swing_step(self._swing_time())
-        if self.onset is not None:
-            self.onsets.append(self.onset)
+            self._choose_steps(reached)
+        if onset is not None:
+            self.onsets.append(onset)
             self.onset = None
-        force = self.force
+        x, y, *_ = self._motion
+        self._place_before, self._place_reached = (
+            self._place_reached,
+            (x, y, self.frames.bores_axes if self._follows else 0.0),
+        )
+        self._look_for_largest(t)
+
+    def _separated(self, start: PinMemory, t: float) -> None:
+        """The surfaces are apart at t [s], the end of a step from a memory."""
+        if self.is_straight and self._friction.part():
+            self._let_act()
+        if start.in_contact and self.onsets:
+            self.onsets[-1] = self.onsets[-1].separated(t, -self.kept.rate)
+
+    def _choose_steps(self, reached: PinMemory) -> None:
+        """Choose the length of the next steps by what the last has reached."""
+        steps, depth, rate = self.impact_steps, reached.depth, reached.rate
+        if self.onset is not None:
+            steps.impact(depth, rate, self._least_mass())
+        elif steps.asks_for_mass(depth, rate, self._lightest):
+            steps.follow(depth, rate, self._least_mass())
+        else:
+            steps.follow(depth, rate, self._lightest)
+        if self._has_state:
+            self._swing_step = steps.swing_step(self._swing_time())
+
+    def _look_for_largest(self, t: float) -> None:
+        """See whether the force was the largest so far at the end of the step to t [s], or within it."""
+        force, before, was_largest = self.force, self._size, self.largest_force
         if force.clamped:
             self.clamped_steps += 1
-        was_largest = self.largest_force
-        before, self._size = self._size, math.hypot(force.normal_force, force.friction_force)
-        self._angle = self._place_angle()
-        self.largest_force = max(self.largest_force, self._size)
-        near = self.course is not None and max(before, self._size) > NEAR_PEAK * self.largest_force
-        if near and has_a_top(self._size_within, before, self._size):
+        self._size = size = math.hypot(force.normal_force, force.friction_force)
+        near = self._went_on_from is not None and max(before, size) > NEAR_PEAK * max(was_largest, size)
+        if size > was_largest:
+            self.largest_force = size
+        if near and has_a_top(self._size_within, before, size):
             self.largest_force = peak(self._size_within, self.largest_force)
         if self.largest_force > was_largest:
             self.largest_force_time = t
 
-    def _course(self) -> Course:
-        """The course of the step that has been tried, from the last accepted one to its end."""
-        start, end, angle = self.kept, self.force, self._place_angle()
+    def _find_course(self, start: PinMemory) -> Course:
+        """The course of the step just accepted, over which the contact went on from a memory."""
+        end, angle = self.force, _angle(self._place_reached)
         path = DepthPath(start.depth, start.rate, end.depth, end.rate, self._step)
-        before = angle if self._angle is None else self._angle
+        before = angle if self._place_before is None else _angle(self._place_before)
         return Course(path, start.slip, before, self._motion, end.slip, angle, self.contact.bearing.clearance)
-
-    def _place_angle(self) -> float:
-        """Direction of the journal's place at the end of the step, in the axes of effective masses [rad]."""
-        x, y = self._motion[:2]
-        return math.atan2(y, x) - self.frames.bores_axes
 
     def force_within(self, x: float) -> ContactForce:
         """The force at a fraction of the step just accepted; at its end, if the contact did not go on in it."""
-        if self.course is None:
+        if self._went_on_from is None:
             return self.force
-        motion, memory, mass = self.course.at(x), self.memory, self._mass
-        if not self._on_line:
-            mass = self._turned(memory.inverse_mass).mass(motion.x, motion.y)
+        if self._course is None:
+            self._course = self._find_course(self._went_on_from)
+        motion, memory = self._course.at(x), self.memory
+        mass = self._turned(memory.inverse_mass).mass(motion.x, motion.y) if self._asks_for_mass else 1.0
         impact = memory.in_contact, memory.impact_velocity, mass, memory.deflection, memory.slip
         return self._force(*motion[:4], *motion.spins(self.connector.at), *impact, x * self._step)
 
@@ -230,7 +255,7 @@ class ClearanceJoint:
     def probe(self, name: str) -> None:
         """Raise LawError if a law is no number where the last step began, or a little deeper and faster."""
         memory, contact = self.memory, self.contact
-        impact = Impact(memory.impact_velocity, self._mass)
+        impact = Impact(memory.impact_velocity, self._find_mass())
         for more in PROBED:
             depth, slip = more * max(memory.depth, SHALLOW), more * memory.slip
             if depth > contact.normal.largest_depth:  # of which the law has its own words
@@ -259,6 +284,18 @@ class ClearanceJoint:
         """Mass [kg] that moves at least as the depth does, where the journal is now."""
         return self._alone.mass(*self._place())
 
+    def _least_mass(self) -> float:
+        """The same at the end of the step just tried, which is known without asking where the journal is."""
+        if self._on_line or self._was_decided:  # the inverse effective mass may have been renewed
+            return self._find_least_mass()
+        x, y, *_ = self._motion
+        return self._alone_here.mass(x, y)
+
+    def _find_mass(self) -> float:
+        """Mass [kg] that moves as the depth does at the end of the step, by which the law goes."""
+        x, y, *_ = self._motion
+        return 1.0 if self._on_line else self._here.mass(x, y)
+
     def _place(self) -> Vector2:
         """Where the journal is now in its bore, in the bore's axes [m]."""
         return self.frames.place()
@@ -269,14 +306,16 @@ class ClearanceJoint:
         Else with which length [s] it is to be repeated; infinite: with the same, for the force has changed.
         """
         start = self.memory
-        self._motion = self.frames.relative(self.engine_force)
-        self.force = force = self._contact_force(self._motion)
-        if isinstance(self.engine_force, SymbolicForce) and self.frames.spin_was_wrong(self._motion):
+        self._was_decided = False
+        self._motion = motion = self.frames.relative(self.engine_force)
+        self.force = force = self._contact_force(motion)
+        if self._is_symbolic and self.frames.spin_was_wrong(motion):
             self._recall(start)
             return math.inf
         if (
-            start.in_contact
-            and (again := self._friction.after_newton(force, self._step, self._mass)) is not None
+            self.is_straight
+            and start.in_contact
+            and (again := self._friction.after_newton(force, self._step, self._find_mass())) is not None
         ):
             self._impact = ()  # another line is laid
             self._recall(start)
@@ -300,6 +339,8 @@ class ClearanceJoint:
 
     def _let_act(self) -> None:
         """Another force acts from now on, which has been told nothing yet."""
+        self.engine_force = self._friction.acting
+        self.is_straight = self._friction.is_straight
         self.connector.set_force(self.engine_force.function)
         self._impact = ()
 
@@ -316,8 +357,7 @@ class ClearanceJoint:
             self._recall(memory)
             return math.inf
         self.reached = memory
-        if not self._on_line:
-            self._least_mass = self._find_least_mass()
+        self._was_decided = True
         return None
 
     def _verdict(self, start: PinMemory, end_time: float) -> Verdict:
@@ -347,6 +387,7 @@ class ClearanceJoint:
         Steps go by that of the journal by itself.
         """
         self._alone = inverse_masses.alone
+        self._lightest = self._alone.lightest
         return memory.with_inverse_mass(inverse_masses.held)
 
     def _recall(self, memory: PinMemory) -> None:
@@ -365,11 +406,20 @@ class ClearanceJoint:
         return inverse_mass.turned(angle) if angle else inverse_mass
 
     def _contact_force(self, motion: Relative) -> ContactForce:
-        x, y, vx, vy, _, _ = motion
-        in_contact, impact_velocity, _, _, slip, deflection, *_ = self.memory
-        if in_contact and not self._on_line:
-            self._mass, self._least_mass = self._here.mass(x, y), self._alone_here.mass(x, y)
-        spins = motion.spins(self.connector.at)
-        return self._force(
-            x, y, vx, vy, *spins, in_contact, impact_velocity, self._mass, deflection, slip, self._step
-        )
+        x, y, vx, vy, turning, bore_spin = motion
+        in_contact, speed, _, _, slip, deflection, _, _, _ = self.memory
+        mass = self._here.mass(x, y) if in_contact and self._asks_for_mass else 1.0
+        spin, at = turning, self.connector.at
+        if at is Attachment.MIDDLE or at is Attachment.BORE:
+            bore_spin, spin = motion.spins(at)
+        else:
+            bore_spin = 0.0
+        return self._force(x, y, vx, vy, bore_spin, spin, in_contact, speed, mass, deflection, slip, self._step)
+
+
+def _angle(place: tuple[float, float, float] | None) -> float:
+    """Direction of a journal's place, in the axes of effective masses [rad]."""
+    if place is None:
+        return 0.0
+    x, y, axes = place
+    return math.atan2(y, x) - axes

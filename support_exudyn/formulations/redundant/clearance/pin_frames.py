@@ -35,6 +35,7 @@ class PinFrames:
         self.connector, self.moving, self.bore_spin = connector, moving, bore_spin
         self.at = at = connector.at
         self.turns = at is Attachment.CENTRAL and not connector.bore_on_ground  # the bore, in these axes
+        self.follows = self.turns or at is Attachment.MIDDLE  # whether anything is kept from step to step
         # at the last accepted step
         self._turn, self._turn_rate = 0.0, 0.0  # between the marker frames [rad], [rad/s]
         self._spin, self._spin_rate = 0.0, 0.0  # of the bore [rad/s], [rad/s^2]

@@ -110,6 +110,12 @@ class SolverRun:
                 True  # it is called in every step anyway, and a stretch costs more than it saves
             )
         self.checked = -math.inf  # end of the last step that the recorder has been told of [s]
+        self.named_pins = tuple(scene.clearance_joints.items())
+        looks = scenario.solver.result_checks
+        # names, pins and depths [m] beyond which a run is given up
+        self.limits = tuple(
+            (name, pin, DEEPEST * pin.contact.bearing.size) for name, pin in self.named_pins if looks
+        )
 
     def go(self) -> Counts:
         """Integrate. Raises SimulationError if the run cannot be finished."""
@@ -223,7 +229,7 @@ class SolverRun:
         again, shortest = False, math.inf
         name = ""
         try:
-            for name, pin in self.scene.clearance_joints.items():  # noqa: B007 - is told if one fails
+            for name, pin in self.named_pins:  # noqa: B007 - is told if one fails
                 step = pin.after_newton(t)
                 if step is not None:
                     again, shortest = True, min(shortest, step)
@@ -248,7 +254,7 @@ class SolverRun:
             self.steps += 1
             self._look_for_limits()
             self.newton.solved(taken)
-            for name, pin in self.scene.clearance_joints.items():
+            for name, pin in self.named_pins:
                 kink = kink or pin.onset is not None
                 try:
                     pin.accept(t)
@@ -267,7 +273,7 @@ class SolverRun:
             self.scene.refresh_memory()
             for cylinder in self.cylinders:
                 cylinder.tell_rates()
-        if self.smooth is not None:
+        if self.smooth is not None and self.plan.passes_record(t, goal):
             self.recorder.begin_step(t)
         self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
         return True
@@ -332,17 +338,16 @@ class SolverRun:
         if self.newton.failures.too_many:
             reason = f"Newton's method has failed {self.failed_newton} times, and needs next to no step"
             raise SimulationError(self._failure(reason, STEEP))
-        if not self.scene.scenario.solver.result_checks:
-            return
-        for name, pin in self.scene.clearance_joints.items():
-            bearing = pin.contact.bearing
-            if pin.reached.depth > DEEPEST * bearing.size:
-                raise SimulationError(self._failure(too_deep(name, pin.reached.depth, bearing), SOFT))
+        for name, pin, deepest in self.limits:
+            if (depth := pin.reached.depth) > deepest:
+                raise SimulationError(self._failure(too_deep(name, depth, pin.contact.bearing), SOFT))
 
     def _look_for_smoothness(self, t: float, smooth: StepGrowth) -> None:
         """See whether steps after t may be longer, and keep the records that the last has passed over."""
-        for passed in self.plan.records_between(self.time, t):
-            self.recorder.record_between(passed, t)
+        if self.recorder.passes_records:
+            for passed in self.plan.records_between(self.time, t):
+                self.recorder.record_between(passed, t)
+            self.recorder.end_step()
         at_rest = all(pin.impact_steps.step == math.inf and pin.reached.depth > 0.0 for pin in self.pins)
         if at_rest and not self.repeated and not self.plan.follows_break(t):
             smooth.follow(t - self.time, self.data.GetODE2Coordinates_tt())
