@@ -53,27 +53,24 @@ class ClearanceJoint:
     ) -> None:
         self.contact, self.connector, self.find_inverse_masses = contact, connector, find_inverse_masses
         self.locates, self.share = settings.locate, share
-        frames = SlotFrames if contact.bearing.is_slot else PinFrames
-        self.frames = frames(connector, moving, bore_spin)
+        self.frames = self._make_frames(moving, bore_spin)
         self._follows = self.frames.follows
         self._on_line = connector.at is Attachment.LINE
         self.impact_steps = ImpactSteps(contact.normal, settings.impact_steps)
 
         def engine_force(straight: bool) -> EngineForce:
-            if settings.backend == "symbolic":
-                return SymbolicForce(connector.mbs, contact, connector.at, straight)
-            return PythonForce(contact, connector.at, bore_spin, straight)
+            return self._make_force(settings.backend, bore_spin, straight)
 
         self._friction = SteepFriction(contact.friction, engine_force)
         self.engine_force = self._friction.acting  # what the engine asks for the force
         self.is_straight = False  # whether a line stands for friction
         self._is_symbolic = isinstance(self.engine_force, SymbolicForce)
-        self.connector.set_force(self.engine_force.function)
+        self.connector.act(self.engine_force)
         self._force = flat_force(contact)
         self._asks_for_mass = not self._on_line and asks_for_mass(contact)
         self._has_state = contact.friction.has_state
         # whether the force depends on more than the impact from step to step
-        self._changes = self._has_state or connector.at is Attachment.MIDDLE or self.frames.turns
+        self._changes = self._has_state or self._follows
         self._impact: tuple[object, ...] = ()
         # at the last accepted step
         self.kept = PinMemory(False, 0.0, 0.0, 0.0)
@@ -106,6 +103,16 @@ class ClearanceJoint:
         self.clamped_steps = 0
         self.largest_force = 0.0
         self.largest_force_time = 0.0  # end of the step that has it [s]
+
+    def _make_frames(self, moving: Moving, bore_spin: Callable[[], float]) -> PinFrames:
+        frames = SlotFrames if self.contact.bearing.is_slot else PinFrames
+        return frames(self.connector, moving, bore_spin)
+
+    def _make_force(self, backend: str, bore_spin: Callable[[], float], straight: bool) -> EngineForce:
+        connector = self.connector
+        if backend == "symbolic":
+            return SymbolicForce(connector.mbs, self.contact, connector.at, straight)
+        return PythonForce(self.contact, connector.at, bore_spin, straight)
 
     @property
     def calls(self) -> int:
@@ -145,7 +152,7 @@ class ClearanceJoint:
         try:
             yield
         finally:
-            self.connector.set_force(self.engine_force.function)
+            self.connector.act(self.engine_force)
 
     def plainly(self, impact_velocity: float) -> None:
         """Let the force act whenever there is depth, as for an impact with this speed [m/s].
@@ -341,7 +348,7 @@ class ClearanceJoint:
         """Another force acts from now on, which has been told nothing yet."""
         self.engine_force = self._friction.acting
         self.is_straight = self._friction.is_straight
-        self.connector.set_force(self.engine_force.function)
+        self.connector.act(self.engine_force)
         self._impact = ()
 
     def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
