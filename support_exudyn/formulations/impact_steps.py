@@ -22,6 +22,7 @@ HALVINGS = 6
 # A swing of what friction holds, to one side and back, takes this part of the steps of an impact: 16 of 512. A
 # tenth of the loss in stick-slip is gone with a fifth of that; with all of it, 1e-3.
 OF_A_SWING = 1.0 / 32.0
+ROUNDING = 1e-12  # of squares of speeds, as a share
 GROWTH = 1.5  # of the speed that is in an impact, at which its steps are chosen anew
 
 
@@ -44,6 +45,8 @@ class ImpactSteps:
         self._small_swings = 0
         self._opening = False
         self._deepest = 0.0  # since the last swing [m]
+        # the deepest that the contact has been, and what is stored there: all shallower ones store less
+        self._known_depth = self._known_energy = 0.0  # [m], [J]
         self._depth = 0.0  # at the end of the last step [m]
 
     @property
@@ -88,7 +91,7 @@ class ImpactSteps:
         """Whether `follow` would have to know the mass, which is so much at least [kg]."""
         if self._length == math.inf:
             return not self.calm(depth)
-        return depth > 0.0 and self._energy_speed(depth, rate, least) > GROWTH * self._speed
+        return depth > 0.0 and self._is_faster(depth, rate, least)
 
     def follow(self, depth: float, rate: float, mass: float) -> None:
         """A step has been accepted, without an impact at its end; state and effective mass at its end."""
@@ -124,8 +127,17 @@ class ImpactSteps:
         self._steps += 1
         if self._small_swings >= SMALL_SWINGS or self._steps > DURATIONS * self._number:
             self._length = math.inf
-        elif self._energy_speed(depth, rate, mass) > GROWTH * self._speed:
+        elif self._is_faster(depth, rate, mass):
             self._choose(depth, rate, mass)
+
+    def _is_faster(self, depth: float, rate: float, mass: float) -> bool:
+        """Whether the energy is that of a speed for which steps are to be chosen anew; every step asks."""
+        if depth > self._known_depth:
+            self._known_depth, self._known_energy = depth, self._law.elastic_energy(depth)
+        limit = GROWTH * self._speed
+        if rate * rate + 2.0 * self._known_energy / mass <= (1.0 - ROUNDING) * limit * limit:
+            return False
+        return self._energy_speed(depth, rate, mass) > limit
 
     def _choose(self, depth: float, rate: float, mass: float) -> None:
         self._speed = self._energy_speed(depth, rate, mass)

@@ -153,6 +153,18 @@ def flat_force(contact: Contact) -> FlatForce:
     return cast(FlatForce, compiled(source, contact)["force"])
 
 
+def flat_elastic_force(contact: Contact) -> Callable[[float], float]:
+    """`contact.normal.elastic_force` as a flat function, bit for bit the same; itself if it branches."""
+    formulas, (depth,) = lines(("depth",))
+    try:
+        found = text(contact.normal.elastic_force(depth))
+    except TypeError:
+        return contact.normal.elastic_force
+    source = ["def elastic_force(depth):", *(f"    {line}" for line in needed(formulas, [found]))]
+    force = compiled([*source, f"    return {found}"], contact)["elastic_force"]
+    return cast(Callable[[float], float], force)
+
+
 def _outwards(contact: Contact) -> str:
     """Formula of the rate of a journal in the middle, from where every way leads outwards."""
     formulas, (vx, vy) = lines(("vx", "vy"))

@@ -18,7 +18,7 @@ from support_exudyn.formulations.redundant.clearance.symbolic_force import Symbo
 from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
 from support_exudyn.mechanics.pressed_pins import NOT_KNOWN, EffectiveMasses
 from support_exudyn.scenario.solver_settings import SolverSettings
-from user_forces.compilation.flat import asks_for_mass, flat_force
+from user_forces.compilation.flat import asks_for_mass, flat_elastic_force, flat_force
 from user_forces.contact import Contact, ContactForce
 from user_forces.lawful import PROBED, look
 from user_forces.normal.law import Impact
@@ -66,7 +66,7 @@ class ClearanceJoint:
         self.is_straight = False  # whether a line stands for friction
         self._is_symbolic = isinstance(self.engine_force, SymbolicForce)
         self.connector.act(self.engine_force)
-        self._force = flat_force(contact)
+        self._force, self.elastic_force = flat_force(contact), flat_elastic_force(contact)
         self._asks_for_mass = not self._on_line and asks_for_mass(contact)
         self._has_state = contact.friction.has_state
         # whether the force depends on more than the impact from step to step
@@ -211,10 +211,10 @@ class ClearanceJoint:
         steps, depth, rate = self.impact_steps, reached.depth, reached.rate
         if self.onset is not None:
             steps.impact(depth, rate, self._least_mass())
-        elif steps.asks_for_mass(depth, rate, self._lightest):
-            steps.follow(depth, rate, self._least_mass())
+        elif self._on_line and not steps.asks_for_mass(depth, rate, self._lightest):
+            steps.follow(depth, rate, self._lightest)  # where the journal is would be asked for in vain
         else:
-            steps.follow(depth, rate, self._lightest)
+            steps.follow(depth, rate, self._least_mass())
         if self._has_state:
             self._swing_step = steps.swing_step(self._swing_time())
 

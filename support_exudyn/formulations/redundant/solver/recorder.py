@@ -211,7 +211,7 @@ class Recorder:
         for name, pin in self._pins:
             force = pin.force
             if force.depth > 0.0:
-                elastic = pin.contact.normal.elastic_force(force.depth) if pin.memory.in_contact else 0.0
+                elastic = pin.elastic_force(force.depth) if pin.memory.in_contact else 0.0
                 lost = (force.normal_force - elastic) * force.rate
                 rubbed = force.friction_force * force.slip
                 if self._looks and not (lost >= 0.0 >= rubbed and elastic >= 0.0):

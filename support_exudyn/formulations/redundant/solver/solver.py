@@ -379,7 +379,8 @@ class SolverRun:
         """How long a step from t [s] on may be [s]; infinite: as the plan says."""
         largest = self.newton.failures.length
         for pin in self.pins:
-            largest = min(largest, pin.longest_step)
+            if (longest := pin.longest_step) < largest:
+                largest = longest
         for impacting_load in self.impacting_loads:
             largest = min(largest, impacting_load.longest_step(t, self.impact_steps))
         if self.locates and self.plan.follows_break(t):
@@ -394,7 +395,7 @@ class SolverRun:
         else:
             goal = self.plan.next_time(t, max(largest, SMALLEST_IMPACT_STEP))
         for pin in self.pins:
-            if t + SHARE * (goal - t) < pin.landing < goal:
+            if pin.landing < goal and t + SHARE * (goal - t) < pin.landing:
                 goal = pin.landing
         return goal
 

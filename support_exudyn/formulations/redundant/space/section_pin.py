@@ -202,6 +202,13 @@ class SectionPin(ClearanceJoint):
             self._beside = self.moving.beside(*self.moving.coordinates())
         self.whole.accepted(*before, t)
 
+    def _look_for_largest(self, t: float) -> None:
+        # of those in the middle nobody asks for it, see `run`
+        if self._is_first or self.whole.sections[-1] is self:
+            super()._look_for_largest(t)
+        elif self.force.clamped:
+            self.clamped_steps += 1
+
     def _place(self) -> Vector2:
         return self.whole.place()
 
