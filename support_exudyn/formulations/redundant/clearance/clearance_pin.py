@@ -211,10 +211,8 @@ class ClearanceJoint:
         steps, depth, rate = self.impact_steps, reached.depth, reached.rate
         if self.onset is not None:
             steps.impact(depth, rate, self._least_mass())
-        elif self._on_line and not steps.asks_for_mass(depth, rate, self._lightest):
-            steps.follow(depth, rate, self._lightest)  # where the journal is would be asked for in vain
         else:
-            steps.follow(depth, rate, self._least_mass())
+            steps.follow(depth, rate, self._lightest, self._least_mass)
         if self._has_state:
             self._swing_step = steps.swing_step(self._swing_time())
 

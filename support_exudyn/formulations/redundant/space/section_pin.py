@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import cast
 
 from support_exudyn.formulations.impact_steps import ImpactSteps
 from support_exudyn.formulations.peak_force import NEAR_PEAK, has_a_top, peak
@@ -51,8 +51,6 @@ class SectionJournal:
         self.largest_force_time = 0.0  # end of the step that has it [s]
         self._bound = 0.0  # of the force at the end of the last step [N]
         self._places: list[Vector2] = []  # of the sections in the bore at its end, bore's axes [m]
-        # of each section: whether it was in contact before the step, and its impact in it
-        self._before: list[tuple[bool, Onset | None]] = []
 
     def moved(self, place: Vector2 | None = None) -> None:
         """The bodies are elsewhere now; place: of the middle, if it is known [m]."""
@@ -71,19 +69,18 @@ class SectionJournal:
             self._place = x, y
         return self._place
 
-    def accepted(self, was_in_contact: bool, onset: Onset | None, t: float) -> None:
-        """A section has kept a step to t [s]: was it in contact before, and the impact in it, if any."""
-        self._before.append((was_in_contact, onset))
-        if len(self._before) < len(self.sections):
-            return
-        impacts = [impact for _, impact in self._before if impact is not None]
+    def accepted(self, t: float) -> None:
+        """All sections have kept a step to t [s]."""
+        impacts = [pin.struck for pin in self.sections if pin.struck is not None]
         # a journal makes contact when all that was in contact before has separated
-        if impacts and all(impact is not None for was, impact in self._before if was):
+        if impacts and all(pin.struck is not None for pin in self.sections if pin.was_in_contact):
             self.onsets.append(min(impacts))
         self._look_for_separation(t)
-        self._before.clear()
-        forces = [pin.force for pin in self.sections]
-        before, self._bound = self._bound, sum(f.normal_force + abs(f.friction_force) for f in forces)
+        before, bound = self._bound, 0.0
+        for pin in self.sections:
+            force = pin.force
+            bound += force.normal_force + abs(force.friction_force)
+        self._bound = bound
         near = max(before, self._bound) > NEAR_PEAK * self.largest_force
         has = near and has_a_top(self._bound_within, before, self._bound)
         if has or self._bound > self.largest_force:
@@ -97,9 +94,12 @@ class SectionJournal:
 
     def _look_for_separation(self, t: float) -> None:
         """If in the step to t [s] the last sections have separated: note when, and their highest speed."""
-        if not self.onsets or any(pin.kept.in_contact for pin in self.sections):
+        if not self.onsets:
             return
-        separated = [-pin.kept.rate for pin, (was, _) in zip(self.sections, self._before, strict=True) if was]
+        for pin in self.sections:
+            if pin.kept.in_contact:
+                return
+        separated = [-pin.kept.rate for pin in self.sections if pin.was_in_contact]
         if separated:
             self.onsets[-1] = self.onsets[-1].separated(t, max(separated))
 
@@ -152,6 +152,8 @@ class SectionPin(ClearanceJoint):
         self.section, self.whole, self.moving, self.ends, self.slides = section, whole, moving, ends, slides
         whole.sections.append(self)
         self._is_first = whole.sections[0] is self
+        # whether it was in contact before the last accepted step, and its impact in that
+        self.was_in_contact, self.struck = False, cast(Onset | None, None)
         self._beside = 0.0, 0.0  # where the journal is along the bore at the last accepted step [m], [m/s]
 
     def _make_frames(self, moving: Moving, bore_spin: Callable[[], float]) -> PinFrames:
@@ -196,11 +198,12 @@ class SectionPin(ClearanceJoint):
 
     def accept(self, t: float) -> None:
         """See `ClearanceJoint`."""
-        before = self.kept.in_contact, self.onset
+        self.was_in_contact, self.struck = self.kept.in_contact, self.onset
         super().accept(t)
         if self.slides:
             self._beside = self.moving.beside(*self.moving.coordinates())
-        self.whole.accepted(*before, t)
+        if self.whole.sections[-1] is self:
+            self.whole.accepted(t)
 
     def _look_for_largest(self, t: float) -> None:
         # of those in the middle nobody asks for it, see `run`
