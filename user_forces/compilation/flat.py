@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from types import SimpleNamespace
@@ -24,6 +25,8 @@ NAMES = {
     name: getattr(math, name) for name in ("sqrt", "exp", "log", "tanh", "cos", "sin", "hypot", "inf", "nan")
 }  # that lines of source may use
 CONSTANT = re.compile(r"\((-?(?:\d[^()]*|inf|nan))\)")  # a number as `text` writes it
+TEMPORARY = re.compile(r"\b_\d+\b")  # the name of a line
+DEEPEST = 40  # brackets of a formula that stands in another; Python takes some 200
 Formulas = dict[str, str]  # formula: the name of the line that has it
 # x, y, vx, vy, bore_spin, journal_spin, in_contact, speed, mass, deflection, slip, step
 FlatForce = Callable[..., ContactForce]
@@ -280,8 +283,27 @@ def compiled(source: Iterable[str], contact: Contact, **known: object) -> dict[s
         "not_finite": partial(look, contact),
         **known,
     }
-    exec(compile("\n".join(source), f"<{type(contact.normal).__name__}>", "exec"), space)
+    exec(compile("\n".join(nested(source)), f"<{type(contact.normal).__name__}>", "exec"), space)
     return space
+
+
+def nested(source: Iterable[str]) -> list[str]:
+    """Lines of source, in which a formula whose name is used once stands where it is used.
+
+    What is computed is the same, in fewer writings and readings of names.
+    """
+    kept = list(source)
+    uses = Counter(name for line in kept for name in TEMPORARY.findall(line))
+    found: list[str] = []
+    waiting: dict[str, str] = {}
+    for line in kept:
+        whole = TEMPORARY.sub(lambda name: waiting.pop(name[0], name[0]), line)
+        name, assigned, formula = whole.partition(" = ")
+        if assigned and uses[name.strip()] == 2 and TEMPORARY.fullmatch(name.strip()) and whole.count("(") < DEEPEST:
+            waiting[name.strip()] = f"({formula})"
+        else:
+            found.append(whole)
+    return found
 
 
 def _tuple(texts: Mapping[str, str]) -> str:

@@ -71,7 +71,8 @@ class ClearanceJoint:
         self._has_state = contact.friction.has_state
         # whether the force depends on more than the impact from step to step
         self._changes = self._has_state or self._follows
-        self._impact: tuple[object, ...] = ()
+        self._impact: tuple[object, ...] = ()  # that it has been told
+        self._is_told = self._goes_on = False  # the impact of `kept`, of what the step being tried has reached
         # at the last accepted step
         self.kept = PinMemory(False, 0.0, 0.0, 0.0)
         # the journal's inverse effective mass by itself, when the memory's was found, and its least mass [kg]
@@ -137,7 +138,7 @@ class ClearanceJoint:
             turn: of the journal against the bore since the start posture [rad].
             bore: angle and spin of the bore [rad], [rad/s].
         """
-        self.kept = self._renewed(memory, inverse_masses)
+        self.kept, self._is_told = self._renewed(memory, inverse_masses), False
         self.frames.start(turn, bore)
 
     @contextmanager
@@ -164,6 +165,7 @@ class ClearanceJoint:
     def jumped(self, memory: PinMemory) -> None:
         """Velocities have jumped after the last step; the memory since then."""
         self.kept = self.reached = memory
+        self._is_told = False
         self.frames.jumped()
 
     def begin_try(self, step: float) -> None:
@@ -175,7 +177,10 @@ class ClearanceJoint:
             self._friction.begin()
         if self._follows:
             self.frames.begin(step)
-        self._recall(self.kept)
+        if self._is_told and not self._changes:  # nearly always
+            self.memory = self.kept
+        else:
+            self._recall(self.kept)
 
     def accept(self, t: float) -> None:
         """Keep what happened in a step that ends at t [s] and stands."""
@@ -183,12 +188,19 @@ class ClearanceJoint:
         self._went_on_from = start if self.memory.in_contact and onset is None else None
         self._course = None
         self.kept = reached = self.reached
+        self._is_told = self._goes_on
         if not reached.in_contact:
             self._separated(start, t)
         if self._follows:
             self.frames.accept()
         if self.locates:
-            self._choose_steps(reached)
+            steps, depth, rate = self.impact_steps, reached.depth, reached.rate
+            if onset is not None:
+                steps.impact(depth, rate, self._least_mass())
+            else:
+                steps.follow(depth, rate, self._lightest, self._least_mass)
+            if self._has_state:
+                self._swing_step = steps.swing_step(self._swing_time())
         if onset is not None:
             self.onsets.append(onset)
             self.onset = None
@@ -205,16 +217,6 @@ class ClearanceJoint:
             self._let_act()
         if start.in_contact and self.onsets:
             self.onsets[-1] = self.onsets[-1].separated(t, -self.kept.rate)
-
-    def _choose_steps(self, reached: PinMemory) -> None:
-        """Choose the length of the next steps by what the last has reached."""
-        steps, depth, rate = self.impact_steps, reached.depth, reached.rate
-        if self.onset is not None:
-            steps.impact(depth, rate, self._least_mass())
-        else:
-            steps.follow(depth, rate, self._lightest, self._least_mass)
-        if self._has_state:
-            self._swing_step = steps.swing_step(self._swing_time())
 
     def _look_for_largest(self, t: float) -> None:
         """See whether the force was the largest so far at the end of the step to t [s], or within it."""
@@ -311,7 +313,7 @@ class ClearanceJoint:
         Else with which length [s] it is to be repeated; infinite: with the same, for the force has changed.
         """
         start = self.memory
-        self._was_decided = False
+        self._was_decided, self._goes_on = False, True
         self._motion = motion = self.frames.relative(self.engine_force)
         self.force = force = self._contact_force(motion)
         if self._is_symbolic and self.frames.spin_was_wrong(motion):
@@ -322,7 +324,7 @@ class ClearanceJoint:
             and start.in_contact
             and (again := self._friction.after_newton(force, self._step, self._find_mass())) is not None
         ):
-            self._impact = ()  # another line is laid
+            self._impact, self._is_told = (), False  # another line is laid
             self._recall(start)
             return again
         depth, rate, slip = force[:3]
@@ -347,10 +349,11 @@ class ClearanceJoint:
         self.engine_force = self._friction.acting
         self.is_straight = self._friction.is_straight
         self.connector.act(self.engine_force)
-        self._impact = ()
+        self._impact, self._is_told = (), False
 
     def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
         """The answer to the engine that follows from a verdict."""
+        self._goes_on = False
         if verdict.action is Action.CUT:
             self.wants_cut = True
             self.landing = verdict.landing
@@ -397,6 +400,7 @@ class ClearanceJoint:
 
     def _recall(self, memory: PinMemory) -> None:
         self.memory = memory
+        self._is_told = memory is self.kept
         impact = memory[:2] + memory[6:]  # all but its motion
         if impact != self._impact or self._changes:
             self._impact = impact
