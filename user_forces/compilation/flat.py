@@ -299,7 +299,12 @@ def nested(source: Iterable[str]) -> list[str]:
     for line in kept:
         whole = TEMPORARY.sub(lambda name: waiting.pop(name[0], name[0]), line)
         name, assigned, formula = whole.partition(" = ")
-        if assigned and uses[name.strip()] == 2 and TEMPORARY.fullmatch(name.strip()) and whole.count("(") < DEEPEST:
+        if (
+            assigned
+            and uses[name.strip()] == 2
+            and TEMPORARY.fullmatch(name.strip())
+            and whole.count("(") < DEEPEST
+        ):
             waiting[name.strip()] = f"({formula})"
         else:
             found.append(whole)

@@ -4,13 +4,13 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from support_exudyn.formulations.contact_events import Action, DepthPath, Verdict, goes_on, judge, judge_at_ends
+from support_exudyn.formulations.contact_events import Action, Verdict, goes_on, judge, judge_at_ends
 from support_exudyn.formulations.impact_steps import ImpactSteps
-from support_exudyn.formulations.peak_force import NEAR_PEAK, has_a_top, peak
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment, Relative
+from support_exudyn.formulations.redundant.clearance.largest_force import LargestForce
 from support_exudyn.formulations.redundant.clearance.pin_frames import PinFrames
-from support_exudyn.formulations.redundant.clearance.pin_motion import Course, Moving
+from support_exudyn.formulations.redundant.clearance.pin_motion import Moving
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.slot_frames import SlotFrames
 from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce, SteepFriction
@@ -27,7 +27,7 @@ from user_forces.values.value import Vector2
 SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been been in contact
 
 
-class ClearanceJoint:
+class ClearanceJoint(LargestForce):
     """One clearance pin of a scene, or one corner between walls, which is a journal that slides freely along.
 
     Arguments:
@@ -51,6 +51,7 @@ class ClearanceJoint:
         settings: SolverSettings,
         share: float = 1.0,
     ) -> None:
+        super().__init__()
         self.contact, self.connector, self.find_inverse_masses = contact, connector, find_inverse_masses
         self.locates, self.share = settings.locate, share
         self.frames = self._make_frames(moving, bore_spin)
@@ -65,7 +66,7 @@ class ClearanceJoint:
         self.engine_force = self._friction.acting  # what the engine asks for the force
         self.is_straight = False  # whether a line stands for friction
         self._is_symbolic = isinstance(self.engine_force, SymbolicForce)
-        self.connector.act(self.engine_force)
+        self.connector.set_force(self.engine_force.function)
         self._force, self.elastic_force = flat_force(contact), flat_elastic_force(contact)
         self._asks_for_mass = not self._on_line and asks_for_mass(contact)
         self._has_state = contact.friction.has_state
@@ -91,19 +92,9 @@ class ClearanceJoint:
         self._motion = Relative(0.0, 0.0, 0.0, 0.0)  # at its end
         # at the end of the last accepted step
         self._swing_step = math.inf  # see `longest_step`
-        # the journal's place in the connector's axes [m], and their angle, at the end of a step and at its start
-        self._place_reached: tuple[float, float, float] | None = None
-        self._place_before = self._place_reached
-        self._size = 0.0  # of the force [N]
         self._was_decided = False  # whether the step's end is more than that all went on
-        # of a step just accepted over which the contact went on: its memory at the start, and if asked its course
-        self._went_on_from: PinMemory | None = None
-        self._course: Course | None = None
         # over the run
         self.onsets: list[Onset] = []
-        self.clamped_steps = 0
-        self.largest_force = 0.0
-        self.largest_force_time = 0.0  # end of the step that has it [s]
 
     def _make_frames(self, moving: Moving, bore_spin: Callable[[], float]) -> PinFrames:
         frames = SlotFrames if self.contact.bearing.is_slot else PinFrames
@@ -153,7 +144,7 @@ class ClearanceJoint:
         try:
             yield
         finally:
-            self.connector.act(self.engine_force)
+            self.connector.set_force(self.engine_force.function)
 
     def plainly(self, impact_velocity: float) -> None:
         """Let the force act whenever there is depth, as for an impact with this speed [m/s].
@@ -217,42 +208,6 @@ class ClearanceJoint:
             self._let_act()
         if start.in_contact and self.onsets:
             self.onsets[-1] = self.onsets[-1].separated(t, -self.kept.rate)
-
-    def _look_for_largest(self, t: float) -> None:
-        """See whether the force was the largest so far at the end of the step to t [s], or within it."""
-        force, before, was_largest = self.force, self._size, self.largest_force
-        if force.clamped:
-            self.clamped_steps += 1
-        self._size = size = math.hypot(force.normal_force, force.friction_force)
-        near = self._went_on_from is not None and max(before, size) > NEAR_PEAK * max(was_largest, size)
-        if size > was_largest:
-            self.largest_force = size
-        if near and has_a_top(self._size_within, before, size):
-            self.largest_force = peak(self._size_within, self.largest_force)
-        if self.largest_force > was_largest:
-            self.largest_force_time = t
-
-    def _find_course(self, start: PinMemory) -> Course:
-        """The course of the step just accepted, over which the contact went on from a memory."""
-        end, angle = self.force, _angle(self._place_reached)
-        path = DepthPath(start.depth, start.rate, end.depth, end.rate, self._step)
-        before = angle if self._place_before is None else _angle(self._place_before)
-        return Course(path, start.slip, before, self._motion, end.slip, angle, self.contact.bearing.clearance)
-
-    def force_within(self, x: float) -> ContactForce:
-        """The force at a fraction of the step just accepted; at its end, if the contact did not go on in it."""
-        if self._went_on_from is None:
-            return self.force
-        if self._course is None:
-            self._course = self._find_course(self._went_on_from)
-        motion, memory = self._course.at(x), self.memory
-        mass = self._turned(memory.inverse_mass).mass(motion.x, motion.y) if self._asks_for_mass else 1.0
-        impact = memory.in_contact, memory.impact_velocity, mass, memory.deflection, memory.slip
-        return self._force(*motion[:4], *motion.spins(self.connector.at), *impact, x * self._step)
-
-    def _size_within(self, x: float) -> float:
-        force = self.force_within(x)
-        return math.hypot(force[3], force[4])
 
     def look(self, elastic: float, name: str) -> None:
         """Raise LawError if the force at the end of the last step, elastic to this part [N], cannot be one."""
@@ -348,7 +303,7 @@ class ClearanceJoint:
         """Another force acts from now on, which has been told nothing yet."""
         self.engine_force = self._friction.acting
         self.is_straight = self._friction.is_straight
-        self.connector.act(self.engine_force)
+        self.connector.set_force(self.engine_force.function)
         self._impact, self._is_told = (), False
 
     def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
@@ -424,11 +379,3 @@ class ClearanceJoint:
         else:
             bore_spin = 0.0
         return self._force(x, y, vx, vy, bore_spin, spin, in_contact, speed, mass, deflection, slip, self._step)
-
-
-def _angle(place: tuple[float, float, float] | None) -> float:
-    """Direction of a journal's place, in the axes of effective masses [rad]."""
-    if place is None:
-        return 0.0
-    x, y, axes = place
-    return math.atan2(y, x) - axes

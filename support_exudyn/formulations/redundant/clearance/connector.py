@@ -11,7 +11,7 @@ momentum is lost. The journal's marker frame is therefore turned along, so that 
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from exudyn.itemInterface import (
@@ -49,15 +49,6 @@ class Mount(NamedTuple):
     item: Any
     frame: Frame
     on_ground: bool
-
-
-class HasFunction(Protocol):
-    """A force that the engine asks a function for, Python's or symbolic."""
-
-    @property
-    def function(self) -> Any:
-        """The engine's user function."""
-        ...
 
 
 class PinConnector:
@@ -100,10 +91,6 @@ class PinConnector:
             markerNumbers=markers, useIntrinsicFormulation=self.at is Attachment.MIDDLE
         )
 
-    def act(self, force: HasFunction) -> None:
-        """Let a force of ours act."""
-        self.set_force(force.function)
-
     def set_force(self, function: Any) -> None:
         """Let this user function, Python's or symbolic, give force and moment."""
         self.mbs.SetObjectParameter(self.object, user_function(self.at)[1], function)
@@ -115,10 +102,18 @@ class PinConnector:
         """
 
         def stiffness(eccentricity: float) -> float:
-            push = pressed(self.contact, eccentricity, load, share() * self.clearance)
-            return share() * load / self.clearance + (push / eccentricity if push else 0.0)
+            pressed = self._pressed(eccentricity, load, share() * self.clearance)
+            return share() * load / self.clearance + (pressed / eccentricity if pressed else 0.0)
 
         self._set_spring(stiffness)
+
+    def _pressed(self, eccentricity: float, load: float, deepest: float) -> float:
+        """Elastic force of the contact [N] while a static equilibrium is looked for.
+
+        eccentricity: [m]. load: [N], by which it may be pressed so deep [m].
+        """
+        depth = self.contact.bearing.depth(eccentricity)
+        return self.contact.normal.force_in_search(depth, load, deepest) if depth > 0.0 else 0.0
 
     def _set_spring(self, stiffness: Callable[[float], float]) -> None:
         """Let a spring between both centres act instead, its stiffness [N/m] given by their distance [m]."""
@@ -190,20 +185,11 @@ class SlotConnector(PinConnector):
             apart = Relative(scale * displacement[0], scale * displacement[1], 0.0, 0.0)
             along, (_, y, *_) = in_slot(self.at, apart, half)
             pull = share() * load / play * (y - self._rest)
-            pull += math.copysign(pressed(self.contact, abs(y), load, share() * play), y)
+            pull += math.copysign(self._pressed(abs(y), load, share() * play), y)
             fx, fy, moment = slot_directions(self.at, along, 1.0, 0.0, half)[0]
             return [pull * fx, pull * fy, 0.0, 0.0, 0.0, pull * moment]
 
         self.set_force(force)
-
-
-def pressed(contact: Contact, eccentricity: float, load: float, deepest: float) -> float:
-    """Elastic force of a contact [N] while a static equilibrium is looked for.
-
-    eccentricity: [m]. load: [N], by which it may be pressed so deep [m].
-    """
-    depth = contact.bearing.depth(eccentricity)
-    return contact.normal.force_in_search(depth, load, deepest) if depth > 0.0 else 0.0
 
 
 def frame(centre: Vector2, turn: float = 0.0) -> Frame:

@@ -176,7 +176,7 @@ def straightened(contact: Contact, offset: Any, slope: Any) -> Contact:
 
 
 def with_friction(contact: Contact, friction: Any) -> Contact:
-    """The contact with a function, without a state, of slip, normal force and deflection as its law of friction."""
+    """The contact with a function of slip, normal force and deflection, without a state, as law of friction."""
     friction.has_state = False
     found: Any = SimpleNamespace(bearing=contact.bearing, normal=contact.normal, friction=friction)
     found.force = partial(Contact.force, found)

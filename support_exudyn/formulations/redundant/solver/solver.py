@@ -88,7 +88,7 @@ class SolverRun:
         self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
-        self.most_steps = scenario.solver.most_steps
+        self.most_steps, self.looks = scenario.solver.most_steps, scenario.solver.result_checks
         self.trying = False  # a step has been tried and not accepted yet
         self.repeated = False  # that step is tried again, shorter
         newton = self.settings.timeIntegration.newton
@@ -111,11 +111,8 @@ class SolverRun:
             )
         self.checked = -math.inf  # end of the last step that the recorder has been told of [s]
         self.named_pins = tuple(scene.clearance_joints.items())
-        looks = scenario.solver.result_checks
         # names, pins and depths [m] beyond which a run is given up
-        self.limits = tuple(
-            (name, pin, DEEPEST * pin.contact.bearing.size) for name, pin in self.named_pins if looks
-        )
+        self.limits = [(name, pin, DEEPEST * pin.contact.bearing.size) for name, pin in self.named_pins]
 
     def go(self) -> Counts:
         """Integrate. Raises SimulationError if the run cannot be finished."""
@@ -338,7 +335,7 @@ class SolverRun:
         if self.newton.failures.too_many:
             reason = f"Newton's method has failed {self.failed_newton} times, and needs next to no step"
             raise SimulationError(self._failure(reason, STEEP))
-        for name, pin, deepest in self.limits:
+        for name, pin, deepest in self.limits if self.looks else ():
             if (depth := pin.reached.depth) > deepest:
                 raise SimulationError(self._failure(too_deep(name, depth, pin.contact.bearing), SOFT))
 

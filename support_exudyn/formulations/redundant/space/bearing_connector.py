@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 
-from support_exudyn.formulations.redundant.clearance.connector import pressed
+from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment, Relative
 from support_exudyn.formulations.redundant.clearance.pin_frames import PinFrames
 from support_exudyn.formulations.redundant.clearance.pin_motion import Moving, in_plane
+from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
+from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce
 from support_exudyn.formulations.redundant.space.bearing_source import (
+    LINE,
+    MEMORY,
     PARTS,
     BearingGeometry,
     force_source,
@@ -45,7 +50,7 @@ class BearingConnector:
         for n, contact in enumerate(contacts):
             self.names[f"normal_law{n}"] = contact.normal
             self.names[f"too_deep{n}"] = contact.normal.elastic_force  # which says so
-        self._mbs, self.bearing = mbs, bearing
+        self.mbs, self.bearing = mbs, bearing
         self._springs: dict[int, Callable[[float], float]] = {}  # while an equilibrium is looked for
         self.object = mbs.AddObject(
             ObjectGenericODE2(
@@ -59,13 +64,13 @@ class BearingConnector:
     def settle(self, n: int, stiffness: Callable[[float], float]) -> None:
         """Let a spring act at a section, its stiffness [N/m] given by the distance [m]."""
         self._springs[n] = stiffness
-        self._mbs.SetObjectParameter(self.object, FUNCTION, self.names["spring"])
+        self.mbs.SetObjectParameter(self.object, FUNCTION, self.names["spring"])
 
     def act(self) -> None:
         """Let the contacts act."""
         if self._springs:
             self._springs.clear()
-            self._mbs.SetObjectParameter(self.object, FUNCTION, self.names["force"])
+            self.mbs.SetObjectParameter(self.object, FUNCTION, self.names["force"])
 
     def _stiffness(self, n: int, distance: float) -> float:
         return self._springs[n](distance)
@@ -78,28 +83,27 @@ class BearingConnector:
         return last[first], last[first + 1]
 
 
-class SectionConnector:
-    """What one section has of the connector of its bearing. Arguments: that, the section's number and contact."""
+class SectionConnector(PinConnector):
+    """What one section has of the connector of its bearing.
 
-    bore_on_ground = False  # its axes are known at every moment, be it so or not
+    Arguments:
+        whole: that connector.
+        number: of the section, from 0 on.
+        contact: its own.
+    """
 
     def __init__(self, whole: BearingConnector, number: int, contact: JournalContact) -> None:
         self.whole, self.number, self.contact = whole, number, contact
+        self.mbs, self.object = whole.mbs, whole.object
         self.clearance = contact.bearing.clearance
         self.at = whole.bearing.at
 
-    def act(self, force: SectionForce) -> None:
-        """Let a force act."""
-        self.whole.names[f"straight{self.number}"] = force.straight
+    def set_force(self, function: Any) -> None:
+        """Let the contact act; function: of a `SectionForce`."""
+        function()
         self.whole.act()
 
-    def settle(self, load: float, share: Callable[[], float]) -> None:
-        """See `PinConnector.settle`."""
-
-        def stiffness(eccentricity: float) -> float:
-            push = pressed(self.contact, eccentricity, load, share() * self.clearance)
-            return share() * load / self.clearance + (push / eccentricity if push else 0.0)
-
+    def _set_spring(self, stiffness: Callable[[float], float]) -> None:
         self.whole.settle(self.number, stiffness)
 
     def slide(self, bore: float, journal: float) -> None:
@@ -109,24 +113,23 @@ class SectionConnector:
         known[f"journal_place{self.number}"] = place + journal
 
 
-class SectionForce:
+class SectionForce(PythonForce):
     """The force of one section; straight: with a line in place of friction, see `friction_line`."""
 
     def __init__(self, connector: SectionConnector, straight: bool) -> None:
-        self.straight = straight
-        self._names, self._first = connector.whole.names, PARTS * connector.number
-        self._has_state = connector.contact.friction.has_state
-        self._counts = connector.number == 0 and not straight
         number = connector.number
-        self._impact = [f"{name}{number}" for name in ("in_contact", "speed")]
-        self._masses = [f"inverse_mass_{axes}{number}" for axes in ("xx", "xy", "yy")]
-        self._history = [f"{name}{number}" for name in ("deflection", "slip", "step")]
-        self._line = [f"{name}{number}" for name in ("offset", "slope")]
+        self._names, self._first = connector.whole.names, PARTS * number
+        self._has_state = connector.contact.friction.has_state
+        self._counts = number == 0 and not straight
+        self._impact = [f"{name}{number}" for name in ("in_contact", *MEMORY[:4])]
+        self._history = [f"{name}{number}" for name in MEMORY[4:]]
+        self._line = [f"{name}{number}" for name in LINE]
+        self.function = partial(self._names.__setitem__, f"straight{number}", straight)
 
     @property
     def calls(self) -> int:
         """How often the engine has asked for the force of all sections; counted with the first."""
-        return int(self._names["calls"]) if self._counts else 0
+        return super().calls if self._counts else 0
 
     @property
     def last(self) -> tuple[float, ...]:
@@ -141,32 +144,39 @@ class SectionForce:
         return bore, turning
 
     def load(self, memory: PinMemory, inverse_mass: InverseMass, step: float, *others: float) -> None:
-        """See `PythonForce.load`."""
-        known = self._names
-        known.update(zip(self._impact, memory[:2], strict=True))
-        known.update(zip(self._masses, inverse_mass, strict=True))
+        """See `PythonForce`."""
+        impact = memory.in_contact, memory.impact_velocity, *inverse_mass
+        self._names.update(zip(self._impact, impact, strict=True))
         if self._has_state:
-            known.update(zip(self._history, (memory.deflection, memory.slip, step), strict=True))
+            self._names.update(zip(self._history, (memory.deflection, memory.slip, step), strict=True))
 
     def lay(self, offset: float, slope: float) -> None:
-        """Set the line that friction follows."""
+        """See `PythonForce`."""
         self._names.update(zip(self._line, (offset, slope), strict=True))
 
 
 class SectionFrames(PinFrames):
     """The axes in which a section's force is given, which are those of the bore at every moment.
 
-    Half-way tilted to those of the journal where the force acts in the middle.
+    Half-way tilted to those of the journal where the force acts in the middle. Nothing has to be guessed.
     """
 
     bores_axes = 0.0  # [rad]
 
-    def __init__(self, connector: SectionConnector, moving: Moving, bore_spin: Callable[[], float]) -> None:
-        super().__init__(connector, moving, bore_spin)
-        self.follows = self.turns = False  # nothing has to be guessed
+    def __init__(self, connector: PinConnector, moving: Moving) -> None:
+        self.at, self.moving = connector.at, moving
+        self.follows = False
+        self.context = None
 
-    def relative(self, force: SectionForce) -> Relative:  # type: ignore[override]
+    def start(self, turn: float, bore: tuple[float, float]) -> None:
+        """Nothing is kept."""
+
+    def jumped(self) -> None:
+        """Nothing is kept."""
+
+    def relative(self, force: EngineForce) -> Relative:
         """See `PinFrames`."""
+        assert isinstance(force, SectionForce)
         x, y, z, vx, vy, vz = force.last
         if self.at is Attachment.LINE:
             distance = math.sqrt(x * x + y * y + z * z)

@@ -122,8 +122,14 @@ class BearingMotion:
             at_bore, at_journal = self.places(n)
             self.sections.append(
                 [
-                    *(m + at_journal * j - at_bore * b for m, j, b in zip(middle, self.own, self.along, strict=True)),
-                    *(m + at_journal * j - at_bore * b for m, j, b in zip(moved, turning[1], turning[0], strict=True)),
+                    *(
+                        m + at_journal * j - at_bore * b
+                        for m, j, b in zip(middle, self.own, self.along, strict=True)
+                    ),
+                    *(
+                        m + at_journal * j - at_bore * b
+                        for m, j, b in zip(moved, turning[1], turning[0], strict=True)
+                    ),
                 ]
             )
         self.middle = middle[:2]
@@ -172,7 +178,7 @@ def cross(a: Any, b: Any) -> Vector:
 
 
 def _on_parameters(a: Any, b: Any, c: Any, d: Any, x: Any, y: Any, z: Any) -> list[Any]:
-    """Generalised forces on Euler parameters of a moment, see `BodyState.of` for the spin that their rates give."""
+    """Generalised forces of a moment on Euler parameters; for their spin see `BodyState.of`."""
     return [
         2.0 * (-b * x - c * y - d * z),
         2.0 * (a * x + d * y - c * z),
@@ -200,7 +206,9 @@ def force_source(bearing: BearingGeometry, contacts: Sequence[JournalContact]) -
     first = needed(motion.formulas, map(text, told))
     done = set(first)
     lines = [*motion.arguments, *first, f"last = ({', '.join(map(text, told))})"]
-    lines += [f"if not ({' or '.join(f'in_contact{n}' for n in range(len(contacts)))}): return {[0.0] * len(result)}"]
+    lines += [
+        f"if not ({' or '.join(f'in_contact{n}' for n in range(len(contacts)))}): return {[0.0] * len(result)}"
+    ]
     lines += [f"{' = '.join(SUMS)} = 0.0"]
     for n, (depth, limit, sums) in enumerate(blocks):
         apart = [line for line in needed(motion.formulas, [depth]) if line not in done]
@@ -208,7 +216,9 @@ def force_source(bearing: BearingGeometry, contacts: Sequence[JournalContact]) -
         lines += [f"if in_contact{n}:", *(f"    {line}" for line in apart), f"    if {depth} > 0.0:"]
         # a law that branches is called; each section has its own
         lines += [f"        {line.replace('normal_law(', f'normal_law{n}(')}" for line in (*limit, *pressed)]
-        lines += [f"        {name} += {value}" for name, value in zip(SUMS, sums, strict=True) if value != "(0.0)"]
+        lines += [
+            f"        {name} += {value}" for name, value in zip(SUMS, sums, strict=True) if value != "(0.0)"
+        ]
     return _function(motion, lines, result, done)
 
 

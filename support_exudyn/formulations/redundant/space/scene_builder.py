@@ -5,7 +5,6 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-import exudyn
 import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyPosition,
@@ -21,9 +20,9 @@ from support_exudyn.formulations.redundant.clearance.connector import Mount, Pin
 from support_exudyn.formulations.redundant.clearance.connector_force import attachment
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
-from support_exudyn.formulations.redundant.space.scene import SpatialBodyItem, SpatialScene
-from support_exudyn.formulations.redundant.space.bearing_connector import BearingConnector, SectionConnector
+from support_exudyn.formulations.redundant.space.bearing_connector import BearingConnector
 from support_exudyn.formulations.redundant.space.bearing_source import BearingGeometry
+from support_exudyn.formulations.redundant.space.scene import SpatialBodyItem, SpatialScene
 from support_exudyn.formulations.redundant.space.section_motion import SectionEnd, SectionMover, marker_frame
 from support_exudyn.formulations.redundant.space.section_pin import SectionJournal, SectionPin, part_of
 from support_exudyn.formulations.redundant.space.sections import ends, sections
@@ -81,7 +80,7 @@ class _SpaceBuilder(EngineBuilder):
         frame = marker_frame(end, place, self.centre(end.body))
         return Mount(self.item(end.body), frame, end.body == GROUND)
 
-    def add_connectors(self, bearing: Bearing) -> Sequence[PinConnector | SectionConnector]:
+    def add_connectors(self, bearing: Bearing) -> Sequence[PinConnector]:
         """The connectors of all sections of a bearing."""
         pin = self.scenario.clearance_pins[bearing.pin]
         bore, journal = ends(bearing, pin.bore)
@@ -101,13 +100,14 @@ class _SpaceBuilder(EngineBuilder):
 
     def add_bearing(
         self, bearing: Bearing, bore: BearingEnd, journal: BearingEnd, contact: JournalContact
-    ) -> Sequence[SectionConnector]:
+    ) -> Sequence[PinConnector]:
         """The connector of all sections of a bearing."""
         parts = sections(bearing, self.scenario.solver.sections)
         moving = [end.body for end in (bore, journal) if end.body != GROUND]
         firsts = {body: COORDINATES * n for n, body in enumerate(moving)}
         geometry = BearingGeometry(
-            *(self.section_end(end, 0.0, firsts.get(end.body)) for end in (bore, journal)),
+            bore=self.section_end(bore, 0.0, firsts.get(bore.body)),
+            journal=self.section_end(journal, 0.0, firsts.get(journal.body)),
             at=attachment(contact, bore.body == GROUND, journal.body == GROUND, in_space=True),
             places=[part.place for part in parts],
             slides="along" not in bearing.holds,
@@ -116,19 +116,14 @@ class _SpaceBuilder(EngineBuilder):
         return BearingConnector(self.mbs, geometry, contacts, nodes).sections
 
     def section_pins(
-        self, scene: SpatialScene, name: str, connectors: Sequence[PinConnector | SectionConnector]
+        self, scene: SpatialScene, name: str, connectors: Sequence[PinConnector]
     ) -> list[SectionPin]:
         """The sections of a bearing in the whole scene."""
         bearing = self.linkage.bearings[name]
         pin, (bore, journal) = self.scenario.clearance_pins[bearing.pin], scene.ends_of(name)
         data, places = self.mbs.systemData, sections(bearing, self.scenario.solver.sections)
-        node, axis = self.node(bore.body), np.array(bore.axis)
 
-        def bore_spin() -> float:
-            spin = self.mbs.GetNodeOutput(node, exudyn.OutputVariableType.AngularVelocityLocal)
-            return float(spin @ axis)
-
-        def mover(place: float, connector: PinConnector | SectionConnector) -> SectionMover:
+        def mover(place: float, connector: PinConnector) -> SectionMover:
             at_bore, at_journal = (
                 self.section_end(end, place, None if end.body == GROUND else scene.bodies[end.body].first)
                 for end in (bore, journal)
@@ -141,7 +136,6 @@ class _SpaceBuilder(EngineBuilder):
                 pin.contact,
                 connector,
                 mover(section.place, connector),
-                bore_spin,
                 whole,
                 section,
                 (bore, journal),
@@ -226,7 +220,7 @@ class _SpaceBuilder(EngineBuilder):
         return found
 
     def section_end(self, end: BearingEnd, place: float, first: int | None) -> SectionEnd:
-        """Where a section of a bore or a journal stands in coordinates in which those of its body begin there."""
+        """Where a section of a bore or a journal stands; first: of its body's coordinates, see `SectionEnd`."""
         frame = np.array(marker_frame(end, place, self.centre(end.body)))
         arm, *axes = (tuple(frame[:3, k].tolist()) for k in (3, 0, 1, 2))
         return SectionEnd(first, self.centre(end.body), arm, (axes[0], axes[1]), axes[2])

@@ -125,7 +125,7 @@ class SectionPin(ClearanceJoint):
 
     Arguments:
         contact: of the whole pin.
-        connector, moving, bore_spin, settings: as of ClearanceJoint.
+        connector, moving, settings: as of ClearanceJoint.
         whole: what it shares with the other sections.
         section: its place and share.
         ends: bore and journal.
@@ -136,9 +136,8 @@ class SectionPin(ClearanceJoint):
     def __init__(
         self,
         contact: JournalContact,
-        connector: PinConnector | SectionConnector,
+        connector: PinConnector,
         moving: SectionMover,
-        bore_spin: Callable[[], float],
         whole: SectionJournal,
         section: Section,
         ends: tuple[BearingEnd, BearingEnd],
@@ -147,7 +146,15 @@ class SectionPin(ClearanceJoint):
         settings: SolverSettings,
     ) -> None:
         part = part_of(contact, section)
-        super().__init__(part, connector, moving, bore_spin, whole.inverse_masses, settings, section.share)
+        super().__init__(
+            part,
+            connector,
+            moving,
+            lambda: moving.now()[0][5],
+            whole.inverse_masses,
+            settings,
+            section.share,
+        )
         self.impact_steps = ImpactSteps(contact.normal, settings.impact_steps)  # steps of the whole
         self.section, self.whole, self.moving, self.ends, self.slides = section, whole, moving, ends, slides
         whole.sections.append(self)
@@ -158,7 +165,7 @@ class SectionPin(ClearanceJoint):
 
     def _make_frames(self, moving: Moving, bore_spin: Callable[[], float]) -> PinFrames:
         if isinstance(self.connector, SectionConnector):
-            return SectionFrames(self.connector, moving, bore_spin)
+            return SectionFrames(self.connector, moving)
         return super()._make_frames(moving, bore_spin)
 
     def _make_force(self, backend: str, bore_spin: Callable[[], float], straight: bool) -> EngineForce:
@@ -185,8 +192,8 @@ class SectionPin(ClearanceJoint):
     def after_newton(self, t: float) -> float | None:
         """See `ClearanceJoint`."""
         if self._is_first:
-            together = isinstance(self.connector, SectionConnector)
-            self.whole.moved(self.connector.whole.middle if together else None)
+            connector = self.connector
+            self.whole.moved(connector.whole.middle if isinstance(connector, SectionConnector) else None)
         return super().after_newton(t)
 
     def jumped(self, memory: PinMemory) -> None:
