@@ -22,7 +22,14 @@ from support_exudyn.formulations.limits import DEEPEST, SOFT, rounding_of_positi
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene, slide
 from support_exudyn.formulations.redundant.solver.newton_method import NewtonMethod
 from support_exudyn.formulations.redundant.solver.recorder import Recorder
-from support_exudyn.formulations.redundant.solver.refusals import ADVICE, FEWER_STEPS, STEEP, unlawful, why
+from support_exudyn.formulations.redundant.solver.refusals import (
+    ADVICE,
+    FEWER_STEPS,
+    STEEP,
+    state_of,
+    unlawful,
+    why,
+)
 from support_exudyn.formulations.redundant.solver.step_growth import StepGrowth, step_growth
 from support_exudyn.formulations.redundant.solver.symbolic_drive import turns_by_itself
 from support_exudyn.formulations.redundant.solver.uninterrupted_steps import (
@@ -397,11 +404,5 @@ class SolverRun:
         return goal
 
     def _failure(self, reason: str, advice: str = ADVICE) -> Failure:
-        state: dict[str, float] = {"step": float(self.solver.it.currentStepSize)}
-        for name, spin in self.scene.spins().items():
-            state[f"{name}.angular_velocity"] = spin
-        for name, pin in self.scene.clearance_joints.items():
-            state[f"pin.{name}.depth"] = pin.memory.depth
-            state[f"pin.{name}.rate"] = pin.memory.rate
-            state[f"pin.{name}.impact_velocity"] = pin.memory.impact_velocity
+        state = {"step": float(self.solver.it.currentStepSize)} | state_of(self.scene)
         return Failure(reason, advice, self.time, state, finer=advice is not FEWER_STEPS)

@@ -96,7 +96,7 @@ class SectionConnector(PinConnector):
         self.whole, self.number, self.contact = whole, number, contact
         self.mbs, self.object = whole.mbs, whole.object
         self.clearance = contact.bearing.clearance
-        self.at = whole.bearing.at
+        self.at, self.bore_on_ground = whole.bearing.at, whole.bearing.bore.first is None
 
     def set_force(self, function: Any) -> None:
         """Let the contact act; function: of a `SectionForce`."""
@@ -163,16 +163,9 @@ class SectionFrames(PinFrames):
 
     bores_axes = 0.0  # [rad]
 
-    def __init__(self, connector: PinConnector, moving: Moving) -> None:
-        self.at, self.moving = connector.at, moving
-        self.follows = False
-        self.context = None
-
-    def start(self, turn: float, bore: tuple[float, float]) -> None:
-        """Nothing is kept."""
-
-    def jumped(self) -> None:
-        """Nothing is kept."""
+    def __init__(self, connector: PinConnector, moving: Moving, bore_spin: Callable[[], float]) -> None:
+        super().__init__(connector, moving, bore_spin)
+        self.follows = self.turns = False
 
     def relative(self, force: EngineForce) -> Relative:
         """See `PinFrames`."""

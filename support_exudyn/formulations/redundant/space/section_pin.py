@@ -165,7 +165,7 @@ class SectionPin(ClearanceJoint):
 
     def _make_frames(self, moving: Moving, bore_spin: Callable[[], float]) -> PinFrames:
         if isinstance(self.connector, SectionConnector):
-            return SectionFrames(self.connector, moving)
+            return SectionFrames(self.connector, moving, bore_spin)
         return super()._make_frames(moving, bore_spin)
 
     def _make_force(self, backend: str, bore_spin: Callable[[], float], straight: bool) -> EngineForce:
