@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 
+from user_forces.compilation.flat import flat_function
 from user_forces.normal.law import Impact, NormalLaw
 
 # An impact that does not part is over after so many swings in a row, deep and back, that were small: by less
@@ -36,7 +37,7 @@ class ImpactSteps:
     """
 
     def __init__(self, law: NormalLaw, number: int) -> None:
-        self._law = law
+        self._law, self._energy = law, flat_function(law.elastic_energy)
         self._number = number
         self.step = math.inf  # largest length of the next step [s]; infinite if there is no impact
         self._length = math.inf  # of steps in the impact going on [s]; infinite: there is none
@@ -131,7 +132,7 @@ class ImpactSteps:
     def _is_faster(self, depth: float, rate: float, mass: float) -> bool:
         """Whether the energy is that of a speed for which steps are to be chosen anew; every step asks."""
         if depth > self._known_depth:
-            self._known_depth, self._known_energy = depth, self._law.elastic_energy(depth)
+            self._known_depth, self._known_energy = depth, self._energy(depth)
         limit = GROWTH * self._speed
         if rate * rate + 2.0 * self._known_energy / mass <= (1.0 - ROUNDING) * limit * limit:
             return False
@@ -143,5 +144,5 @@ class ImpactSteps:
 
     def _energy_speed(self, depth: float, rate: float, mass: float) -> float:
         """Speed [m/s] of a free body that has all the energy that is in the contact now."""
-        stored = self._law.elastic_energy(depth) if depth > 0.0 else 0.0
+        stored = self._energy(depth) if depth > 0.0 else 0.0
         return math.sqrt(rate * rate + 2.0 * stored / mass)

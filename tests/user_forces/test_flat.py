@@ -26,7 +26,7 @@ from user_forces import (
     SlipHistory,
     value,
 )
-from user_forces.compilation.flat import FlatForce, asks_for_mass, flat_elastic_force, flat_force, nested
+from user_forces.compilation.flat import FlatForce, asks_for_mass, flat_force, flat_function, nested
 
 CLEARANCE = BEARING.clearance
 EXACT = power_law(Exact)
@@ -172,10 +172,9 @@ def test_frictionless_has_no_friction() -> None:
 
 @pytest.mark.parametrize("normal", [*NORMAL_LAWS, BRANCHING], ids=kind_of)
 @given(depth=st.floats(1e-9, 1e-4))
-def test_the_elastic_force_is_that_of_the_law(normal: NormalLaw, depth: float) -> None:
-    assert flat_elastic_force(JournalContact(bearing=BEARING, normal=normal))(depth) == normal.elastic_force(
-        depth
-    )
+def test_elastic_force_and_energy_are_those_of_the_law(normal: NormalLaw, depth: float) -> None:
+    for function in (normal.elastic_force, normal.elastic_energy):
+        assert flat_function(function)(depth) == function(depth)
 
 
 def test_a_formula_that_is_used_once_stands_where_it_is_used() -> None:

@@ -156,16 +156,20 @@ def flat_force(contact: Contact) -> FlatForce:
     return cast(FlatForce, compiled(source, contact)["force"])
 
 
-def flat_elastic_force(contact: Contact) -> Callable[[float], float]:
-    """`contact.normal.elastic_force` as a flat function, bit for bit the same; itself if it branches."""
-    formulas, (depth,) = lines(("depth",))
+def flat_function(function: Callable[[float], float]) -> Callable[[float], float]:
+    """A function of a law, such as its elastic force, flat and bit for bit the same; itself if it branches.
+
+    It checks nothing: it is for depths at which the law has been asked for its force.
+    """
+    formulas, (x,) = lines(("x",))
     try:
-        found = text(contact.normal.elastic_force(depth))
+        found = text(function(x))
     except TypeError:
-        return contact.normal.elastic_force
-    source = ["def elastic_force(depth):", *(f"    {line}" for line in needed(formulas, [found]))]
-    force = compiled([*source, f"    return {found}"], contact)["elastic_force"]
-    return cast(Callable[[float], float], force)
+        return function
+    source = ["def flat(x):", *(f"    {line}" for line in needed(formulas, [found])), f"    return {found}"]
+    space: dict[str, Any] = dict(NAMES)
+    exec(compile("\n".join(nested(source)), "<law>", "exec"), space)
+    return cast(Callable[[float], float], space["flat"])
 
 
 def _outwards(contact: Contact) -> str:

@@ -18,7 +18,7 @@ from support_exudyn.formulations.redundant.clearance.symbolic_force import Symbo
 from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
 from support_exudyn.mechanics.pressed_pins import NOT_KNOWN, EffectiveMasses
 from support_exudyn.scenario.solver_settings import SolverSettings
-from user_forces.compilation.flat import asks_for_mass, flat_elastic_force, flat_force
+from user_forces.compilation.flat import asks_for_mass, flat_force, flat_function
 from user_forces.contact import Contact, ContactForce
 from user_forces.lawful import PROBED, look
 from user_forces.normal.law import Impact
@@ -67,7 +67,7 @@ class ClearanceJoint(LargestForce):
         self.is_straight = False  # whether a line stands for friction
         self._is_symbolic = isinstance(self.engine_force, SymbolicForce)
         self.connector.set_force(self.engine_force.function)
-        self._force, self.elastic_force = flat_force(contact), flat_elastic_force(contact)
+        self._force, self.elastic_force = flat_force(contact), flat_function(contact.normal.elastic_force)
         self._asks_for_mass = not self._on_line and asks_for_mass(contact)
         self._has_state = contact.friction.has_state
         # whether the force depends on more than the impact from step to step
