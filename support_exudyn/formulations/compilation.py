@@ -27,7 +27,9 @@ except ImportError:  # Windows
 fcntl: Any = _fcntl
 SECONDS = {"closed_forms": 8, "compiled": 10}  # that compiling takes on a quiet machine of 2020
 CONSTANTS_OF = (contact_events, contact)  # modules of which compiled functions use constants
-ALLOCATES = ".closed_forms."  # entries there make arrays; elsewhere all functions are given those that they fill
+ALLOCATES = (
+    ".closed_forms."  # entries there make arrays; elsewhere all functions are given those that they fill
+)
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
 Function = TypeVar("Function", bound=Callable[..., Any])
 

@@ -13,9 +13,9 @@ from support_exudyn.postprocessing.shown_numbers import AT_ANY_STEP, label, show
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL
 from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.horizon import agreed
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.reported_numbers import FORCE, measures
-from support_exudyn.simulation.horizon import agreed
 from support_exudyn.simulation.result import Result
 from user_forces.friction.frictionless import Frictionless
 from user_forces.values.value import InputError, Value
@@ -107,8 +107,8 @@ def _determined(result: Result) -> str:
     if not math.isfinite(result.horizon):
         return ""
     return (
-        f"Up to {said(result.horizon, 's')}, {agreed(result)} impacts, runs with shorter steps agree; what comes "
-        "later depends on the steps. "
+        f"Up to {said(result.horizon, 's')}, {agreed(result)} impacts, runs with shorter steps agree; what "
+        "comes later depends on the steps. "
     )
 
 

@@ -10,7 +10,9 @@ from collections.abc import Iterable, Sequence
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.simulation.recorded_run import RecordedRun
 
-APART = 0.1  # share of the time since the impact before, or of the initial impact velocity, by which impacts differ
+APART = (
+    0.1  # share of the time since the impact before, or of the initial impact velocity, by which impacts differ
+)
 
 
 def horizon(result: RecordedRun) -> float:

@@ -51,7 +51,7 @@ def observe(scene: Scene, n: int, y: Vector) -> None:
 
 @inlined
 def effective_mass(scene: Scene, n: int) -> float:
-    """Mass [kg] that moves along the eccentricity, by the remembered inverse effective mass, in the bore's axes."""
+    """Mass [kg] that moves along the eccentricity, by the remembered inverse effective mass."""
     contact = scene.contacts[n]
     c, s = axes_of(scene, n)
     x, y = c * contact.x + s * contact.y, c * contact.y - s * contact.x
@@ -74,7 +74,7 @@ def axes_of(scene: Scene, n: int) -> tuple[float, float]:
 
 @inlined
 def press(scene: Scene, n: int, y: Vector, slope: Vector) -> None:
-    """Write the force of a contact that has been observed, and the rate of its friction law's state into `slope`.
+    """Write the force of a contact that has been observed, and into `slope` how its friction law's state changes.
 
     Before the surfaces have separated the law goes on as at SHALLOWEST, so that one with a dashpot does not
     jump. What cannot be the force of a law is no number, which the integrator looks for.
@@ -167,9 +167,10 @@ def press_oil(scene: Scene) -> None:
         compression = one.natural + extension - length
         closing = speed - rate
         one.force = stiffness * (compression + one.time * closing)
-        one.work = one.force * speed - 0.5 * stiffness / (
-            one.oil_length + extension
-        ) * speed * compression * compression
+        one.work = (
+            one.force * speed
+            - 0.5 * stiffness / (one.oil_length + extension) * speed * compression * compression
+        )
         one.loss = stiffness * one.time * closing * closing
         push_apart(scene, one.foot, one.head, one.force * ux, one.force * uy)
 

@@ -10,7 +10,7 @@ by Cholesky's factors of the square matrix, within the envelope that the order o
 import math
 
 from support_exudyn.formulations.compilation import compiled, inlined, once
-from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SLIDE, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, Scene, Vector
 
 SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
 

@@ -23,7 +23,8 @@ from support_exudyn.formulations.compiled.arrays import (
     Vector,
     scratch,
 )
-from support_exudyn.formulations.compiled.integrate import AT, GOING, MIDST, NEXT_STEP, integrate
+from support_exudyn.formulations.compiled.integrate import integrate
+from support_exudyn.formulations.compiled.method import AT, GOING, MIDST, NEXT_STEP
 from support_exudyn.formulations.compiled.outcome import record_width, trajectory
 from support_exudyn.formulations.compiled.setup import Model, model_of
 from support_exudyn.formulations.compiled.start import error_weights, first_state
@@ -65,9 +66,7 @@ class _Run:
         going = np.zeros(GOING)
         going[NEXT_STEP] = FIRST_STEP
         pause = AT_ONCE
-        for segment, begin, end in zip(
-            model.courses.segments, model.edges, model.edges[1:], strict=False
-        ):
+        for segment, begin, end in zip(model.courses.segments, model.edges, model.edges[1:], strict=False):
             if self.code != FINISHED:
                 return
             model.scene.courses[:] = segment
@@ -112,7 +111,6 @@ class _Run:
             if t in (drive := self.scenario.drive_of(name)).breaks:
                 found[n] = drive.speed_jump(t)
         return found
-
 
     def _note_jump(self, t: float) -> None:
         """Keep the impulses by which velocities have jumped at t [s]."""

@@ -141,7 +141,9 @@ def model_of(scenario: Scenario) -> Model:
         contacts=tuple(scenario.contact_places),
         oil=oil,
         cylinders=cylinders,
-        driven_rows={name: int(order[n]) for n, name in enumerate((*rigid, *linkage.cranks), 2 * len(scenario.held_pins))},
+        driven_rows={
+            name: int(order[n]) for n, name in enumerate((*rigid, *linkage.cranks), 2 * len(scenario.held_pins))
+        },
         states=states + LOSSES,
     )
 
@@ -202,9 +204,7 @@ def _held(scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Map
         carrier = build.point(slide.against, slide.point)
         guided = build.point(slide.body, slide.point)
         bodies = number[slide.body], number[slide.against]
-        found.append(
-            _Joint(arrays.SLIDE, carrier, guided, bodies, slide.conditions, angle=slide.direction)
-        )
+        found.append(_Joint(arrays.SLIDE, carrier, guided, bodies, slide.conditions, angle=slide.direction))
     for gear in linkage.gears.values():
         bodies = number[gear.second], number[gear.first]
         found.append(_Joint(arrays.GEAR, bodies[1], bodies[0], bodies, 1, ratio=gear.ratio))
@@ -214,7 +214,7 @@ def _held(scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Map
 def _joints(
     scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Mapping[str, int]
 ) -> tuple[Records, Whole, list[_Joint]]:
-    """Joints with their rows, numbered so that those of neighbours lie close; and the rows as the linkage has them.
+    """Joints with their rows, those of neighbours close to each other; and the rows as the linkage has them.
 
     The order is that of Cuthill and McKee, reversed: factors then have next to nothing outside of a band.
     """
@@ -227,7 +227,12 @@ def _joints(
         row += held[n].rows
     found = np.zeros(len(held), arrays.JOINT)
     for n, (record, one) in enumerate(zip(found, held, strict=True)):
-        record["kind"], record["row"], record["first"], record["second"] = one.kind, first[n], one.first, one.second
+        record["kind"], record["row"], record["first"], record["second"] = (
+            one.kind,
+            first[n],
+            one.first,
+            one.second,
+        )
         record["course"], record["conditions"] = one.course, one.rows
         record["length"], record["angle"], record["ratio"] = one.length, one.angle, one.ratio
     rows = [first[n] + k for n, one in enumerate(held) for k in range(one.rows)]
@@ -305,10 +310,9 @@ def _loads(scenario: Scenario, build: _Builder) -> Records:
     found = np.zeros(len(scenario.acting_loads), arrays.LOAD)
     for record, (name, load) in zip(found, scenario.acting_loads.items(), strict=True):
         against = load.against(name)
-        forced = isinstance(load, Load)
-        record["point"] = build.point(load.body, load.point if forced else (0.0, 0.0))
-        record["origin"] = build.point(against, load.origin if forced else (0.0, 0.0))
-        record["moment"] = not forced
+        point, origin = (load.point, load.origin) if isinstance(load, Load) else ((0.0, 0.0), (0.0, 0.0))
+        record["point"], record["origin"] = build.point(load.body, point), build.point(against, origin)
+        record["moment"] = not isinstance(load, Load)
         record["law"], record["constants"] = build.law(load_source(load))
     return found
 
@@ -334,5 +338,5 @@ def _rubbing(scenario: Scenario, build: _Builder, joints: Records) -> Records:
         record["body"], record["other"] = build.numbers[place.second], build.numbers[place.first]
         assert pin.friction is not None  # pins without are left out
         record["law"], record["constants"] = build.law(friction_source(pin.friction))
-        record["radius"] = pin.radius
+        record["radius"] = pin.radius or 0.0  # goes with friction
     return found

@@ -1,11 +1,11 @@
 """Long steps where friction, oil or a dashpot is steep: the Runge-Kutta-Chebyshev method of order 2.
 
-A step of s stages is stable for decays up to about 0.65 s^2 / h, where Dormand and Prince's method of six stages
-takes 3.3 / h. It is taken where that one's steps are as short as its
-stability asks for and not its accuracy: the fastest decay is measured now and then, by the power method.
+A step of s stages is stable for decays up to about 0.65 s^2 / h, where Dormand and Prince's method of six
+stages takes 3.3 / h. It is taken where that one's steps are as short as its stability asks for and not its
+accuracy: the fastest decay is measured now and then, by the power method.
 
-Source: Sommeijer, Shampine and Verwer, RKC: an explicit solver for parabolic PDEs, J. Comput. Appl. Math. 88 (1998)
-315-326.
+Source: Sommeijer, Shampine and Verwer, RKC: an explicit solver for parabolic PDEs, J. Comput. Appl. Math. 88
+(1998) 315-326.
 """
 
 import math
@@ -19,8 +19,13 @@ DAMPING = 2.0 / 13.0
 STABLE = 1.54  # (s^2 - 1) that a product of step and fastest decay asks for, over it
 MOST_STAGES = 200
 FEWEST_STAGES = 8  # below, the explicit method of order 5 does as well
-STIFF = 1.5  # step times fastest decay beyond which the explicit method is held up by its stability, not its error
-FIRST_PATIENCE, LONGEST_PATIENCE = 50.0, 3200.0  # steps after which that is looked for; doubled where it was in vain
+STIFF_AT = (
+    1.5  # step times fastest decay beyond which the explicit method is held up by its stability, not its error
+)
+FIRST_PATIENCE, LONGEST_PATIENCE = (
+    50.0,
+    3200.0,
+)  # steps after which that is looked for; doubled where it was in vain
 AT_FIRST = 2.0  # times as long is the first step of this method as those before: it damps what they leave
 MARGIN = 1.2  # on the fastest decay that has been measured
 SHIFT = 1e-4  # of what a step may err by, over which it is looked how rates change
@@ -120,10 +125,7 @@ def advance_stabilised(
             return math.nan
         for i in range(y.size):
             older[i] = (
-                (1.0 - mu - nu) * y[i]
-                + mu * newer[i]
-                + nu * older[i]
-                + weight * h * (rate[i] - part * k[0, i])
+                (1.0 - mu - nu) * y[i] + mu * newer[i] + nu * older[i] + weight * h * (rate[i] - part * k[0, i])
             )
         older, newer = newer, older
         c_older, c_newer = c_newer, mu * c_newer + nu * c_older + weight * (1.0 - part)

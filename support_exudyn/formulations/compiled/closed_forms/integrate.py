@@ -15,15 +15,6 @@ from support_exudyn.formulations.compiled.closed_forms.equations import (
     move_with_the_drive,
     within,
 )
-from support_exudyn.formulations.compiled.depth import (
-    CUT,
-    CUT_MET,
-    IMPACT,
-    NOTHING,
-    RETURN,
-    SEPARATION,
-    TOO_LONG,
-)
 from support_exudyn.formulations.compiled.closed_forms.events import event
 from support_exudyn.formulations.compiled.closed_forms.layout import (
     ASKED_DEPTH,
@@ -45,6 +36,17 @@ from support_exudyn.formulations.compiled.closed_forms.layout import (
     Matrix,
     Vector,
 )
+from support_exudyn.formulations.compiled.closed_forms.records import peak, record, size
+from support_exudyn.formulations.compiled.closed_forms.support import jump
+from support_exudyn.formulations.compiled.depth import (
+    CUT,
+    CUT_MET,
+    IMPACT,
+    NOTHING,
+    RETURN,
+    SEPARATION,
+    TOO_LONG,
+)
 from support_exudyn.formulations.compiled.step_control import (
     CLOSE,
     LANDED,
@@ -55,8 +57,6 @@ from support_exudyn.formulations.compiled.step_control import (
     crossing,
     factor,
 )
-from support_exudyn.formulations.compiled.closed_forms.records import peak, record, size
-from support_exudyn.formulations.compiled.closed_forms.support import jump
 
 FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED = range(6)
 # what is reported of a run

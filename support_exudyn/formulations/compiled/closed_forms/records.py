@@ -3,13 +3,6 @@
 import math
 
 from support_exudyn.formulations.compilation import compiled
-from support_exudyn.formulations.peak_force import (
-    GOLDEN,
-    NARROWINGS,
-    NEAR_PEAK,
-    NEAR_TOP,
-    PEAK_SAMPLES,
-)
 from support_exudyn.formulations.compiled.closed_forms.equations import observe, within
 from support_exudyn.formulations.compiled.closed_forms.layout import (
     ACCELERATION,
@@ -25,6 +18,13 @@ from support_exudyn.formulations.compiled.closed_forms.layout import (
     Matrix,
     Vector,
     driven,
+)
+from support_exudyn.formulations.peak_force import (
+    GOLDEN,
+    NARROWINGS,
+    NEAR_PEAK,
+    NEAR_TOP,
+    PEAK_SAMPLES,
 )
 
 
