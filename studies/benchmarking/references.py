@@ -1,8 +1,8 @@
 """Tight references of the scenes: what is compared with them, how they are made, and where they are kept.
 
 `python -m studies.benchmarking.references` makes them anew, in some minutes. Each is the finest run of one
-formulation; its own error is the distance from another run: one at ten times the tolerance, both by the compiled
-formulation, or for columns of oil the compiled against the redundant one.
+formulation; its own error is the distance from another run: one at ten times the tolerance, both by the
+compiled formulation, or for columns of oil the compiled against the redundant one.
 """
 
 import json

@@ -73,7 +73,8 @@ class _Run:
             jumps = self._jumps(begin)
             if begin == 0.0:
                 model.scene.courses["jump"] = jumps
-                model.scene.courses["still"] = [0.0 in one.breaks for one in self._followed()]
+                for course, one in zip(model.scene.courses, self._followed(), strict=False):  # loads' are last
+                    course["still"] = 0.0 in one.breaks
             while True:
                 self.code = integrate(
                     model.scene,
@@ -100,7 +101,7 @@ class _Run:
                 self._note_jump(begin)
 
     def _followed(self) -> list[Drive | Inlet]:
-        """What every course follows, in order."""
+        """What drives and valves follow, in the order of the courses."""
         drives = [self.scenario.drive_of(name) for name in self.model.drives]
         return [*drives, *(self.scenario.cylinders[name].inlet for name in self.model.valves)]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from support_exudyn.formulations.compilation import compiled_law
 from support_exudyn.formulations.compiled import arrays
 from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, Scene, Vector, Whole
-from support_exudyn.formulations.compiled.courses import Courses, courses, segment_edges
+from support_exudyn.formulations.compiled.courses import Courses, TimeFunction, courses, segment_edges
 from support_exudyn.formulations.compiled.written import load_source
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.mechanics.contact_places import ContactPlace
@@ -87,8 +87,11 @@ def model_of(scenario: Scenario) -> Model:
     moving = [name for name in driven if scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)]
     valves = [name for name, one in scenario.cylinders.items() if one.inlet.breaks or one.inlet.opening(0.0)]
     edges = segment_edges(scenario.breaks, scenario.duration)
-    functions: list[Callable[[float], float]] = [scenario.drive_of(name).extension for name in moving]
+    functions: list[TimeFunction] = [scenario.drive_of(name).extension for name in moving]
     functions += [scenario.cylinders[name].inlet.opening for name in valves]
+    sources = {name: load_source(load) for name, load in scenario.acting_loads.items()}
+    of_loads = len(functions)
+    functions += [function for *_, own in sources.values() for function in own]
     found = courses(functions, edges)
     course = {name: n for n, name in enumerate((*moving, *valves))}
     joints, order, held = _joints(scenario, build, rigid, course)
@@ -106,7 +109,7 @@ def model_of(scenario: Scenario) -> Model:
     oil_records = np.zeros(len(oil), arrays.OIL)
     for record, (name, filled) in zip(oil_records, oil.items(), strict=True):
         _oil(record, filled, build, course.get(name, -1))
-    loads = _loads(scenario, build)
+    loads = _loads(scenario, build, sources, of_loads)
     bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
     rubbing = _rubbing(scenario, build, joints)
@@ -127,7 +130,7 @@ def model_of(scenario: Scenario) -> Model:
         bushings=bushings,
         rubbing=rubbing,
         constants=np.array([*build.constants, 0.0]),
-        out=np.zeros(8),
+        out=np.zeros(arrays.FIRST_COURSE + arrays.COURSES_OF_LOAD),
     )
     return Model(
         scenario=scenario,
@@ -306,14 +309,23 @@ def _oil(record: Any, one: PreloadedActuator, build: _Builder, course: int) -> N
     record["time"], record["natural"] = model.damping_time, one.natural_length(0.0)
 
 
-def _loads(scenario: Scenario, build: _Builder) -> Records:
+def _loads(
+    scenario: Scenario,
+    build: _Builder,
+    sources: Mapping[str, tuple[str, list[float], list[TimeFunction]]],
+    course: int,
+) -> Records:
+    """Loads with their compiled functions; course: the first of theirs."""
     found = np.zeros(len(scenario.acting_loads), arrays.LOAD)
     for record, (name, load) in zip(found, scenario.acting_loads.items(), strict=True):
         against = load.against(name)
         point, origin = (load.point, load.origin) if isinstance(load, Load) else ((0.0, 0.0), (0.0, 0.0))
         record["point"], record["origin"] = build.point(load.body, point), build.point(against, origin)
         record["moment"] = not isinstance(load, Load)
-        record["law"], record["constants"] = build.law(load_source(load))
+        source, constants, own = sources[name]
+        record["law"], record["constants"] = build.law((source, constants))
+        record["course"], record["courses"] = course, len(own)
+        course += len(own)
     return found
 
 
