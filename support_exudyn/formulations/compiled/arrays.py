@@ -58,8 +58,8 @@ CYLINDER = _record(
     "bore rod_side oil_length rod_length modulus supply flow_factor tank hose rod_hose damping length0 "
     "force work loss",
 )
-# a force on point `point` against `origin`, or a moment on the body of `point` against that of `origin`; with the
-# first of its own courses, and how many. hangs: by what spring what it brings along hangs over its point, while a
+# a force on point `point` against `origin`, or a moment on their bodies; with the first
+# of its own courses, and how many. hangs: by what spring what it brings along hangs over its point, while a
 # static equilibrium is looked for; else 0
 LOAD = _record("point origin moment constants course courses", "law hangs fx fy work loss")
 # what a load is told of its own courses, and where in `Scene.out`

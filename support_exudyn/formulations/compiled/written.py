@@ -1,6 +1,7 @@
 """Loads as the source of functions that are compiled, as laws of contacts are."""
 
 from collections.abc import Callable
+from typing import Any
 
 from support_exudyn.formulations.compiled.arrays import COURSES_OF_LOAD, FIRST_COURSE
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
@@ -46,7 +47,7 @@ def load_source(load: ActingLoad) -> tuple[str, list[float], list[TimeFunction]]
     Raises UnwrittenLawError, with the name of the load, if there is no such source.
     """
     formulas, (_, *known) = lines(LAW_ARGUMENTS)
-    time = _Time(LAW_ARGUMENTS[0], formulas)
+    time: Any = _Time(LAW_ARGUMENTS[0], formulas)
     try:
         if isinstance(load, Load):
             at = LoadedPoint(time, *known[: len(LoadedPoint._fields) - 1])
