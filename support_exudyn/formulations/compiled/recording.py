@@ -17,13 +17,12 @@ def size(scene: Scene, n: int) -> float:
 
 
 @compiled
-def peak(scene: Scene, n: int, path: Matrix, last: float, y: Vector, slope: Vector) -> float:
-    """The largest force [N] of a contact so far, a step included that ends with the force `last` [N].
+def peak(scene: Scene, n: int, path: Matrix, last: float, y: Vector, slope: Vector) -> tuple[float, float]:
+    """The largest force [N] of a contact in a step that ends with the force `last` [N], and at which fraction.
 
     That at points between the ends, and the highest between these, which may be a corner (where what limits
-    the damping changes).
+    the damping changes), if it may be the largest so far.
     """
-    largest = scene.contacts[n].largest
     top, at = 0.0, 0
     for i in range(PEAK_SAMPLES + 1):
         force = last
@@ -32,27 +31,25 @@ def peak(scene: Scene, n: int, path: Matrix, last: float, y: Vector, slope: Vect
             force = size(scene, n)
         if force > top:
             top, at = force, i
-    if top <= NEAR_TOP * largest:
-        return float(largest)
+    best = at / PEAK_SAMPLES
+    if top <= NEAR_TOP * scene.contacts[n].largest:
+        return top, best
     low, high = max(0.0, (at - 1) / PEAK_SAMPLES), min(1.0, (at + 1) / PEAK_SAMPLES)
-    one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-    look(scene, n, one, path, y, slope, True)
-    at_one = size(scene, n)
-    look(scene, n, other, path, y, slope, True)
-    at_other = size(scene, n)
     for _ in range(NARROWINGS):
-        top = max(top, at_one, at_other)
+        one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+        look(scene, n, one, path, y, slope, True)
+        at_one = size(scene, n)
+        look(scene, n, other, path, y, slope, True)
+        at_other = size(scene, n)
+        if at_one > top:
+            top, best = at_one, one
+        if at_other > top:
+            top, best = at_other, other
         if at_one > at_other:
-            high, other, at_other = other, one, at_one
-            one = high - GOLDEN * (high - low)
-            look(scene, n, one, path, y, slope, True)
-            at_one = size(scene, n)
+            high = other
         else:
-            low, one, at_one = one, other, at_other
-            other = low + GOLDEN * (high - low)
-            look(scene, n, other, path, y, slope, True)
-            at_other = size(scene, n)
-    return float(max(largest, top))
+            low = one
+    return top, best
 
 
 @compiled
@@ -98,9 +95,9 @@ def note_peaks(scene: Scene, room: Scratch, t: float, h: float, report: Vector) 
         if then[m].closed != 0.0:
             first, final = math.hypot(now[m].normal, now[m].friction), size(scene, m)
             if max(first, final) > NEAR_PEAK * then[m].largest:
-                highest = max(first, peak(scene, m, room.path, final, room.probe, room.slope))
+                highest, at = peak(scene, m, room.path, final, room.probe, room.slope)
                 if highest > then[m].largest:
-                    then[m].largest, then[m].largest_at = highest, t + h
+                    then[m].largest, then[m].largest_at = highest, t + at * h
         report[CLAMPED] += then[m].push < 0.0
 
 

@@ -276,9 +276,9 @@ def integrate(
             last = h >= stop - t
         if memory[CLOSED] != 0.0:
             first, final = size(now), size(then)
-            highest = peak(p, segment, memory, t, h, path, report[LARGEST], first, final, probe, there)
+            highest, at = peak(p, segment, memory, t, h, path, report[LARGEST], first, final, probe, there)
             if highest > report[LARGEST]:
-                report[LARGEST], report[LARGEST_AT] = highest, t + h
+                report[LARGEST], report[LARGEST_AT] = highest, at
         report[ACCEPTED] += 1
         memory[ASKED_DEPTH] = 0.0
         report[CUTS] += what not in (NOTHING, RETURN)
