@@ -40,7 +40,7 @@ from user_forces.normal.law import Impact, LoadError
 
 FIRST_STEP = 1e-5  # [s]
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
-AT_ONCE = 20_000  # compiled steps, some 0.3 s: until then it cannot be interrupted, and tells no progress
+AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then a run cannot be interrupted, and tells no progress
 CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed far out of its place."
 MOST_IMPACTS = 100_000
 NOTHING_RESTS = "Look at the contact law: nothing comes to rest."
@@ -65,7 +65,8 @@ class _Run:
         weights = error_weights(model, self.y, scenario.solver.tolerance)
         going = np.zeros(GOING)
         going[NEXT_STEP] = FIRST_STEP
-        pause = AT_ONCE
+        at_once = AT_ONCE // model.scene.bodies.size
+        pause = at_once
         for segment, begin, end in zip(model.courses.segments, model.edges, model.edges[1:], strict=False):
             if self.code != FINISHED:
                 return
@@ -94,7 +95,7 @@ class _Run:
                 )
                 if self.code != PAUSED:
                     break
-                pause += AT_ONCE
+                pause += at_once
                 progress(float(going[AT] / scenario.duration))
             going[MIDST] = 0.0
             if jumps.any():
