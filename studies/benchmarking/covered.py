@@ -33,7 +33,6 @@ from support_exudyn.simulation.automatic_settings import settings_for
 # tolerances of a reference, and of its own error
 TIGHT: Mapping[FormulationName, tuple[float, float, float]] = {
     "compiled": (1e-12, 1e-10, 1e-8),
-    "compiled": (1e-11, 1e-9, 1e-7),
 }
 FINER = (3.0, 1.5, 1.0)  # times shorter steps than those of a run; the last is that run
 WITNESS = (8.0, 4.0, 2.0)  # the same against the first run of "standard", where another formulation judges

@@ -241,7 +241,7 @@ def _several_pins(random: np.random.Generator) -> Scenario:
 
 
 def _on_oil(random: np.random.Generator) -> Scenario:
-    """Columns of oil; a third of these scenes ask for the engine's formulation where the tree would do."""
+    """Columns of oil; a third of these scenes ask for the engine's formulation."""
     name = _some_pin(random, rear=0.6)
     scene = _scene(random, reference_support(), {name: _pin(random)}, 0.2, actuators=_columns(_oil(random)))
     return replace(scene, formulation="redundant") if random.uniform() < 0.33 else scene

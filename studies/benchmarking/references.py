@@ -1,8 +1,8 @@
 """Tight references of the scenes: what is compared with them, how they are made, and where they are kept.
 
 `python -m studies.benchmarking.references` makes them anew, in some minutes. Each is the finest run of one
-formulation; its own error is the distance from another run: one at ten times the tolerance, both in free
-coordinates, or for columns of oil the tree against rigid bodies with constraints.
+formulation; its own error is the distance from another run: one at ten times the tolerance, both by the
+compiled formulation, or for columns of oil the compiled against the redundant one.
 """
 
 import json
@@ -124,9 +124,9 @@ def times_the_goal(off: Mapping[str, float]) -> float:
 def tight_runs(scene: BenchmarkScene) -> tuple[Scenario, Scenario]:
     """The scene as the reference has it, and as its own error is found."""
     if scene.scenario.oil_columns:
-        tree = replace(scene.scenario, formulation="compiled", solver=SolverSettings(tolerance=1e-11))
+        tight = replace(scene.scenario, formulation="compiled", solver=SolverSettings(tolerance=1e-11))
         finest = SolverSettings(impact_steps=4096, backend="symbolic")
-        return tree, replace(scene.scenario, formulation="redundant", step=6.25e-5, solver=finest)
+        return tight, replace(scene.scenario, formulation="redundant", step=6.25e-5, solver=finest)
     solvers = [SolverSettings(tolerance=tolerance) for tolerance in (TIGHTEST, 10.0 * TIGHTEST)]
     first, second = (replace(scene.scenario, formulation="compiled", solver=solver) for solver in solvers)
     return first, second

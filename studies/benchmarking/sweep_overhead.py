@@ -1,14 +1,16 @@
 """What does a sweep cost beside its runs, and how much faster are two cores than one?
 
-Measured in turns, in folders that are made for it. Nothing is asserted. Measure on a machine that does nothing
-else: two processes on two cores have none to spare. What each step takes of the processor is measured apart, in
-this process alone; other work on the machine changes that little.
+A thousand runs of the paper's rise; 256 machines whose numbers are drawn, in a sweep and as the study of the
+claims runs them. Measured in turns, in folders that are made for it. Nothing is asserted. Measure on a machine
+that does nothing else: two processes on two cores have none to spare. What each step takes of the processor is
+measured apart, in this process alone; other work on the machine changes that less.
 
 The table of the last measurement that was kept is `studies/benchmarking/SWEEPS.md`, made by
 
     python -m studies.benchmarking.sweep_overhead && cp results/sweep_overhead/SWEEPS.md studies/benchmarking/
 """
 
+import os
 import sys
 import tempfile
 import time
@@ -19,38 +21,53 @@ from pathlib import Path
 import numpy as np
 
 from studies.benchmarking import process
+from studies.claims import hypercube
+from studies.claims.plausible import COLUMNS, RIGID, samples
+from studies.claims.run import SEED
 from studies.common import paper_machine
 from studies.common.study import folder_of, show_table, work_in_folder
-from support_exudyn import Scenario, simulate
+from support_exudyn import Scenario, SolverSettings, simulate
+from support_exudyn.files.temporary import workshop
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.page.pieces import Sheet
-from support_exudyn.sweeps import Plan, grid, read_table, sweep
-from support_exudyn.sweeps.key import key
+from support_exudyn.simulation.result import with_digest
+from support_exudyn.sweeps import Plan, grid, read_sweep, read_table, sweep
 from support_exudyn.sweeps.plan import Inputs
 from support_exudyn.sweeps.run import SweepOutcome
 from support_exudyn.sweeps.store import Store
-from support_exudyn.sweeps.work import Task, row_of
+from support_exudyn.sweeps.work import Wanted, row_of
+from support_exudyn.sweeps.workers import keep_memory
 
 STUDY = "sweep_overhead"
-SHORT, LONG = 300, 160  # runs of a sweep of short ones, of longer ones (a minute on two cores)
-STEPS_OF = 100  # short runs whose steps are measured apart
-MOST_OVERHEAD, LEAST_GAIN = 0.020, 1.8  # what was asked for [s a run; two cores over one]
+RUNS, MACHINES = 1000, 256
+TURNS = 2  # of each sweep of rises, of which the fastest counts
+STEPS_OF = 100  # rises whose steps are measured apart
+MOST_OVERHEAD, LEAST_GAIN, MOST_SECONDS = 0.002, 1.9, 8.0  # asked [s a run; two cores over one; s]
+RISE = replace(paper_machine.clearance_rise(1.5, 0.0, 1e-3), formulation="compiled", solver=SolverSettings())
+DRAWN = f"""
+method = "latin_hypercube"
+samples = {MACHINES}
+seed = 1
+
+[scenario]
+machine = "reference"
+duration_s = 5
+formulation = "reduced"
+drive = {{ mode = 2 }}
+pins.rear_base.clearance_mm = 1.5
+
+[vary]
+"machine.*" = "stated range"
+"""
 
 
-def short_rise(point: Inputs) -> Scenario:
-    """A rise of 0.2 s with ideal pins, some milliseconds of work."""
-    return replace(paper_machine.ideal_rise(1e-3), duration=0.2, gravity=(0.0, -float(point["gravity"])))
+def rise(point: Inputs) -> Scenario:
+    """The paper's rise with clearance and all channels, some milliseconds of work."""
+    joint = paper_machine.clearance_joint(float(point["clearance_mm"]), 0.0)
+    return replace(RISE, pins={paper_machine.CLEARANCE_PIN: joint})
 
 
-def long_rise(point: Inputs) -> Scenario:
-    """A rise of 0.3 s with a clearance pin, some tenths of a second of work."""
-    return replace(paper_machine.clearance_rise(float(point["clearance_mm"]), 0.0, 5e-4), duration=0.3)
-
-
-PLANS = {
-    "short": Plan(grid({"gravity": np.linspace(9.0, 10.0, SHORT).tolist()}), short_rise),
-    "longer": Plan(grid({"clearance_mm": np.linspace(1.0, 2.0, LONG).tolist()}), long_rise),
-}
+RISES = Plan(grid({"clearance_mm": np.linspace(1.45, 1.55, RUNS).tolist()}), rise)
 
 
 @dataclass(frozen=True)
@@ -84,87 +101,115 @@ def timed(plan: Plan, workers: int) -> Timing:
 
         outcome = sweep(plan, Path(folder), workers=workers, progress=note)
         wall = time.perf_counter() - began
-        walls = read_table(folder)["wall_time_s"].to_pylist()
+        walls = [
+            one or 0.0 for one in read_table(folder)["wall_time_s"].to_pylist()
+        ]  # none of a refused machine
     return Timing(outcome.runs, workers, wall, sum(walls), max(0.0, first[0] - walls[0]))
 
 
-def rows() -> list[tuple[str, ...]]:
-    """All sweeps, each the best of its turns."""
-    found: dict[tuple[str, int], list[Timing]] = {}
-    for name in ("short", "longer", "short"):
-        for workers in (1, 2):
-            one = timed(PLANS[name], workers)
-            found.setdefault((name, workers), []).append(one)
-            print(f"{name}: {one}, {1e3 * one.overhead:.3g} ms", file=sys.stderr)
-    best = {key: min(turns, key=lambda one: one.wall) for key, turns in found.items()}
-    lines: list[tuple[str, ...]] = []
-    for (name, workers), one in best.items():
-        alone = best[name, 1]
-        gain = alone.wall / one.wall
-        steady = (alone.wall - alone.started) / (one.wall - one.started)
-        gains = ("", "") if workers == 1 else (f"{gain:.2f}", f"{steady:.2f}")
-        times = f"{one.wall:.2f}", f"{one.started:.2f}", f"{1e3 * one.work / one.runs:.1f}"
-        lines.append((f"{one.runs} {name} runs", str(workers), *times, f"{1e3 * one.overhead:.1f}", *gains))
+def rises() -> list[tuple[str, ...]]:
+    """The paper's rise with one process and with two, each the best of its turns."""
+    found: dict[int, list[Timing]] = {1: [], 2: []}
+    for _ in range(TURNS):
+        for workers, turns in found.items():
+            turns.append(timed(RISES, workers))
+            print(f"{turns[-1]}, {1e3 * turns[-1].overhead:.3g} ms", file=sys.stderr)
+    alone, two = (min(turns, key=lambda one: one.wall) for turns in found.values())
+    gains = f"{alone.wall / two.wall:.2f}", f"{(alone.wall - alone.started) / (two.wall - two.started):.2f}"
+    return [(*_told(f"{RUNS} rises", alone), "", ""), (*_told(f"{RUNS} rises", two), *gains)]
+
+
+def machines() -> list[tuple[str, ...]]:
+    """Machines whose numbers are drawn: a rise of each by a sweep, and as the study of the claims runs them."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "drawn.toml"
+        path.write_text(DRAWN, encoding="utf-8")
+        swept = timed(read_sweep(path), 2)
+    lines = [(*_told(f"a rise of each of {MACHINES} drawn machines", swept), "", "")]
+    plausible = samples(MACHINES, SEED)
+    for what, those in (
+        ("rigid columns alone", [{**one, COLUMNS: RIGID} for one in plausible]),
+        ("a third on oil, too", plausible),
+    ):
+        with tempfile.TemporaryDirectory() as folder:
+            began = time.perf_counter()
+            hypercube.run(those, Path(folder), 2, lambda done, of: None)
+            taken = time.perf_counter() - began
+        lines.append((f"{MACHINES} machines of the claims, {what}", "2", f"{taken:.1f}", *5 * ("",)))
     return lines
 
 
+def _told(name: str, one: Timing) -> tuple[str, ...]:
+    times = f"{one.wall:.2f}", f"{one.started:.2f}", f"{1e3 * one.work / one.runs:.1f}"
+    return name, str(one.workers), *times, f"{1e3 * one.overhead:.1f}"
+
+
 def steps() -> list[tuple[str, str]]:
-    """What each step of a short run takes of the processor [ms], the mean of some."""
-    taken = dict.fromkeys(("scenario and key", "simulation", "numbers", "saving the run", "its row"), 0.0)
+    """What each step of a rise takes of the processor [ms], the median of some."""
+    taken: dict[str, list[float]] = {}
     before = time.process_time()
 
     def lap(step: str) -> None:
         nonlocal before
         now = time.process_time()
-        taken[step] += now - before
+        taken.setdefault(step, []).append(now - before)
         before = now
 
-    plan = PLANS["short"]
+    wanted = Wanted(RISES.scenario, RISES.record)
+    keep_memory()  # as the processes of a sweep do
     with tempfile.TemporaryDirectory() as folder:
         store = Store(Path(folder))
-        for number in range(STEPS_OF + 1):
-            if number == 1:  # the first imports and compiles
-                taken = dict.fromkeys(taken, 0.0)
-            before = time.process_time()
-            scenario = plan.scenario(plan.points[number])
-            name = key(scenario)
-            lap("scenario and key")
-            result = simulate(scenario)
-            lap("simulation")
-            row = row_of(Task(name, scenario, plan.record), result)
-            lap("numbers")
-            result.save(store.run_file(name))
-            lap("saving the run")
-            store.put(row)
-            lap("its row")
-    beside = sum(taken.values()) - taken["simulation"]
-    return [
-        (step, f"{1e3 * one / STEPS_OF:.2f}") for step, one in (taken | {"all but simulation": beside}).items()
-    ]
+        with workshop(store.folder) as within:
+            for point in RISES.points[: STEPS_OF + 1]:
+                before = time.process_time()
+                task = wanted.task(point)
+                lap("scenario and key")
+                result = simulate(task.scenario)
+                lap("simulation")
+                row = row_of(task, result)
+                lap("numbers")
+                image = result.image()
+                lap("its bytes")
+                pieces = with_digest(image)
+                lap("their digest")
+                store.put(row, pieces, within)
+                lap("writing run and row")
+    found = {step: float(np.median(each[1:])) for step, each in taken.items()}  # the first imports and compiles
+    beside = sum(found.values()) - found["simulation"]
+    return [(step, f"{1e3 * one:.2f}") for step, one in (found | {"all but simulation": beside}).items()]
+
+
+def busy() -> str:
+    """How much the machine has to do before anything is measured."""
+    if not hasattr(os, "getloadavg"):
+        return ""
+    return f" The load of the machine was {os.getloadavg()[0]:.1f} when it was begun."
 
 
 def study(out: Path) -> None:
     """Measure, print and write the tables."""
+    others = busy()
     apart = Sheet(
-        title="Sweeps: processor time of a short run, by steps",
+        title="Sweeps: processor time of a rise, by steps",
         header=("step", "a run [ms]"),
         rows=tuple(steps()),
-        caption=f"The mean of {STEPS_OF} runs in one process. Sending a run and noting its row come "
-        "on top, with less than a millisecond.",
+        caption=f"The median of {STEPS_OF} runs in one process.{others}",
     )
     show_table(out / "sweep_steps", apart, width=150)
     table = Sheet(
-        title="Sweeps: what they cost beside their runs (short ones: the faster of two turns)",
+        title=f"Sweeps: what they cost beside their runs (rises: the fastest of {TURNS} turns)",
         header=(
             "sweep", "processes", "wall [s]", "of it start [s]", "a run [ms]", "overhead a run [ms]",
             "gain over one", "without start",
         ),
-        rows=tuple(rows()),
+        rows=(*rises(), *machines()),
         caption=(
-            f"Asked: an overhead of at most {1e3 * MOST_OVERHEAD:g} ms a run, and a gain of at least "
-            f"{LEAST_GAIN:g} on two cores. Overhead: wall time less start and less the sum of the runs' own "
-            "times over the number of processes; making scenarios and keys, sending, saving run and row, and "
-            "the table. Start: importing the package in the processes, and loading what is compiled."
+            f"Asked of {RUNS} rises on two cores: an overhead of at most {1e3 * MOST_OVERHEAD:g} ms a run, and "
+            f"a gain of at least {LEAST_GAIN:g}; of {MACHINES} machines at most {MOST_SECONDS:g} s. Overhead: "
+            "wall time less start and less the sum of the runs' own times over the number of processes; making "
+            "scenarios and keys, sending, numbers, saving run and row, and the table. Start: importing the "
+            "package in the processes, and loading what is compiled. A machine of the claims is twelve runs, "
+            f"to tighter tolerances.{others}"
         ),
     )  # fmt: skip
     show_table(out / "sweep_overhead", table, width=150)

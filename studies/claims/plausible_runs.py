@@ -1,6 +1,6 @@
 """What is run and measured of one plausible machine.
 
-Seven scenes by the reduced formulation, each at two tolerances: the ideal pin and four clearances in drive
+Seven scenes by the compiled formulation, each at two tolerances: the ideal pin and four clearances in drive
 mode 2, the ideal pin and 1.5 mm in mode 1. The distance of the two runs tells the numerical error of every
 measure, as it does of runs to an accuracy. One machine in some is asked on columns of oil, too.
 """
@@ -35,13 +35,11 @@ OIL, OIL_IDEAL = "1.5 mm, mode 1, oil", "ideal, mode 1, oil"
 CASES = (IDEAL, *CLEARANCES, MODE_1_IDEAL, MODE_1)
 IDEALS = (IDEAL, MODE_1_IDEAL)
 RECORDS = 1e-3  # time between records of a rise of 2 s; of a longer one as many records [s]
-TOLERANCE = 1e-6  # of the reduced formulation in the first of both runs
+TOLERANCE = 1e-6  # in the first of both runs
 # when mode 1 starts on columns of oil [s]: the journal has to come to rest first
 OIL_START = {OIL: 0.8, OIL_IDEAL: 0.02}
 OIL_AFTER = 0.4  # that is looked at [s]
 OIL_RECORDS = 5e-4  # time between records: twice that may miss 1 % of a peak [s]
-OIL_STEP = 1e-3  # of the engine in the first of the runs [s]
-OIL_TOLERANCE = 1e-3  # of the tree formulation in the first of the runs
 Values = dict[str, float]
 
 
@@ -123,22 +121,17 @@ def evidence(data: Mapping[str, Mapping[str, list[float]]]) -> Evidence:
 
 
 def on_oil(sample: Sample, case: str, support: HydraulicSupport, columns: Mapping[str, OilColumn]) -> Scenario:
-    """The start of mode 1 on columns of oil, the first of some runs: by what is cheapest for the case.
-
-    The tree formulation covers oil, but no closed loop of ideal pins; the engine alone covers that.
-    """
+    """The start of mode 1 on columns of oil, the first of some runs."""
     start = OIL_START[case]
-    ideal = case == OIL_IDEAL
     return Scenario(
         machine=support,
         drive=UniformSpeed(start=start, end=start + number(sample, "stroke_time")),
         duration=start + OIL_AFTER,
-        step=OIL_STEP,
         record_period=OIL_RECORDS,
         pins=_pins(sample, case, support),
         actuators=columns,
-        formulation="redundant" if ideal else "compiled",
-        solver=SolverSettings(backend="symbolic") if ideal else SolverSettings(tolerance=OIL_TOLERANCE),
+        formulation="compiled",
+        solver=SolverSettings(tolerance=TOLERANCE),
     )
 
 

@@ -8,7 +8,7 @@ from studies.benchmarking.peers.stock import peak_acceleration
 from studies.common import paper_machine, rise
 from studies.common.subject import Subject
 from support_exudyn import CubicStep, Scenario, SolverSettings, UniformSpeed
-from support_exudyn.formulations.registry import FormulationName, formulation
+from support_exudyn.formulations.registry import formulation
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.model.drives.drive import Stroke
 from user_forces.values.value import InputError
@@ -22,9 +22,9 @@ END = 5.4  # on cylinders, so that what rings after the valve has closed is seen
 PERIOD = 1e-3  # between records: oil swings at 40 Hz, and records twice as far apart miss 2 % of a peak [s]
 NAIVE = "mode 1, stock recipe"  # velocities not made consistent
 NAIVE_STEPS = (1e-3, 5e-4, 2.5e-4)  # [s]
-# of the first of three runs, each with half the steps of the one before
-STEP, COARSE = 1e-3, SolverSettings(impact_steps=16, backend="symbolic")  # [s]
-ON_OIL = SolverSettings(tolerance=1e-5)  # of the tree formulation
+# of the first of three runs, each finer than the one before: tolerance; or steps, of which each has half [s]
+FIRST = SolverSettings(tolerance=1e-5)
+STEP, COARSE = 1e-3, SolverSettings(impact_steps=16, backend="symbolic")
 
 
 def case_name(mode: str, pin: str, columns: str) -> str:
@@ -97,27 +97,28 @@ class ModePlan:
         first, *others = drives = [self.drive(mode, name) for name in self.actuators]
         period = min(base.record_period, PERIOD)
         base = replace(base, duration=duration, record_period=period, channels=ALL_CHANNELS)
-        if all(one == first for one in others):  # which the reduced formulation asks for
+        if all(one == first for one in others):
             base = replace(base, drive=first, drives={})
         else:
             base = replace(base, drives=dict(zip(self.actuators, drives, strict=True)))
         if columns == "cylinder":
             base = paper_machine.on_cylinders(replace(base, duration=END), paper_machine.INLETS[mode])
-            return _with_steps(base, "redundant")
+            return _first(base)
         if columns == "oil":
             if subject.is_paper:
                 base = replace(base, actuators=paper_machine.oil_columns())
-            return _with_steps(base, "redundant" if ideal else "compiled")
+            return _first(base)
         rigid = {name: one for name, one in base.actuators.items() if name not in self.actuators}
         base = replace(base, actuators=rigid)
-        return base if formulation("compiled").covers(base) else _with_steps(base, "redundant")
+        return base if formulation("compiled").covers(base) else _first(base)
 
 
-def _with_steps(case: Scenario, name: FormulationName) -> Scenario:
-    """A case at the steps, or the tolerance, of the first of its three runs."""
+def _first(case: Scenario) -> Scenario:
+    """A case at the tolerance, or the steps, of the first of its three runs."""
     case = replace(case, accuracy=None, step=STEP)
-    if name == "compiled" and formulation("compiled").covers(replace(case, solver=ON_OIL)):
-        return replace(case, formulation="compiled", solver=ON_OIL)
+    compiled = replace(case, formulation="compiled", solver=FIRST)
+    if formulation("compiled").covers(compiled):
+        return compiled
     return replace(case, formulation="redundant", solver=COARSE if case.clearance_pins else SolverSettings())
 
 

@@ -256,7 +256,7 @@ def independent(scenario: Scenario) -> Result | None:
         others = _by_steps(patient)
     else:
         solver = SolverSettings(tolerance=TOLERANCE, most_steps=MOST_OTHERS)
-        others = [replace(patient, formulation=name, solver=solver) for name in ("compiled", "compiled")]
+        others = [replace(patient, formulation="compiled", solver=solver)]
     for other in others:
         if formulation(other.formulation).covers(other):
             try:

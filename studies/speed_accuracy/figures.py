@@ -28,7 +28,6 @@ LOOKS = {
     "redundant, symbolic": ("#332288", "s"),
     "redundant, growing steps": ("#004466", "^"),
     "compiled": ("#997700", "v"),
-    "compiled": ("#009E73", "P"),
     "trapezoidal, index 2": ("#CC79A7", "<"),
     "nothing located": ("#888888", "x"),
     "spectral radius": ("#999933", "1"),

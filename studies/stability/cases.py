@@ -39,8 +39,7 @@ SWINGS = 2.0  # that a run lasts, unless it grows too much by then
 FACTOR = 4.0  # exp of that a run may grow by, if one swing is over by then
 RECORDS = 120  # of a run
 FINE = 0.1  # of the angle by which the fastest of the four motions swings on: a step
-IMPACT_STEPS = 16  # of what no run makes
-TOLERANCE = 1e-10  # of the reduced formulation
+TOLERANCE = 1e-10
 LOOK_AHEAD = 1e-4  # [s] from which on it is told how fast the equilibrium moves
 SIDES = (1.0, -1.0)
 
@@ -76,8 +75,6 @@ class PinCase:
         machine = reference_support()
         middle = machine.extended(MID_RISE)
         assert middle is not None
-        reduced = self.pin == "rear_base"
-        settings = {"tolerance": TOLERANCE} if reduced else {"impact_steps": IMPACT_STEPS}
         return Scenario(
             machine=replace(machine, start_hinge_height=middle.hinge[1]),
             drive=Steady(rate=SPEED),
@@ -86,8 +83,8 @@ class PinCase:
             record_period=duration / RECORDS,
             pins={self.pin: self.clearance_pin()},
             channels=(f"pin.{self.pin}.*",),
-            formulation="compiled" if reduced else "redundant",
-            solver=SolverSettings(result_checks=False, **settings),
+            formulation="compiled",
+            solver=SolverSettings(result_checks=False, tolerance=TOLERANCE),
         )
 
 

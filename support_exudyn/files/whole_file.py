@@ -19,12 +19,18 @@ LETTERS = 80  # of a name that are compared and told
 
 
 @contextmanager
-def whole_file(path: str | Path) -> Iterator[Path]:
+def whole_file(path: str | Path, within: Path | None = None, lasting: bool = True) -> Iterator[Path]:
     """A temporary path beside `path` to write to; it takes the place of `path` if nothing goes wrong.
 
     Missing folders are made. A link stays, and the file that it points to is written. What is written is on the
     disk before it takes its place, so that `path` is whole after a power cut too. After an error or an
     interruption `path` is as it was before; of a process that is killed a folder stays, see `workshop`.
+
+    Arguments:
+        path: of the file.
+        within: a folder of `workshop` on the same disk, for many files one after the other; None: one is made.
+        lasting: whether it is waited until the file is on the disk. Otherwise a power cut may leave an empty or
+            a cut one; for files that are known not to be whole, and can be made again.
 
     Raises OSError that names `path` if it cannot be written: before the block where that can be known, after it
     otherwise (a full disk).
@@ -34,7 +40,8 @@ def whole_file(path: str | Path) -> Iterator[Path]:
             real = real_path(path)
             real.parent.mkdir(parents=True, exist_ok=True)
             check_may_be_replaced(real)
-            temporary = held.enter_context(workshop(real.parent)) / f"x{real.suffix}"  # never too long
+            folder = within or held.enter_context(workshop(real.parent))
+            temporary = folder / f"x{real.suffix}"  # never too long
             temporary.touch()
         except FileExistsError:
             raise named(
@@ -44,7 +51,8 @@ def whole_file(path: str | Path) -> Iterator[Path]:
             raise named(error, path) from None
         try:
             yield temporary
-            write_through(temporary)
+            if lasting:
+                write_through(temporary)
             temporary.replace(real)
         except OSError as error:
             if error.errno is None or error.filename not in (None, str(temporary), temporary):

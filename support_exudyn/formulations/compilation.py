@@ -27,7 +27,9 @@ except ImportError:  # Windows
 fcntl: Any = _fcntl
 SECONDS = {"closed_forms": 8, "compiled": 10}  # that compiling takes on a quiet machine of 2020
 CONSTANTS_OF = (contact_events, contact)  # modules of which compiled functions use constants
-ALLOCATES = ".closed_forms."  # entries there make arrays; elsewhere all functions are given those that they fill
+ALLOCATES = (
+    ".closed_forms."  # entries there make arrays; elsewhere all functions are given those that they fill
+)
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -58,7 +60,10 @@ def once(function: Function) -> Function:
 
 
 def entry(function: Function) -> Function:
-    """Decorator: compile a function that Python calls, at its first call, or load it from disk."""
+    """Decorator: compile a function that Python calls, at its first call, or load it from disk.
+
+    Other threads of Python go on meanwhile.
+    """
     return _kept(function)
 
 
@@ -104,7 +109,7 @@ def _inner(function: Function, **options: bool) -> Function:
 
 
 def _kept(function: Function) -> Function:
-    options = {} if ALLOCATES in function.__module__ else UNCOUNTED
+    options = {"nogil": True} | ({} if ALLOCATES in function.__module__ else UNCOUNTED)
     try:
         dispatcher: Any = numba.njit(cache=True, error_model="numpy", **options)(function)
         kept = _is_kept_only_while_unchanged(dispatcher)

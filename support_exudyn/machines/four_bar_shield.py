@@ -33,7 +33,7 @@ PRECISE = 1e-11  # [m] to which lengths of columns are met
 MOST_CORRECTIONS = 20  # of Newton's method; four do
 LOCKED = 1e-12  # [m^2] determinant of the columns' rates at which they hold nothing any more
 MOST_REMEMBERED = 64
-REMEMBERED = ("_closing", "_followed", "_known")  # what values of machines remember beside their fields
+REMEMBERED = ("_closing", "_followed", "_known", "_linkage")  # what machines remember beside their fields
 LONGEST_STEP = 0.2  # [rad] from one posture to the next, so that it is not taken for one behind a dead centre
 
 

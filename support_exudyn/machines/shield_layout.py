@@ -264,6 +264,10 @@ class ShieldLayout(Machine, ABC, Generic[P]):
 
     def linkage(self) -> Linkage:
         """The support as four moving bodies, five pins, two columns and the canopy tip."""
+        return self._linkage
+
+    @cached_property
+    def _linkage(self) -> Linkage:
         return self.detailed((), ())
 
     @property

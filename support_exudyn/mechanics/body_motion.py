@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,10 +28,26 @@ class PointMotion:
     @cached_property
     def velocity(self) -> Series:
         """Velocity of the point (n, 2) [m/s]."""
-        velocity = self.centre_velocity.copy()
-        velocity[:, 0] -= self.spin * self.arm[:, 1]
-        velocity[:, 1] += self.spin * self.arm[:, 0]
-        return velocity
+        return pairs(
+            self.centre_velocity[:, 0] - self.spin * self.arm[:, 1],
+            self.centre_velocity[:, 1] + self.spin * self.arm[:, 0],
+        )
+
+
+class BodySeries(NamedTuple):
+    """Centre of mass [m], and cosine and sine of the turn of a body, (n,) each and contiguous."""
+
+    x: Series
+    y: Series
+    cos: Series
+    sin: Series
+
+
+def pairs(x: Series, y: Series) -> Series:
+    """Vectors (n, 2) of their columns, each of which is contiguous: working by columns is ten times faster."""
+    found = np.empty((2, len(x)))
+    found[0], found[1] = x, y
+    return found.T
 
 
 @dataclass(frozen=True)
@@ -41,26 +58,30 @@ class BodyMotion:
     position: Series
     velocity: Series
     acceleration: Series
-    _known: dict[str, tuple[Series, Series]] = field(default_factory=dict, repr=False, compare=False)
+    _known: dict[str, BodySeries] = field(default_factory=dict, repr=False, compare=False)
+
+    @cached_property
+    def _first(self) -> dict[str, int]:
+        return {name: 3 * n for n, name in enumerate(self.linkage.bodies)}
 
     def first(self, body: str) -> int:
         """Column of a body's x; y and turn follow."""
-        return 3 * list(self.linkage.bodies).index(body)
+        return self._first[body]
 
     def arm(self, body: str, point: Vector2) -> Series:
         """Vector from a body's centre of mass to a point of the start posture, ground's axes (n, 2) [m]."""
         x, y = minus(point, self.linkage.bodies[body].centre)
-        c, s = self._directions(body)
-        arm = np.empty((len(self.position), 2))
-        arm[:, 0], arm[:, 1] = c * x - s * y, s * x + c * y
-        return arm
+        at = self.body(body)
+        return pairs(at.cos * x - at.sin * y, at.sin * x + at.cos * y)
 
-    def _directions(self, body: str) -> tuple[Series, Series]:
-        """Cosine and sine of a body's turn; every point of it asks for them."""
-        if body not in self._known:
-            turn = self.position[:, self.first(body) + 2]
-            self._known[body] = np.cos(turn), np.sin(turn)
-        return self._known[body]
+    def body(self, name: str) -> BodySeries:
+        """Where a body is; every point of it asks for that."""
+        if name not in self._known:
+            i, centre = self.first(name), self.linkage.bodies[name].centre
+            turn = self.position[:, i + 2]
+            x, y = self.position[:, i] + centre[0], self.position[:, i + 1] + centre[1]
+            self._known[name] = BodySeries(x, y, np.cos(turn), np.sin(turn))
+        return self._known[name]
 
     def turn(self, body: str) -> Series:
         """A body's rotation since the start posture (n,) [rad]."""
@@ -68,11 +89,16 @@ class BodyMotion:
 
     def place(self, body: str, point: Vector2) -> Series:
         """Path of a point of the start posture (n, 2) [m]; velocities may be missing."""
+        return pairs(*self.coordinates(body, point))
+
+    def coordinates(self, body: str, point: Vector2) -> tuple[Series, Series]:
+        """The same by its coordinates, (n,) each."""
         if body == GROUND:
-            return np.tile(point, (len(self.position), 1))
-        i = self.first(body)
-        place: Series = self.position[:, i : i + 2] + np.array(self.linkage.bodies[body].centre)
-        return place + self.arm(body, point)
+            still = np.zeros(len(self.position))
+            return still + point[0], still + point[1]
+        x, y = minus(point, self.linkage.bodies[body].centre)
+        at = self.body(body)
+        return at.x + (at.cos * x - at.sin * y), at.y + (at.sin * x + at.cos * y)
 
     def spin(self, body: str) -> Series:
         """A body's angular velocity (n,) [rad/s]."""
@@ -82,13 +108,12 @@ class BodyMotion:
         """Motion of a point of the start posture."""
         rows = len(self.position)
         if body == GROUND:
-            still, nowhere = np.zeros(rows), np.zeros((rows, 2))
-            return PointMotion(np.tile(point, (rows, 1)), still, still, nowhere, nowhere)
+            still, nowhere = np.zeros(rows), np.zeros((2, rows)).T
+            return PointMotion(self.place(body, point), still, still, nowhere, nowhere)
         i = self.first(body)
-        centre = np.array(self.linkage.bodies[body].centre)
-        arm = self.arm(body, point)
+        at, arm = self.body(body), self.arm(body, point)
         return PointMotion(
-            self.position[:, i : i + 2] + centre + arm,
+            pairs(at.x + arm[:, 0], at.y + arm[:, 1]),
             self.linkage.bodies[body].angle + self.position[:, i + 2],
             self.velocity[:, i + 2],
             arm,

@@ -131,6 +131,8 @@ ChannelDefinitions = dict[str, ChannelDefinition]
 
 def chosen(names: Iterable[str], patterns: Iterable[str]) -> list[str]:
     """Time, and the names that a pattern matches, in their order."""
+    if patterns == ALL_CHANNELS:
+        return list(names)
     return [name for name in names if name == "time" or any(fnmatchcase(name, p) for p in patterns)]
 
 

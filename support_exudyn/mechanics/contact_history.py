@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.body_motion import BodyMotion, PointMotion
+from support_exudyn.mechanics.body_motion import BodyMotion, PointMotion, pairs
 from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
 from support_exudyn.mechanics.joint_forces import PinForce
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
@@ -14,6 +14,7 @@ from support_exudyn.model.pins import ClearancePin
 from user_forces.contact import SHALLOWEST, Contact, ContactForce, SlipHistory
 from user_forces.expressions.arrays import as_number, values_of
 from user_forces.normal.law import Impact
+from user_forces.values.value import Vector2
 
 
 def ends(motion: BodyMotion, place: PinPlace, pin: ClearancePin) -> tuple[PointMotion, PointMotion]:
@@ -21,6 +22,12 @@ def ends(motion: BodyMotion, place: PinPlace, pin: ClearancePin) -> tuple[PointM
     first = motion.point(place.first, place.first_point)
     second = motion.point(place.second, place.second_point)
     return (first, second) if pin.bore == "first" else (second, first)
+
+
+def journal_end(place: PinPlace, pin: ClearancePin) -> tuple[str, Vector2]:
+    """The body of the journal, and the journal's centre in the start posture [m]."""
+    second = place.second, place.second_point
+    return second if pin.bore == "first" else (place.first, place.first_point)
 
 
 class RelativeMotion(NamedTuple):
@@ -82,12 +89,12 @@ def series(contact: Contact, moving: RelativeMotion, memories: Series | Sequence
 
 def acting(motion: BodyMotion, place: PinPlace, pin: ClearancePin, contact: ContactSeries) -> PinForce:
     """A clearance pin's force of the first body on the second, and where it acts: the contact point."""
-    _, journal = ends(motion, place, pin)
-    force = np.column_stack([contact.force_x, contact.force_y])
-    offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
-    away = np.maximum(np.linalg.norm(offset, axis=1), SHALLOWEST)  # there is no force in the middle
+    journal = motion.place(*journal_end(place, pin))
+    force = pairs(contact.force_x, contact.force_y)
+    x, y = contact.eccentricity_x, contact.eccentricity_y
+    away = np.maximum(np.sqrt(x * x + y * y), SHALLOWEST)  # there is no force in the middle
     arm = journal_arm(pin.contact, contact.depth) / away
-    return PinForce(force if pin.bore == "first" else -force, journal.position + arm[:, None] * offset)
+    return PinForce(force if pin.bore == "first" else -force, journal + pairs(arm * x, arm * y))
 
 
 def journal_arm(contact: Contact, depth: Series) -> Series:
@@ -104,7 +111,7 @@ def _force(contact: Contact, moving: RelativeMotion, memory: dict[str, Series]) 
 
 
 def of_depth(function: Callable[[float], float], depth: Series) -> Series:
-    """What a law says of every depth: its elastic force [N] or energy [J]."""
+    """What a law says of every depth, its force [N] or energy [J]; or any function written as laws are."""
     try:
         return values_of(function(as_number(depth)), depth.size)
     except TypeError:  # it branches

@@ -1,6 +1,7 @@
 """Second derivatives of drives, which say only how far they are and how fast."""
 
 from bisect import bisect_left
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -25,6 +26,15 @@ def accelerations(drive: Drive, time: Series, duration: float) -> Series:
         return np.zeros_like(time)
     breaks = sorted(drive.breaks)
     return np.array([_at(drive, breaks, t) for t in time.tolist()])
+
+
+def accelerations_of(drives: Sequence[Drive], time: Series, duration: float) -> list[Series]:
+    """`accelerations` of several drives, which often are the same: found once for all that are equal."""
+    found: list[Series] = []
+    for drive in drives:
+        first = drives.index(drive)
+        found.append(found[first] if first < len(found) else accelerations(drive, time, duration))
+    return found
 
 
 def _at(drive: Drive, breaks: list[float], t: float) -> float:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.body_motion import BodyMotion, BodySeries, pairs
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from user_forces.values.value import Vector2
@@ -47,20 +47,21 @@ class _Balance:
         self.motion = motion
         self.force: dict[str, Series] = {}
         self.moment: dict[str, Series] = {}
-        self.centre: dict[str, Series] = {}
+        self.centre: dict[str, BodySeries] = {}
         for name, body in motion.linkage.bodies.items():
             i = motion.first(name)
-            self.force[name] = body.mass * (motion.acceleration[:, i : i + 2] - np.array(gravity))
+            ax, ay = motion.acceleration[:, i], motion.acceleration[:, i + 1]
+            self.force[name] = pairs(body.mass * (ax - gravity[0]), body.mass * (ay - gravity[1]))
             self.moment[name] = body.inertia * motion.acceleration[:, i + 2]
-            self.centre[name] = motion.position[:, i : i + 2] + np.array(body.centre)
+            self.centre[name] = motion.body(name)
 
     def take(self, body: str, force: Series, point: Series) -> None:
         """Account for a force [N] on a body at points [m]."""
         if body == GROUND:
             return
-        arm = point - self.centre[body]
+        x, y = point[:, 0] - self.centre[body].x, point[:, 1] - self.centre[body].y
         self.force[body] -= force
-        self.moment[body] -= arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
+        self.moment[body] -= x * force[:, 1] - y * force[:, 0]
 
 
 def open_joint_forces(
@@ -83,11 +84,13 @@ def open_joint_forces(
     left = _Balance(motion, gravity)
     for name, push in actuators.items():
         actuator = linkage.actuators[name]
-        foot = motion.point(actuator.foot, actuator.foot_point).position
-        head = motion.point(actuator.head, actuator.head_point).position
-        along = (head - foot) / np.linalg.norm(head - foot, axis=1)[:, None]
-        left.take(actuator.head, push[:, None] * along, head)
-        left.take(actuator.foot, -push[:, None] * along, foot)
+        foot = motion.place(actuator.foot, actuator.foot_point)
+        head = motion.place(actuator.head, actuator.head_point)
+        x, y = (head - foot).T
+        length = np.sqrt(x * x + y * y)
+        force = pairs(push * (x / length), push * (y / length))
+        left.take(actuator.head, force, head)
+        left.take(actuator.foot, -force, foot)
     for name, pin in known.items():
         place = linkage.pins[name]
         left.take(place.second, pin.force, pin.point)
@@ -99,8 +102,8 @@ def open_joint_forces(
         name, body = _next(motion, {name: (p.first, p.second) for name, p in waiting.items()})
         place = waiting.pop(name)
         point = place.second_point if body == place.second else place.first_point
-        where = motion.point(body, point).position
-        force = left.force[body].copy()  # on the body
+        where = motion.place(body, point)
+        force = left.force[body].copy("K")  # on the body
         found.pins[name] = force if body == place.second else -force
         left.take(place.second, found.pins[name], where)
         left.take(place.first, -found.pins[name], where)

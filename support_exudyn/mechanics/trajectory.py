@@ -169,9 +169,8 @@ class Outcome:
     """A finished run of a formulation.
 
     trajectory: at the records. onsets: for each clearance pin the beginnings of contact. largest_force: for
-    each clearance pin the largest force [N] at any time. largest_force_time: the end of the step that has it
-    [s]. impulses: where the speed of rigid actuators or cranks
-    jumped.
+    each clearance pin the largest force [N] at any time. largest_force_time: when that is [s]; in the redundant
+    formulation the end of the step that has it. impulses: where the speed of rigid actuators or cranks jumped.
     counts: what the solver did.
     """
 

@@ -13,6 +13,7 @@ from support_exudyn.postprocessing.shown_numbers import AT_ANY_STEP, label, show
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL
 from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.horizon import agreed
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.reported_numbers import FORCE, measures
 from support_exudyn.simulation.result import Result
@@ -96,8 +97,18 @@ def unmet(result: Result) -> str:
         "means in place of largest values, which settle first",
     ]
     return (
-        f"accuracy {result.goal:g}: NOT met, {told:.1g} is estimated; shorter steps did not help. What may: "
-        + "; ".join(filter(None, changes))
+        f"accuracy {result.goal:g}: NOT met, {told:.1g} is estimated; shorter steps did not help. "
+        f"{_determined(result)}What may: " + "; ".join(filter(None, changes))
+    )
+
+
+def _determined(result: Result) -> str:
+    """Up to when the run is determined, as a sentence; empty where its impacts do not say."""
+    if not math.isfinite(result.horizon):
+        return ""
+    return (
+        f"Up to {said(result.horizon, 's')}, {agreed(result)} impacts, runs with shorter steps agree; what "
+        "comes later depends on the steps. "
     )
 
 

@@ -32,9 +32,14 @@ class Channel:
         return not self.meaning.endswith(UNDETERMINED)
 
 
-def channels(scenario: Scenario, run: Trajectory | ObservedRun) -> dict[str, Channel]:
+def evaluated(scenario: Scenario, run: Trajectory | ObservedRun) -> EvaluationContext | ObservedRun:
+    """What the channels of a run are computed from."""
+    return EvaluationContext(scenario.linkage, scenario.gravity, run) if isinstance(run, Trajectory) else run
+
+
+def channels(scenario: Scenario, run: Trajectory | ObservedRun | EvaluationContext) -> dict[str, Channel]:
     """The channels that a scenario asks for, by name; all if the result checks look at all of them."""
-    context = EvaluationContext(scenario.linkage, scenario.gravity, run) if isinstance(run, Trajectory) else run
+    context = run if isinstance(run, EvaluationContext) else evaluated(scenario, run)
     channel_definitions = scenario.channel_definitions if scenario.solver.result_checks else _asked(scenario)
     return {
         name: Channel(definition.values(context), definition.unit, definition.meaning)

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
 from dataclasses import field, replace
 from functools import cached_property
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -105,6 +105,15 @@ class ScenarioData(Value, ABC):
     record_period: Seconds[Positive] = 1e-3
     channels: tuple[str, ...] = ALL_CHANNELS
     solver: SolverSettings = field(default_factory=SolverSettings)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What is sent to another process: all but functions within functions, and what takes much room."""
+        return {name: item for name, item in vars(self).items() if name not in ("channel_definitions", "plain")}
+
+    @cached_property
+    def plain(self) -> Mapping[str, Any]:
+        """What `to_data` gives, once for all that only read it."""
+        return self.to_data()
 
     @abstractmethod
     def refined(self, factor: float = 2) -> ScenarioData:
@@ -244,7 +253,7 @@ class ScenarioData(Value, ABC):
         of_valves = (cylinder.inlet.breaks for cylinder in self.cylinders.values())
         return tuple(sorted(of_drives.union(*(load.breaks for load in self.acting_loads.values()), *of_valves)))
 
-    @property
+    @cached_property
     def channel_definitions(self) -> dict[str, ChannelDefinition]:
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:

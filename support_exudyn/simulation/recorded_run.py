@@ -23,7 +23,8 @@ class RecordedRun:
 
     scenario: what was run. channels: quantities over time by name, see `result["tip.x"]`.
     onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
-    largest force [N] at any time, also inside steps. largest_force_time: the end of the step that has it [s].
+    largest force [N] at any time, also inside steps. largest_force_time: when it is [s]; in the
+    redundant formulation the end of the step that has it.
     impulses: where the speed of
     rigid actuators or cranks jumped. counts: what the solver did.
     wall_time: [s], of building, settling and integrating, of all runs that an accuracy took.

@@ -73,13 +73,18 @@ class ReportedNumber(NamedTuple):
     settles: bool = True
 
 
-def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, ReportedNumber]:
+def measures(
+    result: RecordedRun, after: float, until: float, sized: bool = True
+) -> Mapping[str, ReportedNumber]:
     """The numbers that every result reports: name, unit and how it is measured, see `Result.numbers`.
+
+    sized: whether sizes are told, too, which take as long as the numbers and which errors alone are told by.
 
     Raises InputError if no record lies between the times.
     """
     after, until = _time(after, "after"), _time(until, "until")
-    if not _inside(result, after, until).any():
+    chosen = inside(result, after, until)
+    if chosen.start == chosen.stop:
         first, last = result.time[[0, -1]]
         raise InputError(
             f"after = {after} s, until = {until} s: no record lies between; allowed: times around at least "
@@ -89,18 +94,18 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
     left = left_by_newton(result.scenario)
     steps_chosen = result.scenario.chooses_steps
     turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
-    fastest = max((float(np.abs(result[name]).max()) for name in turning), default=0.0)
+    fastest = max((largest(result[name]) for name in turning), default=0.0) if sized else 0.0
     for name, channel in result.channels.items():
         if name.endswith(FORCE) and channel.is_determined:
-            forces = result[name][_inside(result, after, until)]
-            most = largest(forces)
+            forces = result[name][chosen]
+            most = largest(forces) if sized else 0.0
             for word, statistic in STATISTICS.items():
                 if word in SIGNED and name.startswith("pin."):
                     continue  # a magnitude, which has no sign
                 measure, between = over(name, statistic, after, until), _missed(word, name, after, until)
                 of = name if word in AVERAGED else ""  # of a single record, which others average out
                 share, values = left, most
-                if word == "std":
+                if word == "std" and sized:
                     spread, mean = measure(result), float(np.abs(forces).mean())
                     # rounding of the forces scatters, and what scatters beside more adds next to nothing
                     values = spread + (math.hypot(spread, ROUNDING * most) - spread) / ROUNDING
@@ -124,7 +129,7 @@ def measures(result: RecordedRun, after: float, until: float) -> Mapping[str, Re
     for point in result.scenario.linkage.points:
         if not {f"{point}.x", f"{point}.y"} <= result.channels.keys():
             continue  # it was not asked for, and no error either, for whose sake it would have been recorded
-        farthest = float(np.abs(path_of(result, point)).max())
+        farthest = largest(path_of(result, point)) if sized else 0.0
         for axis in ("x", "y"):
             measure = over(f"{point}.{axis}", np.mean, after, until)
             found[f"{point}.{axis}.mean"] = ReportedNumber("m", measure, farthest, "place")
@@ -183,16 +188,18 @@ def _time(item: Any, name: str) -> float:
     raise InputError(f"{name} = {short(item)}: allowed: a time in s")
 
 
-def _inside(run: RecordedRun, after: float, until: float) -> npt.NDArray[np.bool_]:
-    """Which records lie between two times [s]."""
-    return (run.time >= after - 1e-9) & (run.time <= until + 1e-9)
+def inside(run: RecordedRun, after: float, until: float) -> slice:
+    """Which records lie between two times [s]; none if one of these is no number."""
+    after, until = after - 1e-9, until + 1e-9  # times of records are sums of periods
+    first = int(run.time.searchsorted(after))
+    return slice(first, int(run.time.searchsorted(until, "right")) if until >= after else first)
 
 
 def over(name: str, statistic: Callable[[np.ndarray], float], after: float, until: float) -> Measure:
     """A statistic of a channel's records between two times [s], in its unit."""
 
     def measure(run: RecordedRun) -> float:
-        return float(statistic(run[name][_inside(run, after, until)]))
+        return float(statistic(run[name][inside(run, after, until)]))
 
     return measure
 
@@ -201,8 +208,8 @@ def time_of_largest(name: str, after: float, until: float) -> Measure:
     """The time [s] of the record, between two times [s], at which a channel is largest in magnitude."""
 
     def measure(run: RecordedRun) -> float:
-        inside = _inside(run, after, until)
-        return float(run.time[inside][np.abs(run[name][inside]).argmax()])
+        chosen = inside(run, after, until)
+        return float(run.time[chosen][np.abs(run[name][chosen]).argmax()])
 
     return measure
 
@@ -215,11 +222,11 @@ def _other_times(name: str, after: float, until: float) -> Measure:
     """
 
     def measure(run: RecordedRun) -> float:
-        inside = _inside(run, after, until)
-        time, values = run.time[inside], np.abs(run[name][inside])
-        doubt, other = missed("largest", run[name][inside], time, run.scenario.breaks), run.coarser
+        chosen = inside(run, after, until)
+        time, values = run.time[chosen], np.abs(run[name][chosen])
+        doubt, other = missed("largest", run[name][chosen], time, run.scenario.breaks), run.coarser
         while other is not None:
-            doubt = max(doubt, abs(float(values.max()) - largest(other[name][_inside(other, after, until)])))
+            doubt = max(doubt, abs(float(values.max()) - largest(other[name][inside(other, after, until)])))
             other = other.coarser
         # the one may be less and the other more
         near = time[values >= values.max() - 2.0 * doubt]
@@ -230,8 +237,8 @@ def _other_times(name: str, after: float, until: float) -> Measure:
 
 def _missed(word: str, name: str, after: float, until: float) -> Measure:
     def measure(run: RecordedRun) -> float:
-        inside = _inside(run, after, until)
-        return missed(word, run[name][inside], run.time[inside], run.scenario.breaks)
+        chosen = inside(run, after, until)
+        return missed(word, run[name][chosen], run.time[chosen], run.scenario.breaks)
 
     return measure
 

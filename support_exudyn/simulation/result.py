@@ -5,16 +5,16 @@ from __future__ import annotations
 import errno
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import h5py
 import numpy as np
 
-from support_exudyn.files.hdf5 import BLOCK, Inside, check_checksum, with_checksum, write_series
+from support_exudyn.files.hdf5 import Inside, check_checksum, checksum_block, file_image, write_texts
 from support_exudyn.files.own_modules import import_modules_of, modules_of
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.contact_state import Onset
@@ -23,6 +23,7 @@ from support_exudyn.scenario.presentation import presenter
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.simulation.data_frames import to_pandas, to_xarray
 from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
+from support_exudyn.simulation.horizon import horizon
 from support_exudyn.simulation.memory import available
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import measures
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FORMAT = "support_exudyn result 5"
+COLUMNS = "time [s], initial impact velocity [m/s], time of separation [s], speed of separation [m/s]"
 DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
 
 
@@ -110,6 +112,15 @@ class Result(RecordedRun):
         """Whether the estimated error is as small as was asked for."""
         return self.goal is not None and self.worst_error <= self.goal
 
+    @property
+    def horizon(self) -> float:
+        """The time [s] of the first impact that shorter steps change, see `simulation.horizon`; infinite: none.
+
+        Up to it the run is determined; beyond it means and spreads may be results, single impacts are not.
+        """
+        self._check()
+        return horizon(self)
+
     def _check(self) -> None:
         if self.coarser is None:
             raise InputError(
@@ -163,18 +174,21 @@ class Result(RecordedRun):
 
         Raises OSError that names the file if it cannot be written; an older one is then as it was.
         """
-        # made in memory: on a full disk HDF5 would end the whole process
-        with h5py.File("result", "w", driver="core", backing_store=False, userblock_size=BLOCK) as file:
-            file.attrs["format"] = FORMAT
-            data = self.scenario.to_data()
-            _write(file, self)
-            if own := modules_of(data):
-                file.attrs["own_classes"] = json.dumps(own)
-            file.flush()
-            image = file.id.get_file_image()
-        with whole_file(path) as temporary:
-            temporary.write_bytes(with_checksum(image, FORMAT))
+        pieces = with_digest(self.image())
+        with whole_file(path) as temporary, temporary.open("wb") as file:
+            file.writelines(pieces)
         return Path(path)
+
+    def image(self) -> bytearray:
+        """The bytes of the HDF5 file that `save` writes, behind its digest."""
+
+        def write(file: h5py.File) -> None:
+            data = self.scenario.plain
+            own = modules_of(data)
+            write_texts(file, {"format": FORMAT} | ({"own_classes": json.dumps(own)} if own else {}))
+            _write(file, self, data)
+
+        return file_image(dict(_series(self)), write)
 
     @staticmethod
     def load(path: str | Path) -> Result:
@@ -209,28 +223,39 @@ class Result(RecordedRun):
             ) from None
 
 
-def _write(group: h5py.Group, result: Result) -> None:
-    group.attrs["scenario"] = json.dumps(result.scenario.to_data())
-    group.attrs["impulses"] = json.dumps([asdict(impulse) for impulse in result.impulses])
-    group.attrs["counts"] = json.dumps(asdict(result.counts))
-    group.attrs["wall_time_s"] = result.wall_time
-    group.attrs["provenance"] = json.dumps(dict(result.provenance))
-    group.attrs["goal"] = json.dumps(result.goal)
-    series = {
-        name: (channel.values, {"unit": channel.unit, "meaning": channel.meaning})
-        for name, channel in result.channels.items()
+def with_digest(image: bytearray) -> tuple[bytes, bytearray]:
+    """The bytes of a run's file, in pieces: the digest before those of `Result.image`."""
+    return checksum_block(image, FORMAT), image
+
+
+def _series(result: Result, above: str = "") -> Iterator[tuple[str, tuple[np.ndarray, dict[str, str]]]]:
+    """All channels of a run and of coarser ones by the paths of their data sets, with what is said of them."""
+    for name, channel in result.channels.items():
+        texts = {"unit": channel.unit, "meaning": channel.meaning}
+        yield f"{above}channels/{name}", (channel.values, texts)
+    if result.coarser is not None:
+        yield from _series(result.coarser, f"{above}coarser/")
+
+
+def _write(group: h5py.Group, result: Result, scenario: Mapping[str, Any]) -> None:
+    """Write all but the channels. scenario: its plain data."""
+    texts = {
+        "scenario": scenario,
+        "impulses": [asdict(impulse) for impulse in result.impulses],
+        "counts": asdict(result.counts),
+        "provenance": dict(result.provenance),
+        "goal": result.goal,
     }
-    write_series(group.create_group("channels"), series)
+    write_texts(group, {name: json.dumps(item) for name, item in texts.items()})
+    group.attrs["wall_time_s"] = result.wall_time
     for name, onsets in result.onsets.items():
         data = group.create_dataset(f"onsets/{name}", data=np.array(onsets).reshape(-1, 4))
-        data.attrs["columns"] = (
-            "time [s], initial impact velocity [m/s], time of separation [s], speed of separation [m/s]"
-        )
+        write_texts(data, {"columns": COLUMNS})
         data.attrs["largest_force_N"] = result.largest_force[name]
         if name in result.largest_force_time:
             data.attrs["largest_force_time_s"] = result.largest_force_time[name]
     if result.coarser is not None:
-        _write(group.create_group("coarser"), result.coarser)
+        _write(group["coarser"], result.coarser, result.coarser.scenario.plain)
 
 
 def _read(group: Inside) -> Result:

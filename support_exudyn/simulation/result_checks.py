@@ -11,10 +11,12 @@ import numpy as np
 from support_exudyn.formulations.contract import Failure
 from support_exudyn.formulations.limits import DEEPEST, SOFT, too_deep
 from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.contact_history import of_depth
 from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.lawful import UNLAWFUL
+from user_forces.values.value import Vector2
 
 # Energy that the balance may be open by, as a share of what was turned over: kinetic, potential and elastic
 # energy, losses and work. The reference support closes to 1e-5.
@@ -34,12 +36,21 @@ APART = 1e-4  # [m] that what is joined may be apart
 DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
 
 
-def result_checks(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Failure | None:
-    """The first reason not to believe a run; None if there is none. channels: all, whatever is asked for."""
-    return next(_reasons(scenario, outcome, channels), None)
+def result_checks(
+    scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel], motion: BodyMotion | None = None
+) -> Failure | None:
+    """The first reason not to believe a run; None if there is none.
+
+    Arguments:
+        channels: all, whatever is asked for.
+        motion: of all bodies, where it is known already.
+    """
+    return next(_reasons(scenario, outcome, channels, motion), None)
 
 
-def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:
+def _reasons(
+    scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel], motion: BodyMotion | None
+) -> Iterator[Failure]:
     time = channels["time"].values
     for name, channel in channels.items():
         if not np.isfinite(channel.values).all():
@@ -61,7 +72,7 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
         yield Failure(reason, COARSE + UNSAID, float(time[first]), finer=True)
     yield from _losses(scenario, outcome, channels)
     yield from _pistons_at_ends(scenario, outcome)
-    if (gap := joints_apart(scenario, outcome)) is not None and (gap > APART).any():
+    if (gap := joints_apart(scenario, outcome, motion)) is not None and (gap > APART).any():
         first = int(np.argmax(gap > APART))
         reason = f"what is joined is {1e3 * gap.max():.3g} mm apart; allowed: {1e3 * APART:g} mm"
         yield Failure(reason, DRIFTED, float(time[first]), finer=True)
@@ -149,35 +160,38 @@ def turned_over(channels: Mapping[str, Channel]) -> float:
     return sum(float(np.abs(energy - energy[0]).max()) for energy in energies) + float(energies[0][0])
 
 
-def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
+def joints_apart(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None = None) -> Series | None:
     """Largest distance of what ideal pins, rigid actuators and guides hold together, at the records (n,) [m].
 
-    None for runs in space.
+    None for runs in space. motion: of all bodies, where it is known already.
     """
     run = outcome.trajectory
     if not isinstance(run, Trajectory):
         return None
     linkage, time = scenario.linkage, run.time
-    motion = BodyMotion(linkage, run.position, run.velocity, run.acceleration)
-    gaps = np.zeros_like(time)
-    drives = {name: scenario.drive_of(name) for name in linkage.actuators}
+    motion = motion or BodyMotion(linkage, run.position, run.velocity, run.acceleration)
+    gaps = np.zeros_like(time)  # squared
     extensions: dict[int, Series] = {}  # of drives, which actuators share
     for name, pin in linkage.pins.items():
         if scenario.pin(name).holds:
-            apart = motion.place(pin.first, pin.first_point) - motion.place(pin.second, pin.second_point)
-            gaps = np.maximum(gaps, np.hypot(*apart.T))
+            x, y = _apart(motion, (pin.first, pin.first_point), (pin.second, pin.second_point))
+            gaps = np.maximum(gaps, x * x + y * y)
     for name, actuator in linkage.actuators.items():
         if name not in scenario.compliant_actuators:
-            span = motion.place(actuator.head, actuator.head_point) - motion.place(
-                actuator.foot, actuator.foot_point
-            )
-            drive = drives[name]
+            x, y = _apart(motion, (actuator.head, actuator.head_point), (actuator.foot, actuator.foot_point))
+            drive = scenario.drive_of(name)
             if id(drive) not in extensions:
-                extensions[id(drive)] = np.array([drive.extension(t) for t in time.tolist()])
+                extensions[id(drive)] = of_depth(drive.extension, time)
             wanted = actuator.start_length + extensions[id(drive)]
-            gaps = np.maximum(gaps, np.abs(np.hypot(*span.T) - wanted))
+            gaps = np.maximum(gaps, (np.sqrt(x * x + y * y) - wanted) ** 2)
     for slide in scenario.guided_linkage.slides.values():
-        apart = motion.place(slide.body, slide.point) - motion.place(slide.against, slide.point)
+        x, y = _apart(motion, (slide.body, slide.point), (slide.against, slide.point))
         along = slide.direction + motion.turn(slide.against)
-        gaps = np.maximum(gaps, np.abs(np.cos(along) * apart[:, 1] - np.sin(along) * apart[:, 0]))
-    return gaps
+        gaps = np.maximum(gaps, (np.cos(along) * y - np.sin(along) * x) ** 2)
+    return np.sqrt(gaps)
+
+
+def _apart(motion: BodyMotion, one: tuple[str, Vector2], other: tuple[str, Vector2]) -> tuple[Series, Series]:
+    """How far a point of a body is from one of another, in both directions (n,) [m]."""
+    (x, y), (other_x, other_y) = motion.coordinates(*one), motion.coordinates(*other)
+    return x - other_x, y - other_y

@@ -2,17 +2,14 @@
 
 import logging
 import sys
-import tempfile
 import threading
 from collections.abc import Generator, Iterable, Iterator
-from pathlib import Path
 from typing import Any
 
-from support_exudyn.files.whole_file import whole_file
-from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.result import with_digest
 from support_exudyn.sweeps.key import program
-from support_exudyn.sweeps.store import Store, StoredRun
-from support_exudyn.sweeps.work import Task, computed, run_into
+from support_exudyn.sweeps.store import Pieces, Store, StoredRun
+from support_exudyn.sweeps.work import Task, computed, image_of, run_into
 from user_forces.values.value import InputError
 
 AHEAD = 2  # runs for each thread of the cluster that wait there, so that none waits for us
@@ -74,7 +71,7 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[S
                 future = next(done)
                 task = under_way.pop(future)
                 try:
-                    row, image = future.result()
+                    row, pieces = future.result()
                 except KilledWorker as error:
                     yield StoredRun(
                         task.key, "killed", f"lost with its worker, again and again: {_said(error)}"
@@ -82,7 +79,7 @@ def on_cluster(tasks: Iterable[Task], store: Store, address: str) -> Generator[S
                 except CancelledError:
                     raise lost from None
                 else:
-                    yield _kept(store, row, image)
+                    yield store.put(row, pieces)
                 future.release()
                 further(done)
         finally:
@@ -122,19 +119,12 @@ def _silence_output() -> None:
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)
 
 
-def _kept(store: Store, row: StoredRun, image: bytes | None) -> StoredRun:
-    if image is not None:
-        with whole_file(store.run_file(row.key)) as temporary:
-            temporary.write_bytes(image)
-    return store.put(row)
-
-
 def _said(error: Exception) -> str:
     return " ".join(str(error).split())
 
 
-def _remote(task: Task, ours: dict[str, str]) -> tuple[StoredRun, bytes | None]:
-    """On a worker: a run's row, and its file's bytes if it is to be kept."""
+def _remote(task: Task, ours: dict[str, str]) -> tuple[StoredRun, Pieces]:
+    """On a worker: a run's row, and its file's bytes in pieces if it is to be kept."""
     theirs = program()
     differing = sorted(name for name in {*ours, *theirs} if ours.get(name) != theirs.get(name))
     if differing:
@@ -142,9 +132,4 @@ def _remote(task: Task, ours: dict[str, str]) -> tuple[StoredRun, bytes | None]:
         raise InputError(f"a worker of the cluster runs another program ({said}); allowed: the same everywhere")
     with ONE:
         row, result = computed(task)
-    return row, _image(result) if result is not None and task.record.keep_runs else None
-
-
-def _image(result: Result) -> bytes:
-    with tempfile.TemporaryDirectory(prefix="support-exudyn-") as folder:
-        return result.save(Path(folder) / "run.h5").read_bytes()
+    return row, with_digest(image) if (image := image_of(task, result)) is not None else ()

@@ -33,14 +33,14 @@ def key(scenario: Scenario, errors: bool = False) -> str:
 
     errors: whether it is made with estimated errors, see `simulate`.
     """
-    data = scenario.to_data()
+    data = scenario.plain
     text = json.dumps([data, errors, program(), _own(data)], sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
 
 
 def _own(data: Any) -> dict[str, str]:
     """Digests of the modules of one's own whose classes these data are of, by name."""
-    modules = {Value.of_name(kind).__module__ for kind in classes_in(data)}
+    modules = {Value.of_name(kind).__module__ for kind in set(classes_in(data))}
     return {name: _source(name) for name in modules if name.partition(".")[0] not in OURS}
 
 

@@ -11,7 +11,7 @@ from support_exudyn.mechanics.extremes import largest, missed
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import errors
 from support_exudyn.simulation.recorded_run import RecordedRun
-from support_exudyn.simulation.reported_numbers import ReportedNumber, measures
+from support_exudyn.simulation.reported_numbers import ReportedNumber, inside, measures
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.plan import Record
 from support_exudyn.sweeps.store import StoredNumber
@@ -41,7 +41,7 @@ def numbers(result: Result, record: Record) -> dict[str, StoredNumber]:
 
     Raises InputError if no record lies between the times.
     """
-    usual = measures(result, record.after, record.until)
+    usual = measures(result, record.after, record.until, sized=result.coarser is not None)
     found: dict[str, ReportedNumber] = {}
     if not record.numbers:
         found.update(usual)
@@ -126,15 +126,14 @@ def _is_magnitude(channel: str) -> bool:
 
 def _kind(result: Result, channel: str, statistic: str, record: Record) -> ReportedNumber:
 
-    def inside(run: RecordedRun) -> np.ndarray:
-        # as of `Result.numbers`: times of records are sums of periods
-        return (run.time >= record.after - 1e-9) & (run.time <= record.until + 1e-9)
+    def chosen(run: RecordedRun) -> slice:
+        return inside(run, record.after, record.until)
 
     if statistic in TIMES:
         place = TIMES[statistic]
 
         def when(run: RecordedRun) -> float:
-            return float(run.time[inside(run)][place(run[channel][inside(run)])])
+            return float(run.time[chosen(run)][place(run[channel][chosen(run)])])
 
         def apart(run: RecordedRun) -> float:
             """Half the time between records, among which the extreme may be."""
@@ -144,11 +143,10 @@ def _kind(result: Result, channel: str, statistic: str, record: Record) -> Repor
     compute = STATISTICS[statistic]
 
     def measure(run: RecordedRun) -> float:
-        return float(compute(run[channel][inside(run)]))
+        return float(compute(run[channel][chosen(run)]))
 
     def between(run: RecordedRun) -> float:
-        chosen = inside(run)
-        return missed(statistic, run[channel][chosen], run.time[chosen], run.scenario.breaks)
+        return missed(statistic, run[channel][chosen(run)], run.time[chosen(run)], run.scenario.breaks)
 
     return ReportedNumber(result.unit(channel), measure, missed=between)
 

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 from support_exudyn.files.machines import reference_support
 from support_exudyn.formulations.contract import silent
-from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
@@ -17,7 +16,7 @@ def precompile() -> None:
 
     Runs of a moment: compiled code does not depend on the numbers.
     """
-    from support_exudyn.formulations import reduced, tree  # and the compiler
+    from support_exudyn.formulations import compiled  # and the compiler
 
     contact = JournalContact(
         bearing=JournalBearing(bore_radius=0.0655, clearance=0.001), normal=Hertz(stiffness=1e10)
@@ -25,7 +24,6 @@ def precompile() -> None:
     with_clearance = Scenario(
         machine=reference_support(), pins={"rear_base": ClearancePin(contact=contact)}, duration=1e-3
     )
-    reduced.run(with_clearance, silent)
-    reduced.run(replace(with_clearance, pins={}), silent)
-    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
-    tree.run(replace(with_clearance, actuators=dict.fromkeys(with_clearance.linkage.actuators, oil)), silent)
+    compiled.run(with_clearance, silent)
+    compiled.run(replace(with_clearance, pins={}), silent)
+    compiled.run(replace(with_clearance, start="settled"), silent)

@@ -3,18 +3,27 @@
 import os
 import pickle
 import time
-from collections.abc import Callable, Generator, Iterator
-from contextlib import closing
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import closing, suppress
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.measures import check_numbers
 from support_exudyn.sweeps.plan import Inputs, Plan
 from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.table import FILE, SweepTable
-from support_exudyn.sweeps.work import Task, in_processes, reason_of
+from support_exudyn.sweeps.work import (
+    Numbered,
+    Task,
+    Wanted,
+    in_processes,
+    points_in_processes,
+    reason_of,
+    refused,
+)
+from support_exudyn.sweeps.workers import ProcessEndedError
 from user_forces.values.value import InputError
 
 SELDOM = 10.0  # the table is written every so many seconds while runs come in,
@@ -85,20 +94,8 @@ def sweep(
     outcome = SweepOutcome(len(plan.points), store.folder / FILE)
     with store.writing():
         keeper = _Keeper(plan, store, outcome, retry_failed, progress)
-        tasks = keeper.tasks()
-        rows: Generator[StoredRun, None, None]
         try:
-            if scheduler:
-                from support_exudyn.sweeps.cluster import on_cluster
-
-                rows = on_cluster(tasks, store, scheduler)
-            else:
-                rows = in_processes(tasks, store, workers or os.cpu_count() or 1)
-            with closing(
-                rows
-            ):  # after an interruption, too, its processes have ended when the table is written
-                for row in rows:
-                    keeper.note(row)
+            keeper.run(scheduler, workers or os.cpu_count() or 1)
         finally:
             keeper.look_again()
             keeper.write()
@@ -118,7 +115,7 @@ def known(plan: Plan, out: str | Path, retry_failed: bool = False) -> SweepOutco
     store = Store(Path(out))
     outcome = SweepOutcome(len(plan.points), store.folder / FILE)
     keeper = _Keeper(plan, store, outcome, retry_failed, lambda outcome: None)
-    for _ in keeper.tasks():
+    for _ in keeper.tasks(range(outcome.runs)):
         pass
     return outcome
 
@@ -131,42 +128,96 @@ class _Keeper:
     ) -> None:
         self.table = SweepTable(plan)
         self._plan, self._store, self._outcome = plan, store, outcome
-        self._retry_failed, self._progress = retry_failed, progress
+        self._wanted = Wanted(plan.scenario, plan.record, plan.errors, retry_failed)
+        self._progress = progress
         self._places: dict[str, list[int]] = {}  # of keys under way
+        self._alike: dict[
+            bytes, list[int]
+        ] = {}  # points that others make, as they are sent, and which they are
         self._rows: dict[str, int] = {}  # of keys that are known: where
+        self._checked, self._refused = False, list[InputError]()
         self._wait, self._written = SELDOM, time.monotonic()
 
-    def tasks(self) -> Iterator[Task]:
-        """What is to be run, made while others run; all else goes straight into the table."""
-        checked, refused = False, []
-        record = self._plan.record
-        for number, point in enumerate(self._plan.points):
+    def run(self, scheduler: str, workers: int) -> None:
+        """Run what is not known."""
+        numbers: Iterable[int] = range(self._outcome.runs)
+        if not scheduler and can_be_sent(self._wanted):
+            # what is known up to the first that is not needs no other process
+            first = next(self.tasks(numbers), None)
+            if first is None:
+                return
+            numbers = self._run_points(self._places.pop(first.key)[0], workers)
+        tasks = self.tasks(numbers)
+        rows: Generator[StoredRun, None, None]
+        if scheduler:
+            from support_exudyn.sweeps.cluster import on_cluster
+
+            rows = on_cluster(tasks, self._store, scheduler)
+        elif (one := next(tasks, None)) is None:
+            return
+        else:
+            rows = in_processes(chain([one], tasks), self._store, workers)
+        with closing(rows):  # after an interruption, too, its processes have ended when the table is written
+            for row in rows:
+                self._note(self._places[row.key], row)
+
+    def _run_points(self, first: int, workers: int) -> list[int]:
+        """Run points from one on; the processes make their scenarios. Returns which of them they cannot."""
+        points, here = self._plan.points, list[int]()
+
+        def sent() -> Iterator[Numbered]:
+            for number in range(first, len(points)):
+                mark = pickle.dumps(points[number])
+                if here:
+                    here.append(number)
+                elif mark in self._alike:
+                    self._alike[mark].append(number)
+                else:
+                    self._alike[mark] = [number]
+                    yield number, points[number]
+
+        found = points_in_processes(sent(), len(points) - first, self._wanted, self._store, workers)
+        with closing(found):
+            for (_, inputs), ended in found:
+                numbers = self._alike.pop(pickle.dumps(inputs))
+                if ended is None:
+                    here += numbers
+                elif isinstance(ended, ProcessEndedError):
+                    self._note(numbers, StoredRun("", "killed", ended.reason))
+                else:
+                    self._outcome.found += ended.before and ended.row.key not in self._rows
+                    self._note(numbers, ended.row)
+        return sorted(here)
+
+    def tasks(self, numbers: Iterable[int]) -> Iterator[Task]:
+        """What is to be run of these points, made while others run; all else goes straight into the table."""
+        for number in numbers:
             try:
-                scenario = self._plan.scenario(point)
-                record.check(scenario)
-                name = key(scenario, self._plan.errors)
-                pickle.dumps(scenario)  # as it is sent to other processes
+                task = self._wanted.task(self._plan.points[number])
+                pickle.dumps(task.scenario)  # as it is sent to other processes
             except Exception as error:  # of classes of one's own any
-                refused.append(InputError(reason_of(error)) if not isinstance(error, InputError) else error)
-                self._set([number], StoredRun("", "failed", reason_of(error)))
+                self._refuse(number, error)
                 continue
-            if not checked:
-                self._check_numbers(scenario, number)
-                checked = True
-            places = self._places.setdefault(name, [])
+            if not self._checked:
+                self._check_numbers(task.scenario, number)
+                self._checked = True
+            places = self._places.setdefault(task.key, [])
             places.append(number)
-            if len(places) > 1 and name not in self._rows:
+            if len(places) > 1 and task.key not in self._rows:
                 continue  # it is under way
-            row = self._store.row(name)
-            whole = row is not None and row.status == "done" and self._store.has_run(row)
-            if row is not None and self._is_good(row, whole):
-                self._outcome.found += len(places) == 1
-                self._rows[name] = number
-                self._set([number], row)
-            else:
-                yield Task(name, scenario, record, self._plan.errors, again=whole)
-        if len(refused) == len(self._plan.points):
-            raise refused[0]  # that is no sweep
+            found = self._wanted.looked_up(self._store, task)
+            if isinstance(found, Task):
+                yield found
+                continue
+            self._outcome.found += len(places) == 1
+            self._rows[task.key] = number
+            self._set([number], found)
+        if len(self._refused) == len(self._plan.points):
+            raise self._refused[0]  # that is no sweep
+
+    def _refuse(self, number: int, error: Exception) -> None:
+        self._refused.append(error if isinstance(error, InputError) else InputError(reason_of(error)))
+        self._set([number], refused(error))
 
     def _check_numbers(self, scenario: Scenario, first: int) -> None:
         """Raise InputError for a number that no run can have.
@@ -184,30 +235,28 @@ class _Keeper:
         except Exception:  # of classes of one's own any
             return False
 
-    def _is_good(self, row: StoredRun, whole: bool) -> bool:
-        """Whether what is known of a run is what is wanted."""
-        if row.status == "failed":
-            return not self._retry_failed
-        record = self._plan.record
-        return row.status == "done" and row.noted == record.digest and (whole or not record.keep_runs)
-
-    def note(self, row: StoredRun) -> None:
+    def _note(self, numbers: list[int], row: StoredRun) -> None:
         """Note a run that has ended."""
-        self._rows[row.key] = self._places[row.key][0]
-        self._set(self._places[row.key], row)
+        if row.key:
+            self._rows.setdefault(row.key, numbers[0])
+        self._set(numbers, row)
         if time.monotonic() - self._written > self._wait:
             self.write()
 
     def look_again(self) -> None:
         """Note what was finished while nobody listened any more."""
         for name, numbers in self._places.items():
-            if (
-                name not in self._rows
-                and (row := self._store.row(name)) is not None
-                and self._is_good(row, True)
-            ):
-                self._rows[name] = numbers[0]
-                self._set(numbers, row)
+            if name not in self._rows:
+                self._look_for(name, numbers)
+        for mark, numbers in self._alike.items():
+            with suppress(Exception):  # of classes of one's own any: there is no such run
+                self._look_for(self._wanted.task(pickle.loads(mark)).key, numbers)
+
+    def _look_for(self, name: str, numbers: list[int]) -> None:
+        row = self._store.row(name)
+        if row is not None and self._wanted.is_good(row, True):
+            self._rows[name] = numbers[0]
+            self._set(numbers, row)
 
     def _set(self, numbers: list[int], row: StoredRun) -> None:
         for number in numbers:
@@ -222,6 +271,15 @@ class _Keeper:
         self.table.write(self._store.folder)
         self._written = time.monotonic()
         self._wait = max(SELDOM, (self._written - began) / SHARE)
+
+
+def can_be_sent(wanted: Wanted) -> bool:
+    """Whether other processes can be told how scenarios are made; not so of functions within functions."""
+    try:
+        pickle.dumps(wanted)
+    except Exception:  # of somebody's own classes any
+        return False
+    return True
 
 
 def _has_number(scenario: Scenario, name: str) -> bool:

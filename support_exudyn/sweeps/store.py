@@ -14,7 +14,7 @@ import errno
 import hashlib
 import json
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
@@ -32,6 +32,7 @@ LARGEST_ROW = 100_000_000  # bytes
 TABLES = ("table.parquet", "table.csv")
 RUN = FORMAT.rpartition(" ")[0].encode() + b" "  # as files of runs of any version begin
 Status = Literal["done", "failed", "killed"]
+Pieces = Sequence[bytes | bytearray]  # of a file, one behind the other
 
 
 class StoredNumber(NamedTuple):
@@ -135,13 +136,23 @@ class Store:
             return None
         return found if found.key == key else None
 
-    def put(self, row: StoredRun) -> StoredRun:
-        """Keep a row; the run's file, if it is to be kept, is there already."""
+    def put(self, row: StoredRun, run: Pieces = (), within: Path | None = None) -> StoredRun:
+        """Keep a row, and before it the run.
+
+        A row need not be on the disk for good: one that was cut off is known by its digest.
+
+        Arguments:
+            run: the bytes of its file, in pieces; none if it is not to be kept, or is there already.
+            within: see `whole_file`.
+        """
         path = self.run_file(row.key)
+        if run:
+            with whole_file(path, within) as temporary, temporary.open("wb") as file:
+                file.writelines(run)
         if row.status == "done" and path.exists():
             status = path.stat()
             row = replace(row, size=status.st_size, modified=status.st_mtime_ns)
-        with whole_file(self.rows / f"{row.key}.json") as temporary:
+        with whole_file(self.rows / f"{row.key}.json", within, lasting=False) as temporary:
             temporary.write_text(row.to_text(), encoding="utf-8")
         return row
 

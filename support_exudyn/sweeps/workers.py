@@ -11,15 +11,18 @@ all these cases.
 
 from __future__ import annotations
 
+import ctypes
 import multiprocessing
 import os
 import signal
+import sys
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from multiprocessing.util import Finalize
 from typing import Any, NamedTuple, TypeVar
 
 from support_exudyn.formulations.interruption import kept_from_children
@@ -32,6 +35,9 @@ POLL = 0.1  # how often progress is told [s]
 NOT_BEGUN = -1.0  # in place of the share of a job that waits
 TRIES = 2  # pools in a row whose processes may end before any work has begun
 SOON = 5.0  # a process that has ended is known to within [s]
+
+TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3  # of mallopt of glibc
+KEPT = 2**26  # bytes that a process keeps
 
 # in a worker: the shared array of shares done, and the place in it of the job at work
 _shares: Any = None
@@ -285,6 +291,8 @@ def _start(shares: Any) -> None:
     global _shares
     _shares = shares
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    keep_memory()
+    Finalize(None, _leave, exitpriority=-1000)  # after all others
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
@@ -293,6 +301,30 @@ def _do(slot: int, work: Callable[..., T], number: int, given: tuple[Any, ...]) 
     _slot = slot
     report(0.0)  # it has begun
     return work(number, *given)
+
+
+def keep_memory() -> None:
+    """Let the C library keep what a run gives back, for the next one.
+
+    Otherwise the system takes and clears thousands of pages in every run, which takes longer than the run is
+    written. Only glibc can be told so.
+    """
+    with suppress(OSError, AttributeError, TypeError):
+        library = ctypes.CDLL(None)
+        for option in (TRIM_THRESHOLD, MMAP_THRESHOLD):
+            library.mallopt(option, KEPT)
+
+
+def _leave() -> None:
+    """End at once, as a forked process does: to take all apart that was imported takes some tenths of a second.
+
+    One that ends by an exception goes on to tell it.
+    """
+    if sys.exc_info()[0] is None:
+        for stream in (sys.stdout, sys.stderr):
+            if stream is not None:
+                stream.flush()
+        os._exit(0)
 
 
 def _end_with_parent() -> None:

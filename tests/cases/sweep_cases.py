@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from support_exudyn.sweeps import read_table
 from tests.processes import ROOT, environment
 
@@ -57,6 +59,12 @@ def start(path: Path, *options: str) -> subprocess.Popen[str]:
         text=True,
         start_new_session=True,
     )
+
+
+def run_by(monkeypatch: pytest.MonkeyPatch, in_processes: Any) -> None:
+    """Let sweeps make their scenarios in this process, and their runs by a generator in place of processes."""
+    monkeypatch.setattr("support_exudyn.sweeps.run.can_be_sent", lambda wanted: False)
+    monkeypatch.setattr("support_exudyn.sweeps.run.in_processes", in_processes)
 
 
 def rows(store: Path) -> dict[str, tuple[int, int]]:

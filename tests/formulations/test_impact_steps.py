@@ -115,3 +115,26 @@ def test_a_swing_of_what_friction_holds_takes_a_part_of_an_impacts_steps() -> No
         assert math.log2(found) == round(math.log2(found))
     assert ImpactSteps(LAW, 1024).swing_step(2.7e-4) == 0.5 * steps.swing_step(2.7e-4)
     assert steps.swing_step(math.inf) == math.inf
+
+
+def test_a_mass_that_is_asked_for_in_need_gives_the_same_steps() -> None:
+    told, asked = struck(), struck()
+    questions = 0
+
+    def mass() -> float:
+        nonlocal questions
+        questions += 1
+        return MASS
+
+    depth = 0.5 * DEEPEST
+    for n in range(400):
+        swung, rate = 0.4 * depth * math.sin(0.3 * n), 0.4 * SPEED * math.cos(0.3 * n)
+        depth *= 1.02 if n == 200 else 1.0
+        told.follow(depth + swung, rate, MASS)
+        asked.follow(depth + swung, rate, 0.8 * MASS, mass)
+        assert asked.step == told.step
+    told.follow(3.0 * DEEPEST, SPEED, MASS)
+    before = questions
+    asked.follow(3.0 * DEEPEST, SPEED, 0.8 * MASS, mass)
+    assert asked.step == told.step
+    assert questions == before + 1  # the energy may be that of a larger speed

@@ -412,3 +412,19 @@ def test_a_record_is_told_as_it_was_asked_for() -> None:
     assert plan.record_at(0.3) == 3 * 0.1 != 0.3
     assert plan.record_at(0.301) is None
     assert plan.record_at(math.nextafter(1.0, 0.0)) == 1.0
+
+
+def test_a_step_that_ends_at_a_record_passes_none() -> None:
+    plan = StepPlan(1.0, 0.1, 0.01, [0.25])
+    assert not plan.passes_record(0.05, 0.1)
+    assert plan.passes_record(0.05, 0.11)
+    assert plan.passes_record(0.1, 0.3)
+    assert plan.passes_record(0.22, 0.27)  # beyond a break
+
+
+@given(planned=plans(), where=st.lists(st.floats(0.0, 1.0), min_size=1, max_size=20))
+def test_breaks_are_told_whatever_was_asked_before(planned: tuple[StepPlan, Times], where: list[float]) -> None:
+    plan, _ = planned
+    for share in where:
+        for t in (share * plan.duration, *plan.breaks):
+            assert plan.breaks_at(t) == [b for b in plan.breaks if abs(t - b) <= plan._tolerance]

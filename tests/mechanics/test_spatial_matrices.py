@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 from support_exudyn import ClearancePin, Scenario, reference_support
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment
 from support_exudyn.formulations.redundant.clearance.pin_motion import in_plane
-from support_exudyn.formulations.redundant.space.section_pin import SectionEnd, SectionMover
-from support_exudyn.formulations.redundant.space.section_pin import half_way as half_way_of_one
+from support_exudyn.formulations.redundant.space.section_motion import SectionEnd, SectionMover
+from support_exudyn.formulations.redundant.space.section_motion import half_way as half_way_of_one
 from support_exudyn.formulations.redundant.space.sections import half_way, lobatto, section_motion, sections
 from support_exudyn.mechanics.space.constraints import (
     BearingEnd,

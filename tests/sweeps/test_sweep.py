@@ -18,7 +18,7 @@ from support_exudyn.sweeps import SweepOutcome, read_sweep, read_table, sweep, w
 from support_exudyn.sweeps.run import known
 from support_exudyn.sweeps.store import Store
 from support_exudyn.sweeps.work import Task
-from tests.cases.sweep_cases import columns, rows, speeds, write_sweep
+from tests.cases.sweep_cases import columns, rows, run_by, speeds, write_sweep
 from user_forces.values.value import InputError
 
 
@@ -32,7 +32,7 @@ def ran(monkeypatch: pytest.MonkeyPatch) -> list[Task]:
             done.append(task)
             yield work.run_into(store, task)
 
-    monkeypatch.setattr("support_exudyn.sweeps.run.in_processes", here)
+    run_by(monkeypatch, here)
     return done
 
 
@@ -154,7 +154,7 @@ def test_the_same_run_twice_fills_both_rows_also_while_it_is_under_way(
     def all_at_once(tasks, store, workers):  # type: ignore[no-untyped-def]
         yield from [work.run_into(store, task) for task in list(tasks)]
 
-    monkeypatch.setattr("support_exudyn.sweeps.run.in_processes", all_at_once)
+    run_by(monkeypatch, all_at_once)
     path = write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2, 0.1]')
     assert do(path).done == 3
     assert columns(tmp_path / "store")["status"] == ["done"] * 3
@@ -170,7 +170,7 @@ def test_what_ends_after_an_interruption_stands_in_the_table(
             raise KeyboardInterrupt
         yield
 
-    monkeypatch.setattr("support_exudyn.sweeps.run.in_processes", interrupted)
+    run_by(monkeypatch, interrupted)
     with pytest.raises(KeyboardInterrupt):
         do(write_sweep(tmp_path, speeds(2)))
     assert columns(tmp_path / "store")["status"] == ["done", "waiting"]

@@ -19,7 +19,7 @@ from support_exudyn.sweeps.key import program
 from support_exudyn.sweeps.plan import Record
 from support_exudyn.sweeps.store import Store
 from support_exudyn.sweeps.work import Task
-from tests.cases.sweep_cases import columns, rows, speeds, start, write_sweep
+from tests.cases.sweep_cases import columns, rows, run_by, speeds, start, write_sweep
 from tests.processes import ROOT, environment, linux_only, wait_until
 from user_forces.values.value import InputError
 
@@ -90,10 +90,8 @@ def test_with_a_worker_killed_midway_it_gives_the_same_table_as_here(
     assert out.splitlines()[0] == f"{RUNS} runs: {RUNS} done"
     assert workers[0].wait() == -signal.SIGKILL
     whole = Store(tmp_path / "whole")
-    monkeypatch.setattr(
-        "support_exudyn.sweeps.run.in_processes",
-        lambda tasks, *_: (work.run_into(whole, task) for task in tasks),  # here, one after the other
-    )
+    # here, one after the other
+    run_by(monkeypatch, lambda tasks, *_: (work.run_into(whole, task) for task in tasks))
     sweep(read_sweep(path), whole.folder)
     assert columns(store) == columns(whole.folder)
     for one in columns(store)["key"]:

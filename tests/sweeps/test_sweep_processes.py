@@ -4,28 +4,45 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from decimal import Decimal
 from pathlib import Path
+from types import ModuleType
 
+import numpy as np
 import pytest
 
+from support_exudyn import Result, Scenario
+from support_exudyn.files.temporary import PREFIX
 from support_exudyn.sweeps import read_sweep, sweep, work
-from support_exudyn.sweeps.store import Store, StoredRun
-from support_exudyn.sweeps.work import Task
+from support_exudyn.sweeps.plan import Inputs
+from support_exudyn.sweeps.run import can_be_sent
+from support_exudyn.sweeps.store import Store
+from support_exudyn.sweeps.work import Wanted
 from support_exudyn.sweeps.workers import ProcessEndedError
-from tests.cases.sweep_cases import columns, rows, speeds, start, write_sweep
+from tests.cases.sweep_cases import columns, rows, run_by, speeds, start, write_sweep
 from tests.processes import linux_only, session_of, soon_started, wait_until
 
 pytestmark = linux_only
 RUNS = 18
+SPEED = "machine.speed_m_per_s"
 SOON = 60.0  # [s]; what comes at all has come by then, on a busy machine too
 
 
-def killed_at(place: int, store: Store, task: Task) -> StoredRun:
-    """In a worker: what one does whose memory is short for a single run."""
-    if task.scenario.machine.speed == 0.2:  # type: ignore[attr-defined]
-        os.kill(os.getpid(), signal.SIGKILL)
-    return work.run_into(store, task)
+@dataclass(frozen=True)
+class Killing:
+    """Makes scenarios, and does at one point what one does whose memory is short; while a file is there."""
+
+    scenario: Callable[[Inputs], Scenario]
+    killing: Decimal
+    file: Path
+
+    def __call__(self, inputs: Inputs) -> Scenario:
+        if inputs[SPEED] == self.killing and self.file.exists():
+            os.kill(os.getpid(), signal.SIGKILL)
+        return self.scenario(inputs)
 
 
 @pytest.fixture(autouse=True)
@@ -34,19 +51,51 @@ def _soon_started() -> Iterator[None]:
         yield
 
 
-def test_a_run_whose_process_is_killed_is_a_row_and_is_tried_again(
+@pytest.mark.parametrize("number", [3, 41])  # by itself, and among others that are sent with it
+def test_a_run_whose_process_is_killed_is_a_row_and_is_tried_again(tmp_path: Path, number: int) -> None:
+    plan = read_sweep(write_sweep(tmp_path, speeds(number)))
+    middle = number // 2
+    killing = Killing(plan.scenario, plan.points[middle][SPEED], tmp_path / "killing")
+    plan = replace(plan, scenario=killing)
+    killing.file.touch()
+    outcome = sweep(plan, tmp_path / "store", workers=1)
+    assert (outcome.done, outcome.killed) == (number - 1, 1)
+    table = columns(tmp_path / "store")
+    assert table["status"] == ["done" if n != middle else "killed" for n in range(number)]
+    assert table["reason"][middle] == ProcessEndedError(0, 0.0, -signal.SIGKILL).reason
+    killing.file.unlink()
+    outcome = sweep(plan, tmp_path / "store", workers=1)
+    assert (outcome.done, outcome.found) == (number, number - 1)
+    assert sorted(rows(tmp_path / "store")) == sorted(columns(tmp_path / "store")["key"])
+
+
+def test_processes_make_the_same_as_this_one_and_the_same_run_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    path = write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2, 0.3]')
-    with monkeypatch.context() as patch:
-        patch.setattr(work, "_do", killed_at)
-        outcome = sweep(read_sweep(path), tmp_path / "store", workers=1)
-    assert (outcome.done, outcome.killed) == (2, 1)
-    table = columns(tmp_path / "store")
-    assert table["status"] == ["done", "killed", "done"]
-    assert table["reason"][1] == ProcessEndedError(0, 0.0, -signal.SIGKILL).reason
-    outcome = sweep(read_sweep(path), tmp_path / "store", workers=1)
-    assert (outcome.done, outcome.found) == (3, 2)
+    some = ", ".join(["0.1", *(f"0.2{n:02}" for n in range(30)), "0.1", "-0.5", "0.15"])
+    path = write_sweep(tmp_path, f'"{SPEED}" = [{some}]')
+    outcome = sweep(read_sweep(path), tmp_path / "store", workers=2)
+    assert (outcome.done, outcome.failed, outcome.found) == (33, 1, 0)
+    run_by(monkeypatch, lambda tasks, store, *_: (work.run_into(store, task) for task in tasks))
+    sweep(read_sweep(path), tmp_path / "here")
+    assert columns(tmp_path / "store") == columns(tmp_path / "here")
+    for key in rows(tmp_path / "store"):
+        one, other = (Result.load(Store(tmp_path / name).run_file(key)) for name in ("store", "here"))
+        assert all(np.array_equal(one[name], other[name]) for name in other.channels)
+        assert one.scenario == other.scenario
+    assert not list((tmp_path / "store").rglob(f"{PREFIX}*"))
+
+
+def test_what_other_processes_cannot_read_is_made_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = read_sweep(write_sweep(tmp_path, speeds(12)))
+    typed = ModuleType("typed_into_a_console")  # of which there is no file
+    typed.__dict__.update(plan=plan)
+    exec("def made(inputs):\n    return plan.scenario(inputs)\n", typed.__dict__)
+    monkeypatch.setitem(sys.modules, typed.__name__, typed)
+    assert can_be_sent(Wanted(typed.made, plan.record))
+    outcome = sweep(replace(plan, scenario=typed.made), tmp_path / "store", workers=2)
+    assert (outcome.done, outcome.failed) == (12, 0)
+    assert columns(tmp_path / "store")[SPEED] == [float(point[SPEED]) for point in plan.points]
 
 
 @pytest.mark.slow  # three sweeps of three processes
@@ -90,9 +139,7 @@ def test_interrupted_killed_and_hurt_it_ends_as_if_left_alone(
                 os.kill(one, signal.SIGKILL)
             process.communicate()
     whole = Store(tmp_path / "whole")
-    monkeypatch.setattr(
-        "support_exudyn.sweeps.run.in_processes",
-        lambda tasks, *_: (work.run_into(whole, task) for task in tasks),  # here, one after the other
-    )
+    # here, one after the other
+    run_by(monkeypatch, lambda tasks, *_: (work.run_into(whole, task) for task in tasks))
     sweep(read_sweep(path), whole.folder)
     assert columns(store) == columns(tmp_path / "whole")

@@ -164,6 +164,16 @@ def test_what_a_machine_remembers_is_not_sent(tmp_path: Path) -> None:
     assert machine._followed  # it still knows
 
 
+def test_what_a_scenario_remembers_of_its_channels_is_not_sent(tmp_path: Path) -> None:
+    one = scenario(tmp_path)
+    assert one.plain == one.to_data()
+    assert "tip.x" in one.channel_definitions
+    sent = pickle.loads(pickle.dumps(one))
+    assert sent == one
+    assert not {"channel_definitions", "plain"} & vars(sent).keys()
+    assert sent.channel_definitions.keys() == one.channel_definitions.keys()
+
+
 # --- the store ---
 
 

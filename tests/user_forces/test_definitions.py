@@ -82,8 +82,11 @@ def test_classes_that_others_derive_from_may_lack_methods() -> None:
 
 
 def test_a_wrong_attribute_is_told_with_those_that_look_like_it() -> None:
-    with pytest.raises(AttributeError, match=r"CubicStep has no attribute 'strok'; did you mean stroke"):
+    with pytest.raises(
+        AttributeError, match=r"CubicStep has no attribute 'strok'; did you mean stroke"
+    ) as told:
         CubicStep().strok  # type: ignore[attr-defined] # noqa: B018
+    assert str(pickle.loads(pickle.dumps(told.value))) == str(told.value)  # as from another process
     assert not hasattr(CubicStep(), "_repr_png_")
     assert copy.deepcopy(CubicStep()) == CubicStep() == pickle.loads(pickle.dumps(CubicStep()))
 

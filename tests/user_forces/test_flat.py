@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cache
 
 import pytest
@@ -25,7 +26,7 @@ from user_forces import (
     SlipHistory,
     value,
 )
-from user_forces.compilation.flat import FlatForce, asks_for_mass, flat_force
+from user_forces.compilation.flat import FlatForce, asks_for_mass, flat_force, flat_function, nested
 
 CLEARANCE = BEARING.clearance
 EXACT = power_law(Exact)
@@ -167,3 +168,36 @@ def test_frictionless_has_no_friction() -> None:
     found = flat(contact)(1.01 * CLEARANCE, 0.0, 0.1, 0.5, 1.0, 2.0, 1.0, 0.1, 5.0, 0.0, 0.0, 1e-5)
     assert found.normal_force > 0.0
     assert found.friction_force == 0.0
+
+
+@pytest.mark.parametrize("normal", [*NORMAL_LAWS, BRANCHING], ids=kind_of)
+@given(depth=st.floats(1e-9, 1e-4))
+def test_elastic_force_and_energy_are_those_of_the_law(normal: NormalLaw, depth: float) -> None:
+    for function in (normal.elastic_force, normal.elastic_energy):
+        assert flat_function(function)(depth) == function(depth)
+
+
+def test_a_formula_that_is_used_once_stands_where_it_is_used() -> None:
+    source = [
+        "def f(x):",
+        "    _0 = x + (1.0)",
+        "    _1 = _0 * _0",
+        "    _2 = -_1",
+        "    return _2 if _2 > x else x",
+    ]
+    assert nested(source) == [
+        "def f(x):",
+        "    _0 = x + (1.0)",
+        "    _2 = -(_0 * _0)",
+        "    return _2 if _2 > x else x",
+    ]
+    # Python takes no more brackets in each other than a few hundred
+    chain = [
+        "def f(x):",
+        "    _0 = x",
+        *(f"    _{n} = {n}.0 - _{n - 1}" for n in range(1, 500)),
+        "    return _499",
+    ]
+    space: dict[str, Callable[[float], float]] = {}
+    exec("\n".join(nested(chain)), space)
+    assert space["f"](0.0) == 250.0

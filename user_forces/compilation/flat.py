@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from types import SimpleNamespace
@@ -24,6 +25,8 @@ NAMES = {
     name: getattr(math, name) for name in ("sqrt", "exp", "log", "tanh", "cos", "sin", "hypot", "inf", "nan")
 }  # that lines of source may use
 CONSTANT = re.compile(r"\((-?(?:\d[^()]*|inf|nan))\)")  # a number as `text` writes it
+TEMPORARY = re.compile(r"\b_\d+\b")  # the name of a line
+DEEPEST = 40  # brackets of a formula that stands in another; Python takes some 200
 Formulas = dict[str, str]  # formula: the name of the line that has it
 # x, y, vx, vy, bore_spin, journal_spin, in_contact, speed, mass, deflection, slip, step
 FlatForce = Callable[..., ContactForce]
@@ -151,6 +154,22 @@ def flat_force(contact: Contact) -> FlatForce:
         f"    return {_tuple(texts)}",
     ]
     return cast(FlatForce, compiled(source, contact)["force"])
+
+
+def flat_function(function: Callable[[float], float]) -> Callable[[float], float]:
+    """A function of a law, such as its elastic force, flat and bit for bit the same; itself if it branches.
+
+    It checks nothing: it is for depths at which the law has been asked for its force.
+    """
+    formulas, (x,) = lines(("x",))
+    try:
+        found = text(function(x))
+    except TypeError:
+        return function
+    source = ["def flat(x):", *(f"    {line}" for line in needed(formulas, [found])), f"    return {found}"]
+    space: dict[str, Any] = dict(NAMES)
+    exec(compile("\n".join(nested(source)), "<law>", "exec"), space)
+    return cast(Callable[[float], float], space["flat"])
 
 
 def _outwards(contact: Contact) -> str:
@@ -306,8 +325,32 @@ def compiled(source: Iterable[str], contact: Contact, **known: object) -> dict[s
         "not_finite": partial(look, contact),
         **known,
     }
-    exec(compile("\n".join(source), f"<{type(contact.normal).__name__}>", "exec"), space)
+    exec(compile("\n".join(nested(source)), f"<{type(contact.normal).__name__}>", "exec"), space)
     return space
+
+
+def nested(source: Iterable[str]) -> list[str]:
+    """Lines of source, in which a formula whose name is used once stands where it is used.
+
+    What is computed is the same, in fewer writings and readings of names.
+    """
+    kept = list(source)
+    uses = Counter(name for line in kept for name in TEMPORARY.findall(line))
+    found: list[str] = []
+    waiting: dict[str, str] = {}
+    for line in kept:
+        whole = TEMPORARY.sub(lambda name: waiting.pop(name[0], name[0]), line)
+        name, assigned, formula = whole.partition(" = ")
+        if (
+            assigned
+            and uses[name.strip()] == 2
+            and TEMPORARY.fullmatch(name.strip())
+            and whole.count("(") < DEEPEST
+        ):
+            waiting[name.strip()] = f"({formula})"
+        else:
+            found.append(whole)
+    return found
 
 
 def _tuple(texts: Mapping[str, str]) -> str:

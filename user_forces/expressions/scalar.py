@@ -8,6 +8,7 @@ compile. For that a law must not branch with `if` on its arguments: `where` does
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import cast
 
 
@@ -50,10 +51,20 @@ class Expression:
         """The smaller of both."""
         raise NotImplementedError
 
+    def course(self, function: Callable[[float], float]) -> Expression:
+        """What a function makes of this time that is no formula of it, such as a table."""
+        del function
+        raise TypeError("a table, or what branches on the time, is no formula of it")
+
 
 def is_number(x: float) -> bool:
     """Whether x is a number already, and no expression."""
     return not isinstance(x, Expression)
+
+
+def in_time(function: Callable[[float], float], t: float) -> float | None:
+    """What stands for a function of time that is no formula, if the time is an expression; None if a number."""
+    return cast(float, t.course(function)) if isinstance(t, Expression) else None
 
 
 def where(condition: object, yes: float, no: float) -> float:

@@ -9,7 +9,6 @@ from typing_extensions import Self
 from user_forces.expressions.scalar import sign
 from user_forces.values.value import NonNegative, Value, value
 
-
 MOMENT = 1e-10  # [s], in which no bristle moves by more than a share of 1e-4 of its way
 
 

@@ -27,6 +27,8 @@ def offered(
     where = _modules(package, places)
 
     def found(name: str) -> Any:
+        if name == "__all__":  # of an import of everything
+            return sorted(where)
         if name not in where:
             raise AttributeError(f"module {package!r} has no attribute {name!r}; {meant(name, sorted(where))}")
         item = getattr(import_module(where[name]), name)

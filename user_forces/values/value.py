@@ -136,8 +136,8 @@ class Value:
     @staticmethod
     def of_name(name: str) -> type[Value]:
         """The class of this name. Raises KeyError that says which names are near if there is none."""
-        known_class(name)
-        return Named(Value._register, "class of values")[name]
+        known = known_class(name)
+        return Named(Value._register, "class of values")[name] if known is None else known
 
     @staticmethod
     def from_data(data: Mapping[str, Any]) -> Any:

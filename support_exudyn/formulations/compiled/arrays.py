@@ -1,7 +1,7 @@
-"""A scene as arrays of records, on which compiled functions work: one record a body, point, joint, contact, force.
+"""A scene as arrays of records, on which compiled functions work: one a body, point, joint, contact, force.
 
-Every record has what is known before the run, and behind it what is computed at an instant. Numbers of bodies are
--1 for the ground, of points and courses -1 for none. The state y of a scene with b bodies is
+Every record has what is known before the run, and behind it what is computed at an instant. Numbers of bodies
+are -1 for the ground, of points and courses -1 for none. The state y of a scene with b bodies is
 
     y = [x, y, turn of each body | their rates | states of friction laws, pressures | losses, work]
 
@@ -30,22 +30,22 @@ def _record(whole: str, numbers: str) -> np.dtype[np.void]:
 BODY = _record("", "light light_turn weight_x weight_y x0 y0 c s fx fy m ax ay a")
 # arm: from the centre of mass at the start, of the ground the place itself | arm now, place, velocity
 POINT = _record("body", "arm_x arm_y rx ry x y vx vy")
-# a time course: its pieces in the segment; still: for a record before it begins, at a break at 0 s | its jump of
-# the rate then; its value, and both derivatives
+# a time course: its pieces in the segment; still: for a record before it begins, at a break at 0 s | its jump
+# of the rate then; its value, and both derivatives
 COURSE = _record("low high still", "jump value rate bend")
 PIECE = _record("", "begin half")
 # kinds: see PIN and so on. ratio: of a gear. length, angle: at the start
 JOINT = _record("kind row first second course conditions", "length angle ratio")
 PIN, ACTUATOR, CRANK, SLIDE, GEAR = range(5)
-# two bodies and what its rate takes of theirs; first: of the row in the factors | what C a has to be, multiplier,
-# what is left of the position, and the rate that it has to have
+# two bodies and what its rate takes of theirs; first: of the row in the factors | what C a has to be,
+# multiplier, what is left of the position, and the rate that it has to have
 ROW = _record("body other first", "x y t ox oy ot wanted held off rate")
 # rows that share a body, i >= j; which of the bodies of each it is
 PAIR = _record("i j side other", "")
-# journal `second` in bore `first`, both points. slot: corner between walls. law: address of both laws, constants
-# from `constants` on. state: of the friction law in y. angle: of the bore's axes at the start. arm: what the
-# contact point is from the journal's centre at no depth, half a pin's depth less.
-# | closed, impact velocity, inverse effective mass: the memory. Then the contact now, see `contacts`.
+# journal `second` in bore `first`, both points. slot: corner between walls. law: address of both laws, with
+# constants from `constants` on. state: of the friction law in y. radius: of the bore, or of a pin in a slot.
+# angle: of the bore's axes at the start. | closed, impact velocity, inverse effective mass: what it remembers.
+# Then the contact now, the largest force and when that was, where the law last gave what no force can be.
 CONTACT = _record(
     "first second slot constants state renews forgets",
     "law clearance radius angle closed impact_velocity xx xy yy "
@@ -55,11 +55,15 @@ CONTACT = _record(
 OIL = _record("foot head course", "modulus_area oil_length time natural force work loss")
 CYLINDER = _record(
     "foot head course state",
-    "bore rod_side oil_length rod_length modulus supply flow_factor tank hose rod_hose damping length0 force work loss",
+    "bore rod_side oil_length rod_length modulus supply flow_factor tank hose rod_hose damping length0 "
+    "force work loss",
 )
-# a force on point `point` against `origin`, or a moment on the body of `point` against that of `origin`. hangs: by
-# what spring what it brings along hangs over its point, while a static equilibrium is looked for; else 0
-LOAD = _record("point origin moment constants", "law hangs fx fy work loss")
+# a force on point `point` against `origin`, or a moment on their bodies; with the first
+# of its own courses, and how many. hangs: by what spring what it brings along hangs over its point, while a
+# static equilibrium is looked for; else 0
+LOAD = _record("point origin moment constants course courses", "law hangs fx fy work loss")
+# what a load is told of its own courses, and where in `Scene.out`
+FIRST_COURSE, COURSES_OF_LOAD = 4, 8
 BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")
 # friction of an ideal pin, of which `row` is the first row
 RUBBING = _record("row body other constants", "law radius moment")
@@ -90,7 +94,8 @@ class Scene(NamedTuple):
 class Scratch(NamedTuple):
     """Room that a run works in.
 
-    right, impulses: a number a row. end, probe, slope: states. path: of the interpolation. rates: of a step's stages.
+    right, impulses: a number a row. end, probe, slope, along: states; see `stabilised`. path: of the
+    interpolation. rates: of a step's stages.
     now, then: contacts at its start and end. lines, answers, gram, square, sides, sizes: see `masses`.
     """
 
@@ -99,6 +104,7 @@ class Scratch(NamedTuple):
     end: Vector
     probe: Vector
     slope: Vector
+    along: Vector
     path: Matrix
     rates: Matrix
     now: Records
@@ -115,18 +121,23 @@ def scratch(scene: Scene, states: int) -> Scratch:
     """Room for a scene with so many states."""
     rows, most = scene.rows.size, 2 + scene.contacts.size
     across = np.zeros((most, 3 * scene.bodies.size))
-    square = np.zeros((most, most))
-    state = np.zeros(states)
     return Scratch(
-        np.zeros(rows),
-        np.zeros(rows),
-        *(state.copy() for _ in range(3)),
-        np.zeros((5, states)),
-        np.zeros((STAGES, states)),
-        *(scene.contacts.copy() for _ in range(2)),
-        *(across.copy() for _ in range(2)),
-        *(square.copy() for _ in range(3)),
-        np.zeros(most),
+        right=np.zeros(rows),
+        impulses=np.zeros(rows),
+        end=np.zeros(states),
+        probe=np.zeros(states),
+        slope=np.zeros(states),
+        along=np.zeros(states),
+        path=np.zeros((5, states)),
+        rates=np.zeros((STAGES, states)),
+        now=scene.contacts.copy(),
+        then=scene.contacts.copy(),
+        lines=across.copy(),
+        answers=across.copy(),
+        gram=np.zeros((most, most)),
+        square=np.zeros((most, most)),
+        sides=np.zeros((most, most)),
+        sizes=np.zeros(most),
     )
 
 

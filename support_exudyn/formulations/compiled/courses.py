@@ -1,13 +1,14 @@
 """Whatever follows time alone, as pieces of polynomials between its breaks: drives, valves.
 
-A drive is asked for its extension at Chebyshev's points of every piece; a piece that a polynomial does not meet is
-halved. So any drive is followed as its own, and its speed and acceleration are the derivatives.
+A drive is asked for its extension at Chebyshev's points of every piece; a piece that a polynomial does not meet
+is halved. So any drive is followed as its own, and its speed and acceleration are the derivatives.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -30,7 +31,7 @@ TimeFunction = Callable[[float], float]
 
 
 class Courses(NamedTuple):
-    """All courses: their pieces with coefficients, and for each segment of time the records that `Scene` takes."""
+    """All courses: their pieces with coefficients, and for each segment of time the records of `Scene`."""
 
     pieces: Records
     coefficients: Matrix
@@ -51,7 +52,7 @@ def courses(functions: Sequence[TimeFunction], edges: Sequence[float]) -> Course
     coefficients: list[Vector] = []
     segments = []
     sizes = [_size(function, edges) for function in functions]
-    for begin, end in zip(edges, edges[1:], strict=False):
+    for begin, end in pairwise(edges):
         segment = np.zeros(len(functions), COURSE)
         for record, function, size in zip(segment, functions, sizes, strict=True):
             record["low"] = len(pieces)
@@ -70,8 +71,10 @@ def courses(functions: Sequence[TimeFunction], edges: Sequence[float]) -> Course
 
 def _size(function: TimeFunction, edges: Sequence[float]) -> float:
     """The largest value of a function, as far as it shows at a few times of every segment."""
-    spans = zip(edges, edges[1:], strict=False)
-    return max(abs(function(low + 0.5 * (high - low) * (x + 1.0))) for low, high in spans for x in NODES.tolist())
+    spans = pairwise(edges)
+    return max(
+        abs(function(low + 0.5 * (high - low) * (x + 1.0))) for low, high in spans for x in NODES.tolist()
+    )
 
 
 def _fitted(
@@ -106,5 +109,6 @@ def _fitted(
             yield (low, half), powers
         else:
             raise LawError(
-                f"a drive or a valve jumps by {wrong:.3g} near {low:.9g} s; allowed: jumps of the speed at its breaks"
+                f"a drive or a valve jumps by {wrong:.3g} near {low:.9g} s; allowed: jumps of the speed at its "
+                "breaks"
             )

@@ -12,7 +12,9 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.compilation.flat import UnwrittenLawError, friction_source, law_source
 from user_forces.values.value import InputError
 
-WRITTEN = "laws and loads written with the functions of user_forces.expressions.scalar, `where` in place of `if`"
+WRITTEN = (
+    "laws and loads written with the functions of user_forces.expressions.scalar, `where` in place of `if`"
+)
 PINS: tuple[type[Pin], ...] = (IdealPin, ClearancePin, BushingPin)  # kinds of pins that it has records for
 REPEATED = 1e-9  # share of the largest singular value of all rows below which one of them repeats others
 

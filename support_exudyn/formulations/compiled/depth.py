@@ -1,7 +1,7 @@
-"""Where within a step a contact begins, ends or is pressed on again, by depth and rate at both ends of a part of it.
+"""Where within a step a contact begins, ends or is pressed on again, by depth and rate at ends of its parts.
 
-Over a part the depth is the cubic that fits both; where that leaves in doubt whether something happens, the step
-is too long, and is made again shorter.
+Over a part the depth is the cubic that fits both; where that leaves in doubt whether something happens, the
+step is too long, and is made again shorter.
 """
 
 from support_exudyn.formulations.compilation import compiled

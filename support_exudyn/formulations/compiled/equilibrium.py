@@ -61,7 +61,7 @@ class Centring(NamedTuple):
 
 @compiled
 def balance(scene: Scene, centring: Centring, volumes: Matrix, y: Vector, x: Vector, left: Vector) -> None:
-    """Write what is left of forces and joints at places and multipliers x; pressures in y follow from places."""
+    """Write what is left of forces and joints at places and multipliers x; pressures in y follow from them."""
     count = 3 * scene.bodies.size
     for i in range(count):
         y[i] = x[i]
@@ -167,7 +167,9 @@ class _Search:
         room = max(size, y.size)  # rates of pressures are written at their places in the state
         self.x, self.left, self.other = np.zeros(size), np.zeros(room), np.zeros(room)
         self.slope = np.zeros((size, size))
-        self.weight = sum(body.mass for body in scenario.linkage.bodies.values()) * math.hypot(*scenario.gravity)
+        self.weight = sum(body.mass for body in scenario.linkage.bodies.values()) * math.hypot(
+            *scenario.gravity
+        )
         self.volumes = np.array(
             [[*one.start_pressures, *one.model.volumes(0.0)] for one in model.cylinders.values()]
         ).reshape(-1, 4)
@@ -239,8 +241,8 @@ def settle(model: Model, y: Vector) -> None:
     y[: search.count] = search.x[: search.count]
     for n, name in enumerate(scenario.linkage.bodies):
         if name in brought:
-            body, i = scenario.linkage.bodies[name], search.count + 3 * n
-            y[i : i + 3] = *body.velocity, body.spin
+            moving, i = scenario.linkage.bodies[name], search.count + 3 * n
+            y[i : i + 3] = *moving.velocity, moving.spin
 
 
 def _shares(model: Model) -> tuple[float, ...]:

@@ -8,8 +8,6 @@ import math
 
 from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import Matrix, Records, Scene, Vector
-from support_exudyn.formulations.compiled.forces import observe, press
-from support_exudyn.formulations.compiled.step import within
 from support_exudyn.formulations.compiled.depth import (
     CUT,
     CUT_MET,
@@ -25,6 +23,8 @@ from support_exudyn.formulations.compiled.depth import (
     in_contact,
     rise,
 )
+from support_exudyn.formulations.compiled.forces import observe, press
+from support_exudyn.formulations.compiled.step import within
 
 
 @compiled
@@ -112,7 +112,7 @@ def closed(
         return TOO_LONG, 0.0, 0.0
     # a step that begins on a cut and ends beyond it only grazes it; landing would go back to its start
     if abs(one.push) > CUT_MET and (one.push < 0.0) != (two.push < 0.0):
-        # where it is pressed on again the law asks for no tension, so that comes later; a separation may be first
+        # where it is pressed on again the law asks for no tension: that comes later; a separation may be first
         if what == SEPARATION and h > SHORT:
             return TOO_LONG, 0.0, 0.0
         if what != SEPARATION:

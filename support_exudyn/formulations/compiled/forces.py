@@ -3,7 +3,14 @@
 import math
 
 from support_exudyn.formulations.compilation import call_law, compiled, inlined, once
-from support_exudyn.formulations.compiled.arrays import DAMPING_LOSS, FRICTION_LOSS, WORK, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import (
+    DAMPING_LOSS,
+    FIRST_COURSE,
+    FRICTION_LOSS,
+    WORK,
+    Scene,
+    Vector,
+)
 from support_exudyn.formulations.compiled.motion import push, push_point, spin_of
 from support_exudyn.mechanics.contact_state import HEAVIEST
 from support_exudyn.mechanics.contact_state import SMALLEST as SMALLEST_SQUARE
@@ -51,7 +58,7 @@ def observe(scene: Scene, n: int, y: Vector) -> None:
 
 @inlined
 def effective_mass(scene: Scene, n: int) -> float:
-    """Mass [kg] that moves along the eccentricity, by the remembered inverse effective mass, in the bore's axes."""
+    """Mass [kg] that moves along the eccentricity, by the remembered inverse effective mass."""
     contact = scene.contacts[n]
     c, s = axes_of(scene, n)
     x, y = c * contact.x + s * contact.y, c * contact.y - s * contact.x
@@ -74,7 +81,7 @@ def axes_of(scene: Scene, n: int) -> tuple[float, float]:
 
 @inlined
 def press(scene: Scene, n: int, y: Vector, slope: Vector) -> None:
-    """Write the force of a contact that has been observed, and the rate of its friction law's state into `slope`.
+    """Write the force of a contact that has been observed, and the rate of its friction law's state.
 
     Before the surfaces have separated the law goes on as at SHALLOWEST, so that one with a dashpot does not
     jump. What cannot be the force of a law is no number, which the integrator looks for.
@@ -167,9 +174,10 @@ def press_oil(scene: Scene) -> None:
         compression = one.natural + extension - length
         closing = speed - rate
         one.force = stiffness * (compression + one.time * closing)
-        one.work = one.force * speed - 0.5 * stiffness / (
-            one.oil_length + extension
-        ) * speed * compression * compression
+        one.work = (
+            one.force * speed
+            - 0.5 * stiffness / (one.oil_length + extension) * speed * compression * compression
+        )
         one.loss = stiffness * one.time * closing * closing
         push_apart(scene, one.foot, one.head, one.force * ux, one.force * uy)
 
@@ -219,6 +227,8 @@ def press_loads(scene: Scene, t: float, y: Vector) -> None:
         one = scene.loads[n]
         point, origin = scene.points[one.point], scene.points[one.origin]
         constants = scene.constants[one.constants :]
+        for k in range(one.courses):
+            scene.out[FIRST_COURSE + k] = scene.courses[one.course + k].value
         if one.hangs != 0.0:
             one.fx, one.fy = 0.0, -one.hangs * (point.y - origin.y)
             push_apart(scene, one.origin, one.point, one.fx, one.fy)

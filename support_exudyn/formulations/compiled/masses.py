@@ -1,6 +1,6 @@
-"""How easily journals move against their bores at an instant, with what else is pressed; see `mechanics.pressed_pins`.
+"""How easily journals move against their bores at an instant, with what else is pressed.
 
-That module says the same of numpy's matrices; here it is compiled, for every impact of a run asks.
+`mechanics.pressed_pins` says the same of numpy's matrices; here it is compiled, for every impact of a run asks.
 """
 
 import math
@@ -36,7 +36,7 @@ def row_of(scene: Scene, n: int, ux: float, uy: float, out: Vector) -> None:
 
 @compiled
 def answer(scene: Scene, row: Vector, right: Vector, out: Vector) -> None:
-    """Write the velocities of all bodies by an impulse along a row; rows and factors are those of the instant."""
+    """Write the velocities of all bodies by an impulse along a row; rows and factors are those of now."""
     for n in range(scene.bodies.size):
         body, i = scene.bodies[n], 3 * n
         out[i], out[i + 1], out[i + 2] = (
@@ -163,7 +163,7 @@ def renew_mass(scene: Scene, room: Scratch, n: int, v: Vector) -> None:
 
 @once
 def mass_together(scene: Scene, room: Scratch, n: int, v: Vector, moving: int) -> float:
-    """The mass of a corner that impacts together with others, see `pressed_pins.struck_together`; 0: none does."""
+    """The mass of a corner that impacts with others, see `pressed_pins.struck_together`; 0: none does."""
     contact = scene.contacts[n]
     coordinates = 3 * scene.bodies.size
     rows, gram, square, right, sizes = room.lines, room.gram, room.square, room.sides, room.sizes

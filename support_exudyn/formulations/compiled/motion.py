@@ -4,13 +4,13 @@ Mass matrix M, constraint Jacobian C, applied forces f and what drives demand, w
 
     C M^-1 C^T L = C M^-1 f - w,    a = M^-1 (f - C^T L)
 
-by Cholesky's factors of the square matrix, within the envelope that the order of the rows leaves.
+by factors L D L^T of the square matrix, within the envelope that the order of the rows leaves.
 """
 
 import math
 
 from support_exudyn.formulations.compilation import compiled, inlined, once
-from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SLIDE, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, Scene, Vector
 
 SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
 
@@ -134,7 +134,7 @@ def hold(scene: Scene, y: Vector) -> None:
 
 @once
 def factor(scene: Scene) -> float:
-    """Write C M^-1 C^T and its factors; the least share of a row's square that is left of it."""
+    """Write C M^-1 C^T as its factors L, and 1 / D on the diagonal; the least share that is left of a row."""
     count = scene.rows.size
     square = scene.square
     for i in range(count):
@@ -155,18 +155,20 @@ def factor(scene: Scene) -> float:
     least = 1.0
     for i in range(count):
         first = scene.rows[i].first
-        own = square[i, i]
-        for j in range(first, i + 1):
+        for j in range(first, i):
             total = square[i, j]
             for k in range(max(first, scene.rows[j].first), j):
                 total -= square[i, k] * square[j, k]
-            if j < i:
-                square[i, j] = total * square[j, j]
-            else:
-                share = total / own
-                if not share > least:
-                    least = share
-                square[i, i] = 1.0 / math.sqrt(total)  # its inverse
+            square[i, j] = total
+        own = left = square[i, i]
+        for j in range(first, i):
+            total = square[i, j]
+            square[i, j] = total * square[j, j]
+            left -= total * square[i, j]
+        share = left / own
+        if not share > least:
+            least = share
+        square[i, i] = 1.0 / left
     return least
 
 
@@ -179,10 +181,11 @@ def divide(scene: Scene, right: Vector) -> None:
         total = right[i]
         for k in range(scene.rows[i].first, i):
             total -= square[i, k] * right[k]
-        right[i] = total * square[i, i]
+        right[i] = total
+    for i in range(count):
+        right[i] *= square[i, i]
     for i in range(count - 1, -1, -1):
-        value = right[i] * square[i, i]
-        right[i] = value
+        value = right[i]
         for k in range(scene.rows[i].first, i):
             right[k] -= square[i, k] * value
 

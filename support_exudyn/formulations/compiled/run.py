@@ -23,7 +23,8 @@ from support_exudyn.formulations.compiled.arrays import (
     Vector,
     scratch,
 )
-from support_exudyn.formulations.compiled.integrate import AT, GOING, MIDST, NEXT_STEP, integrate
+from support_exudyn.formulations.compiled.integrate import integrate
+from support_exudyn.formulations.compiled.method import AT, GOING, MIDST, NEXT_STEP
 from support_exudyn.formulations.compiled.outcome import record_width, trajectory
 from support_exudyn.formulations.compiled.setup import Model, model_of
 from support_exudyn.formulations.compiled.start import error_weights, first_state
@@ -39,7 +40,7 @@ from user_forces.normal.law import Impact, LoadError
 
 FIRST_STEP = 1e-5  # [s]
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
-AT_ONCE = 20_000  # compiled steps, some 0.3 s: until then it cannot be interrupted, and tells no progress
+AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then a run cannot be interrupted, and tells no progress
 CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed far out of its place."
 MOST_IMPACTS = 100_000
 NOTHING_RESTS = "Look at the contact law: nothing comes to rest."
@@ -64,17 +65,17 @@ class _Run:
         weights = error_weights(model, self.y, scenario.solver.tolerance)
         going = np.zeros(GOING)
         going[NEXT_STEP] = FIRST_STEP
-        pause = AT_ONCE
-        for segment, begin, end in zip(
-            model.courses.segments, model.edges, model.edges[1:], strict=False
-        ):
+        at_once = AT_ONCE // model.scene.bodies.size
+        pause = at_once
+        for segment, begin, end in zip(model.courses.segments, model.edges, model.edges[1:], strict=False):
             if self.code != FINISHED:
                 return
             model.scene.courses[:] = segment
             jumps = self._jumps(begin)
             if begin == 0.0:
                 model.scene.courses["jump"] = jumps
-                model.scene.courses["still"] = [0.0 in one.breaks for one in self._followed()]
+                for course, one in zip(model.scene.courses, self._followed(), strict=False):  # loads' are last
+                    course["still"] = 0.0 in one.breaks
             while True:
                 self.code = integrate(
                     model.scene,
@@ -94,7 +95,7 @@ class _Run:
                 )
                 if self.code != PAUSED:
                     break
-                pause += AT_ONCE
+                pause += at_once
                 progress(float(going[AT] / scenario.duration))
             going[MIDST] = 0.0
             held = model.scene.joints["course"]
@@ -102,7 +103,7 @@ class _Run:
                 self._note_jump(begin)
 
     def _followed(self) -> list[Drive | Inlet]:
-        """What every course follows, in order."""
+        """What drives and valves follow, in the order of the courses."""
         drives = [self.scenario.drive_of(name) for name in self.model.drives]
         return [*drives, *(self.scenario.cylinders[name].inlet for name in self.model.valves)]
 
@@ -113,7 +114,6 @@ class _Run:
             if t in (drive := self.scenario.drive_of(name)).breaks:
                 found[n] = drive.speed_jump(t)
         return found
-
 
     def _note_jump(self, t: float) -> None:
         """Keep the impulses by which velocities have jumped at t [s]."""

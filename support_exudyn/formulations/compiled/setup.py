@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -14,7 +14,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from support_exudyn.formulations.compilation import compiled_law
 from support_exudyn.formulations.compiled import arrays
 from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, Scene, Vector, Whole
-from support_exudyn.formulations.compiled.courses import Courses, courses, segment_edges
+from support_exudyn.formulations.compiled.courses import Courses, TimeFunction, courses, segment_edges
 from support_exudyn.formulations.compiled.written import load_source
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.mechanics.contact_places import ContactPlace
@@ -90,8 +90,11 @@ def model_of(scenario: Scenario) -> Model:
     moving = [name for name in driven if scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)]
     valves = [name for name, one in scenario.cylinders.items() if one.inlet.breaks or one.inlet.opening(0.0)]
     edges = segment_edges(scenario.breaks, scenario.duration)
-    functions: list[Callable[[float], float]] = [_extension(scenario.drive_of(name)) for name in moving]
+    functions: list[TimeFunction] = [_extension(scenario.drive_of(name)) for name in moving]
     functions += [scenario.cylinders[name].inlet.opening for name in valves]
+    sources = {name: load_source(load) for name, load in scenario.acting_loads.items()}
+    of_loads = len(functions)
+    functions += [function for *_, own in sources.values() for function in own]
     found = courses(functions, edges)
     course = {name: n for n, name in enumerate((*moving, *valves))}
     joints, order, held = _joints(scenario, build, rigid, course)
@@ -109,7 +112,7 @@ def model_of(scenario: Scenario) -> Model:
     oil_records = np.zeros(len(oil), arrays.OIL)
     for record, (name, filled) in zip(oil_records, oil.items(), strict=True):
         _oil(record, filled, build, course.get(name, -1))
-    loads = _loads(scenario, build)
+    loads = _loads(scenario, build, sources, of_loads)
     bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
     rubbing = _rubbing(scenario, build, joints)
@@ -130,7 +133,7 @@ def model_of(scenario: Scenario) -> Model:
         bushings=bushings,
         rubbing=rubbing,
         constants=np.array([*build.constants, 0.0]),
-        out=np.zeros(8),
+        out=np.zeros(arrays.FIRST_COURSE + arrays.COURSES_OF_LOAD),
     )
     return Model(
         scenario=scenario,
@@ -144,12 +147,14 @@ def model_of(scenario: Scenario) -> Model:
         contacts=tuple(scenario.contact_places),
         oil=oil,
         cylinders=cylinders,
-        driven_rows={name: int(order[n]) for n, name in enumerate((*rigid, *linkage.cranks), 2 * len(scenario.held_pins))},
+        driven_rows={
+            name: int(order[n]) for n, name in enumerate((*rigid, *linkage.cranks), 2 * len(scenario.held_pins))
+        },
         states=states + LOSSES,
     )
 
 
-def _extension(drive: Drive) -> Callable[[float], float]:
+def _extension(drive: Drive) -> TimeFunction:
     """The extension of a drive; raises LawError where that is no number."""
 
     def asked(t: float) -> float:
@@ -217,9 +222,7 @@ def _held(scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Map
         carrier = build.point(slide.against, slide.point)
         guided = build.point(slide.body, slide.point)
         bodies = number[slide.body], number[slide.against]
-        found.append(
-            _Joint(arrays.SLIDE, carrier, guided, bodies, slide.conditions, angle=slide.direction)
-        )
+        found.append(_Joint(arrays.SLIDE, carrier, guided, bodies, slide.conditions, angle=slide.direction))
     for gear in linkage.gears.values():
         bodies = number[gear.second], number[gear.first]
         found.append(_Joint(arrays.GEAR, bodies[1], bodies[0], bodies, 1, ratio=gear.ratio))
@@ -229,7 +232,7 @@ def _held(scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Map
 def _joints(
     scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Mapping[str, int]
 ) -> tuple[Records, Whole, list[_Joint]]:
-    """Joints with their rows, numbered so that those of neighbours lie close; and the rows as the linkage has them.
+    """Joints with their rows, those of neighbours close to each other; and the rows as the linkage has them.
 
     The order is that of Cuthill and McKee, reversed: factors then have next to nothing outside of a band.
     """
@@ -242,7 +245,12 @@ def _joints(
         row += held[n].rows
     found = np.zeros(len(held), arrays.JOINT)
     for n, (record, one) in enumerate(zip(found, held, strict=True)):
-        record["kind"], record["row"], record["first"], record["second"] = one.kind, first[n], one.first, one.second
+        record["kind"], record["row"], record["first"], record["second"] = (
+            one.kind,
+            first[n],
+            one.first,
+            one.second,
+        )
         record["course"], record["conditions"] = one.course, one.rows
         record["length"], record["angle"], record["ratio"] = one.length, one.angle, one.ratio
     rows = [first[n] + k for n, one in enumerate(held) for k in range(one.rows)]
@@ -316,15 +324,23 @@ def _oil(record: Any, one: PreloadedActuator, build: _Builder, course: int) -> N
     record["time"], record["natural"] = model.damping_time, one.natural_length(0.0)
 
 
-def _loads(scenario: Scenario, build: _Builder) -> Records:
+def _loads(
+    scenario: Scenario,
+    build: _Builder,
+    sources: Mapping[str, tuple[str, list[float], list[TimeFunction]]],
+    course: int,
+) -> Records:
+    """Loads with their compiled functions; course: the first of theirs."""
     found = np.zeros(len(scenario.acting_loads), arrays.LOAD)
     for record, (name, load) in zip(found, scenario.acting_loads.items(), strict=True):
         against = load.against(name)
-        forced = isinstance(load, Load)
-        record["point"] = build.point(load.body, load.point if forced else (0.0, 0.0))
-        record["origin"] = build.point(against, load.origin if forced else (0.0, 0.0))
-        record["moment"] = not forced
-        record["law"], record["constants"] = build.law(load_source(load))
+        point, origin = (load.point, load.origin) if isinstance(load, Load) else ((0.0, 0.0), (0.0, 0.0))
+        record["point"], record["origin"] = build.point(load.body, point), build.point(against, origin)
+        record["moment"] = not isinstance(load, Load)
+        source, constants, own = sources[name]
+        record["law"], record["constants"] = build.law((source, constants))
+        record["course"], record["courses"] = course, len(own)
+        course += len(own)
     return found
 
 
@@ -349,5 +365,5 @@ def _rubbing(scenario: Scenario, build: _Builder, joints: Records) -> Records:
         record["body"], record["other"] = build.numbers[place.second], build.numbers[place.first]
         assert pin.friction is not None  # pins without are left out
         record["law"], record["constants"] = build.law(friction_source(pin.friction))
-        record["radius"] = pin.radius
+        record["radius"] = pin.radius or 0.0  # goes with friction
     return found

@@ -45,7 +45,8 @@ def error_weights(model: Model, y: Vector, tolerance: float) -> Vector:
     """One over the largest error of a step, for each component of the state.
 
     `tolerance` times: the smallest play, for places; the speed of a fall through half of it, for velocities;
-    the energy of all bodies at that speed, for losses and work; the pressure that carries their weight, for pressures.
+    the energy of all bodies at that speed, for losses and work; the pressure of the pump, or that which carries
+    their weight, for pressures.
 
     Arguments:
         y: the state at the start, of whose velocities turning makes accelerations besides gravity's.

@@ -10,6 +10,7 @@ from support_exudyn.formulations.redundant.solver.solver import SolverRun
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 
+OF_BEARINGS = "GenericODE2"  # the engine's name
 BODIES = ("RigidBody2D", "RigidBody")  # the engine's names, in the plane and in space
 
 
@@ -21,10 +22,10 @@ class Inventory:
     algebraic equations; in space one more for each body, which keeps its four parameters a rotation, and
     one without effect for each direction that a joint of the engine's leaves free. nodes: of bodies, and
     the fixed one of cranks. objects: bodies, connectors and the ground. connectors: objects between
-    markers: ideal and clearance pins (in space one for each section), actuators, cranks, guides, and what
-    presses on the machine besides its weight. user_functions: forces and the like that Python computes, as
-    often as the solver asks, several times a step. callbacks: functions of Python that the engine calls at
-    every step.
+    markers: ideal and clearance pins, actuators, cranks, guides, and what presses on the machine besides its
+    weight; in space a clearance bearing has one between nodes, or if it is symbolic one for each section.
+    user_functions: forces and the like that Python computes, as often as the solver asks, several times a
+    step. callbacks: functions of Python that the engine calls at every step.
     """
 
     coordinates: int
@@ -68,7 +69,7 @@ def _count(mbs: Any) -> Inventory:
         bodies=sum(item["objectType"] in BODIES for item in objects),
         nodes=int(data.NumberOfNodes()),
         objects=len(objects),
-        connectors=sum("markerNumbers" in item for item in objects),
+        connectors=sum("markerNumbers" in item or item["objectType"] == OF_BEARINGS for item in objects),
         markers=int(data.NumberOfMarkers()),
         loads=len(loads),
         sensors=int(data.NumberOfSensors()),

@@ -6,20 +6,21 @@ says nothing new. Such rows are left out of the model, by which no motion change
 what holds the same is beyond rigid bodies; see `reactions`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Literal, NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.space.motion import SpatialMotion, cross
+from support_exudyn.mechanics.space.motion import SpatialMotion, SpatialPointMotion, cross
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.spatial_linkage import Bearing, SpatialLinkage
 from user_forces.values.value import Vector3
 
 SAME = 1e-6  # share of a row that must be new, else it repeats others
+FindPoint = Callable[[str, Vector3], SpatialPointMotion]
 Kind = Literal["actuator", "across_1", "across_2", "along", "tilt_1", "tilt_2"]
 
 
@@ -60,33 +61,34 @@ def all_rows(linkage: SpatialLinkage, with_clearance: Sequence[str], rigid: Sequ
 def matrix(motion: SpatialMotion, rows: Sequence[Constraint]) -> Series:
     """The rows at every instant, shape (n, rows, 6 bodies)."""
     found = np.zeros((motion.count, len(rows), 6 * len(motion.linkage.bodies)))
+    point = cache(motion.point)  # the rows of a bearing ask for the same
     for place, row in enumerate(rows):
         if row.kind == "actuator":
-            _actuator_row(motion, row.name, found[:, place])
+            _actuator_row(motion, point, row.name, found[:, place])
         else:
-            _bearing_row(motion, row, found[:, place])
+            _bearing_row(motion, point, row, found[:, place])
     return found
 
 
-def _actuator_row(motion: SpatialMotion, name: str, row: Series) -> None:
+def _actuator_row(motion: SpatialMotion, point: FindPoint, name: str, row: Series) -> None:
     actuator = motion.linkage.actuators[name]
-    foot = motion.point(actuator.foot, actuator.foot_point)
-    head = motion.point(actuator.head, actuator.head_point)
+    foot = point(actuator.foot, actuator.foot_point)
+    head = point(actuator.head, actuator.head_point)
     along = head.position - foot.position
     along /= np.linalg.norm(along, axis=1)[:, None]
     _add_point(motion, actuator.head, head.arm, along, row)
     _add_point(motion, actuator.foot, foot.arm, -along, row)
 
 
-def _bearing_row(motion: SpatialMotion, row: Constraint, found: Series) -> None:
+def _bearing_row(motion: SpatialMotion, point: FindPoint, row: Constraint, found: Series) -> None:
     bearing = motion.linkage.bearings[row.name]
     direction = direction_of(motion, bearing, row.kind)
     if row.kind.startswith("tilt"):
         _add_turn(motion, bearing.second, direction, found)
         _add_turn(motion, bearing.first, -direction, found)
         return
-    first = motion.point(bearing.first, bearing.first_point)
-    second = motion.point(bearing.second, bearing.second_point)
+    first = point(bearing.first, bearing.first_point)
+    second = point(bearing.second, bearing.second_point)
     _add_point(motion, bearing.second, second.arm, direction, found)
     _add_point(motion, bearing.first, first.arm, -direction, found)
     # the direction turns with the first body

@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 
 from pydantic import model_validator
 
-from user_forces.expressions.scalar import cos, is_number, maximum, minimum, sin
+from user_forces.expressions.scalar import cos, in_time, is_number, maximum, minimum, sin
 from user_forces.values.units import Metres, RadiansPerSecond, Seconds
 from user_forces.values.value import NonNegative, Positive, Real, Value, value
 
@@ -147,6 +147,8 @@ class UniformSpeed(Stroke):
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]; at the jumps the value before."""
+        if (known := in_time(self.speed, t)) is not None:
+            return known
         return self.stroke / (self.end - self.start) if self.start < t <= self.end else 0.0
 
     def speed_jump(self, t: float) -> float:

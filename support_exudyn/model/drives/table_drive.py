@@ -10,7 +10,7 @@ from typing import Annotated, Literal, NamedTuple
 from pydantic import Field, model_validator
 
 from support_exudyn.model.drives.drive import Drive
-from user_forces.expressions.scalar import is_number
+from user_forces.expressions.scalar import in_time
 from user_forces.values.units import Metres, Seconds
 from user_forces.values.value import NonNegative, Real, value
 
@@ -68,6 +68,8 @@ class TableDrive(Drive):
 
     def extension(self, t: float) -> float:
         """Extension [m] at time t [s]."""
+        if (known := in_time(self.extension, t)) is not None:
+            return known
         n = self._piece(t)
         if n == 0:
             return self.extensions[0]
@@ -86,6 +88,8 @@ class TableDrive(Drive):
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]; at a jump the value before it."""
+        if (known := in_time(self.speed, t)) is not None:
+            return known
         n = self._piece(t)
         if n in (0, len(self.times)):
             return 0.0
@@ -131,8 +135,6 @@ class TableDrive(Drive):
 
     def _piece(self, t: float) -> int:
         """Number of points that lie before a time [s]."""
-        if not is_number(t):
-            raise TypeError("a table is no formula of time")
         return bisect_left(self.times, t)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""What the closed forms cover: a support or a slider-crank with its one clearance pin, driven from its start."""
+"""What the closed forms cover: a support or a slider-crank with one clearance pin, driven from its start."""
 
 from typing import cast
 

@@ -7,22 +7,6 @@ that leaves in doubt whether something happens, the step is too long, and is mad
 import math
 
 from support_exudyn.formulations.compilation import compiled
-from support_exudyn.formulations.compiled.depth import (
-    CUT,
-    CUT_MET,
-    CUT_SAMPLES,
-    Found,
-    IMPACT,
-    NEAR_CUT,
-    NOTHING,
-    PARTS,
-    PARTS_CLOSED,
-    SEPARATION,
-    SHORT,
-    TOO_LONG,
-    in_contact,
-    rise,
-)
 from support_exudyn.formulations.compiled.closed_forms.equations import observe, within
 from support_exudyn.formulations.compiled.closed_forms.layout import (
     CLEARANCE,
@@ -35,6 +19,22 @@ from support_exudyn.formulations.compiled.closed_forms.layout import (
     RENEWS,
     Matrix,
     Vector,
+)
+from support_exudyn.formulations.compiled.depth import (
+    CUT,
+    CUT_MET,
+    CUT_SAMPLES,
+    IMPACT,
+    NEAR_CUT,
+    NOTHING,
+    PARTS,
+    PARTS_CLOSED,
+    SEPARATION,
+    SHORT,
+    TOO_LONG,
+    Found,
+    in_contact,
+    rise,
 )
 
 

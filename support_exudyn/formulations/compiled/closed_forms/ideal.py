@@ -13,7 +13,6 @@ from support_exudyn.formulations.compiled.closed_forms.integrate import (
     STOPPED_AT,
     STUCK,
 )
-from support_exudyn.formulations.compiled.step_control import CLOSE
 from support_exudyn.formulations.compiled.closed_forms.layout import (
     BEGIN,
     END,
@@ -39,6 +38,7 @@ from support_exudyn.formulations.compiled.closed_forms.support import (
     unforced,
 )
 from support_exudyn.formulations.compiled.closed_forms.support_posture import posture, rates
+from support_exudyn.formulations.compiled.step_control import CLOSE
 
 ITERATIONS = 30
 CLOSED = 1e-14  # [m], some ten times the rounding of the posture

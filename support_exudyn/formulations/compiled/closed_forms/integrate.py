@@ -15,15 +15,6 @@ from support_exudyn.formulations.compiled.closed_forms.equations import (
     move_with_the_drive,
     within,
 )
-from support_exudyn.formulations.compiled.depth import (
-    CUT,
-    CUT_MET,
-    IMPACT,
-    NOTHING,
-    RETURN,
-    SEPARATION,
-    TOO_LONG,
-)
 from support_exudyn.formulations.compiled.closed_forms.events import event
 from support_exudyn.formulations.compiled.closed_forms.layout import (
     ASKED_DEPTH,
@@ -45,6 +36,17 @@ from support_exudyn.formulations.compiled.closed_forms.layout import (
     Matrix,
     Vector,
 )
+from support_exudyn.formulations.compiled.closed_forms.records import peak, record, size
+from support_exudyn.formulations.compiled.closed_forms.support import jump
+from support_exudyn.formulations.compiled.depth import (
+    CUT,
+    CUT_MET,
+    IMPACT,
+    NOTHING,
+    RETURN,
+    SEPARATION,
+    TOO_LONG,
+)
 from support_exudyn.formulations.compiled.step_control import (
     CLOSE,
     LANDED,
@@ -55,8 +57,6 @@ from support_exudyn.formulations.compiled.step_control import (
     crossing,
     factor,
 )
-from support_exudyn.formulations.compiled.closed_forms.records import peak, record, size
-from support_exudyn.formulations.compiled.closed_forms.support import jump
 
 FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED = range(6)
 # what is reported of a run
@@ -276,9 +276,9 @@ def integrate(
             last = h >= stop - t
         if memory[CLOSED] != 0.0:
             first, final = size(now), size(then)
-            highest = peak(p, segment, memory, t, h, path, report[LARGEST], first, final, probe, there)
+            highest, at = peak(p, segment, memory, t, h, path, report[LARGEST], first, final, probe, there)
             if highest > report[LARGEST]:
-                report[LARGEST], report[LARGEST_AT] = highest, t + h
+                report[LARGEST], report[LARGEST_AT] = highest, at
         report[ACCEPTED] += 1
         memory[ASKED_DEPTH] = 0.0
         report[CUTS] += what not in (NOTHING, RETURN)

@@ -3,13 +3,6 @@
 import math
 
 from support_exudyn.formulations.compilation import compiled
-from support_exudyn.formulations.peak_force import (
-    GOLDEN,
-    NARROWINGS,
-    NEAR_PEAK,
-    NEAR_TOP,
-    PEAK_SAMPLES,
-)
 from support_exudyn.formulations.compiled.closed_forms.equations import observe, within
 from support_exudyn.formulations.compiled.closed_forms.layout import (
     ACCELERATION,
@@ -25,6 +18,13 @@ from support_exudyn.formulations.compiled.closed_forms.layout import (
     Matrix,
     Vector,
     driven,
+)
+from support_exudyn.formulations.peak_force import (
+    GOLDEN,
+    NARROWINGS,
+    NEAR_PEAK,
+    NEAR_TOP,
+    PEAK_SAMPLES,
 )
 
 
@@ -71,14 +71,15 @@ def peak(
     last: float,
     y: Vector,
     there: Vector,
-) -> float:
-    """The largest force [N] so far, a step in contact included whose ends have the forces first and last [N].
+) -> tuple[float, float]:
+    """The largest force [N] so far, a step in contact included, and its time [s] if it is in the step.
 
-    Of a step with forces near the largest so far: that at points between, and the highest between these, which
-    may be a corner (where what limits the damping changes). y and there are overwritten.
+    Of a step with forces near the largest so far, first and last [N] at its ends: that at points between, and
+    the highest between these, which may be a corner (where what limits the damping changes). y and there are
+    overwritten.
     """
     if max(first, last) <= NEAR_PEAK * largest:
-        return largest
+        return largest, t
     top, at = first, 0
     for n in range(1, PEAK_SAMPLES + 1):
         force = last
@@ -87,22 +88,22 @@ def peak(
         if force > top:
             top, at = force, n
     if top <= NEAR_TOP * largest:
-        return largest
+        return largest, t
+    best = at / PEAK_SAMPLES
     low, high = max(0.0, (at - 1) / PEAK_SAMPLES), min(1.0, (at + 1) / PEAK_SAMPLES)
-    one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-    at_one = force_at(p, segment, memory, t, h, one, path, y, there)
-    at_other = force_at(p, segment, memory, t, h, other, path, y, there)
     for _ in range(NARROWINGS):
-        top = max(top, at_one, at_other)
+        one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+        at_one = force_at(p, segment, memory, t, h, one, path, y, there)
+        at_other = force_at(p, segment, memory, t, h, other, path, y, there)
+        if at_one > top:
+            top, best = at_one, one
+        if at_other > top:
+            top, best = at_other, other
         if at_one > at_other:
-            high, other, at_other = other, one, at_one
-            one = high - GOLDEN * (high - low)
-            at_one = force_at(p, segment, memory, t, h, one, path, y, there)
+            high = other
         else:
-            low, one, at_one = one, other, at_other
-            other = low + GOLDEN * (high - low)
-            at_other = force_at(p, segment, memory, t, h, other, path, y, there)
-    return max(largest, top)
+            low = one
+    return max(largest, top), t + best * h
 
 
 @compiled

@@ -3,7 +3,6 @@
 import numpy as np
 
 from support_exudyn.formulations.compilation import on_arrays
-from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.formulations.compiled.closed_forms import layout
 from support_exudyn.formulations.compiled.closed_forms.contact import accelerations
 from support_exudyn.formulations.compiled.closed_forms.equations import law_at
@@ -35,6 +34,7 @@ from support_exudyn.formulations.compiled.closed_forms.integrate import (
 from support_exudyn.formulations.compiled.closed_forms.layout import DriveValues, Matrix, Vector
 from support_exudyn.formulations.compiled.closed_forms.machine_model import Model
 from support_exudyn.formulations.compiled.closed_forms.setup import MOST_IMPACTS, RunArrays, outline
+from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.contact_history import RelativeMotion, acting, journal_arm, series

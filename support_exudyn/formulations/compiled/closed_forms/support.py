@@ -9,7 +9,13 @@ from typing import NamedTuple
 
 from support_exudyn.formulations.compilation import compiled, inlined
 from support_exudyn.formulations.compiled.closed_forms import support_posture
-from support_exudyn.formulations.compiled.closed_forms.contact import Balance, PinState, closing_force, closing_rates, solved
+from support_exudyn.formulations.compiled.closed_forms.contact import (
+    Balance,
+    PinState,
+    closing_force,
+    closing_rates,
+    solved,
+)
 from support_exudyn.formulations.compiled.closed_forms.layout import (
     BEGIN,
     BORE_FIRST,
@@ -51,7 +57,12 @@ from support_exudyn.formulations.compiled.closed_forms.layout import (
     Vector,
     driven,
 )
-from support_exudyn.formulations.compiled.closed_forms.support_posture import Rates, SupportMotion, posture, rates
+from support_exudyn.formulations.compiled.closed_forms.support_posture import (
+    Rates,
+    SupportMotion,
+    posture,
+    rates,
+)
 
 
 class Arms(NamedTuple):

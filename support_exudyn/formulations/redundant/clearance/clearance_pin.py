@@ -4,13 +4,13 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from support_exudyn.formulations.contact_events import Action, DepthPath, Verdict, goes_on, judge, judge_at_ends
+from support_exudyn.formulations.contact_events import Action, Verdict, goes_on, judge, judge_at_ends
 from support_exudyn.formulations.impact_steps import ImpactSteps
-from support_exudyn.formulations.peak_force import NEAR_PEAK, has_a_top, peak
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment, Relative
+from support_exudyn.formulations.redundant.clearance.largest_force import LargestForce
 from support_exudyn.formulations.redundant.clearance.pin_frames import PinFrames
-from support_exudyn.formulations.redundant.clearance.pin_motion import Course, Moving
+from support_exudyn.formulations.redundant.clearance.pin_motion import Moving
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.slot_frames import SlotFrames
 from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce, SteepFriction
@@ -18,7 +18,7 @@ from support_exudyn.formulations.redundant.clearance.symbolic_force import Symbo
 from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
 from support_exudyn.mechanics.pressed_pins import NOT_KNOWN, EffectiveMasses
 from support_exudyn.scenario.solver_settings import SolverSettings
-from user_forces.compilation.flat import flat_force
+from user_forces.compilation.flat import asks_for_mass, flat_force, flat_function
 from user_forces.contact import Contact, ContactForce
 from user_forces.lawful import PROBED, look
 from user_forces.normal.law import Impact
@@ -27,7 +27,7 @@ from user_forces.values.value import Vector2
 SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been been in contact
 
 
-class ClearanceJoint:
+class ClearanceJoint(LargestForce):
     """One clearance pin of a scene, or one corner between walls, which is a journal that slides freely along.
 
     Arguments:
@@ -51,29 +51,33 @@ class ClearanceJoint:
         settings: SolverSettings,
         share: float = 1.0,
     ) -> None:
+        super().__init__()
         self.contact, self.connector, self.find_inverse_masses = contact, connector, find_inverse_masses
         self.locates, self.share = settings.locate, share
-        frames = SlotFrames if contact.bearing.is_slot else PinFrames
-        self.frames = frames(connector, moving, bore_spin)
+        self.frames = self._make_frames(moving, bore_spin)
+        self._follows = self.frames.follows
         self._on_line = connector.at is Attachment.LINE
         self.impact_steps = ImpactSteps(contact.normal, settings.impact_steps)
 
         def engine_force(straight: bool) -> EngineForce:
-            if settings.backend == "symbolic":
-                return SymbolicForce(connector.mbs, contact, connector.at, straight)
-            return PythonForce(contact, connector.at, bore_spin, straight)
+            return self._make_force(settings.backend, bore_spin, straight)
 
         self._friction = SteepFriction(contact.friction, engine_force)
+        self.engine_force = self._friction.acting  # what the engine asks for the force
+        self.is_straight = False  # whether a line stands for friction
+        self._is_symbolic = isinstance(self.engine_force, SymbolicForce)
         self.connector.set_force(self.engine_force.function)
-        self._force = flat_force(contact)
+        self._force, self.elastic_force = flat_force(contact), flat_function(contact.normal.elastic_force)
+        self._asks_for_mass = not self._on_line and asks_for_mass(contact)
+        self._has_state = contact.friction.has_state
         # whether the force depends on more than the impact from step to step
-        self._changes = contact.friction.has_state or connector.at is Attachment.MIDDLE or self.frames.turns
-        self._impact: tuple[object, ...] = ()
+        self._changes = self._has_state or self._follows
+        self._impact: tuple[object, ...] = ()  # that it has been told
+        self._is_told = self._goes_on = False  # the impact of `kept`, of what the step being tried has reached
         # at the last accepted step
         self.kept = PinMemory(False, 0.0, 0.0, 0.0)
-        self._alone = (
-            NOT_KNOWN.alone
-        )  # the journal's inverse effective mass by itself, when the memory's was found
+        # the journal's inverse effective mass by itself, when the memory's was found, and its least mass [kg]
+        self._alone, self._lightest = NOT_KNOWN.alone, NOT_KNOWN.alone.lightest
         # the step being tried
         self.memory = self.kept  # with which its force is computed
         # in the axes of the connector's displacement: the memory's inverse effective mass, and that of the
@@ -86,23 +90,21 @@ class ClearanceJoint:
         self.landing = math.inf  # where steps are to end, seen in one that was then cut [s]
         self._step = 0.0  # its length [s]
         self._motion = Relative(0.0, 0.0, 0.0, 0.0)  # at its end
-        self._mass = 1.0  # that moves as the depth does at its end, while in contact [kg]
-        self._least_mass = 1.0  # the same if no other clearance pin holds anything, which steps follow [kg]
         # at the end of the last accepted step
         self._swing_step = math.inf  # see `longest_step`
-        self._angle: float | None = None  # of the journal's place in the bore [rad]
-        self._size = 0.0  # of the force [N]
-        self.course: Course | None = None  # of a step just accepted over which the contact went on
+        self._was_decided = False  # whether the step's end is more than that all went on
         # over the run
         self.onsets: list[Onset] = []
-        self.clamped_steps = 0
-        self.largest_force = 0.0
-        self.largest_force_time = 0.0  # end of the step that has it [s]
 
-    @property
-    def engine_force(self) -> EngineForce:
-        """What the engine asks for the force."""
-        return self._friction.acting
+    def _make_frames(self, moving: Moving, bore_spin: Callable[[], float]) -> PinFrames:
+        frames = SlotFrames if self.contact.bearing.is_slot else PinFrames
+        return frames(self.connector, moving, bore_spin)
+
+    def _make_force(self, backend: str, bore_spin: Callable[[], float], straight: bool) -> EngineForce:
+        connector = self.connector
+        if backend == "symbolic":
+            return SymbolicForce(connector.mbs, self.contact, connector.at, straight)
+        return PythonForce(self.contact, connector.at, bore_spin, straight)
 
     @property
     def calls(self) -> int:
@@ -112,7 +114,7 @@ class ClearanceJoint:
     @property
     def longest_step(self) -> float:
         """The longest step [s] for the impact going on, or for what friction holds at the end of the last."""
-        return min(self.impact_steps.step, self._swing_step)
+        return min(self.impact_steps.step, self._swing_step) if self._has_state else self.impact_steps.step
 
     # --- called by the solver ---
 
@@ -127,7 +129,7 @@ class ClearanceJoint:
             turn: of the journal against the bore since the start posture [rad].
             bore: angle and spin of the bore [rad], [rad/s].
         """
-        self.kept = self._renewed(memory, inverse_masses)
+        self.kept, self._is_told = self._renewed(memory, inverse_masses), False
         self.frames.start(turn, bore)
 
     @contextmanager
@@ -154,6 +156,7 @@ class ClearanceJoint:
     def jumped(self, memory: PinMemory) -> None:
         """Velocities have jumped after the last step; the memory since then."""
         self.kept = self.reached = memory
+        self._is_told = False
         self.frames.jumped()
 
     def begin_try(self, step: float) -> None:
@@ -161,66 +164,50 @@ class ClearanceJoint:
         self.onset = None
         self.wants_cut = False
         self._step = step
-        self._friction.begin()
-        self.frames.begin(step)
-        self._recall(self.kept)
+        if self.is_straight:
+            self._friction.begin()
+        if self._follows:
+            self.frames.begin(step)
+        if self._is_told and not self._changes:  # nearly always
+            self.memory = self.kept
+        else:
+            self._recall(self.kept)
 
     def accept(self, t: float) -> None:
         """Keep what happened in a step that ends at t [s] and stands."""
-        was_in_contact = self.kept.in_contact
-        self.course = self._course() if self.memory.in_contact and self.onset is None else None
+        start, onset = self.kept, self.onset
+        self._went_on_from = start if self.memory.in_contact and onset is None else None
+        self._course = None
         self.kept = reached = self.reached
-        if not reached.in_contact and self._friction.part():
-            self._let_act()
-        if was_in_contact and not reached.in_contact and self.onsets:
-            self.onsets[-1] = self.onsets[-1].separated(t, -reached.rate)
-        self.frames.accept()
+        self._is_told = self._goes_on
+        if not reached.in_contact:
+            self._separated(start, t)
+        if self._follows:
+            self.frames.accept()
         if self.locates:
-            after = self.impact_steps.follow if self.onset is None else self.impact_steps.impact
-            unknown = self._on_line and (self.onset is not None or not self.impact_steps.calm(reached.depth))
-            after(reached.depth, reached.rate, self._find_least_mass() if unknown else self._least_mass)
-            self._swing_step = self.impact_steps.swing_step(self._swing_time())
-        if self.onset is not None:
-            self.onsets.append(self.onset)
+            steps, depth, rate = self.impact_steps, reached.depth, reached.rate
+            if onset is not None:
+                steps.impact(depth, rate, self._least_mass())
+            else:
+                steps.follow(depth, rate, self._lightest, self._least_mass)
+            if self._has_state:
+                self._swing_step = steps.swing_step(self._swing_time())
+        if onset is not None:
+            self.onsets.append(onset)
             self.onset = None
-        force = self.force
-        if force.clamped:
-            self.clamped_steps += 1
-        was_largest = self.largest_force
-        before, self._size = self._size, math.hypot(force.normal_force, force.friction_force)
-        self._angle = self._place_angle()
-        self.largest_force = max(self.largest_force, self._size)
-        near = self.course is not None and max(before, self._size) > NEAR_PEAK * self.largest_force
-        if near and has_a_top(self._size_within, before, self._size):
-            self.largest_force = peak(self._size_within, self.largest_force)
-        if self.largest_force > was_largest:
-            self.largest_force_time = t
+        x, y, *_ = self._motion
+        self._place_before, self._place_reached = (
+            self._place_reached,
+            (x, y, self.frames.bores_axes if self._follows else 0.0),
+        )
+        self._look_for_largest(t)
 
-    def _course(self) -> Course:
-        """The course of the step that has been tried, from the last accepted one to its end."""
-        start, end, angle = self.kept, self.force, self._place_angle()
-        path = DepthPath(start.depth, start.rate, end.depth, end.rate, self._step)
-        before = angle if self._angle is None else self._angle
-        return Course(path, start.slip, before, self._motion, end.slip, angle, self.contact.bearing.clearance)
-
-    def _place_angle(self) -> float:
-        """Direction of the journal's place at the end of the step, in the axes of effective masses [rad]."""
-        x, y = self._motion[:2]
-        return math.atan2(y, x) - self.frames.bores_axes
-
-    def force_within(self, x: float) -> ContactForce:
-        """The force at a fraction of the step just accepted; at its end, if the contact did not go on in it."""
-        if self.course is None:
-            return self.force
-        motion, memory, mass = self.course.at(x), self.memory, self._mass
-        if not self._on_line:
-            mass = self._turned(memory.inverse_mass).mass(motion.x, motion.y)
-        impact = memory.in_contact, memory.impact_velocity, mass, memory.deflection, memory.slip
-        return self._force(*motion[:4], *motion.spins(self.connector.at), *impact, x * self._step)
-
-    def _size_within(self, x: float) -> float:
-        force = self.force_within(x)
-        return math.hypot(force[3], force[4])
+    def _separated(self, start: PinMemory, t: float) -> None:
+        """The surfaces are apart at t [s], the end of a step from a memory."""
+        if self.is_straight and self._friction.part():
+            self._let_act()
+        if start.in_contact and self.onsets:
+            self.onsets[-1] = self.onsets[-1].separated(t, -self.kept.rate)
 
     def look(self, elastic: float, name: str) -> None:
         """Raise LawError if the force at the end of the last step, elastic to this part [N], cannot be one."""
@@ -230,7 +217,7 @@ class ClearanceJoint:
     def probe(self, name: str) -> None:
         """Raise LawError if a law is no number where the last step began, or a little deeper and faster."""
         memory, contact = self.memory, self.contact
-        impact = Impact(memory.impact_velocity, self._mass)
+        impact = Impact(memory.impact_velocity, self._find_mass())
         for more in PROBED:
             depth, slip = more * max(memory.depth, SHALLOW), more * memory.slip
             if depth > contact.normal.largest_depth:  # of which the law has its own words
@@ -259,6 +246,18 @@ class ClearanceJoint:
         """Mass [kg] that moves at least as the depth does, where the journal is now."""
         return self._alone.mass(*self._place())
 
+    def _least_mass(self) -> float:
+        """The same at the end of the step just tried, which is known without asking where the journal is."""
+        if self._on_line or self._was_decided:  # the inverse effective mass may have been renewed
+            return self._find_least_mass()
+        x, y, *_ = self._motion
+        return self._alone_here.mass(x, y)
+
+    def _find_mass(self) -> float:
+        """Mass [kg] that moves as the depth does at the end of the step, by which the law goes."""
+        x, y, *_ = self._motion
+        return 1.0 if self._on_line else self._here.mass(x, y)
+
     def _place(self) -> Vector2:
         """Where the journal is now in its bore, in the bore's axes [m]."""
         return self.frames.place()
@@ -269,16 +268,18 @@ class ClearanceJoint:
         Else with which length [s] it is to be repeated; infinite: with the same, for the force has changed.
         """
         start = self.memory
-        self._motion = self.frames.relative(self.engine_force)
-        self.force = force = self._contact_force(self._motion)
-        if isinstance(self.engine_force, SymbolicForce) and self.frames.spin_was_wrong(self._motion):
+        self._was_decided, self._goes_on = False, True
+        self._motion = motion = self.frames.relative(self.engine_force)
+        self.force = force = self._contact_force(motion)
+        if self._is_symbolic and self.frames.spin_was_wrong(motion):
             self._recall(start)
             return math.inf
         if (
-            start.in_contact
-            and (again := self._friction.after_newton(force, self._step, self._mass)) is not None
+            self.is_straight
+            and start.in_contact
+            and (again := self._friction.after_newton(force, self._step, self._find_mass())) is not None
         ):
-            self._impact = ()  # another line is laid
+            self._impact, self._is_told = (), False  # another line is laid
             self._recall(start)
             return again
         depth, rate, slip = force[:3]
@@ -300,11 +301,14 @@ class ClearanceJoint:
 
     def _let_act(self) -> None:
         """Another force acts from now on, which has been told nothing yet."""
+        self.engine_force = self._friction.acting
+        self.is_straight = self._friction.is_straight
         self.connector.set_force(self.engine_force.function)
-        self._impact = ()
+        self._impact, self._is_told = (), False
 
     def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
         """The answer to the engine that follows from a verdict."""
+        self._goes_on = False
         if verdict.action is Action.CUT:
             self.wants_cut = True
             self.landing = verdict.landing
@@ -316,8 +320,7 @@ class ClearanceJoint:
             self._recall(memory)
             return math.inf
         self.reached = memory
-        if not self._on_line:
-            self._least_mass = self._find_least_mass()
+        self._was_decided = True
         return None
 
     def _verdict(self, start: PinMemory, end_time: float) -> Verdict:
@@ -347,10 +350,12 @@ class ClearanceJoint:
         Steps go by that of the journal by itself.
         """
         self._alone = inverse_masses.alone
+        self._lightest = self._alone.lightest
         return memory.with_inverse_mass(inverse_masses.held)
 
     def _recall(self, memory: PinMemory) -> None:
         self.memory = memory
+        self._is_told = memory is self.kept
         impact = memory[:2] + memory[6:]  # all but its motion
         if impact != self._impact or self._changes:
             self._impact = impact
@@ -365,11 +370,12 @@ class ClearanceJoint:
         return inverse_mass.turned(angle) if angle else inverse_mass
 
     def _contact_force(self, motion: Relative) -> ContactForce:
-        x, y, vx, vy, _, _ = motion
-        in_contact, impact_velocity, _, _, slip, deflection, *_ = self.memory
-        if in_contact and not self._on_line:
-            self._mass, self._least_mass = self._here.mass(x, y), self._alone_here.mass(x, y)
-        spins = motion.spins(self.connector.at)
-        return self._force(
-            x, y, vx, vy, *spins, in_contact, impact_velocity, self._mass, deflection, slip, self._step
-        )
+        x, y, vx, vy, turning, bore_spin = motion
+        in_contact, speed, _, _, slip, deflection, _, _, _ = self.memory
+        mass = self._here.mass(x, y) if in_contact and self._asks_for_mass else 1.0
+        spin, at = turning, self.connector.at
+        if at is Attachment.MIDDLE or at is Attachment.BORE:
+            bore_spin, spin = motion.spins(at)
+        else:
+            bore_spin = 0.0
+        return self._force(x, y, vx, vy, bore_spin, spin, in_contact, speed, mass, deflection, slip, self._step)

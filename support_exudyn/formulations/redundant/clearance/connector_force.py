@@ -172,7 +172,11 @@ def straightened(contact: Contact, offset: Any, slope: Any) -> Contact:
     def line(slip: Any, normal_force: Any, deflection: float = 0.0) -> Any:
         return normal_force * (slip * slope + offset)
 
-    friction: Any = line
+    return with_friction(contact, line)
+
+
+def with_friction(contact: Contact, friction: Any) -> Contact:
+    """The contact with a function of slip, normal force and deflection, without a state, as law of friction."""
     friction.has_state = False
     found: Any = SimpleNamespace(bearing=contact.bearing, normal=contact.normal, friction=friction)
     found.force = partial(Contact.force, found)

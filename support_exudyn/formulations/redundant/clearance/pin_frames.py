@@ -14,7 +14,7 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
     Relative,
     displacement_scale,
 )
-from support_exudyn.formulations.redundant.clearance.pin_motion import Motion, Moving, in_plane
+from support_exudyn.formulations.redundant.clearance.pin_motion import Motion, Moving
 from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce
 
@@ -35,6 +35,7 @@ class PinFrames:
         self.connector, self.moving, self.bore_spin = connector, moving, bore_spin
         self.at = at = connector.at
         self.turns = at is Attachment.CENTRAL and not connector.bore_on_ground  # the bore, in these axes
+        self.follows = self.turns or at is Attachment.MIDDLE  # whether anything is kept from step to step
         # at the last accepted step
         self._turn, self._turn_rate = 0.0, 0.0  # between the marker frames [rad], [rad/s]
         self._spin, self._spin_rate = 0.0, 0.0  # of the bore [rad/s], [rad/s^2]
@@ -118,8 +119,6 @@ class PinFrames:
             depth, rate = force.last
             return Relative(depth + self.connector.clearance, 0.0, rate, 0.0)
         displacement, velocity, *turning = force.last
-        if self.at is Attachment.SPACE:
-            return Relative(*in_plane(displacement, velocity))
         x, y, vx, vy = displacement[0], displacement[1], velocity[0], velocity[1]
         if not turning:
             if self.turns:

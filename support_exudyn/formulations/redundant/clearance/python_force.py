@@ -57,8 +57,8 @@ class PythonForce:
             formulas = straightened(formulas, *(SourceLine(name, {}) for name in LINE))
         if at is Attachment.LINE:
             source = _line(formulas)
-        elif at in (Attachment.CENTRAL, Attachment.SPACE):
-            source = _central(formulas, at)
+        elif at is Attachment.CENTRAL:
+            source = _central(formulas)
         else:
             source = _in_slot(formulas, at) if contact.bearing.is_slot else _rough(formulas, at)
         known = dict.fromkeys([*MEMORY, *LINE], 0.0)
@@ -107,32 +107,23 @@ def _line(contact: Contact) -> list[str]:
     return _source(contact, formulas, "depth, rate, k, d, f", "depth, rate", "depth", force, "0.0")
 
 
-def _central(contact: Contact, at: Attachment) -> list[str]:
-    """Source of the force along the line of centres, which in space has three components."""
-    axes = "xyz" if at is Attachment.SPACE else "xy"
-    rates = [f"v{axis}" for axis in axes]
-    formulas, (*motion, speed, xx, xy, yy) = lines([*axes, *rates, *MEMORY[:4]])
-    way, velocity = motion[: len(axes)], motion[len(axes) :]
-    distance, product = hypot(way[0], way[1]), way[0] * velocity[0] + way[1] * velocity[1]
-    if at is Attachment.SPACE:
-        distance, product = hypot(distance, way[2]), product + way[2] * velocity[2]
-    x, y = way[:2]
-    found = central_force(contact, x, y, distance, product / distance, speed, InverseMass(xx, xy, yy))
+def _central(contact: Contact) -> list[str]:
+    """Source of the force along the line of centres."""
+    formulas, (x, y, vx, vy, speed, xx, xy, yy) = lines([*MOTION[:4], *MEMORY[:4]])
+    distance = hypot(x, y)
+    rate = (x * vx + y * vy) / distance
+    found = central_force(contact, x, y, distance, rate, speed, InverseMass(xx, xy, yy))
     depth, share = map(text, found)
-    pull = [f"{share} * {axis}" for axis in axes]
-    size, arguments = 3, "displacement, velocity, k, d, o"
-    if at is Attachment.SPACE:
-        size, arguments = 6, RIGID
     return _source(
         contact,
         formulas,
-        arguments,
+        "displacement, velocity, k, d, o",
         "displacement, velocity",
         depth,
-        _vector(pull, size),
-        _vector([], size),
-        placed=[f"{_unpacked(axes)} = displacement"],
-        moving=[f"{_unpacked(rates)} = velocity"],
+        _vector([f"{share} * x", f"{share} * y"], 3),
+        _vector([], 3),
+        placed=["x, y, _ = displacement"],
+        moving=["vx, vy, _ = velocity"],
     )
 
 
@@ -231,11 +222,6 @@ def _source(
         *(f"    {line}" for line in pressed),
         f"    return {force}",
     ]
-
-
-def _unpacked(names: Sequence[str]) -> str:
-    """Names for the three components of a vector."""
-    return ", ".join([*names, "_"][:3])
 
 
 def _vector(parts: Sequence[str], size: int) -> str:

@@ -54,6 +54,11 @@ class SteepFriction:
         return self._plain if self._line is None or self._straight is None else self._straight
 
     @property
+    def is_straight(self) -> bool:
+        """Whether a line acts."""
+        return self._line is not None
+
+    @property
     def calls(self) -> int:
         """Python was called so often."""
         return self._plain.calls + (self._straight.calls if self._straight else 0)

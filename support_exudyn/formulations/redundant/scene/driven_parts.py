@@ -26,7 +26,8 @@ class DrivenParts:
     """All that one drive moves.
 
     mbs: the engine's system. drive: of all of these. rigid, oil, cranks: in the engine. velocity_level: whether
-    cranks follow the drive's speed instead of its angle. state: extension and speed that the engine has.
+    cranks follow the drive's speed instead of its angle. state: extension and speed that the engine has, which
+    are those of a time [s].
     """
 
     mbs: Any
@@ -36,6 +37,7 @@ class DrivenParts:
     cranks: tuple[CrankItem, ...]
     velocity_level: bool = False
     state: tuple[float, float] | None = None
+    time: float = math.nan
 
     @property
     def multipliers(self) -> tuple[int, ...]:
@@ -48,7 +50,9 @@ class DrivenParts:
 
     def move_to(self, t: float) -> None:
         """Let the engine have lengths and angles of time t [s], unless it has them already."""
-        drive = self.drive
+        if t == self.time:
+            return
+        drive, self.time = self.drive, t
         # at the start the speed is the one just after it
         state = drive.extension(t), drive.speed(t) if t > 0.0 else drive.initial_speed
         if not math.isfinite(state[0] + state[1]):
@@ -56,6 +60,12 @@ class DrivenParts:
         if state != self.state:
             self.state = state
             self._set(*state)
+
+    def at(self, t: float) -> tuple[float, float]:
+        """Extension and speed at t [s]; at a jump the speed before it."""
+        if self.state is not None and t == self.time > 0.0:  # nearly always: that is where the step ends
+            return self.state
+        return self.drive.extension(t), self.drive.speed(t)
 
     def look(self, t: float) -> None:
         """Raise LawError if the drive has no finite extension and speed at t [s]."""

@@ -9,7 +9,7 @@ from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.mechanics.acting_loads import add_load
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import MOTION, DataNeeds
-from support_exudyn.mechanics.drive_acceleration import accelerations
+from support_exudyn.mechanics.drive_acceleration import accelerations_of
 from support_exudyn.mechanics.joint_forces import JointForces
 from support_exudyn.mechanics.reactions import HeldJoints, direction, equations, push, twist, weight_of
 from support_exudyn.mechanics.trajectory import CompliantSeries, ContactSeries, LoadSeries, Series
@@ -60,7 +60,7 @@ def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) 
         [linkage.gears[name] for name in scene.gears],
     )
     drives = [scenario.drive_of(name) for name in (*scene.rigid_actuators, *scene.cranks)]
-    driven = [accelerations(drive, time, scenario.duration) for drive in drives]
+    driven = accelerations_of(drives, time, scenario.duration)
     all_bodies = equations(motion, held, np.array(driven).reshape(-1, len(time)).T)
     forces = _applied_forces(scene, motion, applied)
     acceleration, reactions = all_bodies.solve(forces)

@@ -41,11 +41,14 @@ class NewtonMethod:
         self._pins = pins
         self._unknowns = unknowns
         self._size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())  # [m]
+        self._straightened = False  # whether a line has ever stood for friction
         self._scatters = False  # whether steep friction does, see `ClearanceJoint.rounding`
         self.failures = NewtonFailures(scenario.step)
 
     def begin(self, step: float) -> None:
         """Begin to try a step of this length [s]: steep friction comes no closer than rounding lets it."""
+        if not (self._straightened or self._scatters):
+            return
         rounding = sum(pin.rounding(step, self._size) for pin in self._pins)
         if rounding > 0.0 or self._scatters:
             self._scatters = rounding > 0.0
@@ -55,7 +58,9 @@ class NewtonMethod:
     def failed(self) -> None:
         """Take note of a failure: lines stand for friction from now on, or else steps become shorter."""
         straightened = [pin.straighten() for pin in self._pins]
-        if not any(straightened):
+        if any(straightened):
+            self._straightened = True
+        else:
             self.failures.failed()
         if self.failures.wants_new_jacobians:
             self._solver.newton.useModifiedNewton = False
@@ -64,7 +69,8 @@ class NewtonMethod:
         """Take note of a solved step of this length [s]."""
         if self.failures.wants_new_jacobians:
             self._solver.newton.useModifiedNewton = self._settings.useModifiedNewton
-        self.failures.solved(taken, any(pin.impact_steps.begins_with_a_jump for pin in self._pins))
+        jumps = self.failures.of_step > 0 and any(pin.impact_steps.begins_with_a_jump for pin in self._pins)
+        self.failures.solved(taken, jumps)
 
 
 class NewtonFailures:
@@ -107,7 +113,8 @@ class NewtonFailures:
             if not jumps:
                 self.length, self._solved = taken, 0
             return
-        self.more = max(0, self.more - 1)
+        if self.more:
+            self.more -= 1
         if self.length < math.inf:
             self.crawled += self.length < CRAWL * self.longest
             self._solved += 1

@@ -63,7 +63,7 @@ class Recorder:
         self._pins = tuple(scene.clearance_joints.items())
         self._compliant = tuple(scene.compliant_pins.values())
         self._looks = scene.scenario.solver.result_checks  # whether what is lost is
-        self._driven = tuple((parts.drive, parts.multipliers, parts.oil) for parts in scene.driven)
+        self._driven = tuple((parts, parts.multipliers, parts.oil) for parts in scene.driven)
         self._frictions = tuple(scene.frictions.items())
         self._loads = tuple(scene.loads.items())
         self._cylinders = tuple(scene.cylinders.values())
@@ -99,6 +99,15 @@ class Recorder:
     def begin_step(self, t: float) -> None:
         """Begin a step at t [s] that may pass over records."""
         self._start = self._state(t)
+
+    @property
+    def passes_records(self) -> bool:
+        """Whether the step going on was begun as one that may pass over records."""
+        return self._start is not None
+
+    def end_step(self) -> None:
+        """The records that the step has passed over are kept."""
+        self._start = None
 
     def record_between(self, t: float, end: float) -> None:
         """Keep the state at time t [s] inside the step that has just ended at another [s]."""
@@ -172,14 +181,14 @@ class Recorder:
     def _powers(self, t: float) -> tuple[float, float, float]:
         """Power [W] of the drive, of damping and of friction at the end of a step."""
         driving = damping = friction = 0.0
-        for drive, struts, oil in self._driven:
-            speed = drive.speed(t)
+        for parts, struts, oil in self._driven:
+            extension, speed = parts.at(t)
             if speed != 0.0 and struts:
                 multipliers = self._data.GetAECoordinates()
                 # the multiplier of a distance is the tension, that of a crank's angle the moment against it
                 driving -= speed * sum(float(multipliers[n]) for n in struts)
             for item in oil:
-                work, loss = item.preloaded.powers(*self._length(item), drive.extension(t), speed)
+                work, loss = item.preloaded.powers(*self._length(item), extension, speed)
                 driving += work
                 damping += loss
         for name, load in self._loads:
@@ -192,7 +201,8 @@ class Recorder:
             work, loss = cylinder.powers()
             driving += work
             damping += loss
-        damping += sum(pin.loss() for pin in self._compliant)
+        for compliant in self._compliant:
+            damping += compliant.loss()
         for name, rubbing in self._frictions:
             lost = rubbing.power()
             if self._looks and not lost >= 0.0:
@@ -201,7 +211,7 @@ class Recorder:
         for name, pin in self._pins:
             force = pin.force
             if force.depth > 0.0:
-                elastic = pin.contact.normal.elastic_force(force.depth) if pin.memory.in_contact else 0.0
+                elastic = pin.elastic_force(force.depth) if pin.memory.in_contact else 0.0
                 lost = (force.normal_force - elastic) * force.rate
                 rubbed = force.friction_force * force.slip
                 if self._looks and not (lost >= 0.0 >= rubbed and elastic >= 0.0):

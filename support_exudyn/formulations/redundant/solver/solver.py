@@ -22,7 +22,14 @@ from support_exudyn.formulations.limits import DEEPEST, SOFT, rounding_of_positi
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene, slide
 from support_exudyn.formulations.redundant.solver.newton_method import NewtonMethod
 from support_exudyn.formulations.redundant.solver.recorder import Recorder
-from support_exudyn.formulations.redundant.solver.refusals import ADVICE, FEWER_STEPS, STEEP, unlawful, why
+from support_exudyn.formulations.redundant.solver.refusals import (
+    ADVICE,
+    FEWER_STEPS,
+    STEEP,
+    state_of,
+    unlawful,
+    why,
+)
 from support_exudyn.formulations.redundant.solver.step_growth import StepGrowth, step_growth
 from support_exudyn.formulations.redundant.solver.symbolic_drive import turns_by_itself
 from support_exudyn.formulations.redundant.solver.uninterrupted_steps import (
@@ -88,7 +95,7 @@ class SolverRun:
         self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
-        self.most_steps = scenario.solver.most_steps
+        self.most_steps, self.looks = scenario.solver.most_steps, scenario.solver.result_checks
         self.trying = False  # a step has been tried and not accepted yet
         self.repeated = False  # that step is tried again, shorter
         newton = self.settings.timeIntegration.newton
@@ -110,6 +117,9 @@ class SolverRun:
                 True  # it is called in every step anyway, and a stretch costs more than it saves
             )
         self.checked = -math.inf  # end of the last step that the recorder has been told of [s]
+        self.named_pins = tuple(scene.clearance_joints.items())
+        # names, pins and depths [m] beyond which a run is given up
+        self.limits = [(name, pin, DEEPEST * pin.contact.bearing.size) for name, pin in self.named_pins]
 
     def go(self) -> Counts:
         """Integrate. Raises SimulationError if the run cannot be finished."""
@@ -223,7 +233,7 @@ class SolverRun:
         again, shortest = False, math.inf
         name = ""
         try:
-            for name, pin in self.scene.clearance_joints.items():  # noqa: B007 - is told if one fails
+            for name, pin in self.named_pins:  # noqa: B007 - is told if one fails
                 step = pin.after_newton(t)
                 if step is not None:
                     again, shortest = True, min(shortest, step)
@@ -248,7 +258,7 @@ class SolverRun:
             self.steps += 1
             self._look_for_limits()
             self.newton.solved(taken)
-            for name, pin in self.scene.clearance_joints.items():
+            for name, pin in self.named_pins:
                 kink = kink or pin.onset is not None
                 try:
                     pin.accept(t)
@@ -267,7 +277,7 @@ class SolverRun:
             self.scene.refresh_memory()
             for cylinder in self.cylinders:
                 cylinder.tell_rates()
-        if self.smooth is not None:
+        if self.smooth is not None and self.plan.passes_record(t, goal):
             self.recorder.begin_step(t)
         self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
         return True
@@ -332,17 +342,16 @@ class SolverRun:
         if self.newton.failures.too_many:
             reason = f"Newton's method has failed {self.failed_newton} times, and needs next to no step"
             raise SimulationError(self._failure(reason, STEEP))
-        if not self.scene.scenario.solver.result_checks:
-            return
-        for name, pin in self.scene.clearance_joints.items():
-            bearing = pin.contact.bearing
-            if pin.reached.depth > DEEPEST * bearing.size:
-                raise SimulationError(self._failure(too_deep(name, pin.reached.depth, bearing), SOFT))
+        for name, pin, deepest in self.limits if self.looks else ():
+            if (depth := pin.reached.depth) > deepest:
+                raise SimulationError(self._failure(too_deep(name, depth, pin.contact.bearing), SOFT))
 
     def _look_for_smoothness(self, t: float, smooth: StepGrowth) -> None:
         """See whether steps after t may be longer, and keep the records that the last has passed over."""
-        for passed in self.plan.records_between(self.time, t):
-            self.recorder.record_between(passed, t)
+        if self.recorder.passes_records:
+            for passed in self.plan.records_between(self.time, t):
+                self.recorder.record_between(passed, t)
+            self.recorder.end_step()
         at_rest = all(pin.impact_steps.step == math.inf and pin.reached.depth > 0.0 for pin in self.pins)
         if at_rest and not self.repeated and not self.plan.follows_break(t):
             smooth.follow(t - self.time, self.data.GetODE2Coordinates_tt())
@@ -374,7 +383,8 @@ class SolverRun:
         """How long a step from t [s] on may be [s]; infinite: as the plan says."""
         largest = self.newton.failures.length
         for pin in self.pins:
-            largest = min(largest, pin.longest_step)
+            if (longest := pin.longest_step) < largest:
+                largest = longest
         for impacting_load in self.impacting_loads:
             largest = min(largest, impacting_load.longest_step(t, self.impact_steps))
         if self.locates and self.plan.follows_break(t):
@@ -389,16 +399,10 @@ class SolverRun:
         else:
             goal = self.plan.next_time(t, max(largest, SMALLEST_IMPACT_STEP))
         for pin in self.pins:
-            if t + SHARE * (goal - t) < pin.landing < goal:
+            if pin.landing < goal and t + SHARE * (goal - t) < pin.landing:
                 goal = pin.landing
         return goal
 
     def _failure(self, reason: str, advice: str = ADVICE) -> Failure:
-        state: dict[str, float] = {"step": float(self.solver.it.currentStepSize)}
-        for name, spin in self.scene.spins().items():
-            state[f"{name}.angular_velocity"] = spin
-        for name, pin in self.scene.clearance_joints.items():
-            state[f"pin.{name}.depth"] = pin.memory.depth
-            state[f"pin.{name}.rate"] = pin.memory.rate
-            state[f"pin.{name}.impact_velocity"] = pin.memory.impact_velocity
+        state = {"step": float(self.solver.it.currentStepSize)} | state_of(self.scene)
         return Failure(reason, advice, self.time, state, finer=advice is not FEWER_STEPS)

@@ -10,7 +10,7 @@ from support_exudyn.formulations.redundant.space.scene import SpatialScene
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import SectionMotion, section_motion
 from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
-from support_exudyn.mechanics.drive_acceleration import accelerations as drive_accelerations
+from support_exudyn.mechanics.drive_acceleration import accelerations_of
 from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.space.accelerations import accelerations
 from support_exudyn.mechanics.space.constraints import Constraint, direction_of
@@ -128,10 +128,10 @@ class SpatialObservation:
         """Accelerations of centres and rates of spins of all bodies, (n, b, 6) [m/s^2], [rad/s^2]."""
         scenario = self.scene.scenario
         driven = np.zeros((self.motion.count, len(self.scene.rows)))
-        for place, row in enumerate(self.scene.rows):
-            if row.kind == "actuator":
-                drive = scenario.drive_of(row.name)
-                driven[:, place] = drive_accelerations(drive, self.time, scenario.duration)
+        places = [n for n, row in enumerate(self.scene.rows) if row.kind == "actuator"]
+        drives = [scenario.drive_of(self.scene.rows[n].name) for n in places]
+        for place, rates in zip(places, accelerations_of(drives, self.time, scenario.duration), strict=True):
+            driven[:, place] = rates
         turning = inertia_forces(self.motion, np.zeros_like(self._applied))
         return accelerations(self.motion, self.scene.rows, driven, self._applied - turning)
 

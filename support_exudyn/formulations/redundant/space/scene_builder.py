@@ -1,11 +1,10 @@
 """From a scenario to a spatial model: bodies with Euler parameters, bearings, actuators on spherical ends."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
 
-import exudyn
 import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyPosition,
@@ -18,17 +17,14 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector
+from support_exudyn.formulations.redundant.clearance.connector_force import attachment
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
+from support_exudyn.formulations.redundant.space.bearing_connector import BearingConnector
+from support_exudyn.formulations.redundant.space.bearing_source import BearingGeometry
 from support_exudyn.formulations.redundant.space.scene import SpatialBodyItem, SpatialScene
-from support_exudyn.formulations.redundant.space.section_pin import (
-    SectionEnd,
-    SectionJournal,
-    SectionMover,
-    SectionPin,
-    marker_frame,
-    part_of,
-)
+from support_exudyn.formulations.redundant.space.section_motion import SectionEnd, SectionMover, marker_frame
+from support_exudyn.formulations.redundant.space.section_pin import SectionJournal, SectionPin, part_of
 from support_exudyn.formulations.redundant.space.sections import ends, sections
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
@@ -38,6 +34,7 @@ from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.contact import JournalContact
 from user_forces.values.value import Vector3
 
 SHIFTS: tuple[Kind, ...] = ("across_1", "across_2", "along")
@@ -83,10 +80,12 @@ class _SpaceBuilder(EngineBuilder):
         frame = marker_frame(end, place, self.centre(end.body))
         return Mount(self.item(end.body), frame, end.body == GROUND)
 
-    def add_connectors(self, bearing: Bearing) -> list[PinConnector]:
+    def add_connectors(self, bearing: Bearing) -> Sequence[PinConnector]:
         """The connectors of all sections of a bearing."""
         pin = self.scenario.clearance_pins[bearing.pin]
         bore, journal = ends(bearing, pin.bore)
+        if self.scenario.solver.backend != "symbolic":
+            return self.add_bearing(bearing, bore, journal, pin.contact)
         return [
             PinConnector(
                 self.mbs,
@@ -99,19 +98,36 @@ class _SpaceBuilder(EngineBuilder):
             for section in sections(bearing, self.scenario.solver.sections)
         ]
 
-    def section_pins(self, scene: SpatialScene, name: str, connectors: list[PinConnector]) -> list[SectionPin]:
+    def add_bearing(
+        self, bearing: Bearing, bore: BearingEnd, journal: BearingEnd, contact: JournalContact
+    ) -> Sequence[PinConnector]:
+        """The connector of all sections of a bearing."""
+        parts = sections(bearing, self.scenario.solver.sections)
+        moving = [end.body for end in (bore, journal) if end.body != GROUND]
+        firsts = {body: COORDINATES * n for n, body in enumerate(moving)}
+        geometry = BearingGeometry(
+            bore=self.section_end(bore, 0.0, firsts.get(bore.body)),
+            journal=self.section_end(journal, 0.0, firsts.get(journal.body)),
+            at=attachment(contact, bore.body == GROUND, journal.body == GROUND, in_space=True),
+            places=[part.place for part in parts],
+            slides="along" not in bearing.holds,
+        )
+        contacts, nodes = [part_of(contact, part) for part in parts], [self.node(body) for body in moving]
+        return BearingConnector(self.mbs, geometry, contacts, nodes).sections
+
+    def section_pins(
+        self, scene: SpatialScene, name: str, connectors: Sequence[PinConnector]
+    ) -> list[SectionPin]:
         """The sections of a bearing in the whole scene."""
         bearing = self.linkage.bearings[name]
         pin, (bore, journal) = self.scenario.clearance_pins[bearing.pin], scene.ends_of(name)
         data, places = self.mbs.systemData, sections(bearing, self.scenario.solver.sections)
-        node, axis = self.node(bore.body), np.array(bore.axis)
-
-        def bore_spin() -> float:
-            spin = self.mbs.GetNodeOutput(node, exudyn.OutputVariableType.AngularVelocityLocal)
-            return float(spin @ axis)
 
         def mover(place: float, connector: PinConnector) -> SectionMover:
-            at_bore, at_journal = (self.section_end(scene, end, place) for end in (bore, journal))
+            at_bore, at_journal = (
+                self.section_end(end, place, None if end.body == GROUND else scene.bodies[end.body].first)
+                for end in (bore, journal)
+            )
             return SectionMover(data, at_bore, at_journal, connector.at)
 
         whole = SectionJournal(mover(0.0, connectors[0]), partial(scene.inverse_masses, name))
@@ -120,7 +136,6 @@ class _SpaceBuilder(EngineBuilder):
                 pin.contact,
                 connector,
                 mover(section.place, connector),
-                bore_spin,
                 whole,
                 section,
                 (bore, journal),
@@ -204,10 +219,9 @@ class _SpaceBuilder(EngineBuilder):
             found[name] = replace(whole, model=model)
         return found
 
-    def section_end(self, scene: SpatialScene, end: BearingEnd, place: float) -> SectionEnd:
-        """Where a section of a bore or a journal stands in the engine's coordinates."""
+    def section_end(self, end: BearingEnd, place: float, first: int | None) -> SectionEnd:
+        """Where a section of a bore or a journal stands; first: of its body's coordinates, see `SectionEnd`."""
         frame = np.array(marker_frame(end, place, self.centre(end.body)))
-        first = None if end.body == GROUND else scene.bodies[end.body].first
         arm, *axes = (tuple(frame[:3, k].tolist()) for k in (3, 0, 1, 2))
         return SectionEnd(first, self.centre(end.body), arm, (axes[0], axes[1]), axes[2])
 

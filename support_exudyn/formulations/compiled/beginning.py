@@ -1,0 +1,57 @@
+"""How a run begins, and how velocities jump where the speed of a drive does."""
+
+from support_exudyn.formulations.compilation import compiled, once
+from support_exudyn.formulations.compiled.arrays import JUMP_ENERGY, WORK, Matrix, Scene, Scratch, Vector
+from support_exudyn.formulations.compiled.masses import renew_mass
+from support_exudyn.formulations.compiled.motion import SINGULAR, divide, respond
+from support_exudyn.formulations.compiled.recording import write_record
+from support_exudyn.formulations.compiled.step import evaluate
+
+
+@once
+def begin_run(scene: Scene, room: Scratch, y: Vector, rows: Matrix) -> bool:
+    """Write the first record at 0 s, with the masses that contacts are told then; whether the linkage moves."""
+    least = evaluate(scene, 0.0, y, room.slope, room.right)
+    for n in range(scene.contacts.size):
+        contact = scene.contacts[n]
+        if contact.depth > 0.0:
+            contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
+    for n in range(scene.contacts.size):
+        renew_mass(scene, room, n, y)
+    evaluate(scene, 0.0, y, room.slope, room.right)
+    write_record(scene, 0.0, y, room.slope, rows[0])
+    for n in range(scene.courses.size):
+        scene.courses[n].still = 0
+    return least > SINGULAR
+
+
+@compiled
+def kinetic_energy(scene: Scene, y: Vector) -> float:
+    """Kinetic energy of all bodies [J]."""
+    count, total = scene.bodies.size, 0.0
+    for n in range(count):
+        body, i = scene.bodies[n], 3 * (count + n)
+        total += 0.5 * ((y[i] ** 2 + y[i + 1] ** 2) / body.light + y[i + 2] ** 2 / body.light_turn)
+    return total
+
+
+@once
+def jump(scene: Scene, room: Scratch, t: float, y: Vector, jumps: Vector, report: Vector) -> None:
+    """Change velocities as speeds of drives jump at t [s], jumps by course."""
+    jumped = False
+    for n in range(jumps.size):
+        jumped = jumped or jumps[n] != 0.0
+    if not jumped:
+        return
+    evaluate(scene, t, y, room.slope, room.right)
+    for n in range(room.impulses.size):
+        room.impulses[n] = 0.0
+    for n in range(scene.joints.size):
+        joint = scene.joints[n]
+        if joint.course >= 0:
+            room.impulses[joint.row] = -jumps[joint.course]
+    divide(scene, room.impulses)
+    before = kinetic_energy(scene, y)
+    respond(scene, room.impulses, y, 3 * scene.bodies.size)
+    report[JUMP_ENERGY] = kinetic_energy(scene, y) - before
+    y[WORK] += report[JUMP_ENERGY]

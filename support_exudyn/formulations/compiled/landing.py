@@ -1,0 +1,90 @@
+"""A step made again so that it ends where something happens to a contact."""
+
+from support_exudyn.formulations.compilation import compiled, once
+from support_exudyn.formulations.compiled.arrays import EVALUATIONS, STAGES, Matrix, Records, Scene, Vector
+from support_exudyn.formulations.compiled.depth import CUT, CUT_MET, IMPACT, RETURN
+from support_exudyn.formulations.compiled.step import advance
+from support_exudyn.formulations.compiled.step_control import LANDED, LANDINGS, TURNS, crossing
+
+DEPTH, PUSH, RATE = range(3)  # what is landed on
+
+
+@compiled
+def copy_contacts(source: Records, target: Records) -> None:
+    """Copy all contacts."""
+    for n in range(source.size):
+        target[n] = source[n]
+
+
+@compiled
+def quantity(scene: Scene, n: int, which: int) -> float:
+    """Depth, push or rate of a contact as it stands in the scene."""
+    if which == DEPTH:
+        return float(scene.contacts[n].depth)
+    return float(scene.contacts[n].push) if which == PUSH else float(scene.contacts[n].rate)
+
+
+@once
+def land(
+    scene: Scene,
+    n: int,
+    t: float,
+    h: float,
+    what: int,
+    low: float,
+    high: float,
+    start: Records,
+    y: Vector,
+    k: Matrix,
+    end: Vector,
+    weights: Vector,
+    right: Vector,
+    report: Vector,
+) -> float:
+    """Make a step of h [s] again so that it ends where something happens to a contact; its length [s].
+
+    An impact or a separation is met by Newton's method on the depth at the end of the step, kept by bisection
+    where it was seen. A cut of tension is met by false position (Illinois) on `push`: while tension is cut
+    there is no force, steps grow, and one would miss where the force sets in again. Where a contact is pressed
+    on again, false position on the rate begins at the guess `high`.
+    """
+    which, met, looks = DEPTH, LANDED, LANDINGS
+    before, after = low * h, high * h
+    length = 0.5 * (before + after)
+    at_before, at_after = start[n].depth, quantity(scene, n, DEPTH)
+    if what == CUT:
+        which, met = PUSH, CUT_MET
+        at_before, at_after, before, after = start[n].push, quantity(scene, n, PUSH), 0.0, h
+        length = crossing(before, after, at_before, at_after)
+    elif what == RETURN:
+        which, met, looks = RATE, 0.0, TURNS
+        at_before, at_after, before, after = start[n].rate, quantity(scene, n, RATE), 0.0, h
+        length = high * h
+    for tried in range(1, looks + 1):
+        advance(scene, t, length, y, k, end, weights, right)
+        report[EVALUATIONS] += STAGES - 1
+        value = quantity(scene, n, which)
+        if abs(value) <= met or tried == looks:
+            break
+        if which != DEPTH:
+            keep = 0.5 if what == CUT else 1.0
+            if (value < 0.0) == (at_before < 0.0):
+                before, at_before = length, value
+                at_after *= keep
+            else:
+                after, at_after = length, value
+                at_before *= keep
+            length = crossing(before, after, at_before, at_after)
+            continue
+        if (value > 0.0) == (what == IMPACT):
+            after = max(length, before)
+        else:
+            before = min(length, after)
+        following = length - value / scene.contacts[n].rate
+        # the step made again may differ from what was seen by its error, so a little more is allowed
+        if not before - 0.1 * h < following < after + 0.1 * h or following <= 0.0:
+            following = 0.5 * (before + after)
+        if following == length:
+            break
+        length = following
+    return length

@@ -1,0 +1,117 @@
+"""What is kept of a step: the largest force, and the records within it."""
+
+import math
+
+from support_exudyn.formulations.compilation import compiled, once
+from support_exudyn.formulations.compiled.arrays import CLAMPED, MEMORY, RECORDS, Matrix, Scene, Scratch, Vector
+from support_exudyn.formulations.compiled.events import look
+from support_exudyn.formulations.compiled.landing import copy_contacts
+from support_exudyn.formulations.compiled.step import close_joints, evaluate, within
+from support_exudyn.formulations.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK, NEAR_TOP, PEAK_SAMPLES
+
+
+@compiled
+def size(scene: Scene, n: int) -> float:
+    """Magnitude of a contact's force [N] as it stands in the scene."""
+    return math.hypot(scene.contacts[n].normal, scene.contacts[n].friction)
+
+
+@compiled
+def peak(scene: Scene, n: int, path: Matrix, last: float, y: Vector, slope: Vector) -> tuple[float, float]:
+    """The largest force [N] of a contact in a step that ends with the force `last` [N], and at which fraction.
+
+    That at points between the ends, and the highest between these, which may be a corner (where what limits
+    the damping changes), if it may be the largest so far.
+    """
+    top, at = 0.0, 0
+    for i in range(PEAK_SAMPLES + 1):
+        force = last
+        if i < PEAK_SAMPLES:
+            look(scene, n, i / PEAK_SAMPLES, path, y, slope, True)
+            force = size(scene, n)
+        if force > top:
+            top, at = force, i
+    best = at / PEAK_SAMPLES
+    if top <= NEAR_TOP * scene.contacts[n].largest:
+        return top, best
+    low, high = max(0.0, (at - 1) / PEAK_SAMPLES), min(1.0, (at + 1) / PEAK_SAMPLES)
+    for _ in range(NARROWINGS):
+        one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+        look(scene, n, one, path, y, slope, True)
+        at_one = size(scene, n)
+        look(scene, n, other, path, y, slope, True)
+        at_other = size(scene, n)
+        if at_one > top:
+            top, best = at_one, one
+        if at_other > top:
+            top, best = at_other, other
+        if at_one > at_other:
+            high = other
+        else:
+            low = one
+    return top, best
+
+
+@compiled
+def write_record(scene: Scene, t: float, y: Vector, slope: Vector, row: Vector) -> None:
+    """Write a record of what has been evaluated at t [s].
+
+    That is the state, accelerations, multipliers, what contacts remember, courses, moments of friction.
+    """
+    row[0] = t
+    i, count = 1, 3 * scene.bodies.size
+    for k in range(y.size):
+        row[i + k] = y[k]
+    i += y.size
+    for k in range(count):
+        row[i + k] = slope[count + k]
+    i += count
+    for k in range(scene.rows.size):
+        row[i + k] = scene.rows[k].held
+    i += scene.rows.size
+    for k in range(scene.contacts.size):
+        one = scene.contacts[k]
+        row[i], row[i + 1], row[i + 2], row[i + 3], row[i + 4] = (
+            one.closed,
+            one.impact_velocity,
+            one.xx,
+            one.xy,
+            one.yy,
+        )
+        i += MEMORY
+    for k in range(scene.courses.size):
+        row[i], row[i + 1] = scene.courses[k].value, scene.courses[k].rate
+        i += 2
+    for k in range(scene.rubbing.size):
+        row[i] = scene.rubbing[k].moment
+        i += 1
+
+
+@once
+def note_peaks(scene: Scene, room: Scratch, t: float, h: float, report: Vector) -> None:
+    """Keep the largest forces of a step of h [s] from t, whose ends are `room.now` and `room.then`."""
+    now, then = room.now, room.then
+    for m in range(then.size):
+        if then[m].closed != 0.0:
+            first, final = math.hypot(now[m].normal, now[m].friction), size(scene, m)
+            if max(first, final) > NEAR_PEAK * then[m].largest:
+                highest, at = peak(scene, m, room.path, final, room.probe, room.slope)
+                if highest > then[m].largest:
+                    then[m].largest, then[m].largest_at = highest, t + at * h
+        report[CLAMPED] += then[m].push < 0.0
+
+
+@once
+def write_records(
+    scene: Scene, room: Scratch, t: float, h: float, until: float, times: Vector, rows: Matrix, report: Vector
+) -> None:
+    """Write the records within a step of h [s] from t, up to `until` [s]."""
+    n = int(report[RECORDS])
+    while n < times.size and times[n] <= until:
+        within(room.path, min(1.0, (times[n] - t) / h), 0, room.probe.size, room.probe)
+        copy_contacts(room.then, scene.contacts)
+        close_joints(scene, times[n], room.probe, room.right)
+        evaluate(scene, times[n], room.probe, room.slope, room.right)
+        write_record(scene, times[n], room.probe, room.slope, rows[n])
+        n += 1
+    report[RECORDS] = n
