@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from support_exudyn.formulations.compilation import plain
 from support_exudyn.formulations.compiled import depth
-from support_exudyn.formulations.compiled import integrate as general
+from support_exudyn.formulations.compiled import landing as general
 from support_exudyn.formulations.compiled.arrays import CONTACT, REPORT
 from support_exudyn.formulations.compiled.closed_forms import integrate, layout
 
