@@ -85,9 +85,11 @@ def line_of(row: Row, against: str, heard: Heard, most: float) -> BenchmarkLine:
     against = next((one.label for one in found if not one.is_ours), against)
     if not ours:
         was_ended = heard.reason.startswith("ended")
-        only = row.ours.settings[0].words if len(row.ours.settings) == 1 else how
-        nothing = most if was_ended and len(row.ours.settings) == 1 else math.nan
-        return BenchmarkLine(row.what, only, nothing, against, math.nan, row.asked, was_ended, heard.reason)
+        if isinstance(row.ours, OurWay):
+            how = row.ours.settings[0].words if len(row.ours.settings) == 1 else ""
+            was_ended = was_ended and len(row.ours.settings) == 1  # else settings are tried first
+        nothing = most if was_ended else math.nan
+        return BenchmarkLine(row.what, how, nothing, against, math.nan, row.asked, was_ended, heard.reason)
     cut = f"{len(ours)} of {TURNS} turns" if len(ours) < TURNS and not heard.reason else heard.reason
     return BenchmarkLine(row.what, how, min(ours), against, min(theirs, default=math.nan), row.asked, note=cut)
 

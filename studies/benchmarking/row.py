@@ -75,12 +75,12 @@ class OurWay:
 class Row:
     """A row.
 
-    against: another way of ours, what `others.OTHERS` has by this name, or nothing. asked: the ratio that was
-    asked for, as "3" or "1/10", or a time, as "0.06 s". most: time that it may take, all turns together [s].
+    ours: a way, or what `others.OTHERS` has by this name. against: the same, or nothing. asked: the ratio that
+    was asked for, as "3" or "1/10", or a time, as "0.06 s". most: time that all its turns may take [s].
     """
 
     what: str
-    ours: OurWay
+    ours: OurWay | str
     against: OurWay | str = ""
     asked: str = ""
     most: float = 8.0

@@ -19,7 +19,7 @@ from user_forces.normal.power_law import PowerLaw
 # 93 J of it in 20 s, half of all that there is, these 5 J
 RESTLESS_STEP = 2e-4
 TURNS = 10  # of the crank-rocker
-QUICK, CREEP = 20.0, 0.05  # speed of the crank of a ladder [rad/s], and how far it turns where pins rest [rad]
+QUICK, CREEP = 20.0, 0.002  # speed of the crank of a ladder [rad/s], and how far it turns where pins rest [rad]
 RESTING_BARS = 18  # of the ladder whose pins rest in their bores
 CELL = 0.3  # from one rocker of a ladder to the next [m]
 

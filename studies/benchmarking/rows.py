@@ -4,12 +4,13 @@ A row whose formulation this version does not have is left out, so rows for one 
 """
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
 
-from studies.benchmarking.others import IN_C, STOCK, other
+from studies.benchmarking.others import BARE, IN_C, OTHERS, STOCK, Timing, connector
+from studies.benchmarking.peers.built_in import Evaluator
 from studies.benchmarking.references import errors, of_result, references, times_the_goal
 from studies.benchmarking.row import (
     AUTO,
@@ -32,6 +33,10 @@ TOLERANCES = tuple(map(tolerance, (1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 1e-5, 1e-6)))
 COARSE = tuple(steps(step, each, 8.0) for each in (64, 96, 128, 192, 256) for step in (1e-3, 5e-4))
 PLAIN = (Setting("1e-5", solver={"tolerance": 1e-5}),)
 DRAFT = (accuracy("draft"),)
+CONNECTORS: tuple[tuple[str, Evaluator, str], ...] = (
+    ("symbolic", "symbolic", "1.1"),
+    ("Python", "python", "1.6"),
+)
 LONGER, LARGER = ("redundant", "reduced", "compiled"), ("redundant", "compiled")  # which cover the scenes
 
 
@@ -58,6 +63,11 @@ ROWS: tuple[Row, ...] = (
     Row("five clearance pins with friction, 1 s", OurWay("five pins", AUTO, DRAFT), "", "3 s", 10.0),
     Row("published crank-rocker, 10 turns", OurWay("crank-rocker", AUTO, DRAFT), "", "1 s", 10.0),
     Row("own law in Python", OurWay("own law", AUTO, DRAFT), OurWay("built-in law", AUTO, DRAFT), "1.5", 5.0),
+    *(
+        Row(f"connector, {name}: {scene}", connector(scene, kind), connector(scene, "built_in"), asked, 4.0)
+        for scene in BARE
+        for name, kind, asked in CONNECTORS
+    ),
     *_grows("four times the time", "8 s", "2 s", "4", LONGER),
     *_grows("ten times the bars, ideal pins", "40 bars", "4 bars", "100", LARGER),
     *_grows("ten times the bars, one loose pin", "40 bars, one loose", "4 bars, one loose", "100", LARGER),
@@ -67,8 +77,7 @@ ROWS: tuple[Row, ...] = (
 
 def there(row: Row) -> bool:
     """Whether this version has the formulations of a row."""
-    ways = [row.ours] + ([row.against] if isinstance(row.against, OurWay) else [])
-    return all(way.is_there for way in ways)
+    return all(way.is_there for way in (row.ours, row.against) if isinstance(way, OurWay))
 
 
 # --- in the process that measures ---
@@ -78,13 +87,11 @@ def timed_row(row: Row, most: float) -> Iterator[Measured]:
     """Both sides of a row in turns, within a time [s] or once."""
     began = time.monotonic()
     with ExitStack() as held:
-        label, ours = _run_of(row.ours)
-        sides: list[tuple[bool, str, Callable[[], float]]] = [(True, label, partial(fastest, ours))]
-        if isinstance(row.against, OurWay):
-            label, theirs = _run_of(row.against)
-            sides.append((False, _said(row.against.scene, label), partial(fastest, theirs)))
-        elif row.against:
-            sides.append((False, row.against, held.enter_context(other(row.against))))
+        sides = [(True, *_side(row.ours, held))]
+        if row.against:
+            label, timing = _side(row.against, held)
+            scene = f"{row.against.scene}, " if isinstance(row.against, OurWay) else ""
+            sides.append((False, f"{scene}{label}".removesuffix(", "), timing))
         first = time.monotonic()
         for turn in range(TURNS):
             for is_ours, label, seconds in sides:
@@ -94,19 +101,17 @@ def timed_row(row: Row, most: float) -> Iterator[Measured]:
                 return
 
 
-def _said(scene: str, label: str) -> str:
-    return f"{scene}, {label}" if label else scene
-
-
-def _run_of(way: OurWay) -> tuple[str, Callable[[], object]]:
-    """How a way is set, and its run."""
+def _side(way: OurWay | str, held: ExitStack) -> tuple[str, Timing]:
+    """How a side of a row is set, and what times it."""
+    if isinstance(way, str):
+        return way, held.enter_context(OTHERS[way]())
     scenario = SCENES[way.scene]()
     if len(way.settings) > 1:
         setting = coarsest(way.scene, way.formulation, way.settings)
     else:
         (setting,) = way.settings
         simulate(setting.applied(_moment(scenario), way.formulation))  # imports and compiles
-    return setting.words, partial(simulate, setting.applied(scenario, way.formulation))
+    return setting.words, partial(fastest, partial(simulate, setting.applied(scenario, way.formulation)))
 
 
 def _moment(scenario: Scenario) -> Scenario:

@@ -25,7 +25,8 @@ import {name}
 STARTS = [
     ["-m", "support_exudyn", "--version"],
     ["-m", "studies", "--help"],
-    *(["-m", f"studies.{name}", "--help"] for name in ("report", "benchmarking.benchmark", *STUDIES)),
+    ["-m", "studies", "benchmark", "--help"],
+    *(["-m", f"studies.{name}", "--help"] for name in ("report", *STUDIES)),
     ["support-exudyn", "--version"],
 ]
 

@@ -32,7 +32,7 @@ class PeerRun:
     time: [s]. force: magnitude in the clearance pin [N]. angular_acceleration: of the link that the clearance
     pin ends (rear link, rod) [rad/s^2], nan if it is not noted. x, y: canopy tip or slider [m]. onsets: by
     interpolation of the depth at the ends of steps. largest_force: at the end of any step [N]. solve_time: of
-    the solver [s]. steps: accepted.
+    the solver, on the processor [s]. steps: accepted.
     user_function_calls: of the force, in Python; 0 where they are not counted. newton_iterations: of the
     solver, 0 if it has none.
     """
