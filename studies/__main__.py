@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
+from studies.benchmarking import benchmark
 from studies.catalogue import DEFAULT, STUDIES
 from studies.common.options import Options, add_options, read_options
 from studies.common.study import Study, output_folder, say_short
@@ -18,18 +19,24 @@ from support_exudyn.simulation.at_start import EXIT_CODE
 from support_exudyn.sweeps.workers import Workers, worker_pool
 from user_forces.values.value import InputError, short
 
+BENCHMARK = "benchmark"  # the command that stands beside the studies
+ABOUT = f"Run studies and write the report on them. {BENCHMARK} --help: how fast the program is beside others."
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run studies and write the report after each.
 
     Returns the exit code: 0, or 1 if any study failed or the report could not be written.
     """
-    parser = Parser(prog="python -m studies", description="Run studies and write the report on them.")
+    words = sys.argv[1:] if argv is None else list(argv)
+    if words[:1] == [BENCHMARK]:
+        return benchmark.main(words[1:])
+    parser = Parser(prog="python -m studies", description=ABOUT)
     add_options(parser, Path("results"))
     parser.add_argument("names", nargs="*", metavar="NAME", help="studies to run (the paper's answer)")
     parser.add_argument("--all", action="store_true", help="run all studies")
     parser.add_argument("--list", action="store_true", help="tell all studies, their questions and times")
-    given = parser.parse_intermixed_args(argv)
+    given = parser.parse_intermixed_args(words)
     if given.list:
         return answered(_list)
     codes: list[int] = []
@@ -50,6 +57,8 @@ def _list() -> None:
         machine = "takes --machine" if study.own_machine else ""
         about = ", ".join(filter(None, (paper, machine)))
         say(f"{name:20} {_seconds(study.seconds):>8}  {study.question}" + (f" ({about})" if about else ""))
+    question = (benchmark.__doc__ or "").partition("?")[0]
+    say(f"{BENCHMARK:20} {_seconds(benchmark.BUDGET):>8}  {question}? (alone, not in the report)")
 
 
 def _chosen(given: argparse.Namespace) -> list[str]:

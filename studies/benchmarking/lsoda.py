@@ -13,13 +13,13 @@ import numpy as np
 import numpy.typing as npt
 from scipy.integrate import solve_ivp
 
-from studies.benchmarking.peers.peer_run import contact_numbers
+from studies.benchmarking.peers.peer_run import contact_numbers, record_times
 from support_exudyn import Scenario, SliderCrank, Steady
+from support_exudyn.mechanics.contact_state import Onset
 from user_forces import Frictionless
 from user_forces.values.value import InputError
 
 PIN = "slider_pin"
-LOOSEST, TIGHTEST = -5, -11  # decimal exponents of tolerances that are tried
 MOST_PIECES = 2000  # of a run, each ends with an impact or separation
 Series = npt.NDArray[np.float64]
 Rates = Callable[[float, Any], list[float]]
@@ -41,22 +41,28 @@ class Numbers(NamedTuple):
     floor: float  # of the initial impact velocity [m/s]
 
 
-def run_lsoda(scenario: Scenario, tolerance: float, times: Series | None = None) -> Series:
-    """Integrate a scenario; return the slider's place [m] at the times.
+class LsodaRun(NamedTuple):
+    """The slider's place at the records [m], and impacts."""
+
+    slider: Series
+    onsets: tuple[Onset, ...]
+
+
+def run_lsoda(scenario: Scenario, tolerance: float) -> LsodaRun:
+    """Integrate a scenario.
 
     Arguments:
         scenario: SliderCrank driven by Steady, slider pin with clearance with its bore in the slider, no
             gravity, start "concentric", LankaraniNikravesh with exponent 1.5 and ImpactVelocity, no friction.
         tolerance: of LSODA, relative and absolute, for angle [rad], place [m] and their rates alike.
-        times: where the slider's place is wanted [s]; the scenario's records by default.
 
     Raises InputError if the scenario is not covered, RuntimeError if LSODA gives up.
     """
     numbers, end = _numbers(scenario), scenario.duration
-    count = round(end / scenario.record_period)
-    wanted: Series = np.arange(float(count + 1)) * scenario.record_period if times is None else times
+    wanted = record_times(scenario)
     t, state, closed, speed = 0.0, _start(numbers), False, 0.0
     pieces: list[Series] = []
+    onsets: list[Onset] = []
     while t < end:
         if len(pieces) > MOST_PIECES:
             raise RuntimeError(
@@ -71,30 +77,13 @@ def run_lsoda(scenario: Scenario, tolerance: float, times: Series | None = None)
             break
         t, state = float(found.t_events[0][0]), found.y_events[0][0].tolist()
         closed = not closed
+        rate = _pin(numbers, t, state)[1]
         if closed:
-            speed = max(0.0, _pin(numbers, t, state)[1])
-    return np.concatenate(pieces)
-
-
-def loosest(scenario: Scenario, error: float, times: Series) -> float:
-    """The loosest tolerance, a power of ten, at which and below which the slider is right.
-
-    Arguments:
-        scenario: see `run_lsoda`.
-        error: largest one allowed at any of the times, against the tightest tolerance [m].
-    """
-    exact = run_lsoda(scenario, 10.0**TIGHTEST, times)
-    found = math.nan
-    for exponent in range(TIGHTEST + 1, LOOSEST + 1):
-        try:
-            if np.abs(run_lsoda(scenario, 10.0**exponent, times) - exact).max() > error:
-                break
-        except RuntimeError:
-            break
-        found = 10.0**exponent
-    if math.isnan(found):
-        raise RuntimeError(f"no tolerance gives an error of {error} m")
-    return found
+            speed = max(0.0, rate)
+            onsets.append(Onset(t, speed))
+        else:
+            onsets[-1] = onsets[-1].separated(t, -rate)
+    return LsodaRun(np.concatenate(pieces), tuple(onsets))
 
 
 def _smooth(

@@ -52,7 +52,7 @@ seed = 1
 [scenario]
 machine = "reference"
 duration_s = 5
-formulation = "reduced"
+formulation = "compiled"
 drive = {{ mode = 2 }}
 pins.rear_base.clearance_mm = 1.5
 

@@ -162,8 +162,13 @@ def _save_figure(place: int, drawing: Figure, out: Path, name: str, live: LivePa
 
 def show_table(stem: Path, table: Sheet, width: int = 150) -> None:
     """Print a table, and write it as text and as CSV."""
-    Console(width=None if sys.stdout.isatty() else width).print(table.rich())
+    print_table(table, width)
     save_table(stem, table, width)
+
+
+def print_table(table: Sheet, width: int = 150) -> None:
+    """Print a table, so many characters wide unless a terminal has a width of its own."""
+    Console(width=None if sys.stdout.isatty() else width).print(table.rich())
 
 
 def save_table(stem: Path, table: Sheet, width: int) -> None:

@@ -26,7 +26,8 @@ SHOWING = ["-m", "support_exudyn", "show", "--help"]  # which needs libraries; -
 STARTS = [
     ["-m", "support_exudyn", "--version"],
     ["-m", "studies", "--help"],
-    *(["-m", f"studies.{name}", "--help"] for name in ("report", "benchmarking.benchmark", *STUDIES)),
+    ["-m", "studies", "benchmark", "--help"],
+    *(["-m", f"studies.{name}", "--help"] for name in ("report", *STUDIES)),
     ["support-exudyn", "--version"],
 ]
 

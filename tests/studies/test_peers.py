@@ -7,7 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from studies.benchmarking.lsoda import run_lsoda
 from studies.benchmarking.peers.built_in import Evaluator, run_built_in
+from studies.benchmarking.peers.in_drake import run_drake
+from studies.benchmarking.peers.in_mujoco import run_limit, run_mujoco
 from studies.benchmarking.peers.peer_run import PeerRun, impacts
 from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.peers.tree import run_tree
@@ -72,6 +75,41 @@ def test_a_slider_crank_runs_in_minimal_coordinates() -> None:
     assert_cranks(run_tree(crank(), 1e-8), 1e-5, 2e-3)
 
 
+def test_a_slider_crank_runs_by_scipy() -> None:
+    onsets = run_lsoda(crank(), 1e-9).onsets
+    assert [one.time for one in onsets] == pytest.approx(CRANK_TIMES[:3], abs=1e-9)  # their digits
+    assert [one.speed for one in onsets] == pytest.approx(CRANK_SPEEDS[:3], rel=1e-6)
+    assert onsets[0].separation_time < onsets[1].time
+
+
+def test_a_slider_crank_runs_in_mujoco() -> None:
+    pytest.importorskip("mujoco", reason="MuJoCo is not installed")
+    run = run_mujoco(crank(), CRANK_STEP)
+    # classical Runge-Kutta, whose force has a kink in the step of an onset or separation
+    assert_cranks(run, 1e-5, 1e-5)
+    assert run.user_function_calls == 4 * run.steps + 1
+    np.testing.assert_allclose(run.x, run_lsoda(crank(), 1e-10).slider, rtol=0.0, atol=1e-8)
+
+
+def test_the_limit_of_a_tendon_is_another_law() -> None:
+    pytest.importorskip("mujoco", reason="MuJoCo is not installed")
+    run = run_limit(crank(), 1e-6)
+    # the flight before the first impact has no law in it; a linear spring then gives other speeds
+    assert run.onsets[0].time == pytest.approx(CRANK_TIMES[0], abs=1e-9)
+    assert run.onsets[0].speed == pytest.approx(CRANK_SPEEDS[0], rel=2e-3)  # a tenth of a step is in contact
+    assert run.onsets[1].time == pytest.approx(CRANK_TIMES[1], abs=5e-6)
+    assert run.onsets[1].speed == pytest.approx(CRANK_SPEEDS[1], rel=2e-2)
+    # its restitution is that which is asked for: 0.9 of the speed beside what the machine does meanwhile
+    assert run.onsets[0].separation_velocity / run.onsets[0].speed == pytest.approx(0.9, abs=0.03)
+
+
+def test_a_slider_crank_runs_in_drake() -> None:
+    pytest.importorskip("pydrake", reason="Drake is not installed")
+    run = run_drake(crank(), 1e-7)
+    assert_cranks(run, 1e-6, 1e-6)
+    np.testing.assert_allclose(run.x, run_lsoda(crank(), 1e-10).slider, rtol=0.0, atol=1e-8)
+
+
 def test_our_connector_makes_the_steps_of_the_built_in_contact() -> None:
     runs = {contact: run_built_in(drop(), 5e-5, contact=contact) for contact in EVALUATORS}
     built_in = runs["built_in"]
@@ -109,7 +147,8 @@ def test_what_is_not_covered_is_refused() -> None:
     rough = loose_support(1.5, 0.25, duration=0.01)
     with pytest.raises(InputError, match="friction"):
         run_built_in(rough, 1e-5)
-    with pytest.raises(InputError, match="SliderCrank"):
-        run_tree(drop(), 1e-6)
+    for run in (run_tree, run_lsoda):
+        with pytest.raises(InputError, match="SliderCrank"):
+            run(drop(), 1e-6)
     with pytest.raises(InputError, match="concentric"):
         run_stock(replace(drop(), start="settled"), 1e-5)

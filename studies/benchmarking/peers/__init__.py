@@ -1,4 +1,5 @@
-"""Competitors: the same machines as users of Exudyn would write them without this package's solver layer.
+"""Competitors: the same machines as users of other programs would write them.
 
-They exist to be measured against. Nothing else in the package uses them.
+Exudyn without this package's solver layer, MuJoCo and Drake. They exist to be measured against. Nothing else in
+the package uses them.
 """

@@ -23,9 +23,11 @@ from exudyn.itemInterface import (
 
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.slider_crank import SliderCrank
+from support_exudyn.model.drives.drive import Steady
 from support_exudyn.model.linkage import GROUND, Body, Linkage, Slide
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
+from user_forces.friction.frictionless import Frictionless
 from user_forces.values.value import InputError, Vector2
 
 
@@ -95,6 +97,32 @@ def clearance_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
         )
     ((name, pin),) = scenario.clearance_pins.items()
     return name, pin.contact, pin.bore
+
+
+def smooth_slider_crank(scenario: Scenario) -> tuple[SliderCrank, float, JournalContact]:
+    """Machine, speed of its crank [rad/s] and contact of the slider-crank that some competitors take.
+
+    Raises InputError unless it is a SliderCrank driven by Steady, with a clearance slider pin without friction
+    and with its bore in the slider, no gravity, start "concentric".
+    """
+    machine, drive = scenario.machine, scenario.drive
+    name, contact, bore = clearance_contact(scenario)
+    if not isinstance(machine, SliderCrank) or not isinstance(drive, Steady):
+        raise InputError("this takes a SliderCrank and a Steady drive")
+    if name != "slider_pin" or bore != "first" or any(scenario.gravity):
+        raise InputError("this takes a clearance slider_pin with its bore in the slider, and no gravity")
+    if not isinstance(contact.friction, Frictionless):
+        raise InputError("friction: allowed here: Frictionless")
+    return machine, drive.rate, contact
+
+
+def joint_start(machine: SliderCrank, speed: float) -> tuple[list[float], list[float]]:
+    """Joint coordinates of crank, rod on the crank and slider at the start, [rad] and [m], and their rates."""
+    a = machine.start_angle
+    bx, by = machine.crank_length * math.cos(a), machine.crank_length * math.sin(a)
+    along = machine.slider_position(a) - bx
+    turn, spin = math.atan2(-by, along), -speed * bx / along
+    return [a, turn - a, machine.slider_position(a)], [speed, spin - speed, machine.slider_speed(a, speed)]
 
 
 def start_velocities(machine: Any, speed: float) -> dict[str, tuple[float, float, float]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import exudyn
@@ -14,6 +14,7 @@ from exudyn.itemInterface import NodeGenericData, ObjectContactSphereSphere, Sen
 
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact import JournalContact
 from user_forces.normal.damping_speed import ImpactVelocity
@@ -29,9 +30,9 @@ class PeerRun:
     """Outcome of a competitor's run; all series at the scenario's records.
 
     time: [s]. force: magnitude in the clearance pin [N]. angular_acceleration: of the link that the clearance
-    pin ends (rear link, rod) [rad/s^2]. x, y: canopy tip or slider [m]. onsets: by interpolation of the depth
-    at the ends of steps. largest_force: at the end of any step [N]. solve_time: of the solver [s]. steps:
-    accepted.
+    pin ends (rear link, rod) [rad/s^2], nan if it is not noted. x, y: canopy tip or slider [m]. onsets: by
+    interpolation of the depth at the ends of steps. largest_force: at the end of any step [N]. solve_time: of
+    the solver, on the processor [s]. steps: accepted.
     user_function_calls: of the force, in Python; 0 where they are not counted. newton_iterations: of the
     solver, 0 if it has none.
     """
@@ -79,6 +80,68 @@ def _crossing(first: float, last: float, first_slope: float, last_slope: float) 
         else:
             low = x
     return high, float(np.polyval(np.polyder(cubic), high))
+
+
+def record_times(scenario: Scenario) -> Series:
+    """The times of a scenario's records [s]."""
+    count = round(scenario.duration / scenario.record_period)
+    found: Series = np.arange(float(count + 1)) * scenario.record_period
+    return found
+
+
+def cubic(wanted: Series, t: Series, x: Series, rate: Series) -> Series:
+    """Values at the wanted times by the cubic that fits values and rates at both ends of the step around."""
+    n = np.clip(np.searchsorted(t, wanted, side="right") - 1, 0, len(t) - 2)
+    h = t[n + 1] - t[n]
+    s = (wanted - t[n]) / h
+    z = 1.0 - s
+    start, end = x[n] * (1.0 + 2.0 * s) + h * rate[n] * s, x[n + 1] * (3.0 - 2.0 * s) - h * rate[n + 1] * z
+    found: Series = start * z * z + end * s * s
+    return found
+
+
+@dataclass
+class StepLog:
+    """What a competitor notes of a slider-crank at the ends of all steps.
+
+    Time [s], depth [m], its rate [m/s], place [m] and velocity [m/s] of the slider.
+    """
+
+    time: list[float] = field(default_factory=list)
+    depth: list[float] = field(default_factory=list)
+    rate: list[float] = field(default_factory=list)
+    slider: list[float] = field(default_factory=list)
+    velocity: list[float] = field(default_factory=list)
+
+    def met_with(self) -> float:
+        """The speed at zero depth in the last step, in which the surfaces met [m/s]."""
+        ends = slice(-2, None)
+        (met,) = impacts(self.time[ends], self.depth[ends], self.rate[ends])
+        return met.speed
+
+    def drop_last(self) -> None:
+        """Forget the last step."""
+        for series in (self.time, self.depth, self.rate, self.slider, self.velocity):
+            series.pop()
+
+    def run(self, scenario: Scenario, contact: JournalContact, took: float, calls: int) -> PeerRun:
+        """The outcome, with forces that follow from depth and rate; accelerations are not noted."""
+        t, depth, rate = np.array(self.time), np.array(self.depth), np.array(self.rate)
+        wanted = np.minimum(record_times(scenario), t[-1])
+        force = contact_forces(contact, depth, rate)
+        return PeerRun(
+            time=wanted,
+            force=np.interp(wanted, t, force),
+            angular_acceleration=np.full(len(wanted), np.nan),
+            x=cubic(wanted, t, np.array(self.slider), np.array(self.velocity)),
+            y=np.zeros(len(wanted)),
+            onsets=impacts(self.time, self.depth, self.rate),
+            largest_force=float(force.max()),
+            solve_time=took,
+            steps=len(t) - 1,
+            user_function_calls=calls,
+            newton_iterations=0,
+        )
 
 
 @contextmanager

@@ -12,15 +12,21 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import MarkerKinematicTreeRigid, NodeGenericODE2, ObjectKinematicTree, SensorNode
 
-from studies.benchmarking.peers.bare_scene import clearance_contact
-from studies.benchmarking.peers.peer_run import ASIDE, PeerRun, PinSeries, add_ball, impacts, pin_sensors
+from studies.benchmarking.peers.bare_scene import joint_start, smooth_slider_crank
+from studies.benchmarking.peers.peer_run import (
+    ASIDE,
+    PeerRun,
+    PinSeries,
+    add_ball,
+    cubic,
+    impacts,
+    pin_sensors,
+    record_times,
+)
 from studies.benchmarking.peers.stock import solved
 from support_exudyn.machines.slider_crank import SliderCrank
-from support_exudyn.model.drives.drive import Steady
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
-from user_forces.friction.frictionless import Frictionless
-from user_forces.values.value import InputError
 
 engine: Any = exudyn  # its stubs lack the arguments of its lists
 FLYWHEEL = 1e8  # inertia of the crank [kg m^2]; a moment of 100 N m changes its speed by 1e-8 rad/s in 10 ms
@@ -38,17 +44,10 @@ def run_tree(scenario: Scenario, tolerance: float) -> PeerRun:
 
     Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
     """
-    machine, drive = scenario.machine, scenario.drive
-    name, contact, bore = clearance_contact(scenario)
-    if not isinstance(machine, SliderCrank) or not isinstance(drive, Steady):
-        raise InputError("this takes a SliderCrank and a Steady drive")
-    if name != "slider_pin" or bore != "first" or any(scenario.gravity):
-        raise InputError("this takes a clearance slider_pin with its bore in the slider, and no gravity")
-    if not isinstance(contact.friction, Frictionless):
-        raise InputError("friction: allowed here: Frictionless")
+    machine, speed, contact = smooth_slider_crank(scenario)
     container = exudyn.SystemContainer()
     mbs: Any = container.AddSystem()
-    sensors = _build(mbs, machine, drive.rate, contact)
+    sensors = _build(mbs, machine, speed, contact)
     mbs.Assemble()
     took = solved(exudyn.MainSolverExplicit(), mbs, _settings(scenario.duration, tolerance))
     return _run(scenario, contact, mbs, sensors, took)
@@ -56,15 +55,12 @@ def run_tree(scenario: Scenario, tolerance: float) -> PeerRun:
 
 def _build(mbs: Any, m: SliderCrank, speed: float, contact: JournalContact) -> tuple[Any, ...]:
     """Add tree and contact; return sensors of journal, bore and of the coordinates."""
-    a = m.start_angle
-    bx, by = m.crank_length * math.cos(a), m.crank_length * math.sin(a)
-    along = m.slider_position(a) - bx
-    turn, spin = math.atan2(-by, along), -speed * bx / along
+    places, rates = joint_start(m, speed)
     node = mbs.AddNode(
         NodeGenericODE2(
             referenceCoordinates=[0.0, 0.0, 0.0],
-            initialCoordinates=[a, turn - a, m.slider_position(a)],
-            initialCoordinates_t=[speed, spin - speed, m.slider_speed(a, speed)],
+            initialCoordinates=places,
+            initialCoordinates_t=rates,
             numberOfODE2Coordinates=3,
         )
     )
@@ -123,13 +119,12 @@ def _run(
     """The outcome: the slider by cubic interpolation between steps, all else linearly."""
     pin, accelerations = PinSeries.read(mbs, contact, sensors[:-1]), mbs.GetSensorStoredData(sensors[-1])
     t = pin.time
-    count = round(scenario.duration / scenario.record_period)
-    wanted = np.minimum(np.arange(count + 1) * scenario.record_period, t[-1])
+    wanted = np.minimum(record_times(scenario), t[-1])
     return PeerRun(
         time=wanted,
         force=np.interp(wanted, t, pin.force),
         angular_acceleration=np.interp(wanted, t, accelerations[:, 1] + accelerations[:, 2]),
-        x=_cubic(wanted, t, pin.bore, pin.bore_speed),
+        x=cubic(wanted, t, pin.bore, pin.bore_speed),
         y=np.zeros(len(wanted)),
         onsets=impacts(t.tolist(), pin.depth.tolist(), pin.rate.tolist()),
         largest_force=float(pin.force.max()),
@@ -138,14 +133,3 @@ def _run(
         user_function_calls=0,
         newton_iterations=0,
     )
-
-
-def _cubic(wanted: np.ndarray, t: np.ndarray, x: np.ndarray, rate: np.ndarray) -> np.ndarray:
-    """Values at the wanted times by the cubic that fits values and rates at both ends of the step around."""
-    n = np.clip(np.searchsorted(t, wanted, side="right") - 1, 0, len(t) - 2)
-    h = t[n + 1] - t[n]
-    s = (wanted - t[n]) / h
-    z = 1.0 - s
-    start, end = x[n] * (1.0 + 2.0 * s) + h * rate[n] * s, x[n + 1] * (3.0 - 2.0 * s) - h * rate[n + 1] * z
-    found: np.ndarray = start * z * z + end * s * s
-    return found
