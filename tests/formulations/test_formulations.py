@@ -31,7 +31,7 @@ BOTH = {"front_column": OIL, "rear_column": OIL}
 
 
 @value
-class Twice(Machine):
+class PinnedTwice(Machine):
     """A bar that one pin holds twice."""
 
     def linkage(self) -> Linkage:
@@ -92,7 +92,7 @@ NOT_COMPILED = {
         r"pins\.rear_base = Walked",
     ),
     "joints that hold the same twice": (
-        Scenario(machine=Twice(), duration=0.02),
+        Scenario(machine=PinnedTwice(), duration=0.02),
         "machine = joints that hold the same twice",
     ),
 }

@@ -137,4 +137,4 @@ def test_why_a_formulation_was_chosen_is_told(
 ) -> None:
     scenario = replace(SCENES[scene], formulation=ran)
     found = replace(run(), scenario=scenario, goal=0.01, coarser=run(), provenance={FORMULATION_ASKED: "auto"})
-    assert dict(summary.how(found))["formulation"].startswith(said)
+    assert summary._formulation(found).startswith(said)
