@@ -50,7 +50,7 @@ class Verdict(NamedTuple):
 class DepthPath(NamedTuple):
     """Depth over a step as a cubic of the fraction x of the step, from 0 to 1.
 
-    `depth`, `rate`, `may_turn` and `doubt` are compiled too (reduced), so they call no other method.
+    `depth`, `rate`, `may_turn` and `doubt` are compiled too, so they call no other method.
     """
 
     depth0: float

@@ -25,8 +25,8 @@ def has_a_top(size: Callable[[float], float], first: float, last: float) -> bool
 def peak(size: Callable[[float], float], largest: float) -> float:
     """The largest force [N] so far, a step included; size: the force's magnitude at fractions of the step.
 
-    Like `reduced.records.peak`: that at points between the ends, and the highest between these, which may be a
-    corner.
+    Like `compiled.recording.peak`: that at points between the ends, and the highest between these, which may
+    be a corner.
     """
     sizes = [size(n / PEAK_SAMPLES) for n in range(PEAK_SAMPLES + 1)]
     top = max(sizes)

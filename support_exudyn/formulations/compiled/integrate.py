@@ -22,9 +22,9 @@ from support_exudyn.formulations.compiled.arrays import (
 )
 from support_exudyn.formulations.compiled.beginning import begin_run, jump
 from support_exudyn.formulations.compiled.changes import happen, renew_masses
-from support_exudyn.formulations.compiled.depth import CUT, IMPACT, NOTHING, RETURN, TOO_LONG
+from support_exudyn.formulations.compiled.depth import CUT, IMPACT, NOTHING, RETURN, SEPARATION, TOO_LONG
 from support_exudyn.formulations.compiled.events import first_event
-from support_exudyn.formulations.compiled.landing import copy_contacts, land
+from support_exudyn.formulations.compiled.landing import copy_contacts, land, met_before
 from support_exudyn.formulations.compiled.method import (
     AT,
     DECAY,
@@ -116,9 +116,15 @@ def integrate(
         error_before = max(error, 1e-4)
         was_cut = n >= 0 and now[n].push < 0.0
         if what != NOTHING and low < 1.0:
-            copy_contacts(then, scene.contacts)
-            h = land(scene, n, t, h, what, low, high, now, y, k, end, weights, right, report)
-            copy_contacts(scene.contacts, then)
+            while True:
+                copy_contacts(then, scene.contacts)
+                h = land(scene, n, t, h, what, low, high, now, y, k, end, weights, right, report)
+                copy_contacts(scene.contacts, then)
+                m = met_before(n, now, then)
+                if m < 0:
+                    break
+                n, what, low, high = m, IMPACT if now[m].closed == 0.0 else SEPARATION, 0.0, 1.0
+                was_cut = now[n].push < 0.0
             fit_step(room, 0.0, h, y)
             last = h >= stop - t
         copy_contacts(then, scene.contacts)

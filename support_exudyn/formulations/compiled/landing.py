@@ -2,7 +2,7 @@
 
 from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import EVALUATIONS, STAGES, Matrix, Records, Scene, Vector
-from support_exudyn.formulations.compiled.depth import CUT, CUT_MET, IMPACT, RETURN
+from support_exudyn.formulations.compiled.depth import CUT, CUT_MET, IMPACT, RETURN, TOGETHER
 from support_exudyn.formulations.compiled.step import advance
 from support_exudyn.formulations.compiled.step_control import LANDED, LANDINGS, TURNS, crossing
 
@@ -22,6 +22,19 @@ def quantity(scene: Scene, n: int, which: int) -> float:
     if which == DEPTH:
         return float(scene.contacts[n].depth)
     return float(scene.contacts[n].push) if which == PUSH else float(scene.contacts[n].rate)
+
+
+@compiled
+def met_before(n: int, start: Records, end: Records) -> int:
+    """Another contact that has met or parted in a step that ends where something happens to contact n; else -1.
+
+    When it happens is only known to a share of the longer step, so that the later one may be landed on first.
+    """
+    for m in range(end.size):
+        apart = start[m].closed == 0.0
+        if m != n and ((apart and end[m].depth > TOGETHER) or (not apart and end[m].depth < -TOGETHER)):
+            return m
+    return -1
 
 
 @once

@@ -1,4 +1,4 @@
-"""What the reduced formulation needs of a machine, and the bodies of one at the records."""
+"""What closed forms need of a machine, and the bodies of one at the records."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The run of the reduced formulation: scenario in, outcome out."""
+"""The run in closed forms: scenario in, outcome out."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The hydraulic support for the reduced formulation: its parameters, and its bodies at the records."""
+"""The hydraulic support in closed form: its parameters, and its bodies at the records."""
 
 from collections.abc import Mapping
 
