@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -11,8 +12,10 @@ import pytest
 from support_exudyn import Onset, Result
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from tests import synthetic
 from tests.cases.run_cases import FORCE, PIN, loose_support
+from tests.formulations.test_formulations import SCENES
 from user_forces import InputError
 
 TIME = np.arange(11) * 0.1
@@ -111,3 +114,27 @@ def test_whether_an_accuracy_was_met_is_told(monkeypatch: pytest.MonkeyPatch) ->
         said = dict(summary.how(replace(run(), goal=0.01, coarser=run())))
         assert said["accuracy"] == f"0.01 asked for, {error:g} estimated: {word}"
         assert "all runs" in said["wall time"]
+
+
+@pytest.mark.parametrize(
+    ("scene", "ran", "said"),
+    [
+        (
+            "a law that branches",
+            "redundant",
+            "redundant (auto: compiled does not cover pins.rear_base.contact = Branching, which cannot",
+        ),
+        (
+            "clearance support",
+            "redundant",
+            "redundant (auto: compiled would need too many steps for its friction)",
+        ),
+        ("clearance support", "compiled", "compiled (auto: the cheapest, and it covers this scene)"),
+    ],
+)
+def test_why_a_formulation_was_chosen_is_told(
+    scene: str, ran: Literal["redundant", "compiled"], said: str
+) -> None:
+    scenario = replace(SCENES[scene], formulation=ran)
+    found = replace(run(), scenario=scenario, goal=0.01, coarser=run(), provenance={FORMULATION_ASKED: "auto"})
+    assert dict(summary.how(found))["formulation"].startswith(said)

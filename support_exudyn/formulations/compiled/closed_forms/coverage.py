@@ -3,7 +3,7 @@
 from typing import cast
 
 from support_exudyn.formulations.compiled.closed_forms import slider_crank, support_model
-from support_exudyn.formulations.compiled.closed_forms.machine_model import Model
+from support_exudyn.formulations.compiled.closed_forms.machine_model import MachineModel
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.actuators import RigidActuator
@@ -11,13 +11,13 @@ from support_exudyn.model.machine import Machine
 from support_exudyn.scenario.scenario import Scenario
 
 # the machines that are covered; a new one is a file with its formulas and its model, and a line here
-MODELS: dict[type[Machine], Model] = {
-    HydraulicSupport: cast(Model, support_model),
-    SliderCrank: cast(Model, slider_crank),
+MODELS: dict[type[Machine], MachineModel] = {
+    HydraulicSupport: cast(MachineModel, support_model),
+    SliderCrank: cast(MachineModel, slider_crank),
 }
 
 
-def model_of(scenario: Scenario) -> Model:
+def model_of(scenario: Scenario) -> MachineModel:
     """The scenario's machine, one of `MODELS`."""
     return MODELS[type(scenario.machine)]
 

@@ -64,15 +64,6 @@ def law_at(p: Vector, drive: DriveValues, y: Vector, weight: float) -> tuple[Pin
     return support_law(p, drive, y, at, rate, weight)
 
 
-@compiled
-def power_at(p: Vector, drive: DriveValues, y: Vector, first: float, second: float, contact: Vector) -> float:
-    """Power of the drive [W] at these accelerations of the free coordinates."""
-    if p[MACHINE] == SLIDER_CRANK:
-        return slider_crank_power(p, drive, y, first, contact)
-    at, rate = support_posture(p, drive, y)
-    return support_power(p, drive, y, at, rate, first, second, contact)
-
-
 @inlined
 def evaluate(
     p: Vector, segment: Vector, memory: Vector, t: float, y: Vector, slope: Vector, contact: Vector

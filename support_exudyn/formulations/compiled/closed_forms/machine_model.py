@@ -87,7 +87,7 @@ def placed(
     )
 
 
-class Model(Protocol):
+class MachineModel(Protocol):
     """What a machine's module offers. PIN: the pin that may be with clearance; DRIVES: that it covers."""
 
     PIN: str

@@ -32,7 +32,7 @@ from support_exudyn.formulations.compiled.closed_forms.integrate import (
     integrate,
 )
 from support_exudyn.formulations.compiled.closed_forms.layout import DriveValues, Matrix, Vector
-from support_exudyn.formulations.compiled.closed_forms.machine_model import Model
+from support_exudyn.formulations.compiled.closed_forms.machine_model import MachineModel
 from support_exudyn.formulations.compiled.closed_forms.setup import MOST_IMPACTS, RunArrays, outline
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.mechanics.body_motion import BodyMotion
@@ -51,7 +51,7 @@ from user_forces.normal.law import Impact, LoadError
 _law_at, _accelerations = on_arrays(law_at), on_arrays(accelerations)
 
 
-def trajectory(scenario: Scenario, model: Model, p: list[float], rows: Matrix) -> Trajectory:
+def trajectory(scenario: Scenario, model: MachineModel, p: list[float], rows: Matrix) -> Trajectory:
     """The run at its records; forces of joints only if a channel needs them.
 
     Arguments:

@@ -11,7 +11,7 @@ from support_exudyn.formulations.compiled.closed_forms import layout
 from support_exudyn.formulations.compiled.closed_forms.coverage import model_of
 from support_exudyn.formulations.compiled.closed_forms.integrate import REPORT
 from support_exudyn.formulations.compiled.closed_forms.layout import Matrix, Vector
-from support_exudyn.formulations.compiled.closed_forms.machine_model import Model
+from support_exudyn.formulations.compiled.closed_forms.machine_model import MachineModel
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.model.drives.drive import Drive, Reciprocating, Steady, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive
@@ -168,7 +168,7 @@ class RunArrays:
     step, for each component of the state.
     """
 
-    model: Model
+    model: MachineModel
     pin: ClearancePin | None
     p: Vector
     segments: Matrix
@@ -212,7 +212,7 @@ def outline(scenario: Scenario) -> RunArrays:
     )
 
 
-def _weights(scenario: Scenario, model: Model, pin: ClearancePin) -> Vector:
+def _weights(scenario: Scenario, model: MachineModel, pin: ClearancePin) -> Vector:
     machine = scenario.machine
     mass = sum(body.mass for body in machine.linkage().bodies.values())
     fall = float(np.hypot(*scenario.gravity)) + model.fall(machine, scenario.drive.initial_speed)
