@@ -39,7 +39,7 @@ from support_exudyn.files.machines.read import read_machine
 from tests.cases.cylinder_cases import on_cylinders
 from tests.cases.guide_cases import FreePair, slider_crank
 from tests.cases.law_cases import LUGRE
-from tests.cases.run_cases import PIN, loose_support, paper_contact, support
+from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, paper_contact, support
 from tests.formulations import test_guide_clearance as guides
 from tests.formulations import test_slots_and_gears as slots
 from tests.formulations.test_compiled_on_oil import Swaying
@@ -140,10 +140,18 @@ SCENES: dict[str, Callable[[], Scenario]] = {
     "two-leg shield": lambda: Scenario(
         machine=read_machine("two_leg_shield").machine, drive=RISE, pins=loose("front_base"), duration=0.03
     ),
+    "a crank that is held": lambda: loose_slider_crank(
+        2e-3, 0.1, drive=Held(), gravity=(300.0, -981.0), record_period=1e-4
+    ),
     "crank": lambda: Scenario(machine=CrankRocker(driven=True), drive=Steady(rate=20.0), duration=0.2),
 }
 STEP = 1e-4  # [s]
-STEPS = {"friction in ideal pins": 5e-4, "slot with clearance": 1e-5, "pin in a slot": 2e-5}
+STEPS = {
+    "a crank that is held": 1e-5,
+    "friction in ideal pins": 5e-4,
+    "slot with clearance": 1e-5,
+    "pin in a slot": 2e-5,
+}
 
 
 class Runs(NamedTuple):

@@ -120,7 +120,7 @@ def sprung(draw: st.DrawFn) -> Scenario:
 
 @st.composite
 def opened(draw: st.DrawFn) -> Scenario:
-    """A chain that nobody drives, with clearance in one pin of every loop, so that the rest is a tree."""
+    """A chain that nobody drives, with clearance in one pin of every loop."""
     linkage = draw(chains())
     rate = draw(between(2.0, 20.0)) * draw(st.sampled_from((1.0, -1.0)))
     return Scenario(

@@ -77,7 +77,7 @@ def known(formulation: str, value: float, error: float) -> Reference:
 
 
 def judged(claimed: float, *references: Reference) -> Judged:
-    """A value of 100 of the reduced formulation."""
+    """A value of 100 of the compiled formulation."""
     return judge(FORCE, 100.0, claimed, "compiled", references)
 
 

@@ -80,10 +80,13 @@ def hold(scene: Scene, y: Vector) -> None:
         joint = scene.joints[n]
         row = scene.rows[joint.row]
         if joint.kind == CRANK:
-            course = scene.courses[joint.course]
             row.t = 1.0
-            row.wanted, row.rate = course.bend, course.rate
-            row.off = turn_of(y, joint.first) - course.value
+            row.wanted = row.rate = 0.0
+            row.off = turn_of(y, joint.first)
+            if joint.course >= 0:
+                course = scene.courses[joint.course]
+                row.wanted, row.rate = course.bend, course.rate
+                row.off -= course.value
             continue
         if joint.kind == GEAR:
             row.t, row.ot = 1.0, -joint.ratio
