@@ -16,7 +16,7 @@ from studies.benchmarking.command_rows import COMMANDS, command_line, importing,
 from studies.benchmarking.contest import ENTRANTS, OURS, Standing, cheapest_within, standings
 from studies.benchmarking.contest_figure import figure
 from studies.benchmarking.lines import BenchmarkLine, left_out, sheet
-from studies.benchmarking.row import Measured, OurWay, Row
+from studies.benchmarking.row import TimedTurn, OurWay, Row
 from studies.benchmarking.rows import BOTH, ROWS, TURNS, there, timed_row
 from studies.benchmarking.stopwatch import Heard, Stopwatch, stopwatch
 from studies.common.study import print_table, work_in_folder
@@ -74,7 +74,7 @@ def row_line(row: Row, watch: Stopwatch, most: float) -> BenchmarkLine:
 
 def line_of(row: Row, against: str, heard: Heard, most: float) -> BenchmarkLine:
     """The line of a row, from what was measured of it within a time [s]."""
-    found: Sequence[Measured] = heard.said
+    found: Sequence[TimedTurn] = heard.said
     ours = [one.seconds for one in found if one.is_ours]
     theirs = [one.seconds for one in found if not one.is_ours]
     how = next((one.label for one in found if one.is_ours), "")
@@ -158,7 +158,8 @@ def measured(budget: Budget, watch: Stopwatch) -> Iterator[BenchmarkLine]:
     watch.measure(compiled_first, (), COMPILING)  # not cut: what is left to compile later is timed with a row
     with tutorial() as files:
         for command in COMMANDS:
-            most = budget.share(command.most)
+            share = budget.share(command.most)
+            most = command.most if command.is_first else share  # a first run cut short tells nothing
             how = " ".join(command.words)
             yield (
                 command_line(command, files, most)

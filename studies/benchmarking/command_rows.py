@@ -120,7 +120,7 @@ def _process(words: Sequence[str], folder: Path, more: dict[str, str], most: flo
             stdin=subprocess.DEVNULL,
             capture_output=True,
             text=True,
-            timeout=max(most, 0.1),
+            timeout=max(most, 0.01),
             check=True,
         )
     wall, after = time.perf_counter() - began, os.times()

@@ -87,7 +87,7 @@ class Row:
     most: float = 8.0
 
 
-class Measured(NamedTuple):
+class TimedTurn(NamedTuple):
     """What was measured of a side of a row: ours or the other's, how it was set, and its time [s]."""
 
     is_ours: bool

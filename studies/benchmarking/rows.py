@@ -17,7 +17,7 @@ from studies.benchmarking.row import (
     AUTO,
     GENERAL,
     LeftOutError,
-    Measured,
+    TimedTurn,
     OurWay,
     Row,
     Setting,
@@ -87,7 +87,7 @@ def there(row: Row) -> bool:
 # --- in the process that measures ---
 
 
-def timed_row(row: Row, most: float) -> Iterator[Measured]:
+def timed_row(row: Row, most: float) -> Iterator[TimedTurn]:
     """Both sides of a row in turns, within a time [s] or once."""
     began = time.monotonic()
     with ExitStack() as held:
@@ -99,7 +99,7 @@ def timed_row(row: Row, most: float) -> Iterator[Measured]:
         first = time.monotonic()
         for turn in range(TURNS):
             for is_ours, label, seconds in sides:
-                yield Measured(is_ours, label, seconds())
+                yield TimedTurn(is_ours, label, seconds())
             now = time.monotonic()
             if now - began + (now - first) / (turn + 1) > most:
                 return

@@ -21,7 +21,7 @@ from studies.benchmarking.contest import ENTRANTS, Found, Standing, cheapest_wit
 from studies.benchmarking.lines import BenchmarkLine, left_out, sheet
 from studies.benchmarking.others import OTHERS
 from studies.benchmarking.references import references
-from studies.benchmarking.row import AUTO, LeftOutError, Measured, OurWay, Row, Setting, tolerance
+from studies.benchmarking.row import AUTO, LeftOutError, TimedTurn, OurWay, Row, Setting, tolerance
 from studies.benchmarking.row_scenes import SCENES, ladder, restless
 from studies.benchmarking.rows import ROWS, coarsest, there, timed_row
 from studies.benchmarking.scenes import SCENES as WITH_REFERENCE
@@ -108,11 +108,11 @@ def test_short_runs_are_timed_again(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 ROW = Row("what", OurWay("2 s", "compiled"), OurWay("8 s", "compiled"), "2")
-BOTH = [Measured(True, "fine", 2.0), Measured(False, "8 s, fine", 1.0)]
+BOTH = [TimedTurn(True, "fine", 2.0), TimedTurn(False, "8 s, fine", 1.0)]
 
 
 def test_a_row_is_the_least_of_its_turns() -> None:
-    said = [*BOTH, Measured(True, "fine", 1.5), Measured(False, "8 s, fine", 1.2), *BOTH]
+    said = [*BOTH, TimedTurn(True, "fine", 1.5), TimedTurn(False, "8 s, fine", 1.2), *BOTH]
     line = line_of(ROW, "8 s", Heard(said, ""), 5.0)
     assert (line.ours, line.other, line.how, line.against) == (1.5, 1.0, "fine", "8 s, fine")
     assert line.verdict == "met"
@@ -205,7 +205,7 @@ def test_commands_are_timed_from_start_to_end(tmp_path: Path, monkeypatch: pytes
     failed = command_line(CommandRow("none", ("show", "none.h5"), "1 s", 60.0), tmp_path, 60.0)
     assert math.isnan(failed.ours)
     assert "none.h5" in failed.verdict
-    ended = command_line(CommandRow("version", ("--version",), "0.01 s", 60.0), tmp_path, 0.1)
+    ended = command_line(CommandRow("version", ("--version",), "0.01 s", 60.0), tmp_path, 0.005)
     assert ended.is_more
     assert "beyond" in importing(60.0).what
 
