@@ -16,11 +16,12 @@ from studies.benchmarking.command_rows import COMMANDS, command_line, importing,
 from studies.benchmarking.contest import ENTRANTS, OURS, Standing, cheapest_within, standings
 from studies.benchmarking.contest_figure import figure
 from studies.benchmarking.lines import BenchmarkLine, left_out, sheet
-from studies.benchmarking.row import TimedTurn, OurWay, Row
+from studies.benchmarking.row import OurWay, Row, TimedTurn
 from studies.benchmarking.rows import BOTH, ROWS, TURNS, there, timed_row
 from studies.benchmarking.stopwatch import Heard, Stopwatch, stopwatch
 from studies.common.study import print_table, work_in_folder
 from support_exudyn.commands.command_line import Parser, folder, say, warn
+from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.registry import FORMULATIONS
 from support_exudyn.postprocessing.figures import style
@@ -28,6 +29,7 @@ from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.sweeps.precompile import precompile
 
 HERE = Path(__file__).parent
+MISSES = HERE / "misses.toml"
 BUDGET = 210.0  # of all measurements [s]
 # at most [s]: to compile, an entrant, memory, import
 COMPILING, STANDING, GROWTH, IMPORTING = 60.0, 9.0, 8.0, 4.0
@@ -205,7 +207,7 @@ def write(
     """Print the tables, and write them and the figure."""
     tables = [sheet(lines), contest_sheet(found)]
     words = ["# Benchmark", process.machine(), f"Made in {took:.0f} s by `python -m studies benchmark`."]
-    words += map(process.markdown, tables)
+    words += [process.markdown(tables[0]), *misses(lines), process.markdown(tables[1])]
     words += ["\n".join(f"- {line}" for line in said)] if said else []
     if found:
         with style.look():
@@ -215,6 +217,13 @@ def write(
         print_table(table, WIDTH)
     with whole_file(out / "RESULTS.md") as temporary:
         temporary.write_text("\n\n".join(words) + "\n", encoding="utf-8")
+
+
+def misses(lines: Sequence[BenchmarkLine]) -> list[str]:
+    """Why lines miss what was asked, as a list in Markdown; nothing if none does."""
+    reasons = load_toml(MISSES)
+    told = [f"- {line.what}: {reasons[line.what]}" for line in lines if line.is_missed and line.what in reasons]
+    return ["Why it is missed:", "\n".join(told)] if told else []
 
 
 def main(argv: Sequence[str] | None = None) -> int:

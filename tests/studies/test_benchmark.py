@@ -16,12 +16,12 @@ from matplotlib import image
 from studies import __main__ as all_studies
 from studies.benchmarking import benchmark, command_rows, contest, rows, stopwatch
 from studies.benchmarking.benchmark import Budget, contest_lines, contest_sheet, line_of, write
-from studies.benchmarking.command_rows import CommandRow, command_line, importing
+from studies.benchmarking.command_rows import COMMANDS, CommandRow, command_line, importing
 from studies.benchmarking.contest import ENTRANTS, Found, Standing, cheapest_within
 from studies.benchmarking.lines import BenchmarkLine, left_out, sheet
 from studies.benchmarking.others import OTHERS
 from studies.benchmarking.references import references
-from studies.benchmarking.row import AUTO, LeftOutError, TimedTurn, OurWay, Row, Setting, tolerance
+from studies.benchmarking.row import AUTO, LeftOutError, OurWay, Row, Setting, TimedTurn, tolerance
 from studies.benchmarking.row_scenes import SCENES, ladder, restless
 from studies.benchmarking.rows import ROWS, coarsest, there, timed_row
 from studies.benchmarking.scenes import SCENES as WITH_REFERENCE
@@ -29,6 +29,7 @@ from studies.benchmarking.stopwatch import Heard
 from studies.benchmarking.yardstick import YardstickError, compiled, run_yardstick
 from studies.slider_crank.run import REFERENCE
 from support_exudyn import Failure, SimulationError, simulate
+from support_exudyn.files.toml.text import load_toml
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.simulation.result_checks import energy_open
 
@@ -316,3 +317,13 @@ def test_a_setting_is_put_into_a_scenario() -> None:
     fine = Setting("fine", {"step": 1e-4}, {"impact_steps": 99})
     made = fine.applied(SCENES["rise"](), "redundant")
     assert (made.formulation, made.step, made.solver.impact_steps) == ("redundant", 1e-4, 99)
+
+
+def test_a_line_that_misses_has_its_reason() -> None:
+    reasons = load_toml(benchmark.MISSES)
+    missed = BenchmarkLine(next(iter(reasons)), "", 2.0, asked="1 s")
+    met = BenchmarkLine(missed.what, "", 0.5, asked="1 s")
+    assert benchmark.misses([met]) == []
+    assert benchmark.misses([missed, met])[1] == f"- {missed.what}: {reasons[missed.what]}"
+    known = {row.what for row in (*ROWS, *COMMANDS)}
+    assert set(reasons) <= known
