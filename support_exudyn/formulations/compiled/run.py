@@ -65,7 +65,7 @@ class _Run:
         weights = error_weights(model, self.y, scenario.solver.tolerance)
         going = np.zeros(GOING)
         going[NEXT_STEP] = FIRST_STEP
-        at_once = AT_ONCE // model.scene.bodies.size
+        at_once = max(1, AT_ONCE // model.scene.bodies.size)
         pause = at_once
         for segment, begin, end in zip(model.courses.segments, model.edges, model.edges[1:], strict=False):
             if self.code != FINISHED:
