@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -166,3 +167,15 @@ def test_surfaces_that_are_apart_push_nothing() -> None:
     contacts = [part_of(ROUGH, part) for part in PARTS_OF]
     force = compiled(force_source(geometry, contacts), contacts[0], **names(geometry))["force"]
     assert force(None, 0.0, 0, [0.01] * 14, [0.0] * 14) == [0.0] * 14
+
+
+def test_little_motion_is_known_to_more_than_the_rounding_of_places() -> None:
+    # a stiff contact shows that rounding as steps of its force, on which Newton's method ends nowhere
+    mover = SectionMover(None, end(None, (0.0,) * 3), end(0, (40.0, -30.0, 0.0)), Attachment.JOURNAL)
+    shift, half = 1e-7, 5e-10
+    turned = [shift, 0.0, 0.0, -2.0 * math.sin(0.5 * half) ** 2, 0.0, 0.0, math.sin(half)]
+    x, y = mover.when(turned, [0.0] * 7)[1][:2]
+    less, sine = -2.0 * math.sin(half) ** 2, math.sin(2.0 * half)
+    # the journal's middle is at (-40, 30) on its body
+    assert x == pytest.approx(shift - 40.0 * less - 30.0 * sine, rel=1e-13, abs=0.0)
+    assert y == pytest.approx(-40.0 * sine + 30.0 * less, rel=1e-13, abs=0.0)

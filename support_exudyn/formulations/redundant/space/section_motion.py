@@ -23,50 +23,60 @@ Axes = tuple[Vector, Vector, Vector]
 
 
 class BodyState(NamedTuple):
-    """A body at an instant, from the engine's coordinates: rows of its rotation, centre, velocity, spin."""
+    """A body at an instant, from the engine's coordinates.
+
+    rows: of its rotation less one, which are small where it has turned little. shift: of its centre from the
+    start [m]. Only so is what has moved little known to more than the rounding of places: stiff contacts show
+    that as steps of their force, on which Newton's method ends nowhere.
+    """
 
     rows: tuple[Vector, Vector, Vector]
-    centre: Vector
+    shift: Vector
     velocity: Vector
     spin: Vector
 
     @staticmethod
-    def of(centre: Vector3, q: list[float], v: list[float]) -> BodyState:
-        """The state that follows from the start [m] of the centre, and the body's coordinates and rates (7)."""
+    def of(q: list[float], v: list[float]) -> BodyState:
+        """The state that follows from the body's coordinates and rates (7)."""
         a, b, c, d = 1.0 + q[3], q[4], q[5], q[6]
+        more = q[3] * (2.0 + q[3])  # a a - 1
         ta, tb, tc, td = v[3:7]
         rows = (
-            (a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)),
-            (2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)),
-            (2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d),
+            (more + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)),
+            (2.0 * (b * c + a * d), more - b * b + c * c - d * d, 2.0 * (c * d - a * b)),
+            (2.0 * (b * d - a * c), 2.0 * (c * d + a * b), more - b * b - c * c + d * d),
         )
         spin = (
             2.0 * (-b * ta + a * tb - d * tc + c * td),
             2.0 * (-c * ta + d * tb + a * tc - b * td),
             2.0 * (-d * ta - c * tb + b * tc + a * td),
         )
-        return BodyState(rows, (centre[0] + q[0], centre[1] + q[1], centre[2] + q[2]), (v[0], v[1], v[2]), spin)
+        return BodyState(rows, (q[0], q[1], q[2]), (v[0], v[1], v[2]), spin)
 
     def turned(self, vector: Vector3) -> Vector:
         """A vector of the body's axes, in the ground's."""
+        (x, y, z), (dx, dy, dz) = vector, self._moved(vector)
+        return dx + x, dy + y, dz + z
+
+    def _moved(self, vector: Vector3) -> Vector:
+        """By how much its turn has changed a vector of the body's axes."""
         x, y, z = vector
         (a, b, c), (d, e, f), (g, h, i) = self.rows
         return a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z
 
     def point(self, arm: Vector3) -> tuple[Vector, Vector]:
-        """Position and velocity of a point, its arm in the body's axes."""
+        """Displacement from the start and velocity of a point, its arm in the body's axes."""
+        dx, dy, dz = self._moved(arm)
         ax, ay, az = self.turned(arm)
-        (x, y, z), (vx, vy, vz), (wx, wy, wz) = self.centre, self.velocity, self.spin
-        return (x + ax, y + ay, z + az), (
+        (x, y, z), (vx, vy, vz), (wx, wy, wz) = self.shift, self.velocity, self.spin
+        return (x + dx, y + dy, z + dz), (
             vx + wy * az - wz * ay,
             vy + wz * ax - wx * az,
             vz + wx * ay - wy * ax,
         )
 
 
-GROUND_STATE = BodyState(
-    ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), (0.0,) * 3, (0.0,) * 3, (0.0,) * 3
-)
+GROUND_STATE = BodyState(((0.0,) * 3,) * 3, (0.0,) * 3, (0.0,) * 3, (0.0,) * 3)
 
 
 class SectionEnd(NamedTuple):
@@ -92,7 +102,7 @@ class SectionEnd(NamedTuple):
         if self.first is None:
             return GROUND_STATE
         which = slice(self.first, self.first + 7)
-        return BodyState.of(self.centre, position[which], velocity[which])
+        return BodyState.of(position[which], velocity[which])
 
 
 @dataclass
@@ -133,9 +143,15 @@ class SectionMover:
 
     def apart(self, bore: BodyState, journal: BodyState) -> tuple[Vector, Vector]:
         """The vector from the bore's section to the journal's, and its rate, ground's axes."""
-        (bx, by, bz), (bvx, bvy, bvz) = bore.point(self.bore.beside(self.shifts[0]))
-        (jx, jy, jz), (jvx, jvy, jvz) = journal.point(self.journal.beside(self.shifts[1]))
-        return (jx - bx, jy - by, jz - bz), (jvx - bvx, jvy - bvy, jvz - bvz)
+        at_bore, at_journal = self.bore.beside(self.shifts[0]), self.journal.beside(self.shifts[1])
+        (bx, by, bz), (bvx, bvy, bvz) = bore.point(at_bore)
+        (jx, jy, jz), (jvx, jvy, jvz) = journal.point(at_journal)
+        # at the start
+        x, y, z = (
+            (cj + j) - (cb + b)
+            for cj, j, cb, b in zip(self.journal.centre, at_journal, self.bore.centre, at_bore, strict=True)
+        )
+        return (jx - bx + x, jy - by + y, jz - bz + z), (jvx - bvx, jvy - bvy, jvz - bvz)
 
     def axes(self, bore: BodyState, journal: BodyState) -> Axes:
         """The axes in which the force of a section is given, in the ground's."""
