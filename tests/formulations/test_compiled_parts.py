@@ -29,7 +29,7 @@ from support_exudyn import (
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.formulations.compilation import plain
 from support_exudyn.formulations.compiled import forces, masses, motion
-from support_exudyn.formulations.compiled.arrays import Scene, scratch
+from support_exudyn.formulations.compiled.arrays import SceneArrays, scratch
 from support_exudyn.formulations.compiled.courses import courses, segment_edges
 from support_exudyn.formulations.compiled.run import _Run
 from support_exudyn.formulations.compiled.setup import Model, model_of
@@ -70,7 +70,7 @@ class Instant(NamedTuple):
     """A scene at places and velocities that no run has: far from closed, so that everything shows."""
 
     model: Model
-    scene: Scene
+    scene: SceneArrays
     kinetics: Kinetics
     y: np.ndarray
     position: np.ndarray
@@ -82,9 +82,11 @@ def _model(name: str) -> Model:
     return model_of(SCENES[name]())
 
 
-def readable(scene: Scene) -> Scene:
+def readable(scene: SceneArrays) -> SceneArrays:
     """The same with records that plain Python reads by the names of their fields."""
-    return Scene(*(array.copy().view(np.recarray) if array.dtype.names else array.copy() for array in scene))
+    return SceneArrays(
+        *(array.copy().view(np.recarray) if array.dtype.names else array.copy() for array in scene)
+    )
 
 
 def instant(name: str, seed: int = 1, apart: float = 0.05) -> Instant:
@@ -106,12 +108,12 @@ def instant(name: str, seed: int = 1, apart: float = 0.05) -> Instant:
     )
 
 
-def _look(scene: Scene, y: np.ndarray) -> None:
+def _look(scene: SceneArrays, y: np.ndarray) -> None:
     plain(motion.place)(scene, y)
     plain(motion.hold)(scene, y)
 
 
-def matrix(scene: Scene, count: int) -> np.ndarray:
+def matrix(scene: SceneArrays, count: int) -> np.ndarray:
     """The rows as a matrix over all velocities."""
     found = np.zeros((scene.rows.size, count))
     for row, one in zip(found, scene.rows, strict=True):

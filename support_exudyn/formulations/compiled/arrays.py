@@ -62,14 +62,14 @@ CYLINDER = _record(
 # of its own courses, and how many. hangs: by what spring what it brings along hangs over its point, while a
 # static equilibrium is looked for; else 0
 LOAD = _record("point origin moment constants course courses", "law hangs fx fy work loss")
-# what a load is told of its own courses, and where in `Scene.out`
+# what a load is told of its own courses, and where in `SceneArrays.out`
 FIRST_COURSE, COURSES_OF_LOAD = 4, 8
 BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")
 # friction of an ideal pin, of which `row` is the first row
 RUBBING = _record("row body other constants", "law radius moment")
 
 
-class Scene(NamedTuple):
+class SceneArrays(NamedTuple):
     """All that an evaluation of the equations of motion takes. square: C M^-1 C^T and its factors."""
 
     bodies: Records
@@ -117,7 +117,7 @@ class Scratch(NamedTuple):
     sizes: Vector
 
 
-def scratch(scene: Scene, states: int) -> Scratch:
+def scratch(scene: SceneArrays, states: int) -> Scratch:
     """Room for a scene with so many states."""
     rows, most = scene.rows.size, 2 + scene.contacts.size
     across = np.zeros((most, 3 * scene.bodies.size))

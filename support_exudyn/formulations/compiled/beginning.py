@@ -1,7 +1,7 @@
 """How a run begins, and how velocities jump where the speed of a drive does."""
 
 from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import JUMP_ENERGY, WORK, Matrix, Scene, Scratch, Vector
+from support_exudyn.formulations.compiled.arrays import JUMP_ENERGY, WORK, Matrix, SceneArrays, Scratch, Vector
 from support_exudyn.formulations.compiled.masses import renew_mass
 from support_exudyn.formulations.compiled.motion import SINGULAR, divide, respond
 from support_exudyn.formulations.compiled.recording import write_record
@@ -9,7 +9,7 @@ from support_exudyn.formulations.compiled.step import evaluate
 
 
 @once
-def begin_run(scene: Scene, room: Scratch, y: Vector, rows: Matrix) -> bool:
+def begin_run(scene: SceneArrays, room: Scratch, y: Vector, rows: Matrix) -> bool:
     """Write the first record at 0 s, with the masses that contacts are told then; whether the linkage moves."""
     least = evaluate(scene, 0.0, y, room.slope, room.right)
     for n in range(scene.contacts.size):
@@ -26,7 +26,7 @@ def begin_run(scene: Scene, room: Scratch, y: Vector, rows: Matrix) -> bool:
 
 
 @compiled
-def kinetic_energy(scene: Scene, y: Vector) -> float:
+def kinetic_energy(scene: SceneArrays, y: Vector) -> float:
     """Kinetic energy of all bodies [J]."""
     count, total = scene.bodies.size, 0.0
     for n in range(count):
@@ -36,7 +36,7 @@ def kinetic_energy(scene: Scene, y: Vector) -> float:
 
 
 @once
-def jump(scene: Scene, room: Scratch, t: float, y: Vector, jumps: Vector, report: Vector) -> None:
+def jump(scene: SceneArrays, room: Scratch, t: float, y: Vector, jumps: Vector, report: Vector) -> None:
     """Change velocities as speeds of drives jump at t [s], jumps by course."""
     jumped = False
     for n in range(jumps.size):

@@ -3,13 +3,13 @@
 import math
 
 from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import IMPACTS, Matrix, Scene, Scratch, Vector
+from support_exudyn.formulations.compiled.arrays import IMPACTS, Matrix, SceneArrays, Scratch, Vector
 from support_exudyn.formulations.compiled.depth import IMPACT, RETURN, SEPARATION, TOGETHER
 from support_exudyn.formulations.compiled.masses import renew_mass
 
 
 @once
-def separate(scene: Scene, n: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> None:
+def separate(scene: SceneArrays, n: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> None:
     """The surfaces of a contact part at t [s]."""
     contact = scene.contacts[n]
     contact.closed = contact.impact_velocity = 0.0
@@ -22,7 +22,7 @@ def separate(scene: Scene, n: int, t: float, y: Vector, onsets: Matrix, report: 
 
 
 @compiled
-def strike(scene: Scene, n: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> bool:
+def strike(scene: SceneArrays, n: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> bool:
     """The surfaces of a contact meet at t [s]; whether there is room to note it."""
     i = int(report[IMPACTS])
     if i >= onsets.shape[0]:
@@ -38,7 +38,7 @@ def strike(scene: Scene, n: int, t: float, y: Vector, onsets: Matrix, report: Ve
 
 
 @once
-def happen(scene: Scene, n: int, what: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> bool:
+def happen(scene: SceneArrays, n: int, what: int, t: float, y: Vector, onsets: Matrix, report: Vector) -> bool:
     """Change what contacts remember as an event of one at t [s] does; whether there is room for it.
 
     Others that meet at the same instant, as both corners of a face do, impact with it.
@@ -61,7 +61,7 @@ def happen(scene: Scene, n: int, what: int, t: float, y: Vector, onsets: Matrix,
 
 @once
 def renew_masses(
-    scene: Scene, room: Scratch, n: int, what: int, t: float, y: Vector, onsets: Matrix, report: Vector
+    scene: SceneArrays, room: Scratch, n: int, what: int, t: float, y: Vector, onsets: Matrix, report: Vector
 ) -> None:
     """Renew the mass that the law of a contact is told, and of others that have impacted with it."""
     if what == RETURN:

@@ -31,7 +31,7 @@ TimeFunction = Callable[[float], float]
 
 
 class Courses(NamedTuple):
-    """All courses: their pieces with coefficients, and for each segment of time the records of `Scene`."""
+    """All courses: their pieces with coefficients, and for each segment of time the records of `SceneArrays`."""
 
     pieces: Records
     coefficients: Matrix

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.formulations.compilation import call_law, compiled, entry
-from support_exudyn.formulations.compiled.arrays import Matrix, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import Matrix, SceneArrays, Vector
 from support_exudyn.formulations.compiled.forces import (
     observe,
     press_bushings,
@@ -60,7 +60,9 @@ class Centring(NamedTuple):
 
 
 @compiled
-def balance(scene: Scene, centring: Centring, volumes: Matrix, y: Vector, x: Vector, left: Vector) -> None:
+def balance(
+    scene: SceneArrays, centring: Centring, volumes: Matrix, y: Vector, x: Vector, left: Vector
+) -> None:
     """Write what is left of forces and joints at places and multipliers x; pressures in y follow from them."""
     count = 3 * scene.bodies.size
     for i in range(count):
@@ -103,7 +105,7 @@ def balance(scene: Scene, centring: Centring, volumes: Matrix, y: Vector, x: Vec
 
 
 @compiled
-def centre(scene: Scene, centring: Centring, n: int, y: Vector) -> None:
+def centre(scene: SceneArrays, centring: Centring, n: int, y: Vector) -> None:
     """Let the elastic force of a contact act, and that of a spring to its middle."""
     contact = scene.contacts[n]
     observe(scene, n, y)
@@ -121,7 +123,7 @@ def centre(scene: Scene, centring: Centring, n: int, y: Vector) -> None:
 
 @entry
 def linearised(
-    scene: Scene,
+    scene: SceneArrays,
     centring: Centring,
     volumes: Matrix,
     y: Vector,

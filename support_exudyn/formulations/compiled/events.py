@@ -7,7 +7,7 @@ leaves in doubt whether something happens, the step is too long, and is made aga
 import math
 
 from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import Matrix, Records, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import Matrix, Records, SceneArrays, Vector
 from support_exudyn.formulations.compiled.depth import (
     CUT,
     CUT_MET,
@@ -28,7 +28,7 @@ from support_exudyn.formulations.compiled.step import within
 
 
 @compiled
-def look(scene: Scene, n: int, x: float, path: Matrix, y: Vector, slope: Vector, forced: bool) -> None:
+def look(scene: SceneArrays, n: int, x: float, path: Matrix, y: Vector, slope: Vector, forced: bool) -> None:
     """Let a contact stand in the scene as it is at a fraction x of a step; y and slope are overwritten.
 
     forced: with its force. Directions and points of its two bodies alone are those of that instant then.
@@ -58,7 +58,7 @@ def look(scene: Scene, n: int, x: float, path: Matrix, y: Vector, slope: Vector,
 
 @once
 def in_flight(
-    scene: Scene, n: int, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
+    scene: SceneArrays, n: int, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
 ) -> Found:
     """What happens to a contact in a step that begins apart. start, end: all contacts there."""
     one, two = start[n], end[n]
@@ -84,7 +84,7 @@ def in_flight(
 
 @once
 def cut_twice(
-    scene: Scene, n: int, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
+    scene: SceneArrays, n: int, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
 ) -> bool:
     """Whether the law asks for tension in the midst of a step, but not at its ends, or the reverse."""
     before, after = start[n].push, end[n].push
@@ -101,7 +101,7 @@ def cut_twice(
 
 @once
 def closed(
-    scene: Scene, n: int, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
+    scene: SceneArrays, n: int, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
 ) -> Found:
     """What happens in a step that begins in contact, see `in_flight` for the arguments."""
     one, two = start[n], end[n]
@@ -122,7 +122,7 @@ def closed(
 
 @once
 def first_event(
-    scene: Scene, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
+    scene: SceneArrays, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
 ) -> tuple[int, int, float, float]:
     """The contact to which something happens first in a step, what, and between which fractions.
 

@@ -8,7 +8,7 @@ from support_exudyn.formulations.compiled.arrays import (
     FIRST_COURSE,
     FRICTION_LOSS,
     WORK,
-    Scene,
+    SceneArrays,
     Vector,
 )
 from support_exudyn.formulations.compiled.motion import push, push_point, spin_of
@@ -19,7 +19,7 @@ from user_forces.lawful import ROUNDING
 
 
 @inlined
-def observe(scene: Scene, n: int, y: Vector) -> None:
+def observe(scene: SceneArrays, n: int, y: Vector) -> None:
     """Write how a journal stands in its bore and moves there, from directions and places of its bodies."""
     contact = scene.contacts[n]
     bore, journal = scene.points[contact.first], scene.points[contact.second]
@@ -57,7 +57,7 @@ def observe(scene: Scene, n: int, y: Vector) -> None:
 
 
 @inlined
-def effective_mass(scene: Scene, n: int) -> float:
+def effective_mass(scene: SceneArrays, n: int) -> float:
     """Mass [kg] that moves along the eccentricity, by the remembered inverse effective mass."""
     contact = scene.contacts[n]
     c, s = axes_of(scene, n)
@@ -68,7 +68,7 @@ def effective_mass(scene: Scene, n: int) -> float:
 
 
 @inlined
-def axes_of(scene: Scene, n: int) -> tuple[float, float]:
+def axes_of(scene: SceneArrays, n: int) -> tuple[float, float]:
     """Direction of the bore's or the slot's axes now."""
     contact = scene.contacts[n]
     c, s = math.cos(contact.angle), math.sin(contact.angle)
@@ -80,7 +80,7 @@ def axes_of(scene: Scene, n: int) -> tuple[float, float]:
 
 
 @inlined
-def press(scene: Scene, n: int, y: Vector, slope: Vector) -> None:
+def press(scene: SceneArrays, n: int, y: Vector, slope: Vector) -> None:
     """Write the force of a contact that has been observed, and the rate of its friction law's state.
 
     Before the surfaces have separated the law goes on as at SHALLOWEST, so that one with a dashpot does not
@@ -128,7 +128,7 @@ def press(scene: Scene, n: int, y: Vector, slope: Vector) -> None:
 
 
 @inlined
-def push_contact(scene: Scene, n: int) -> None:
+def push_contact(scene: SceneArrays, n: int) -> None:
     """Let a contact's force act at one point of space on both bodies."""
     contact = scene.contacts[n]
     if contact.closed == 0.0:
@@ -145,7 +145,7 @@ def push_contact(scene: Scene, n: int) -> None:
 
 
 @inlined
-def lengthening(scene: Scene, foot: int, head: int) -> tuple[float, float, float, float]:
+def lengthening(scene: SceneArrays, foot: int, head: int) -> tuple[float, float, float, float]:
     """Length between two points [m], its rate [m/s], and the direction."""
     one, two = scene.points[foot], scene.points[head]
     dx, dy = two.x - one.x, two.y - one.y
@@ -155,14 +155,14 @@ def lengthening(scene: Scene, foot: int, head: int) -> tuple[float, float, float
 
 
 @inlined
-def push_apart(scene: Scene, foot: int, head: int, fx: float, fy: float) -> None:
+def push_apart(scene: SceneArrays, foot: int, head: int, fx: float, fy: float) -> None:
     """Add a force on the second point and its opposite on the first."""
     push_point(scene, head, fx, fy)
     push_point(scene, foot, -fx, -fy)
 
 
 @compiled
-def press_oil(scene: Scene) -> None:
+def press_oil(scene: SceneArrays) -> None:
     """Forces and powers of columns of oil, see `OilColumn`."""
     for n in range(scene.oil.size):
         one = scene.oil[n]
@@ -196,7 +196,7 @@ def density(pressure: float, modulus: float) -> float:
 
 
 @compiled
-def press_cylinders(scene: Scene, y: Vector, slope: Vector) -> None:
+def press_cylinders(scene: SceneArrays, y: Vector, slope: Vector) -> None:
     """Forces, powers and rates of the pressures of hydraulic cylinders, see `HydraulicCylinder`."""
     for n in range(scene.cylinders.size):
         one = scene.cylinders[n]
@@ -221,7 +221,7 @@ def press_cylinders(scene: Scene, y: Vector, slope: Vector) -> None:
 
 
 @compiled
-def press_loads(scene: Scene, t: float, y: Vector) -> None:
+def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
     """Forces, moments and powers of loads."""
     for n in range(scene.loads.size):
         one = scene.loads[n]
@@ -251,7 +251,7 @@ def press_loads(scene: Scene, t: float, y: Vector) -> None:
 
 
 @compiled
-def press_bushings(scene: Scene, y: Vector) -> None:
+def press_bushings(scene: SceneArrays, y: Vector) -> None:
     """Forces and moments of bushings on their second bodies, see `BushingPin`."""
     for n in range(scene.bushings.size):
         one = scene.bushings[n]
@@ -271,7 +271,7 @@ def press_bushings(scene: Scene, y: Vector) -> None:
 
 
 @once
-def powers(scene: Scene, y: Vector, slope: Vector) -> None:
+def powers(scene: SceneArrays, y: Vector, slope: Vector) -> None:
     """Write the rates of losses and work into `slope`."""
     damping = friction = work = 0.0
     for n in range(scene.contacts.size):

@@ -16,7 +16,7 @@ from support_exudyn.formulations.compiled.arrays import (
     TOO_MANY_IMPACTS,
     TOO_MANY_STEPS,
     Matrix,
-    Scene,
+    SceneArrays,
     Scratch,
     Vector,
 )
@@ -45,7 +45,7 @@ from support_exudyn.formulations.compiled.step_control import CLOSE, SHORTEN, SM
 
 @entry
 def integrate(
-    scene: Scene,
+    scene: SceneArrays,
     begin: float,
     stop: float,
     jumps: Vector,

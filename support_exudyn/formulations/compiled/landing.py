@@ -1,7 +1,14 @@
 """A step made again so that it ends where something happens to a contact."""
 
 from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import EVALUATIONS, STAGES, Matrix, Records, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import (
+    EVALUATIONS,
+    STAGES,
+    Matrix,
+    Records,
+    SceneArrays,
+    Vector,
+)
 from support_exudyn.formulations.compiled.depth import CUT, CUT_MET, IMPACT, RETURN, TOGETHER
 from support_exudyn.formulations.compiled.step import advance
 from support_exudyn.formulations.compiled.step_control import LANDED, LANDINGS, TURNS, crossing
@@ -17,7 +24,7 @@ def copy_contacts(source: Records, target: Records) -> None:
 
 
 @compiled
-def quantity(scene: Scene, n: int, which: int) -> float:
+def quantity(scene: SceneArrays, n: int, which: int) -> float:
     """Depth, push or rate of a contact as it stands in the scene."""
     if which == DEPTH:
         return float(scene.contacts[n].depth)
@@ -39,7 +46,7 @@ def met_before(n: int, start: Records, end: Records) -> int:
 
 @once
 def land(
-    scene: Scene,
+    scene: SceneArrays,
     n: int,
     t: float,
     h: float,

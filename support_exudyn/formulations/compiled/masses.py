@@ -6,14 +6,14 @@
 import math
 
 from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import Matrix, Scene, Scratch, Vector
+from support_exudyn.formulations.compiled.arrays import Matrix, SceneArrays, Scratch, Vector
 from support_exudyn.formulations.compiled.forces import axes_of
 from support_exudyn.formulations.compiled.motion import divide, rate_of, respond
 from support_exudyn.mechanics.pressed_pins import GIVES, NEAR, SAME
 
 
 @compiled
-def row_of(scene: Scene, n: int, ux: float, uy: float, out: Vector) -> None:
+def row_of(scene: SceneArrays, n: int, ux: float, uy: float, out: Vector) -> None:
     """Write what a contact's eccentricity, or its slip, along a direction gains by velocities of all bodies."""
     for i in range(out.size):
         out[i] = 0.0
@@ -35,7 +35,7 @@ def row_of(scene: Scene, n: int, ux: float, uy: float, out: Vector) -> None:
 
 
 @compiled
-def answer(scene: Scene, row: Vector, right: Vector, out: Vector) -> None:
+def answer(scene: SceneArrays, row: Vector, right: Vector, out: Vector) -> None:
     """Write the velocities of all bodies by an impulse along a row; rows and factors are those of now."""
     for n in range(scene.bodies.size):
         body, i = scene.bodies[n], 3 * n
@@ -51,7 +51,7 @@ def answer(scene: Scene, row: Vector, right: Vector, out: Vector) -> None:
 
 
 @once
-def is_pressed(scene: Scene, n: int) -> bool:
+def is_pressed(scene: SceneArrays, n: int) -> bool:
     """Whether a contact's surfaces overlap, or touch."""
     contact = scene.contacts[n]
     return bool(contact.depth > -NEAR * contact.clearance)
@@ -96,7 +96,7 @@ def solved(square: Matrix, right: Matrix, count: int, columns: int) -> None:
 
 
 @compiled
-def renew_mass(scene: Scene, room: Scratch, n: int, v: Vector) -> None:
+def renew_mass(scene: SceneArrays, room: Scratch, n: int, v: Vector) -> None:
     """Remember how easily a journal moves against its bore now, held by what else is pressed.
 
     Arguments:
@@ -162,7 +162,7 @@ def renew_mass(scene: Scene, room: Scratch, n: int, v: Vector) -> None:
 
 
 @once
-def mass_together(scene: Scene, room: Scratch, n: int, v: Vector, moving: int) -> float:
+def mass_together(scene: SceneArrays, room: Scratch, n: int, v: Vector, moving: int) -> float:
     """The mass of a corner that impacts with others, see `pressed_pins.struck_together`; 0: none does."""
     contact = scene.contacts[n]
     coordinates = 3 * scene.bodies.size

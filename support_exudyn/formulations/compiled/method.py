@@ -8,7 +8,7 @@ from support_exudyn.formulations.compiled.arrays import (
     NOT_A_NUMBER,
     STAGES,
     STIFF,
-    Scene,
+    SceneArrays,
     Scratch,
     Vector,
 )
@@ -54,7 +54,7 @@ def leave_stabilised(going: Vector, h: float) -> float:
 
 @once
 def choose_method(
-    scene: Scene,
+    scene: SceneArrays,
     room: Scratch,
     going: Vector,
     t: float,
@@ -92,7 +92,14 @@ def choose_method(
 
 @once
 def try_step(
-    scene: Scene, room: Scratch, going: Vector, t: float, h: float, y: Vector, weights: Vector, report: Vector
+    scene: SceneArrays,
+    room: Scratch,
+    going: Vector,
+    t: float,
+    h: float,
+    y: Vector,
+    weights: Vector,
+    report: Vector,
 ) -> float:
     """Try a step of h [s] from t by the method that is on; its error in units of what is allowed."""
     if going[DECAY] > 0.0:

@@ -10,13 +10,13 @@ by factors L D L^T of the square matrix, within the envelope that the order of t
 import math
 
 from support_exudyn.formulations.compilation import compiled, inlined, once
-from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
 
 SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
 
 
 @inlined
-def follow_courses(scene: Scene, t: float) -> None:
+def follow_courses(scene: SceneArrays, t: float) -> None:
     """Write value, rate and second derivative of all time courses at t [s]."""
     for n in range(scene.courses.size):
         one = scene.courses[n]
@@ -40,7 +40,7 @@ def follow_courses(scene: Scene, t: float) -> None:
 
 
 @inlined
-def place(scene: Scene, y: Vector) -> None:
+def place(scene: SceneArrays, y: Vector) -> None:
     """Write directions of bodies, and places and velocities of all points."""
     count = scene.bodies.size
     for n in range(count):
@@ -62,7 +62,7 @@ def place(scene: Scene, y: Vector) -> None:
 
 
 @inlined
-def spin_of(scene: Scene, y: Vector, body: int) -> float:
+def spin_of(scene: SceneArrays, y: Vector, body: int) -> float:
     """Angular velocity of a body [rad/s]."""
     return float(y[3 * (scene.bodies.size + body) + 2]) if body >= 0 else 0.0
 
@@ -74,7 +74,7 @@ def turn_of(y: Vector, body: int) -> float:
 
 
 @inlined
-def hold(scene: Scene, y: Vector) -> None:
+def hold(scene: SceneArrays, y: Vector) -> None:
     """Write the rows of all joints, what C a has to be, what is left of the positions, and rates to have."""
     for n in range(scene.joints.size):
         joint = scene.joints[n]
@@ -136,7 +136,7 @@ def hold(scene: Scene, y: Vector) -> None:
 
 
 @once
-def factor(scene: Scene) -> float:
+def factor(scene: SceneArrays) -> float:
     """Write C M^-1 C^T as its factors L, and 1 / D on the diagonal; the least share that is left of a row."""
     count = scene.rows.size
     square = scene.square
@@ -176,7 +176,7 @@ def factor(scene: Scene) -> float:
 
 
 @inlined
-def divide(scene: Scene, right: Vector) -> None:
+def divide(scene: SceneArrays, right: Vector) -> None:
     """Solve C M^-1 C^T x = right by the factors; x stands in `right` afterwards."""
     count = scene.rows.size
     square = scene.square
@@ -194,7 +194,7 @@ def divide(scene: Scene, right: Vector) -> None:
 
 
 @inlined
-def rate_of(scene: Scene, row: int, v: Vector, start: int) -> float:
+def rate_of(scene: SceneArrays, row: int, v: Vector, start: int) -> float:
     """What a row makes of velocities that stand in `v` from `start` on."""
     one = scene.rows[row]
     total = 0.0
@@ -208,7 +208,7 @@ def rate_of(scene: Scene, row: int, v: Vector, start: int) -> float:
 
 
 @compiled
-def respond(scene: Scene, multipliers: Vector, v: Vector, start: int) -> None:
+def respond(scene: SceneArrays, multipliers: Vector, v: Vector, start: int) -> None:
     """Take M^-1 C^T L off the velocities or displacements that stand in `v` from `start` on."""
     for n in range(scene.rows.size):
         row = scene.rows[n]
@@ -226,7 +226,7 @@ def respond(scene: Scene, multipliers: Vector, v: Vector, start: int) -> None:
 
 
 @inlined
-def push(scene: Scene, body: int, fx: float, fy: float, moment: float) -> None:
+def push(scene: SceneArrays, body: int, fx: float, fy: float, moment: float) -> None:
     """Add a force [N] at the centre of mass of a body and a moment [N m] to what acts on it."""
     if body >= 0:
         one = scene.bodies[body]
@@ -236,14 +236,14 @@ def push(scene: Scene, body: int, fx: float, fy: float, moment: float) -> None:
 
 
 @inlined
-def push_point(scene: Scene, point: int, fx: float, fy: float) -> None:
+def push_point(scene: SceneArrays, point: int, fx: float, fy: float) -> None:
     """Add a force [N] at a point to what acts on its body."""
     at = scene.points[point]
     push(scene, at.body, fx, fy, at.rx * fy - at.ry * fx)
 
 
 @inlined
-def solve(scene: Scene, right: Vector) -> None:
+def solve(scene: SceneArrays, right: Vector) -> None:
     """Write multipliers and accelerations under the forces that act on the bodies; `right` is overwritten."""
     for n in range(scene.bodies.size):
         body = scene.bodies[n]

@@ -3,7 +3,15 @@
 import math
 
 from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import CLAMPED, MEMORY, RECORDS, Matrix, Scene, Scratch, Vector
+from support_exudyn.formulations.compiled.arrays import (
+    CLAMPED,
+    MEMORY,
+    RECORDS,
+    Matrix,
+    SceneArrays,
+    Scratch,
+    Vector,
+)
 from support_exudyn.formulations.compiled.events import look
 from support_exudyn.formulations.compiled.landing import copy_contacts
 from support_exudyn.formulations.compiled.step import close_joints, evaluate, within
@@ -11,13 +19,15 @@ from support_exudyn.formulations.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK
 
 
 @compiled
-def size(scene: Scene, n: int) -> float:
+def size(scene: SceneArrays, n: int) -> float:
     """Magnitude of a contact's force [N] as it stands in the scene."""
     return math.hypot(scene.contacts[n].normal, scene.contacts[n].friction)
 
 
 @compiled
-def peak(scene: Scene, n: int, path: Matrix, last: float, y: Vector, slope: Vector) -> tuple[float, float]:
+def peak(
+    scene: SceneArrays, n: int, path: Matrix, last: float, y: Vector, slope: Vector
+) -> tuple[float, float]:
     """The largest force [N] of a contact in a step that ends with the force `last` [N], and at which fraction.
 
     That at points between the ends, and the highest between these, which may be a corner (where what limits
@@ -53,7 +63,7 @@ def peak(scene: Scene, n: int, path: Matrix, last: float, y: Vector, slope: Vect
 
 
 @compiled
-def write_record(scene: Scene, t: float, y: Vector, slope: Vector, row: Vector) -> None:
+def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Vector) -> None:
     """Write a record of what has been evaluated at t [s].
 
     That is the state, accelerations, multipliers, what contacts remember, courses, moments of friction.
@@ -88,7 +98,7 @@ def write_record(scene: Scene, t: float, y: Vector, slope: Vector, row: Vector) 
 
 
 @once
-def note_peaks(scene: Scene, room: Scratch, t: float, h: float, report: Vector) -> None:
+def note_peaks(scene: SceneArrays, room: Scratch, t: float, h: float, report: Vector) -> None:
     """Keep the largest forces of a step of h [s] from t, whose ends are `room.now` and `room.then`."""
     now, then = room.now, room.then
     for m in range(then.size):
@@ -103,7 +113,14 @@ def note_peaks(scene: Scene, room: Scratch, t: float, h: float, report: Vector) 
 
 @once
 def write_records(
-    scene: Scene, room: Scratch, t: float, h: float, until: float, times: Vector, rows: Matrix, report: Vector
+    scene: SceneArrays,
+    room: Scratch,
+    t: float,
+    h: float,
+    until: float,
+    times: Vector,
+    rows: Matrix,
+    report: Vector,
 ) -> None:
     """Write the records within a step of h [s] from t, up to `until` [s]."""
     n = int(report[RECORDS])

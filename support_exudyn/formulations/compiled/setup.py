@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from support_exudyn.formulations.compilation import compiled_law
 from support_exudyn.formulations.compiled import arrays
-from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, Scene, Vector, Whole
+from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
 from support_exudyn.formulations.compiled.courses import Courses, TimeFunction, courses, segment_edges
 from support_exudyn.formulations.compiled.written import load_source
 from support_exudyn.formulations.time_grid import record_times
@@ -40,7 +40,7 @@ class Model:
     """
 
     scenario: Scenario
-    scene: Scene
+    scene: SceneArrays
     courses: Courses
     edges: list[float]
     times: Vector
@@ -116,7 +116,7 @@ def model_of(scenario: Scenario) -> Model:
     bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
     rubbing = _rubbing(scenario, build, joints)
-    scene = Scene(
+    scene = SceneArrays(
         bodies=_bodies(scenario),
         points=_points(build, linkage),
         courses=found.segments[0].copy(),

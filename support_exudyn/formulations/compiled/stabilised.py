@@ -11,7 +11,7 @@ Source: Sommeijer, Shampine and Verwer, RKC: an explicit solver for parabolic PD
 import math
 
 from support_exudyn.formulations.compilation import compiled
-from support_exudyn.formulations.compiled.arrays import STAGES, Matrix, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import STAGES, Matrix, SceneArrays, Vector
 from support_exudyn.formulations.compiled.motion import SINGULAR
 from support_exudyn.formulations.compiled.step import close_joints, evaluate
 
@@ -47,7 +47,7 @@ def longest(decay: float) -> float:
 
 @compiled
 def fastest_decay(
-    scene: Scene, t: float, y: Vector, k: Matrix, along: Vector, weights: Vector, right: Vector
+    scene: SceneArrays, t: float, y: Vector, k: Matrix, along: Vector, weights: Vector, right: Vector
 ) -> float:
     """The fastest decay [1/s] of a state whose rate is k[0], by the power method from a direction `along`.
 
@@ -74,7 +74,7 @@ def fastest_decay(
 
 @compiled
 def advance_stabilised(
-    scene: Scene,
+    scene: SceneArrays,
     t: float,
     h: float,
     decay: float,

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from support_exudyn.formulations.compilation import call_law, compiled, once
-from support_exudyn.formulations.compiled.arrays import LOSSES, STAGES, Matrix, Scene, Vector
+from support_exudyn.formulations.compiled.arrays import LOSSES, STAGES, Matrix, SceneArrays, Vector
 from support_exudyn.formulations.compiled.forces import (
     observe,
     powers,
@@ -70,7 +70,7 @@ ROUNDS = 4  # of the projection
 
 
 @compiled
-def evaluate(scene: Scene, t: float, y: Vector, slope: Vector, right: Vector) -> float:
+def evaluate(scene: SceneArrays, t: float, y: Vector, slope: Vector, right: Vector) -> float:
     """Write the rate of the state y at time t [s] into `slope`; the least share of a row that joints leave.
 
     right: scratch, one number a row. All that acts, and what joints carry, stands in the scene's records.
@@ -112,7 +112,7 @@ def evaluate(scene: Scene, t: float, y: Vector, slope: Vector, right: Vector) ->
 
 
 @once
-def rub(scene: Scene, y: Vector, right: Vector) -> None:
+def rub(scene: SceneArrays, y: Vector, right: Vector) -> None:
     """Find friction in ideal pins and the forces in them together: moment = radius law(radius spin, force)."""
     for _ in range(RUBBINGS):
         changed = largest = 0.0
@@ -134,7 +134,7 @@ def rub(scene: Scene, y: Vector, right: Vector) -> None:
 
 
 @compiled
-def close_joints(scene: Scene, t: float, y: Vector, right: Vector) -> None:
+def close_joints(scene: SceneArrays, t: float, y: Vector, right: Vector) -> None:
     """Close the joints of a state at t [s], and give it rates that keep them so.
 
     The factors are those of an evaluation near by.
@@ -162,7 +162,7 @@ def close_joints(scene: Scene, t: float, y: Vector, right: Vector) -> None:
 
 @compiled
 def advance(
-    scene: Scene,
+    scene: SceneArrays,
     t: float,
     h: float,
     y: Vector,
