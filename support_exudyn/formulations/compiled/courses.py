@@ -31,7 +31,7 @@ TimeFunction = Callable[[float], float]
 
 
 class Courses(NamedTuple):
-    """All courses: their pieces with coefficients, and the records of `SceneArrays` for each segment of time."""
+    """All courses: their pieces with coefficients; the records of `SceneArrays` for each segment of time."""
 
     pieces: Records
     coefficients: Matrix
