@@ -30,11 +30,11 @@ def run(given: argparse.Namespace) -> None:
 
 def _commands() -> str:
     """The page on commands: the help of each."""
-    names: tuple[str, ...] = import_module("support_exudyn.commands.parser").NAMES
+    names: dict[str, str] = import_module("support_exudyn.commands.parser").NAMES
     parts = ["# Commands\n\n`support-exudyn COMMAND ...`, or `python -m support_exudyn COMMAND ...`"]
-    for name in names:
+    for name, does in names.items():
         one = import_module(f"support_exudyn.commands.{name}")
-        parser = Parser(prog=f"support-exudyn {name}", description=f"{one.HELP[:1].upper()}{one.HELP[1:]}.")
+        parser = Parser(prog=f"support-exudyn {name}", description=f"{does[:1].upper()}{does[1:]}.")
         one.add_arguments(parser)
         parts.append(f"## {name}\n\n```text\n{parser.format_help().strip()}\n```")
     return "\n\n".join(parts) + "\n"

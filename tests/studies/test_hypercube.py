@@ -113,7 +113,7 @@ class Story:
     finished: list[Marks]  # what was there after each kill
 
 
-@pytest.fixture(scope="module", params=[Often(3, 2, 0, "fork"), Often(12, 10, 4, "spawn")])
+@pytest.fixture(scope="module", params=[Often(6, 2, 0, "fork"), Often(12, 10, 4, "spawn")])
 def story(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Story:
     often: Often = request.param
     whole, killed = tmp_path_factory.mktemp("whole"), tmp_path_factory.mktemp("killed")
