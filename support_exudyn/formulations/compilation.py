@@ -25,7 +25,7 @@ except ImportError:  # Windows
     _fcntl = None  # type: ignore[assignment]
 
 fcntl: Any = _fcntl
-SECONDS = {"closed_forms": 8, "compiled": 10}  # that compiling takes on a quiet machine of 2020
+SECONDS = {"closed_forms": 8, "compiled": 17}  # that compiling takes on a quiet machine of 2020
 CONSTANTS_OF = (contact_events, contact)  # modules of which compiled functions use constants
 ALLOCATES = (
     ".closed_forms."  # entries there make arrays; elsewhere all functions are given those that they fill
