@@ -71,7 +71,7 @@ FORMULATIONS = {
     one.name: one
     for one in (
         Formulation("redundant", f"{HERE}.redundant.run", cost=2, safety=3.0),
-        Formulation("compiled", f"{HERE}.compiled", cost=1, safety=3.0),
+        Formulation("compiled", f"{HERE}.compiled", cost=1, safety=2.5),
     )
 }
 CHEAPEST_FIRST = sorted(FORMULATIONS.values(), key=lambda one: one.cost)

@@ -421,10 +421,10 @@ def test_estimates_cover_the_true_errors_without_much_overstatement(
     assert everything["numbers"] > (10_000 if request.node.callspec.params["checked"] == 1 else 1_500)
     # what is promised
     assert everything["covered"] >= 0.98
-    assert everything["worst"] < 5.0  # measured: 2.6
-    # as far as runs are not as close as rounding, which is added to every estimate; measured: 11.9
-    assert figures([case for case in checked if case.goal > GOALS[-1]])["overstated"] <= 13.0
-    assert everything["overstated"] <= 15.0  # measured: 13.9
+    assert everything["worst"] < 5.0  # measured: 3.1
+    # as far as runs are not as close as rounding, which is added to every estimate; measured: 9.9
+    assert figures([case for case in checked if case.goal > GOALS[-1]])["overstated"] <= 10.0
+    assert everything["overstated"] <= 12.0  # measured: 11.6
 
 
 @pytest.mark.parametrize("checked", [ALL], indirect=True)  # of a few scenes it would be chance
@@ -434,8 +434,8 @@ def test_no_kind_of_scene_and_no_goal_is_much_worse_than_all(checked: list[Case]
     for some in chosen:
         # some thousand numbers of a few dozen scenes hang together
         assert figures(some)["covered"] >= 0.97  # measured: 0.973 and more
-        # measured: 24.1, of a goal of 1e-6, where rounding counts, of least values as a share of the largest
-        assert figures(some)["overstated"] <= 26.0
+        # measured: 20.1, of a goal of 1e-6, where rounding counts, of least values as a share of the largest
+        assert figures(some)["overstated"] <= 21.0
 
 
 def test_a_goal_that_is_said_to_be_met_is_met(checked: list[Case]) -> None:
