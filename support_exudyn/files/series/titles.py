@@ -12,24 +12,13 @@ SMALL = {
     *("deg", "rad", "mrad", "rpm", "N", "kN", "MN", "mN", "Pa", "kPa", "MPa", "GPa", "bar", "mbar"),
     *("kg", "J", "kJ", "W", "kW", "Hz", "kHz", "degC", "percent", "inch", "ft", "lbf", "sec"),
 }
-BELOW = {
-    **{one: one for one in SMALL},
-    "s2": "s**2",
-    "h": "h",
-    "mm2": "mm**2",
-    "m2": "m**2",
-    "m3": "m**3",
-}  # a "per"
 PRODUCTS = {  # the only products: of v_m_s nobody knows whether it is a speed
     "N_m": "N*m", "kN_m": "kN*m", "MN_m": "MN*m", "N_mm": "N*mm", "N_s": "N*s", "kN_s": "kN*s",
     "kg_m2": "kg*m**2", "kg_m": "kg*m",
 }  # fmt: skip
-ABOVE = {
-    **{one: as_pint_writes(one) for one in SMALL},
-    **PRODUCTS,
-    "l": "l",
-    "t": "t",
-}  # a "per", or all there is
+ENDINGS = {**{one: as_pint_writes(one) for one in SMALL}, **PRODUCTS}
+ABOVE = {**ENDINGS, "l": "l", "t": "t"}  # a "per"
+BELOW = {**ENDINGS, "s2": "s**2", "h": "h"}
 BRACKETS = re.compile(r"(.*\S)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\))", re.DOTALL)
 
 
@@ -61,10 +50,10 @@ def _ending(text: str) -> str | None:
     if not per and text.startswith("per_"):
         above, per, below = "1", "per_", text[len("per_") :]
     if not per:
-        return ABOVE.get(above) if above not in ("l", "t") else None
+        return ENDINGS.get(text)
     over = "1" if above == "1" else ABOVE.get(above)
-    units = below.split("_")
-    if over is None or not all(one in BELOW for one in units):
+    units = [BELOW.get(one) for one in below.split("_")]
+    if over is None or None in units:
         return None
-    words = [BELOW[one] for one in units]
-    return f"{over}/({'*'.join(words)})" if len(words) > 1 else f"{over}/{words[0]}"
+    words = "*".join(map(str, units))
+    return f"{over}/({words})" if len(units) > 1 else f"{over}/{words}"

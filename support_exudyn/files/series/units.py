@@ -22,7 +22,7 @@ LONGEST = 60  # letters of a unit
 # letters, powers of at most two digits, and signs between them: pint computes what it is given, 9**9**9 too
 WORDS = re.compile(r"[A-Za-z0-9µμ°%Ω_²³⁻¹·*/^() .+-]+")
 COSTLY = re.compile(
-    r"\d{3}|[\d)]\s*(\*\*|\^)|(\*\*|\^)[^*^]*(\*\*|\^)\s*[-\d.]*(\*\*|\^)|(\*\*|\^)\s*-?\(|\d[eE]"
+    r"\d{3}|\d[eE]|[\d)]\s*(\*\*|\^)|(\*\*|\^)\s*-?\(|(\*\*|\^)[^*^]*(\*\*|\^)\s*[-\d.]*(\*\*|\^)"
 )
 TORQUE = re.compile(r"(?<![A-Za-z_])([kMm]?N)(m|mm|cm)(?![A-Za-z_])")
 POWER = re.compile(r"(?<=[A-Za-zµμ])([2-4])(?![\d.])")
@@ -121,9 +121,10 @@ def converted(series: NamedSeries, unit: str) -> npt.NDArray[np.float64]:
     Raises InputError if the series has no unit, which nobody guesses, or one of another kind.
     """
     if series.unit is None:
+        wanted = unit or "1"
         raise InputError(
-            f"{series.name}: its file gives no unit, and {unit or 'a pure number'} is asked for; allowed: a unit "
-            f"in the column's title, '{series.name} [{unit or '1'}]', or in compare.toml, [units] "
-            f'"{series.name}" = "{unit or "1"}"'
+            f"{series.name}: its file gives no unit, and {unit or 'a pure number'} is asked for; allowed: a "
+            f"unit in the column's title, '{series.name} [{wanted}]', or in compare.toml, [units] "
+            f'"{series.name}" = "{wanted}"'
         )
     return scaled(series.values, series.unit, unit, series.name)
