@@ -29,7 +29,7 @@ Rows = tuple[int, str, bool]  # items of each, what separates them, whether all 
 
 
 @dataclass(frozen=True)
-class Layout:
+class TableLayout:
     """How a table is written.
 
     separator: between items. decimal: "." or ",". first: the index of the first line of numbers.
@@ -77,7 +77,7 @@ def is_row(line: str, separator: str, decimal: str) -> int:
     return len(found) if any(found) else 0
 
 
-def layout(path: Path, lines: Sequence[str]) -> Layout:
+def layout(path: Path, lines: Sequence[str]) -> TableLayout:
     """How a table is written, from its first lines.
 
     Raises InputError if there are no rows of numbers, if they can be read in two ways, or if titles and rows
@@ -103,7 +103,7 @@ def layout(path: Path, lines: Sequence[str]) -> Layout:
         not items(line, separator)[-1] for _, line in text[place:]
     )  # by a separator, as lines of titles need not be
     titles, notes = _titles(path, lines[:first], text[:place], (width, separator, ended))
-    return Layout(separator, decimal, first, width, titles, notes)
+    return TableLayout(separator, decimal, first, width, titles, notes)
 
 
 def _check_commas(path: Path, lines: Sequence[str], separator: str) -> None:

@@ -19,7 +19,15 @@ from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.asked import Asked
 from support_exudyn.files.series.columns import Column, Numbers, is_named_time, series_file
 from support_exudyn.files.series.named_series import SeriesFile
-from support_exudyn.files.series.table_layout import BLANKS, COMMENT, LETTERS, LINES, MISSING, Layout, layout
+from support_exudyn.files.series.table_layout import (
+    BLANKS,
+    COMMENT,
+    LETTERS,
+    LINES,
+    MISSING,
+    TableLayout,
+    layout,
+)
 from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, short
 
@@ -86,7 +94,7 @@ def _lines(data: bytes) -> Iterator[str]:
     return (line.decode(errors="replace").rstrip("\n") for line in io.BytesIO(data))
 
 
-def _numbers(path: Path, data: bytes, how: Layout) -> list[Numbers]:
+def _numbers(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
     """The columns of numbers."""
     start = 0
     for _ in range(how.first):
@@ -100,7 +108,7 @@ def _numbers(path: Path, data: bytes, how: Layout) -> list[Numbers]:
     return _by_line(path, data, how) if found is None else found
 
 
-def _by_arrow(body: bytes, how: Layout) -> list[Numbers] | None:
+def _by_arrow(body: bytes, how: TableLayout) -> list[Numbers] | None:
     """The columns as pyarrow parses them; None if it does not take an item."""
     import pyarrow as pa
     from pyarrow import csv
@@ -122,7 +130,7 @@ def _by_arrow(body: bytes, how: Layout) -> list[Numbers] | None:
     return [np.asarray(table.column(n).to_numpy(), dtype=np.float64) for n in range(how.width)]
 
 
-def _by_line(path: Path, data: bytes, how: Layout) -> list[Numbers]:
+def _by_line(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
     """The columns line by line, which finds what is wrong, and numbers that pyarrow does not take, 1D+3."""
     rows = []
     for number, line in enumerate(_lines(data), 1):
