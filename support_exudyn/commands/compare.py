@@ -1,4 +1,4 @@
-"""`compare REFERENCE OTHER... [CHANNEL...]`: by how much files differ from a reference, and whether that is allowed."""
+"""`compare REFERENCE OTHER... [CHANNEL...]`: by how much files differ, and whether that is allowed."""
 
 from __future__ import annotations
 
@@ -49,8 +49,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "names",
         nargs="+",
         metavar="FILE|CHANNEL",
-        help="the reference, then the files that are compared with it, then channels: names or patterns, such as "
-        "'tip.*'; by default forces and traced points of runs, and all that other files have in common",
+        help="the reference, then the files that are compared with it, then channels: names or patterns, such "
+        "as 'tip.*'; by default forces and traced points of runs, and all that other files have in common",
     )
     add(
         "--map",
@@ -96,6 +96,7 @@ def run(given: argparse.Namespace) -> None:
 def _compared(given: argparse.Namespace) -> str:
     """Print and write; returns the verdict."""
     files, channels = files_and_channels(given.names)
+    _check_outputs(given)
     from support_exudyn.postprocessing.comparing.compare_files import compare_files, read_files
 
     with shown_progress("reading") as progress:
@@ -146,6 +147,18 @@ def files_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:
             f"{files[0]}: is the only file{rest}; allowed: two files or more, the first is the reference"
         )
     return files, channels
+
+
+def _check_outputs(given: argparse.Namespace) -> None:
+    """Raise InputError, before anything is read, for a file that cannot be written as what it is called."""
+    if given.figure is not None:
+        from support_exudyn.postprocessing.comparing.compare_figure import check_format
+
+        check_format(given.figure)
+    if given.page is not None:
+        from support_exudyn.postprocessing.comparing.compare_page import check_page
+
+        check_page(given.page)
 
 
 def _write(given: argparse.Namespace, found: FilesCompared) -> list[Path]:

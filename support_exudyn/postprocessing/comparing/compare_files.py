@@ -124,7 +124,7 @@ def compare_files(
 def read_files(
     given: Sequence[Comparable], mapping: str | Path | CompareFile | None = None, progress: Progress = silent
 ) -> tuple[list[ComparedFile], CompareFile]:
-    """Files that are compared, each with what a mapping says of it; and the mapping. Raises as `compare_files`."""
+    """Files, each with what a mapping says of it; and the mapping. Raises as `compare_files`."""
     paths = [one if isinstance(one, Result) else Path(one) for one in given]
     if isinstance(mapping, (str, Path)):
         mapping = read_compare_file(Path(mapping), [path for path in paths if isinstance(path, Path)])
@@ -135,18 +135,18 @@ def read_files(
         if isinstance(path, Result):
             files.append(of_run(path, Path(name), name))
             continue
-        start = n / len(paths)
-        files.append(
-            compared_file(
-                path, said.of(path), name, lambda share, start=start: progress(start + share / len(paths))
-            )  # type: ignore[misc]
-        )
+        files.append(compared_file(path, said.of(path), name, _piece(progress, n, len(paths))))
     progress(1.0)
     return files, said
 
 
+def _piece(progress: Progress, number: int, count: int) -> Progress:
+    """What is told of one of several files, as a share of all."""
+    return lambda share: progress((number + share) / count)
+
+
 def _name(path: Path | Result, number: int, taken: Sequence[str], paths: Sequence[Path | Result]) -> str:
-    """By which a file is called: its name; with its folder if another has the same, with its place if it comes again."""
+    """By which a file is called: its name; with its folder or its place if another has the same."""
     if isinstance(path, Result):
         return f"run {number + 1}"
     alike = {other for other in paths if isinstance(other, Path) and other.name == path.name}
@@ -209,6 +209,8 @@ def _unit(reference: ComparedFile, other: ComparedFile, channel: str) -> str:
             return si_unit(found)
     column = reference.column(channel).column
     raise InputError(
-        f"{reference.path}, {other.path}: {channel} has a unit in neither; allowed: one in the title of the column, "
-        f'such as \'{column} [mm]\', or in compare.toml, [files."{reference.path.name}".units] "{column}" = "mm"'
+        f"{reference.path}, {other.path}: {channel} has a unit in neither; allowed: one in the title of the "
+        "column, "
+        f'such as \'{column} [mm]\', or in compare.toml, [files."{reference.path.name}".units] "{column}" = '
+        '"mm"'
     )

@@ -78,7 +78,7 @@ class ComparedFile:
         return time + self.mapped.shift if self.mapped.shift else time
 
     def values(self, channel: str, unit: str) -> Values:
-        """Values of a channel in a unit, (n,). Raises InputError if its unit is not known or of another kind."""
+        """Values of a channel in a unit, (n,). Raises InputError if its own is not known or of another kind."""
         column = self.column(channel)
         series = self.series[column.column]
         try:
@@ -90,9 +90,8 @@ class ComparedFile:
 
     def errors(self, channel: str) -> Values:
         """Numerical errors of a channel in SI, (n,); NaN if they are not known."""
-        if self.run is None:
-            return np.full(self.time(channel).size, np.nan)
-        return curve_errors(self.run, self.column(channel).column)
+        found = None if self.run is None else curve_errors(self.run, self.column(channel).column)
+        return np.full(self.time(channel).size, np.nan) if found is None else found
 
     def of(self, run: Result) -> ComparedFile:
         """The same of another run of the scene, such as one with longer steps."""
@@ -148,7 +147,8 @@ def _series(run: Result) -> Mapping[str, NamedSeries]:
 def _mapped(file: ComparedFile, mapped: MappedFile) -> ComparedFile:
     """The file with what is said of its columns. Raises InputError with a line for each that it lacks."""
     lacking = [
-        f"{file.path}: has no column {one.column!r}, which is to be {channel}; {nearest(one.column, list(file.series))}"
+        f"{file.path}: has no column {one.column!r}, which is to be {channel}; "
+        f"{nearest(one.column, list(file.series))}"
         for channel, one in mapped.columns.items()
         if one.column not in file.series
     ]

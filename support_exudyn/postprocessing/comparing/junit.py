@@ -15,7 +15,7 @@ NAME = "support-exudyn compare"
 
 
 def junit_xml(found: FilesCompared) -> str:
-    """The text of the XML. A channel that is not within its tolerance, or of which that cannot be told, is a failure."""
+    """The text of the XML. A channel that is not within its tolerance, or not decided, is a failure."""
     whole = ElementTree.Element("testsuites", name=NAME)
     for pair in found.pairs:
         whole.append(_suite(pair))
@@ -60,6 +60,7 @@ def _numbers(one: ComparedChannel) -> str:
     return (
         f"mean difference {number(one.mean, unit.scale)} {unit.name}; largest difference "
         f"{number(one.largest, unit.scale)} {unit.name} at {one.measures.largest_time:.6g} s; RMS "
-        f"{share(one.measures.rms_of_range)} of the range; Sprague-Geers C {share(one.measures.combined_error)}; "
+        f"{share(one.measures.rms_of_range)} of the range; Sprague-Geers C "
+        f"{share(one.measures.combined_error)}; "
         f"beside the numerical errors: {beside(one)}"
     )

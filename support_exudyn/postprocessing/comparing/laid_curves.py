@@ -36,7 +36,7 @@ class LaidCurves:
 
     @property
     def common(self) -> CommonCurves:
-        """Both curves. Raises InputError if they do not overlap, or if a unit is not known or of another kind."""
+        """Both curves. Raises InputError if they do not overlap, or if a unit is not known or does not fit."""
         return self._laid(self.reference, self.other)
 
     def estimate(self, measure: Measure) -> Estimate:
@@ -60,7 +60,7 @@ class LaidCurves:
         return tuple(one.name for one in (self.reference, self.other) if one.has_errors)
 
     def errors(self) -> Values:
-        """Numerical errors of the difference at the common times, (n,); of both if both are known, NaN if none.
+        """Numerical errors of the difference at the common times, (n,): the sum of those known; NaN of none.
 
         Between the records of a run the errors are joined by straight lines. What interpolation of the curves
         may add is part of it.

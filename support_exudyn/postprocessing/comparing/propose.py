@@ -1,6 +1,7 @@
 """A compare.toml with proposals: columns that are called alike, of one kind, and whose curves run alike.
 
-Nothing of it is used unconfirmed: the file says `confirmed = false`, and is refused until somebody has changed that.
+Nothing of it is used unconfirmed: the file says `confirmed = false`, and is refused until somebody has changed
+that.
 """
 
 from __future__ import annotations
@@ -19,11 +20,12 @@ from support_exudyn.files.series.units import scaled
 from support_exudyn.postprocessing.comparing.common_times import on_common_times
 from support_exudyn.postprocessing.comparing.compare_file import CompareFile
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
+from support_exudyn.postprocessing.comparing.si_units import of_a_kind
 from user_forces.values.value import InputError, cleaned
 
 LEAST = 0.5  # likeness of what is proposed
 BY_NAME = 0.4  # share of the likeness that names have; the rest is that of the curves
-LESS = 0.9  # by which a correlation counts less than equal values, and a curve of the other sign less than one of the same
+LESS = 0.9  # of what a correlation counts beside equal values, and the other sign beside the same
 FEWEST = 3  # common times that tell anything
 WORDS = re.compile(r"[a-z]+|\d+")
 UNKNOWN = "?"  # a unit that has to be given
@@ -32,9 +34,9 @@ UNKNOWN = "?"  # a unit that has to be given
 class Likeness(NamedTuple):
     """How alike a channel of the reference and a column of another file are.
 
-    names: 0 to 1. curves: correlation at common times, -1 to 1; NaN if there is none. values: concordance of Lin,
-    2 cov / (var + var + (difference of means)^2), -1 to 1, which only equal values have as 1; NaN if a unit is not
-    known.
+    names: 0 to 1. curves: correlation at common times, -1 to 1; NaN if there is none. values: concordance of
+    Lin, 2 cov / (var + var + (difference of means)^2), -1 to 1, which only equal values have as 1; NaN if a
+    unit is not known.
     """
 
     channel: str
@@ -67,8 +69,9 @@ def proposal(files: Sequence[ComparedFile], said: CompareFile) -> str:
     """
     reference, *others = files
     lines = [
-        f"# What of {', '.join(one.name for one in others)} may be what of {reference.name}. Look at every line, take out or",
-        "# mend what is wrong, then set confirmed = true, and give it as --map.",
+        f"# What of {', '.join(one.name for one in others)} may be what of {reference.name}. Look at every "
+        "line,",
+        "# take out or mend what is wrong, then set confirmed = true, and give it as --map.",
         "",
         "confirmed = false",
     ]
@@ -77,7 +80,8 @@ def proposal(files: Sequence[ComparedFile], said: CompareFile) -> str:
     lines += [
         "",
         "# [tolerances]",
-        f"# {_quoted(reference.channels[0])} = \"2 %\" # of the reference's range, or an amount such as \"0.1 mm\"",
+        f'# {_quoted(reference.channels[0])} = "2 %" # of the reference\'s range, or an amount such as "0.1 '
+        'mm"',
     ]
     return "\n".join(lines) + "\n"
 
@@ -93,8 +97,9 @@ def _of(reference: ComparedFile, other: ComparedFile) -> list[str]:
             column = f"{{ column = {column}, sign = -1 }}"
         lines.append(f"{_quoted(one.channel)} = {column} # {one}{nexts[one.column]}")
     units = [one.column for one in found if other.unit(one.column) is None]
-    if units:
+    if units or other.mapped.units:
         lines += ["", f"[files.{_quoted(other.path.name)}.units]"]
+        lines += [f"{_quoted(name)} = {_quoted(unit)}" for name, unit in other.mapped.units.items()]
         lines += [f'{_quoted(column)} = "{UNKNOWN}" # the file names none' for column in units]
     return lines
 
@@ -128,18 +133,12 @@ def proposed(reference: ComparedFile, other: ComparedFile) -> tuple[list[Likenes
 def _likeness(reference: ComparedFile, other: ComparedFile, channel: str, column: str) -> Likeness:
     mine, its = reference.unit(channel), other.unit(column)
     known = mine is not None and its is not None
-    if known and not _of_a_kind(str(mine), str(its)):
+    if known and not of_a_kind(str(mine), str(its)):
         return Likeness(channel, column, 0.0, 0.0, 0.0)
     scale = float(scaled(np.ones(1), str(its), str(mine), column)[0]) if known else math.nan
-    return Likeness(channel, column, _names(channel, column), *_curves(reference, other, channel, column, scale))
-
-
-def _of_a_kind(one: str, other: str) -> bool:
-    try:
-        scaled(np.ones(1), one, other, "unit")
-    except InputError:
-        return False
-    return True
+    return Likeness(
+        channel, column, _names(channel, column), *_curves(reference, other, channel, column, scale)
+    )
 
 
 def _names(one: str, other: str) -> float:
@@ -153,7 +152,8 @@ def _names(one: str, other: str) -> float:
 def _curves(
     reference: ComparedFile, other: ComparedFile, channel: str, column: str, scale: float
 ) -> tuple[float, float]:
-    """Correlation and concordance of two curves at common times; NaN if one is constant, or if they do not overlap.
+    """Correlation and concordance of two curves at common times; NaN if one is constant, or if they do not
+    overlap.
 
     scale: by which the column is in the unit of the channel; NaN if that is not known.
     """

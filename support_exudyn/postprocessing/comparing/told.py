@@ -18,7 +18,8 @@ DIGITS = 6  # of numbers without a known error
 SHARE = 3  # of shares of a range
 NONE = "-"
 HEADER = (
-    "channel", "unit", ">reference, mean", ">difference, mean", ">largest", ">at [s]", ">RMS/range", ">C", "beside errors",
+    "channel", "unit", ">reference, mean", ">difference, mean", ">largest", ">at [s]", ">RMS/range", ">C",
+    "beside errors",
 )  # fmt: skip
 WITH_VERDICT = (*HEADER, "verdict")
 VERDICTS: dict[ToleranceVerdict, str] = {
@@ -145,7 +146,8 @@ def _fault(one: ComparedChannel, judged: JudgedDifference) -> str:
     error = said(judged.error, one.unit, 2) if math.isfinite(judged.error) else "not known"
     kind = "its error" if judged.what == LARGEST else "half its confidence interval"
     return (
-        f"{one.name}: {what} {value}{at}; {kind}, {error}, is larger than what is allowed, {allowed}: not decided. "
+        f"{one.name}: {what} {value}{at}; {kind}, {error}, is larger than what is allowed, {allowed}: not "
+        "decided. "
         "A finer accuracy, longer runs or more records may decide it."
     )
 
@@ -180,7 +182,8 @@ def _shift(pair: ComparedPair) -> Iterator[str]:
     late = "lags behind" if found.shift > 0.0 else "is ahead of"
     yield (
         f"{pair.other.name} {late} {pair.reference.name} by {said(abs(found.shift), 's', 5)} ± "
-        f"{said(found.error, 's', 2)}, found by {pair.shift.channel} (correlation {found.correlation:.4f}); that is "
+        f"{said(found.error, 's', 2)}, found by {pair.shift.channel} (correlation {found.correlation:.4f}); "
+        "that is "
         "taken off its times"
     )
 
@@ -191,7 +194,8 @@ def _parting(pair: ComparedPair) -> Iterator[str]:
             yield "point by point over all of it: no impact parts the runs"
         return
     yield (
-        f"point by point up to {pair.parting.time:.6g} s: {pair.parting.because.rstrip('.')}; after it by statistics"
+        f"point by point up to {pair.parting.time:.6g} s: {pair.parting.because.rstrip('.')}; after it by "
+        "statistics"
     )
     if equal := equality(pair):
         yield equal
@@ -220,7 +224,8 @@ def _times(pair: ComparedPair) -> Iterator[str]:
         return
     added = _interpolation(worst)
     yield (
-        f"{worst.common.interpolated} of {worst.common.time.size} times lie between records of one file; straight lines "
+        f"{worst.common.interpolated} of {worst.common.time.size} times lie between records of one file; "
+        "straight lines "
         f"there may be wrong by {share(added) if math.isfinite(added) else 'an amount not known'} of the range "
         f"({worst.name}, where it is most)"
     )
