@@ -23,7 +23,7 @@ from support_exudyn.commands.tables import printed, show_table
 from user_forces.values.value import InputError
 
 if TYPE_CHECKING:
-    from support_exudyn.postprocessing.comparing.compare_files import FilesCompared
+    from support_exudyn.postprocessing.comparing.files_compared import FilesCompared
 
 DIFFERENT, REFUSED = 1, 2  # exit codes
 # of files that are not there, so that they are not taken for channels
@@ -97,7 +97,7 @@ def _compared(given: argparse.Namespace) -> str:
     """Print and write; returns the verdict."""
     files, channels = files_and_channels(given.names)
     _check_outputs(given)
-    from support_exudyn.postprocessing.comparing.compare_files import compare_files, read_files
+    from support_exudyn.postprocessing.comparing.files_compared import compare_files, read_files
 
     with shown_progress("reading") as progress:
         if given.propose:

@@ -8,7 +8,7 @@ from typing import Any
 
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.bands import BandRms
-from support_exudyn.postprocessing.comparing.compare_files import ComparedPair, FilesCompared
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
 from support_exudyn.postprocessing.comparing.told import faults, sentences
 from support_exudyn.simulation.estimate import Estimate

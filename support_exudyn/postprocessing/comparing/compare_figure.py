@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.postprocessing.comparing.compare_files import ComparedPair, FilesCompared
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
 from support_exudyn.postprocessing.comparing.told import verdict_words

@@ -22,7 +22,7 @@ from support_exudyn.postprocessing.comparing.compare_figure import (
     reach,
     size_of_difference,
 )
-from support_exudyn.postprocessing.comparing.compare_files import ComparedPair, FilesCompared
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.units import readable

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from support_exudyn.postprocessing.comparing.compare_files import ComparedPair
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair
 from support_exudyn.postprocessing.comparing.statistics import Interval, StatisticDifference
 from support_exudyn.postprocessing.comparing.told import DIGITS, NONE, Row, share
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable, said

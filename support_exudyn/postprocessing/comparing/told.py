@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from support_exudyn.postprocessing.comparing.compare_files import ComparedPair
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair
 from support_exudyn.postprocessing.comparing.compared_channel import LARGEST, ComparedChannel, extent
 from support_exudyn.postprocessing.comparing.verdict import JudgedDifference, ToleranceVerdict
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable_change, said
