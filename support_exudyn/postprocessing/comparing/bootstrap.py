@@ -37,7 +37,7 @@ def block_length(values: Values) -> float:
     if variance == 0.0:
         return float(longest)
     length = abs(slope / variance) ** (2.0 / 3.0) * count ** (1.0 / 3.0)
-    return min(max(length, 1.0), float(longest))
+    return float(min(max(length, 1.0), longest))
 
 
 def long_run_variance(values: Values) -> float:

@@ -5,9 +5,9 @@ shift in time, its magnitude when warped in time onto the reference, and its slo
 
 The text of the standard is not free. The formulas are those of the package objective-rating-metrics 1.3 of
 TU Graz (MIT licence), and the numbers agree with its; they go back to S. Barbat, Y. Fu, Z. Zhan, R.-J. Yang and
-C. Gehre, "Objective rating metric for dynamic systems", 23rd ESV conference, 2013. The package itself is not used:
-it needs nine others, of which the one that warps in time has had no release since 2022 and compiles for twenty
-seconds.
+C. Gehre, "Objective rating metric for dynamic systems", 23rd ESV conference, 2013. The package itself is not
+used: it needs nine others, of which the one that warps in time has had no release since 2022 and compiles for
+twenty seconds.
 """
 
 import math
@@ -105,9 +105,9 @@ def warped(first: Values, second: Values, window: int) -> tuple[Values, Values]:
         before, last = last, line
     path = [(count - 1, count - 1)]
     while path[-1] != (0, 0):
-        i, j = path[-1]
-        step = int(steps[i + j, i - starts[i + j]])
-        path.append((i - (step != 1), j - (step != 0)))
+        one, other = path[-1]
+        step = int(steps[one + other, one - starts[one + other]])
+        path.append((one - (step != 1), other - (step != 0)))
     at = np.array(path[::-1])
     return first[at[:, 0]], second[at[:, 1]]
 
@@ -146,4 +146,5 @@ def _score(error: float, largest: float) -> float:
 
 def _not_told(reason: str) -> IsoRating:
     names = IsoRating._fields[:5]
-    return IsoRating(*[math.nan] * 5, MappingProxyType(dict.fromkeys(names, reason)))
+    none = math.nan
+    return IsoRating(none, none, none, none, none, MappingProxyType(dict.fromkeys(names, reason)))

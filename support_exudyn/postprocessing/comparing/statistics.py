@@ -106,7 +106,7 @@ def compared_statistics(
     """
     if not 0.0 < confidence < 1.0 or among < 1:
         raise InputError(
-            f"confidence = {confidence}, among = {among}: allowed: a confidence between 0 and 1, among from 1 on"
+            f"confidence = {confidence}, among = {among}: allowed: a confidence between 0 and 1, among >= 1"
         )
     alone = confidence ** (1.0 / among)
     curves = (even_samples(first_time, first), even_samples(second_time, second))
@@ -158,12 +158,12 @@ def _difference(name: str, first: _Known, second: _Known, confidence: float) -> 
     value = second.value - first.value
     blocks = min(first.blocks, second.blocks)
     if blocks < FEWEST_BLOCKS:
-        ends = [Interval(one, math.nan, math.nan) for one in (first.value, second.value, value)]
+        one, other, apart = (Interval(item, math.nan, math.nan) for item in (first.value, second.value, value))
         why = (
             f"the curves are worth {blocks:.1f} independent pieces; allowed: {FEWEST_BLOCKS:g} and more, so a "
             "longer duration"
         )
-        return StatisticDifference(name, *ends, confidence, blocks, why)
+        return StatisticDifference(name, one, other, apart, confidence, blocks, why)
     squares = [_square(one) for one in (first, second)]
     freedoms = [one.blocks - 1.0 for one in (first, second)]
     both = sum(squares)
