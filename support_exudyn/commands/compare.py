@@ -182,21 +182,21 @@ def _print(found: FilesCompared) -> None:
     """Print the tables and what has to be known of them."""
     from support_exudyn.postprocessing.comparing import further_tables as further
     from support_exudyn.postprocessing.comparing import told
+    from support_exudyn.postprocessing.comparing.sentences import sentences
 
     def tables(console: Console) -> None:
         for pair in found.pairs:
             show_table(console, told.title(pair), told.header(pair), told.rows(pair))
-            if rows := further.statistics_rows(pair):
-                show_table(console, f"statistics after {pair.parting.time:.6g} s", further.STATISTICS, rows)
+            if rows := further.brief_statistics_rows(pair):
+                title = f"after {pair.parting.time:.6g} s: means, and other statistics that differ (all: --page)"
+                show_table(console, title, further.STATISTICS, rows)
             if rows := further.impacts_rows(pair):
                 show_table(console, "impacts", further.IMPACTS, rows)
             if rows := further.bands_rows(pair):
                 show_table(console, "RMS in bands of frequency", further.BANDS, rows)
-            for line in told.sentences(pair):
+            lines = [*sentences(pair), *filter(None, map(told.fault, pair.channels.values()))]
+            for line in lines:
                 console.print(line, markup=False, soft_wrap=True)
-            for one in pair.channels.values():
-                for line in told.faults(one):
-                    console.print(line, markup=False, soft_wrap=True)
         console.print(told.VERDICTS[found.verdict], markup=False, soft_wrap=True)
 
     printed(tables)

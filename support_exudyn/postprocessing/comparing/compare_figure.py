@@ -12,9 +12,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.told import verdict_words
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.channels import label_values
@@ -27,9 +27,9 @@ MOST = 8  # channels
 FEW = 60  # points of a curve that are drawn as markers
 CURVES_MM, DIFFERENCE_MM, REST_MM, LINE_MM = 38.0, 30.0, 30.0, 4.5
 ALLOWED, AFTER = "#009E73", "#f0f0f0"  # colours of what is allowed, and of what lies after the parting
-FADED = 0.35  # of differences after the parting
 BEYOND = 8.0  # times the largest difference at which what is allowed lies beyond a panel
 SPARE = 1.15
+BY_STATISTICS = "compared by statistics"  # after the parting
 
 
 def check_format(path: Path) -> None:
@@ -144,6 +144,8 @@ def _differences(axes: Axes, found: FilesCompared, name: str, seconds: DisplayUn
         _difference(axes, pair, one, OTHERS[n][0], seconds.scale, shown.scale)
     last = max(float(one.common.time[-1]) for _, _, one in there)
     _shade(axes, found, seconds, last)
+    if any(one.before < one.common.time.size for _, _, one in there):
+        axes.text(0.99, 0.5, BY_STATISTICS, transform=axes.transAxes, ha="right", va="center", fontsize=7)
     height, beyond = reach(there[0][2].allowed, max(sizes))
     if height > 0.0:
         axes.set_ylim(-shown.scale * height, shown.scale * height)
@@ -176,14 +178,11 @@ def reach(allowed: float, size: float) -> tuple[float, bool]:
 def _difference(
     axes: Axes, pair: ComparedPair, one: ComparedChannel, colour: str, seconds: float, scale: float
 ) -> None:
-    """The line of a difference; after the parting it is faded."""
+    """The line of a difference up to the parting, with its numerical errors."""
     time, apart = seconds * one.common.time, scale * (one.common.other - one.common.reference)
     marks: dict[str, Any] = {"marker": "o", "ms": 2.5} if time.size <= FEW else {}
     start = one.before
     axes.plot(time[:start], apart[:start], color=colour, lw=0.9, rasterized=time.size > 20000, **marks)
-    if start < time.size:
-        rest = max(start - 1, 0)
-        axes.plot(time[rest:], apart[rest:], color=colour, lw=0.7, alpha=FADED, rasterized=time.size > 20000)
     errors = scale * one.errors
     if start and np.isfinite(errors[:start]).any() and np.nanmax(errors[:start]) > 0.0:
         band = slice(0, start)
@@ -228,7 +227,6 @@ def _caption(found: FilesCompared) -> str:
     parted = [pair for pair in found.pairs if math.isfinite(pair.parting.time)]
     if parted:
         told.append(
-            "Grey: after the first parting, from which on single impacts are no result and differences, drawn "
-            "faded, may go beyond the panels."
+            "Grey: after the first parting, from which on curves are compared by their statistics only."
         )
     return " ".join(told)

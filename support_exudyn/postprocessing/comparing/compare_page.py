@@ -22,8 +22,9 @@ from support_exudyn.postprocessing.comparing.compare_figure import (
     reach,
     size_of_difference,
 )
-from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
+from support_exudyn.postprocessing.comparing.sentences import sentences
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.units import readable
 from support_exudyn.postprocessing.page.live import Dash, Drawn, LiveFigure, LivePanel, live_panel
@@ -184,7 +185,7 @@ def _part(found: FilesCompared, number: int, pair: ComparedPair, live: Markup) -
         pair.other.name,
         f"file{number}",
         tuple(line for one in pair.channels.values() for line in told.faults(one)),
-        tuple(line[:1].upper() + line[1:].rstrip(".") for line in told.sentences(pair)),
+        tuple(line[:1].upper() + line[1:].rstrip(".") for line in sentences(pair)),
         ShownTable(sheet, f"channels{number}"),
         _curves(found, pair, live),
         tuple(ShownTable(one, f"table{number}_{n}") for n, one in enumerate(tables)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -83,15 +84,20 @@ class ComparedFile:
         series = self.series[column.column]
         try:
             if column.sign == 1 and column.offset == 0.0:
-                return converted(series, unit)
+                return series.values if series.unit == unit else converted(series, unit)
             return converted(replace(series, values=column.sign * series.values + column.offset), unit)
         except InputError as error:
             raise InputError(f"{self.path}: {error}") from None
 
     def errors(self, channel: str) -> Values:
-        """Numerical errors of a channel in SI, (n,); NaN if they are not known."""
-        found = None if self.run is None else curve_errors(self.run, self.column(channel).column)
+        """Numerical errors of a channel in SI, (n,); NaN: not known, infinite from the horizon on."""
+        found = self._errors.get(self.column(channel).column)
         return np.full(self.time(channel).size, np.nan) if found is None else found
+
+    @cached_property
+    def _errors(self) -> Mapping[str, Values]:
+        """Of all channels of a run, which share most of the work."""
+        return {} if self.run is None else curve_errors(self.run, self.series)
 
     def of(self, run: Result) -> ComparedFile:
         """The same of another run of the scene, such as one with longer steps."""

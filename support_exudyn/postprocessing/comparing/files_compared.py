@@ -172,11 +172,13 @@ def _pair(
     onsets = onsets_of(reference), onsets_of(other)
     parting = pair_parting(reference, other)
     contacts = [name for name in onsets[0] if name in onsets[1]]
+    run = reference.run or other.run
+    stems = {} if run is None else {one: run.scenario.contact_stem(one) for one in contacts}
     told = len(names) * len(JUDGED) + len(contacts)
     window = ComparedWindow(*ends, parting.time, said.bands, max(told, 1))
     channels = {}
     for name in names:
-        contact = next((one for one in contacts if name.startswith(f"pin.{one}.")), None)
+        contact = next((one for one in contacts if name.startswith(f"{stems[one]}.")), None)
         impacts = None
         if contact is not None:
             impacts = tuple([one.time for one in side[contact]] for side in onsets)

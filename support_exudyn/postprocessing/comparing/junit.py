@@ -6,9 +6,10 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
-from support_exudyn.postprocessing.comparing.told import beside, faults, number, sentences, share, shown_unit
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
+from support_exudyn.postprocessing.comparing.sentences import sentences
+from support_exudyn.postprocessing.comparing.told import beside, faults, number, share, shown_unit
 from user_forces.values.value import cleaned
 
 NAME = "support-exudyn compare"
