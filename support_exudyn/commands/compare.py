@@ -188,7 +188,7 @@ def _print(found: FilesCompared) -> None:
         for pair in found.pairs:
             show_table(console, told.title(pair), told.header(pair), told.rows(pair))
             if rows := further.brief_statistics_rows(pair):
-                title = f"after {pair.parting.time:.6g} s: means, and other statistics that differ (all: --page)"
+                title = f"after {pair.parting.time:.6g} s: means, and what else differs (all: --page)"
                 show_table(console, title, further.STATISTICS, rows)
             if rows := further.impacts_rows(pair):
                 show_table(console, "impacts", further.IMPACTS, rows)

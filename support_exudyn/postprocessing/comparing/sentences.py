@@ -63,14 +63,16 @@ def _parting(pair: ComparedPair) -> Iterator[str]:
 
 
 def _impact(pair: ComparedPair) -> str:
-    """The impact with which two runs part, such as "impact 3 of pin.B"; empty if it is none of them."""
-    for file in (pair.reference, pair.other):
-        for contact, onsets in onsets_of(file).items():
-            number = next((n for n, one in enumerate(onsets, 1) if one.time == pair.parting.time), 0)
-            if number:
-                assert file.run is not None
-                return f"impact {number} of {file.run.scenario.contact_stem(contact)}"
-    return ""
+    """The impact at which two runs part, such as "impact 3 of pin.B"; empty if there are none."""
+    near = [
+        (abs(one.time - pair.parting.time), number, file.run.scenario.contact_stem(contact))
+        for file in (pair.reference, pair.other)
+        if file.run is not None
+        for contact, onsets in onsets_of(file).items()
+        for number, one in enumerate(onsets, 1)
+    ]
+    _, number, stem = min(near, default=(0.0, 0, ""))
+    return f"impact {number} of {stem}" if number else ""
 
 
 def equality(pair: ComparedPair) -> str:
@@ -84,7 +86,7 @@ def equality(pair: ComparedPair) -> str:
     told = f"{len(found) - silent} statistics"
     tail = f"; {silent} have no interval" if silent else ""
     if not differ:
-        return f"after it {told} are equal, with {confidence}{tail}"
+        return f"after it {told} are equal within their intervals, with {confidence}{tail}"
     some = ", ".join(differ[:4]) + (f" and {len(differ) - 4} more" if len(differ) > 4 else "")
     return f"after it {len(differ)} of {told} differ, with {confidence}: {some}{tail}"
 
@@ -96,9 +98,9 @@ def _times(pair: ComparedPair) -> Iterator[str]:
         return
     added = _interpolation(worst)
     yield (
-        f"{worst.common.interpolated} of {worst.common.time.size} times lie between records of one file; "
-        f"straight lines there may be wrong by {share(added) if math.isfinite(added) else 'an amount not known'} of the range "
-        f"({worst.name}, where it is most)"
+        f"{worst.common.interpolated} of {worst.common.time.size} times lie between records of one file; straight "
+        f"lines there may be wrong by {share(added) if math.isfinite(added) else 'an amount not known'} of the "
+        f"range ({worst.name}, where it is most)"
     )
 
 
