@@ -33,8 +33,8 @@ def test_the_times_are_those_of_the_coarser(swapped: bool) -> None:
     np.testing.assert_array_equal(its, np.sin(9.0 * found.time))
     wrong = np.abs(mine - np.cos(9.0 * found.time))
     assert wrong.max() > 1e-6
-    # a straight line errs by less than h^2 f''/8 = 1e-6 * 81 / 8; the second difference is f'' but for its change
-    assert (wrong <= 1.05 * found.interpolation_error + 1e-15).all()
+    # a straight line errs by h^2 f''/8 = 1e-5 at most; f'' changes by 0.7 from record to record
+    assert (wrong <= found.interpolation_error + 1e-6 * 0.729 / 8.0).all()
     assert found.interpolation_error.max() < 2e-5
 
 

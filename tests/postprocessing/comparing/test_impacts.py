@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 
 import numpy as np
 import pytest
@@ -54,7 +54,7 @@ def test_runs_with_one_impact_or_none() -> None:
 def test_the_sum_of_costs_is_least(first: list[int], second: list[int]) -> None:
     def reaches(times: list[int]) -> list[float]:
         span = float(max([*first, *second], default=0) - min([*first, *second], default=0))
-        gaps = [late - early for early, late in zip(times[:-1], times[1:], strict=True)]
+        gaps = [late - early for early, late in pairwise(times)]
         return [0.5 * max(gaps[max(n - 1, 0) : n + 1]) if gaps else span for n in range(len(times))]
 
     mine, its = reaches(first), reaches(second)
@@ -82,9 +82,9 @@ def test_impacts_of_a_force() -> None:
     time = np.linspace(0.0, 1.0, 1001)
     force = 500.0 * np.maximum(0.0, np.sin(6.0 * np.pi * (time - 0.05)))  # pressed from 0.05 on, for 1/6 s each
     found = impacts_of_force(time, force)
-    np.testing.assert_allclose([one.time for one in found], [0.05, 0.05 + 1 / 3, 0.05 + 2 / 3], atol=2e-4)
+    np.testing.assert_allclose([one.time for one in found], [0.05, 0.05 + 1 / 3, 0.05 + 2 / 3], atol=1e-3)
     np.testing.assert_allclose(
-        [one.separation_time for one in found], [0.05 + 1 / 6, 0.05 + 1 / 2, 0.05 + 5 / 6], atol=2e-4
+        [one.separation_time for one in found], [0.05 + 1 / 6, 0.05 + 1 / 2, 0.05 + 5 / 6], atol=1e-3
     )
     assert all(math.isnan(one.speed) for one in found)
 
