@@ -96,6 +96,14 @@ class ComparedChannel:
         return BesideErrors(self.largest.value, self.largest.error)
 
     @property
+    def largest_of_reference(self) -> float:
+        """The largest difference over the reference at its time; NaN if that is zero."""
+        if math.isnan(self.measures.largest):
+            return math.nan
+        there = abs(float(self.common.reference[np.searchsorted(self.common.time, self.measures.largest_time)]))
+        return self.largest.value / there if there > 0.0 else math.nan
+
+    @property
     def judged(self) -> tuple[JudgedDifference, ...]:
         """What is judged: the largest difference before the parting, and statistics after it."""
         error = self.largest.error if math.isfinite(self.largest.error) else self._interpolation

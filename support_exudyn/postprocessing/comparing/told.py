@@ -142,6 +142,8 @@ def _fault(one: ComparedChannel, judged: JudgedDifference) -> str:
         allowed = f"{allowed} ({one.tolerance.text} of the reference's range)"
     what = judged.what if judged.what == LARGEST else f"{judged.what.replace('_', ' ')} after the parting"
     at = f" at {one.measures.largest_time:.6g} s" if judged.what == LARGEST else ""
+    if judged.what == LARGEST and math.isfinite(one.largest_of_reference):
+        at += f" ({share(one.largest_of_reference)} of the reference there)"
     if math.isnan(judged.value):
         return f"{one.name}: {what}: could not be computed; allowed is {allowed}."
     value = said(judged.value, one.unit, 4)
