@@ -1,4 +1,4 @@
-"""A comparison as plain data, for scripts: everything in SI."""
+"""A comparison as plain data, for scripts: everything in SI. The rating, which takes its time, is not in it."""
 
 from __future__ import annotations
 
@@ -47,6 +47,7 @@ def _pair(pair: ComparedPair) -> dict[str, Any]:
             }
             for contact, one_contact in pair.impacts.items()
         },
+        "numbers": {name: {**one._asdict(), "times": one.times} for name, one in pair.numbers.items()},
         "left_out": list(pair.left_out),
         "channels": {name: _channel(one) for name, one in pair.channels.items()},
     }
@@ -77,11 +78,11 @@ def _channel(one: ComparedChannel) -> dict[str, Any]:
             **_number(one.largest),
             "signed": one.measures.largest,
             "time_s": one.measures.largest_time,
+            "of_reference_there": one.largest_of_reference,
         },
         "beside_errors": {"within": one.beside_errors.within, "times": one.beside_errors.times},
         "judged": [{**item._asdict(), "verdict": item.verdict} for item in one.judged],
         "measures": {**measures, **peaks, "not_told": dict(one.measures.not_told)},
-        "rating": None if one.rating is None else _plain(one.rating._asdict()),
         "statistics": {
             name: _plain(item._asdict()) | {"equal": item.equal} for name, item in one.statistics.items()
         },

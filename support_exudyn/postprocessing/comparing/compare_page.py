@@ -63,7 +63,10 @@ MEASURES = {  # what the page says of each, by its name
     ),
     "combined_error": ("Sprague-Geers C", "root of M² + P²"),
 }
-RATING = ("ISO/TS 18571", "rating from 0 to 1: corridor, phase, magnitude and slope")
+RATING = (
+    "ISO/TS 18571",
+    f"rating from 0 to 1, of curves up to 2 s, of the first {MOST} channels: it takes its time",
+)
 SHARES = {"rms_of_range", "largest_of_range", "magnitude_error", "phase_error", "combined_error"}
 PLAIN = {"r_squared", "largest_time"}
 
@@ -289,9 +292,7 @@ def _measures(pair: ComparedPair) -> Sheet:
     """A row a measure, a column a channel."""
     channels = list(pair.channels.values())
     rows = [(head, *(_measure(one, name) for one in channels)) for name, (head, _) in MEASURES.items()]
-    rows.append(
-        (RATING[0], *(told.NONE if one.rating is None else _plain(one.rating.overall) for one in channels))
-    )
+    rows.append((RATING[0], *(_rating(one) if n < MOST else told.NONE for n, one in enumerate(channels))))
     return Sheet(f"{pair.other.name} less {pair.reference.name}", ("measure", *pair.channels), tuple(rows))
 
 
@@ -306,6 +307,10 @@ def _measure(one: ComparedChannel, name: str) -> str:
         return _plain(value)
     unit = readable(one.unit, abs(value))
     return f"{unit.scale * value:.{DIGITS}g} {unit.name}"
+
+
+def _rating(one: ComparedChannel) -> str:
+    return told.NONE if one.rating is None else _plain(one.rating.overall)
 
 
 def _plain(value: float) -> str:

@@ -12,17 +12,18 @@ import numpy.typing as npt
 
 from support_exudyn.files.series.asked import Progress, silent
 from support_exudyn.files.series.named_series import NamedSeries
+from support_exudyn.files.series.own_runs import is_run
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.files.toml.faults import nearest
 from support_exudyn.postprocessing.comparing.compare_file import MappedColumn, MappedFile
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
-from support_exudyn.simulation.result import FORMAT, Result
+from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
 ENDING = ".h5"  # of runs
-OWN = FORMAT.rpartition(" ")[0].encode()  # by which the file of a run begins, of whichever version
+HEAD = 64  # bytes by which a run is told
 AS_IT_IS = MappedFile()
 
 
@@ -108,12 +109,12 @@ class ComparedFile:
         return replace(self, mapped=replace(self.mapped, shift=self.mapped.shift + seconds))
 
 
-def is_run(path: Path) -> bool:
+def _is_own(path: Path) -> bool:
     """Whether a file is a run of this program, or is called as one and not there."""
     if not path.is_file():
         return path.suffix.lower() == ENDING
     with path.open("rb") as file:
-        return file.read(len(OWN)) == OWN
+        return is_run(file.read(HEAD))
 
 
 def compared_file(
@@ -130,7 +131,7 @@ def compared_file(
     Raises InputError if it cannot be read, or lacks a column that `mapped` names; OSError if it is not there.
     """
     name = name or path.name
-    if is_run(path):
+    if _is_own(path):
         return _mapped(of_run(Result.load(path), path, name), mapped)
     found = read_series(path, units=mapped.units, analysis=mapped.analysis, progress=progress)
     return _mapped(ComparedFile(name, path, found.kind, None, found.series, AS_IT_IS, found.notes), mapped)

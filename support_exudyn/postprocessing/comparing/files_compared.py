@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from support_exudyn.files.series.asked import Progress, silent
@@ -30,6 +31,7 @@ from support_exudyn.postprocessing.comparing.tolerances import (
     read_tolerances,
 )
 from support_exudyn.postprocessing.comparing.verdict import ToleranceVerdict, worst
+from support_exudyn.postprocessing.comparing.with_errors import BesideErrors, numbers_beside_errors
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
@@ -44,7 +46,8 @@ class ComparedPair:
     channels: by their names. parting: when both part, and why. impacts: of contacts that both know.
     shift: the shift in time that was found, which `other` has been given; None: none was asked for.
     same: how many channels there are, if both are runs and all records are the same to the bit; else 0.
-    left_out: names of channels of the reference that the other file has not.
+    left_out: names of channels of the reference that the other file has not. after, until: what is compared,
+    [s].
     """
 
     reference: ComparedFile
@@ -55,6 +58,16 @@ class ComparedPair:
     shift: FoundShift | None
     same: int
     left_out: tuple[str, ...]
+    after: float
+    until: float
+
+    @cached_property
+    def numbers(self) -> Mapping[str, BesideErrors]:
+        """The numbers that two runs report, see `Result.numbers`, beside their errors; none without errors."""
+        first, second = self.reference.run, self.other.run
+        if first is None or second is None or not (self.reference.has_errors and self.other.has_errors):
+            return {}
+        return numbers_beside_errors(first, second, self.after, self.until)
 
     @property
     def verdict(self) -> ToleranceVerdict:
@@ -195,7 +208,7 @@ def _pair(
     same = 0
     if reference.run is not None and other.run is not None and other.mapped == reference.mapped:
         same = same_to_the_bit(reference.run, other.run)
-    return ComparedPair(reference, other, channels, parting, matched, shift, same, left_out)
+    return ComparedPair(reference, other, channels, parting, matched, shift, same, left_out, *ends)
 
 
 def _unit(reference: ComparedFile, other: ComparedFile, channel: str) -> str:

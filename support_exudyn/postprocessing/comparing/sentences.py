@@ -23,6 +23,7 @@ def sentences(pair: ComparedPair) -> Iterator[str]:
     yield from _files(pair)
     yield from _shift(pair)
     yield from _parting(pair)
+    yield from _numbers(pair)
     yield from _times(pair)
     for one in pair.channels.values():
         yield from (f"{one.name}: {reason}" for reason in one.not_told)
@@ -91,6 +92,19 @@ def equality(pair: ComparedPair) -> str:
     return f"after it {len(differ)} of {told} differ, with {confidence}: {some}{tail}"
 
 
+def _numbers(pair: ComparedPair) -> Iterator[str]:
+    """How many of the numbers that two runs report are within both errors."""
+    known = {name: one for name, one in pair.numbers.items() if one.within is not None}
+    if not known:
+        return
+    larger = {name: one for name, one in known.items() if not one.within}
+    told = f"{len(known) - len(larger)} of {len(known)} reported numbers are within both errors"
+    if larger:
+        name = max(larger, key=lambda one: larger[one].times)
+        told += f"; the farthest from it is {name}, {larger[name]}"
+    yield told
+
+
 def _times(pair: ComparedPair) -> Iterator[str]:
     """That curves were interpolated, and what it may add."""
     worst = max(pair.channels.values(), key=_interpolation)
@@ -98,8 +112,9 @@ def _times(pair: ComparedPair) -> Iterator[str]:
         return
     added = _interpolation(worst)
     yield (
-        f"{worst.common.interpolated} of {worst.common.time.size} times lie between records of one file; straight "
-        f"lines there may be wrong by {share(added) if math.isfinite(added) else 'an amount not known'} of the "
+        f"{worst.common.interpolated} of {worst.common.time.size} times lie between records of one file; "
+        f"straight lines there may be wrong by "
+        f"{share(added) if math.isfinite(added) else 'an amount not known'} of the "
         f"range ({worst.name}, where it is most)"
     )
 

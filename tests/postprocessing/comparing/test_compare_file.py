@@ -149,13 +149,14 @@ def test_every_part_of_a_mapping_counts(
     assert one.verdict == "not within"
 
 
-def test_a_column_that_is_not_there_is_told_with_those_that_are(files: tuple[Path, Path], tmp_path: Path) -> None:
+def test_a_column_that_is_not_there_is_told_with_others(files: tuple[Path, Path], tmp_path: Path) -> None:
     text = '[files."seen_1.csv".columns]\n"tip.x" = "Canopy Y"\n[units]\nt = "s"\n"*" = "mm"\n'
-    with pytest.raises(InputError, match=r"has no column 'Canopy Y', which is to be tip.x; did you mean Canopy X"):
+    said = r"has no column 'Canopy Y', which is to be tip.x; did you mean Canopy X"
+    with pytest.raises(InputError, match=said):
         compare_files(*files, mapping=written(tmp_path, text))
 
 
-def test_a_column_without_unit_is_refused_with_how_to_give_it(files: tuple[Path, Path], tmp_path: Path) -> None:
+def test_a_column_without_unit_is_refused(files: tuple[Path, Path], tmp_path: Path) -> None:
     text = '[files."seen_1.csv".columns]\n"tip.x" = "Canopy X"\n[units]\nt = "s"\n'
     with pytest.raises(InputError, match=r"Canopy X: its file gives no unit.*\[units\] \"Canopy X\""):
         compare_files(*files, mapping=written(tmp_path, text))
@@ -163,7 +164,9 @@ def test_a_column_without_unit_is_refused_with_how_to_give_it(files: tuple[Path,
 
 def test_units_that_neither_file_names_are_refused(tmp_path: Path) -> None:
     one, other = (written(tmp_path, "time_s,a\n0,1\n1,2\n", f"{n}.csv") for n in "xy")
-    with pytest.raises(InputError, match=r"a has a unit in neither; allowed: .*'a \[mm\]'.*units\] \"a\" = \"mm\""):
+    with pytest.raises(
+        InputError, match=r"a has a unit in neither; allowed: .*'a \[mm\]'.*units\] \"a\" = \"mm\""
+    ):
         compare_files(one, other)
     plain = written(tmp_path, '[units]\na = "1"\n')
     assert compare_files(one, other, mapping=plain).pairs[0].channels["a"].largest.value == 0.0

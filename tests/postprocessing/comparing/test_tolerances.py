@@ -40,7 +40,8 @@ def test_an_amount_of_another_kind_is_refused() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["", " , ", "tip", "=2%", "tip=", "tip=2", "tip=%", "tip=-2%", "tip=nan%", "tip=1e999mm", "tip=a mm"]
+    "text",
+    ["", " , ", "tip", "=2%", "tip=", "tip=2", "tip=%", "tip=-2%", "tip=nan%", "tip=1e999mm", "tip=a mm"],
 )
 def test_what_is_no_tolerance_is_refused(text: str) -> None:
     with pytest.raises(InputError, match="allowed: "):
@@ -76,9 +77,7 @@ def test_errors_larger_than_what_is_allowed_leave_it_open(
     assert JudgedDifference("largest difference", value, error, allowed).verdict == verdict
 
 
-@given(
-    st.floats(0.0, 1e3), st.floats(0.0, 1e3), st.floats(1e-3, 1e3), st.floats(-1.0, 1.0)
-)
+@given(st.floats(0.0, 1e3), st.floats(0.0, 1e3), st.floats(1e-3, 1e3), st.floats(-1.0, 1.0))
 def test_a_verdict_that_is_decided_by_a_small_error_is_nearly_right(
     true: float, error: float, allowed: float, share: float
 ) -> None:
