@@ -1,4 +1,4 @@
-"""Three comparisons from the command line alone: an ADAMS file, Siconos's four-bar, two accuracies of five loose pins."""
+"""Three comparisons from the command line alone: a file of ADAMS, Siconos's four-bar, two accuracies."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from support_exudyn import CubicStep, Result, machine, simple_scenario
+from support_exudyn import CubicStep, Result, compare_files, machine, simple_scenario
 from support_exudyn.__main__ import main
 from support_exudyn.files.scenarios.scenario_file import save_scenario
+from support_exudyn.postprocessing.comparing.compare_figure import BY_STATISTICS, compare_figure
 
 DATA = Path(__file__).parents[1] / "files" / "series" / "data"
 FOUR_BAR = Path(__file__).parents[2] / "studies" / "outside" / "compare_four_bar"
@@ -126,6 +127,19 @@ def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it
         assert one["beside_errors"]["within"], name
         assert {"mean", "rms", "spread", "quantile_95"} <= set(one["statistics"]), name
         assert all(what["equal"] is not False for what in one["statistics"].values()), name
+
+
+def test_figure_and_page_of_runs_that_part(five_pins: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["compare", str(five_pins / "draft.h5"), str(five_pins / "reference.h5"), "tip.x"]
+    assert ended([*words, "--page", str(five_pins / "a.html"), "--figure", str(five_pins / "a.png")]) == 0
+    text = (five_pins / "a.html").read_text(encoding="utf-8")
+    for part in ("point by point up to", "Statistics after", "matched before parting"):
+        assert part in text, part
+    found = compare_files(five_pins / "draft.h5", five_pins / "reference.h5", channels=["tip.x"])
+    drawing = compare_figure(found)
+    assert BY_STATISTICS in {text.get_text() for text in drawing.axes[1].texts}
+    drawn = drawing.axes[1].lines[0].get_xdata()
+    assert float(np.max(drawn)) <= found.pairs[0].parting.time  # nothing is drawn that tells nothing
 
 
 def test_a_changed_scene_is_told_apart_from_two_accuracies(
