@@ -152,6 +152,15 @@ def test_a_file_that_ends_the_process_of_scipy_ends_in_a_sentence() -> None:
 
 
 @pytest.mark.usefixtures("_in_this_process")
+def test_a_structure_without_times_has_those_above_it(tmp_path: Path) -> None:
+    file = io.BytesIO()
+    scipy.io.savemat(file, {"time_s": TIME, "pins": {"rear": {"force_kN": FORCE, "short": FORCE[1:]}}})
+    found = read(tmp_path, file.getvalue())
+    assert list(found.series) == ["pins.rear.force"]
+    assert found.series["pins.rear.force"].time.tolist() == TIME.tolist()
+
+
+@pytest.mark.usefixtures("_in_this_process")
 def test_matlab_without_times_says_what_it_has(tmp_path: Path) -> None:
     file = io.BytesIO()
     scipy.io.savemat(file, {"force": FORCE})

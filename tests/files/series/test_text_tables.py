@@ -141,7 +141,7 @@ def test_what_is_wrong_or_has_two_meanings_is_refused(folder: Path, text: str | 
 def test_a_table_that_does_not_fit_into_memory_is_refused(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(plain_text, "available", lambda: 8 * 20)
+    monkeypatch.setattr(plain_text, "available", lambda: 12 * 20)
     with pytest.raises(InputError, match="has more than 20 bytes"):
         read(folder, "time_s,x_mm\n0,1.5\n0.5,-2\n")
 
