@@ -13,6 +13,7 @@ import pytest
 
 from studies.benchmarking.fresh_scenes import fresh
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
+from support_exudyn.postprocessing.comparing.found_impacts import impacts_of_force
 from support_exudyn.postprocessing.comparing.parting import parting_of_impacts, parting_of_runs
 from support_exudyn.postprocessing.comparing.statistics import compared_statistics
 from support_exudyn.postprocessing.comparing.with_errors import (
@@ -22,7 +23,7 @@ from support_exudyn.postprocessing.comparing.with_errors import (
     curve_errors,
     numbers_beside_errors,
 )
-from tests.cases.run_cases import FORCE, loose_slider_crank, loose_support
+from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support
 
 FINE = 1e-4  # an accuracy beyond "standard", whose tolerance is that of "draft" where steps are chosen by one
 SEED = 20261124
@@ -182,6 +183,14 @@ def test_a_factor_on_a_force_is_told() -> None:
     assert told.pop(FORCE) > DOUBT
     assert set(told.values()) == {0.0}
     assert numbers_beside_errors(run, changed)[f"{FORCE}.mean"].different
+
+
+def test_impacts_found_in_a_force_are_those_of_the_run() -> None:
+    run = simulate(loose_support(1.5, duration=0.19, record_period=2e-4), accuracy="draft")
+    found, known = impacts_of_force(run.time, run[FORCE]), run.onsets[PIN]
+    assert len(found) == len(known) > 5
+    np.testing.assert_allclose([one.time for one in found], [one.time for one in known], atol=4e-4)
+    assert parting_of_impacts({PIN: known}, {PIN: found}, resolution=4e-4).time == math.inf
 
 
 def test_errors_cover_what_lies_beyond_the_horizon() -> None:
