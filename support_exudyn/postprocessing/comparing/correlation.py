@@ -35,7 +35,8 @@ def lagged_correlations(first: Values, second: Values, lags: Lags) -> Values:
         both = products / count - sum_one * sum_other / count**2
         known = (count >= 2.0) & (spread_one > FLAT) & (spread_other > FLAT)
         found: Values = np.where(known, both / np.sqrt(spread_one * spread_other), np.nan)
-    return np.asarray(np.clip(found, -1.0, 1.0), dtype=np.float64)
+    clipped: Values = np.clip(found, -1.0, 1.0)
+    return clipped
 
 
 def _scaled(values: Values) -> Values:

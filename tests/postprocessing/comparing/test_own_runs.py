@@ -94,7 +94,7 @@ def test_accuracies_of_drawn_scenes_are_told_equal(number: int) -> None:
 @pytest.mark.slow
 def test_accuracies_of_many_drawn_scenes_are_told_equal() -> None:
     numbers = curves = scenes = 0
-    for number in range(9 * 12):
+    for number in range(9 * 7):
         scene = fresh(SEED + 1, number)
         if scene.kind == "space":
             continue
@@ -105,8 +105,9 @@ def test_accuracies_of_many_drawn_scenes_are_told_equal() -> None:
             one, other = told_equal(first, second)
             numbers, curves = numbers + one, curves + other
         scenes += 1
-    print(scenes, numbers, curves)
-    assert scenes > 80
+    assert scenes > 50
+    assert numbers > 5000
+    assert curves > 8000
 
 
 def test_five_pins_are_equal_up_to_the_horizon_and_in_statistics_after_it() -> None:
