@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
 from itertools import combinations
@@ -13,6 +13,7 @@ import pytest
 
 from studies.benchmarking.fresh_scenes import fresh
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
+from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.found_impacts import impacts_of_force
 from support_exudyn.postprocessing.comparing.parting import parting_of_impacts, parting_of_runs
 from support_exudyn.postprocessing.comparing.statistics import compared_statistics
@@ -184,6 +185,30 @@ def test_a_factor_on_a_force_is_told() -> None:
     assert told.pop(FORCE) > DOUBT
     assert set(told.values()) == {0.0}
     assert numbers_beside_errors(run, changed)[f"{FORCE}.mean"].different
+
+
+def with_impacts(run: Result, change: Callable[[tuple[Onset, ...]], tuple[Onset, ...]]) -> Result:
+    """The run, and all that its errors are estimated by, with other impacts of the pin."""
+    coarser = run.coarser and with_impacts(run.coarser, change)
+    return replace(run, onsets={**run.onsets, PIN: change(run.onsets[PIN])}, coarser=coarser)
+
+
+def test_an_impact_that_is_lost_or_late_is_told() -> None:
+    run = simulate(loose_support(1.5, duration=0.19), accuracy="draft")
+    third = run.onsets[PIN][2]
+    lost = parting_of_runs(run, with_impacts(run, lambda onsets: (*onsets[:2], *onsets[3:])))
+    assert lost.time == third.time
+    assert "one has an impact at 0.0721 m/s that the other lacks" in lost.because
+
+    def late(by: float) -> float:
+        def moved(onsets: tuple[Onset, ...]) -> tuple[Onset, ...]:
+            return (*onsets[:2], onsets[2]._replace(time=onsets[2].time + by), *onsets[3:])
+
+        return parting_of_runs(run, with_impacts(run, moved)).time
+
+    error = run.numbers()[f"pin.{PIN}.onset_3.time"].error
+    assert late(100.0 * error) == third.time
+    assert late(0.5 * error) == math.inf
 
 
 def test_impacts_found_in_a_force_are_those_of_the_run() -> None:
