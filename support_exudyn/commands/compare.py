@@ -107,7 +107,7 @@ def _compared(given: argparse.Namespace) -> str:
         if given.propose:
             from support_exudyn.postprocessing.comparing.propose import proposal
 
-            say(proposal(*read_files(files, given.map, progress)).rstrip("\n"))
+            say(proposal(*read_files(files, given.map, channels, progress)).rstrip("\n"))
             return "told"
         found = compare_files(
             *files,

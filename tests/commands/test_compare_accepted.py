@@ -6,6 +6,7 @@ import json
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -165,3 +166,28 @@ def test_a_changed_scene_is_told_apart_from_two_accuracies(
     assert channels["tip.y"]["beside_errors"]["within"]
     assert not math.isnan(channels["pin.rear_base.force"]["largest"]["error"])
     assert ended([*words, "--until", "0.03", "--tolerance", "tip.x=1mm"]) == 1
+
+
+def test_a_computed_force_from_elsewhere_parts_where_the_run_does(
+    five_pins: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The finer run as a table of another program: its impacts are found in its force."""
+    fine = Result.load(five_pins / "reference.h5")
+    name = "pin.rear_base.force"
+    rows = (f"{t:.9g},{force:.12g}" for t, force in zip(fine.time, fine[name], strict=True))
+    path = five_pins / "elsewhere.csv"
+    path.write_text("\n".join([f"time_s,{name} [N]", *rows]) + "\n", encoding="utf-8")
+    plain = Result.load(five_pins / "draft.h5")
+    horizon = plain.horizon
+    replace(plain, coarser=None).save(five_pins / "plain.h5")  # no errors: the impacts alone tell
+    assert ended(["compare", str(five_pins / "plain.h5"), str(path), "--json"]) == 0
+    pair = json.loads(capsys.readouterr().out)["files"]["elsewhere.csv"]
+    assert 0.9 * horizon < pair["parting"]["time"] < 3.0 * horizon
+    assert pair["impacts"]["rear_base"]["number_matched"] > 10
+    assert "impacts_per_second" in pair["channels"][name]["statistics"]
+    # what is measured is never exactly zero: nothing is found in it, and all is compared point by point
+    noisy = fine[name] + 1.0 + np.sin(1e4 * fine.time)
+    rows = (f"{t:.9g},{force:.12g}" for t, force in zip(fine.time, noisy, strict=True))
+    path.write_text("\n".join([f"time_s,{name} [N]", *rows]) + "\n", encoding="utf-8")
+    assert ended(["compare", str(five_pins / "plain.h5"), str(path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["files"]["elsewhere.csv"]["parting"] is None

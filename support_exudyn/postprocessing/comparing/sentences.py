@@ -9,7 +9,7 @@ import numpy as np
 
 from support_exudyn.postprocessing.comparing.compared_channel import CONFIDENCE, ComparedChannel, extent
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair
-from support_exudyn.postprocessing.comparing.pair_parting import onsets_of
+from support_exudyn.postprocessing.comparing.pair_parting import impacts_of
 from support_exudyn.postprocessing.comparing.told import share
 from support_exudyn.postprocessing.figures.units import said
 
@@ -54,8 +54,8 @@ def _shift(pair: ComparedPair) -> Iterator[str]:
 
 def _parting(pair: ComparedPair) -> Iterator[str]:
     if not math.isfinite(pair.parting.time):
-        if any(pair.impacts.values()):
-            yield "point by point over all of it: no impact parts the runs"
+        if any(one.pairs or one.only_first or one.only_second for one in pair.impacts.values()):
+            yield "point by point over all of it: no impact parts the curves"
         return
     told = f"{pair.parting.time:.6g} s" + (f", {which}" if (which := _impact(pair)) else "")
     yield f"point by point up to {told} ({pair.parting.because.rstrip('.')}); after it by statistics"
@@ -69,7 +69,7 @@ def _impact(pair: ComparedPair) -> str:
         (abs(one.time - pair.parting.time), number, file.run.scenario.contact_stem(contact))
         for file in (pair.reference, pair.other)
         if file.run is not None
-        for contact, onsets in onsets_of(file).items()
+        for contact, onsets in impacts_of(file, ()).onsets.items()
         for number, one in enumerate(onsets, 1)
     ]
     _, number, stem = min(near, default=(0.0, 0, ""))
