@@ -120,7 +120,7 @@ def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it
     found = re.search(r"point by point up to ([\d.]+) s, impact \d+ of pin\.\w+ \(.*?\); after it by", told)
     assert found is not None
     assert float(found[1]) <= horizon * (1.0 + 1e-5)
-    assert re.search(r"after it \d+ statistics are equal within their intervals", told)
+    assert re.search(r"after it \d+ statistics are equal within the intervals", told)
     assert told.count("within both errors") >= 7
     assert ended(["compare", str(draft), str(fine), "pin.*.force", "tip.*", "--json"]) == 0
     pair = json.loads(capsys.readouterr().out)["files"]["reference.h5"]

@@ -21,7 +21,7 @@ from support_exudyn.postprocessing.comparing.found_shift import FoundShift, foun
 from support_exudyn.postprocessing.comparing.matched_channels import common_channels
 from support_exudyn.postprocessing.comparing.matched_impacts import MatchedImpacts, match_impacts
 from support_exudyn.postprocessing.comparing.own_runs import same_to_the_bit
-from support_exudyn.postprocessing.comparing.pair_parting import impacts_of, pair_parting
+from support_exudyn.postprocessing.comparing.pair_parting import NEVER, impacts_of, pair_parting
 from support_exudyn.postprocessing.comparing.parting import Parting
 from support_exudyn.postprocessing.comparing.si_units import si_unit
 from support_exudyn.postprocessing.comparing.tolerances import (
@@ -43,7 +43,8 @@ Comparable = Result | str | Path
 class ComparedPair:
     """A file compared with the reference.
 
-    channels: by their names. parting: when both part, and why. impacts: of contacts that both know.
+    channels: by their names. parting: when both part, and why; never, if all is the same to the bit.
+    impacts: of contacts that both know.
     shift: the shift in time that was found, which `other` has been given; None: none was asked for.
     same: how many channels there are, if both are runs and all records are the same to the bit; else 0.
     left_out: names of channels of the reference that the other file has not. after, until: what is compared,
@@ -186,7 +187,10 @@ def _pair(
     if shift is not None:
         other = other.shifted(-shift.found.shift)
     known = impacts_of(reference, names), impacts_of(other, names)
-    parting = pair_parting(reference, other, known)
+    same = 0
+    if reference.run is not None and other.run is not None and other.mapped == reference.mapped:
+        same = same_to_the_bit(reference.run, other.run)
+    parting = NEVER if same else pair_parting(reference, other, known)
     onsets = known[0].onsets, known[1].onsets
     contacts = [name for name in onsets[0] if name in onsets[1]]
     run = reference.run or other.run
@@ -209,9 +213,6 @@ def _pair(
             impacts,  # type: ignore[arg-type]
         )
     matched = {name: match_impacts(onsets[0][name], onsets[1][name]) for name in contacts}
-    same = 0
-    if reference.run is not None and other.run is not None and other.mapped == reference.mapped:
-        same = same_to_the_bit(reference.run, other.run)
     return ComparedPair(reference, other, channels, parting, matched, shift, same, left_out, *ends)
 
 

@@ -54,7 +54,9 @@ def _shift(pair: ComparedPair) -> Iterator[str]:
 
 def _parting(pair: ComparedPair) -> Iterator[str]:
     if not math.isfinite(pair.parting.time):
-        if any(one.pairs or one.only_first or one.only_second for one in pair.impacts.values()):
+        if not pair.same and any(
+            one.pairs or one.only_first or one.only_second for one in pair.impacts.values()
+        ):
             yield "point by point over all of it: no impact parts the curves"
         return
     told = f"{pair.parting.time:.6g} s" + (f", {which}" if (which := _impact(pair)) else "")
@@ -84,10 +86,13 @@ def equality(pair: ComparedPair) -> str:
     confidence = f"{100.0 * CONFIDENCE:.3g} % confidence of all together"
     differ = [f"{what.name.replace('_', ' ')} of {name}" for name, what in found if what.equal is False]
     silent = sum(what.equal is None for _, what in found)
-    told = f"{len(found) - silent} statistics"
+    number = len(found) - silent
+    told, verb = f"{number} {'statistic' if number == 1 else 'statistics'}", "is" if number == 1 else "are"
     tail = f"; {silent} have no interval" if silent else ""
+    if not number:
+        return "after it there is too little for confidence intervals of statistics"
     if not differ:
-        return f"after it {told} are equal within their intervals, with {confidence}{tail}"
+        return f"after it {told} {verb} equal within the intervals, with {confidence}{tail}"
     some = ", ".join(differ[:4]) + (f" and {len(differ) - 4} more" if len(differ) > 4 else "")
     return f"after it {len(differ)} of {told} differ, with {confidence}: {some}{tail}"
 
