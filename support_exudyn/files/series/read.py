@@ -92,9 +92,7 @@ def read_series(
     for one in FORMATS:
         if one.fits(head):
             if analysis is not None and one.read is not read_adams_results:
-                raise InputError(
-                    f"{path}: analysis {short(analysis)}: is a {one.name}, which has none; allowed: none"
-                )
+                raise InputError(f"{path}: analysis {short(analysis)}: a {one.name} has none; allowed: none")
             return one.read(path, asked)
     raise InputError(f"{path}: is of no kind that can be read; allowed: {known_formats()}")
 

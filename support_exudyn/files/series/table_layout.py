@@ -126,12 +126,8 @@ def _titles(
     """A name and a unit for each column, and what is told."""
     width, separator, _ = rows
     notes: list[str] = []
-    sizes = [
-        line
-        for _, line in text
-        if all(any(of.fullmatch(one) for of in NUMBERS.values()) for one in line.split())
-    ]
-    if text and len(sizes) == len(text):  # as of rows and columns: numbers are no titles
+    words_above = [one for _, line in text for one in line.split()]
+    if text and all(NUMBERS["."].fullmatch(one) for one in words_above):  # sizes, as of rows: no titles
         notes.append(f"Lines of other numbers above the rows are passed over: {len(text)}.")
         text = ()
     if not text:

@@ -110,7 +110,7 @@ def test_sizes_above_the_rows_are_no_titles(folder: Path) -> None:
 
 
 def test_an_analysis_of_a_table_is_refused(folder: Path) -> None:
-    with pytest.raises(InputError, match="analysis 'A': is a table of text .*, which has none"):
+    with pytest.raises(InputError, match=r"analysis 'A': a table of text .* has none; allowed: none"):
         read(folder, "time_s,x\n0,1\n", analysis="A")
 
 
