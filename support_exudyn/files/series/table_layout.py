@@ -126,6 +126,10 @@ def _titles(
     """A name and a unit for each column, and what is told."""
     width, separator, _ = rows
     notes: list[str] = []
+    words_above = [one for _, line in text for one in line.split()]
+    if text and all(NUMBERS["."].fullmatch(one) for one in words_above):  # sizes, as of rows: no titles
+        notes.append(f"Lines of other numbers above the rows are passed over: {len(text)}.")
+        text = ()
     if not text:
         words = _of_comment(above, rows)
         if words is None:

@@ -125,6 +125,8 @@ def test_every_version_of_matlab_is_read(tmp_path: Path, name: str) -> None:
     found = read(tmp_path, cases.apart()[name], name, units=UNITS)
     force = found.series["pin_force"]
     assert (force.unit, force.time.tolist(), force.values.tolist()) == ("kN", TIME.tolist(), FORCE.tolist())
+    if name == "v73.mat":
+        assert found.series["both.2"].values.tolist() == (2.0 * TIME).tolist()
     if name != "v4.mat":
         assert found.series["run.x"].values.tolist() == (TIME**2).tolist()
         assert found.series["run.x"].time == pytest.approx(
