@@ -1,0 +1,1 @@
+"""Readers of quantities over time, one format a file."""
