@@ -14,6 +14,8 @@ from user_forces.values.names import meant
 from user_forces.values.units import Metres, Pascals
 from user_forces.values.value import InputError, NonNegative, Positive, Whole, value
 
+ALIKE = 1e-6  # share by which two areas differ that are the same
+
 
 @value
 class PressureGauge(Instrument):
@@ -21,8 +23,8 @@ class PressureGauge(Instrument):
 
     Of a hydraulic cylinder it is the recorded pressure of that side. Otherwise the side that the force F loads
     has |F| / A, and the other none: the piston side where the column is pressed together, the rod side where
-    it is pulled apart. A is the area of that side, all cylinders of the column together; the bore stands in the
-    scenario if the column is one of oil.
+    it is pulled apart. A is the area of that side, all cylinders of the column together. A column of oil says it in its
+    scenario; then a bore of the gauge has to fit.
 
     Arguments:
         column: name of an actuator; in space also of one of a pair, such as front_column_left.
@@ -46,32 +48,48 @@ class PressureGauge(Instrument):
     def signals(self, result: Result) -> Series:
         """The pressure (n, 1) [Pa]."""
         whole, _ = column_of(result.scenario, self.column)
+        area = self.area(result.scenario)
         if whole in result.scenario.cylinders:
-            self._check_says_no_bore("the run records the pressures of this hydraulic cylinder")
             name = f"{self.column}.{'pressure' if self.side == 'piston' else 'rod_pressure'}"
             return result.recorded(name, "a gauge shows it")[:, None]
         force = result.recorded(f"{self.column}.force", "a pressure gauge needs it")
-        pressing = force if self.side == "piston" else -force
-        pressure: Series = np.maximum(pressing, 0.0) / self.area(result.scenario)
+        pressure: Series = np.maximum(force if self.side == "piston" else -force, 0.0) / area
         return pressure[:, None]
 
     def area(self, scenario: Scenario) -> float:
         """Area on which the oil of its side presses [m^2], all cylinders together.
 
-        Raises InputError if neither the scenario nor the gauge says it, or both do.
+        Raises InputError if neither the scenario nor the gauge says it, or if they contradict each other.
         """
-        whole, share = column_of(scenario, self.column)
-        oil = scenario.oil_columns.get(whole)
-        if self.side == "piston" and oil is not None:
-            self._check_says_no_bore(f"the scenario has a bore_area of {1e6 * oil.bore_area:g} mm^2")
-            return share * oil.bore_area
-        if self.bore is None or (self.side == "rod" and self.rod is None):
-            needed = "bore_mm" if self.side == "piston" else "bore_mm and rod_mm"
+        known, own = self._known_area(scenario), self._own_area()
+        if own is None:
+            if known is None:
+                needed = "bore_mm" if self.side == "piston" else "bore_mm and rod_mm"
+                raise InputError(
+                    f"gauge on {self.column}: the area on which the oil presses is not known; allowed: {needed} "
+                    "of the gauge, diameters, with the number of cylinders; or a scenario whose column is a "
+                    "HydraulicCylinder, or on the piston side an OilColumn"
+                )
+            return known
+        if known is not None and abs(own - known) > ALIKE * known:
             raise InputError(
-                f"gauge on {self.column}: the area on which the oil presses is not known; allowed: {needed} "
-                "of the gauge, diameters, with the number of cylinders; or, on the piston side, a scenario "
-                "whose column is an OilColumn or a HydraulicCylinder"
+                f"gauge on {self.column}: bore, rod and cylinders give {1e6 * own:.6g} mm^2, and the scenario "
+                f"has {1e6 * known:.6g} mm^2; allowed: the same, or a gauge without them"
             )
+        return own
+
+    def _known_area(self, scenario: Scenario) -> float | None:
+        """The area of its side that the scenario says [m^2]."""
+        whole, share = column_of(scenario, self.column)
+        cylinder, oil = scenario.cylinders.get(whole), scenario.oil_columns.get(whole)
+        if cylinder is not None:
+            return share * (cylinder.bore_area if self.side == "piston" else cylinder.rod_side_area)
+        return None if oil is None or self.side == "rod" else share * oil.bore_area
+
+    def _own_area(self) -> float | None:
+        """The area that the gauge says [m^2]."""
+        if self.bore is None or (self.side == "rod" and self.rod is None):
+            return None
         rod = self.rod if self.side == "rod" and self.rod is not None else 0.0
         if rod >= self.bore:
             raise InputError(
@@ -79,12 +97,6 @@ class PressureGauge(Instrument):
                 f"{1e3 * self.bore:g} mm"
             )
         return self.cylinders * math.pi / 4.0 * (self.bore**2 - rod**2)
-
-    def _check_says_no_bore(self, why: str) -> None:
-        if self.bore is not None:
-            raise InputError(
-                f"gauge on {self.column}: bore = {1e3 * self.bore:g} mm: {why}; allowed: a gauge without it"
-            )
 
 
 @value

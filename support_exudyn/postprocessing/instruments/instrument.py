@@ -70,7 +70,7 @@ def samples(instrument: Instrument, name: str, result: Result, seed: int) -> tup
         own = np.random.default_rng([seed, crc32(name.encode())])
         values = values + instrument.noise * own.standard_normal(values.size)
     if instrument.resolution:
-        values = instrument.resolution * np.round(values / instrument.resolution)
+        values = instrument.resolution * np.round(values / instrument.resolution) + 0.0  # no -0
     return when, values
 
 

@@ -72,8 +72,7 @@ def usual_station(scenario: Scenario) -> tuple[MeasuringStation, dict[str, Input
     for column in linkage.actuators:
         gauge = PressureGauge(column=column)
         try:
-            if column not in scenario.cylinders:
-                gauge.area(scenario)
+            gauge.area(scenario)
             found[f"{column}.pressure"] = gauge
         except InputError as error:
             refused[f"{column}.pressure"] = error
