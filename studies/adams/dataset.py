@@ -1,8 +1,8 @@
 """A planar scenario as an ADAMS/Solver dataset.
 
 Parts have their frames in their centres of mass, parallel to the ground. A mechanism in space whose pins were
-all revolute joints would be held several times in the direction across its plane. So revolute joints make a tree
-from the ground to every body; a pin that closes a loop is the primitive INLINE, which holds the two directions
+all revolute joints would be held several times in the direction across its plane. So revolute joints make a
+tree from the ground to every body; a pin that closes a loop is the primitive INLINE, which holds the two directions
 in the plane alone; and a body that no ideal pin ties to the ground is kept in the plane by a planar joint.
 No constraint repeats another.
 
@@ -111,7 +111,7 @@ class _Writing:
         return self.marker(name, centre, f"{name}_centre")
 
     def marker(self, body: str, point: Vector2, name: str, along: float | None = None) -> int:
-        """A marker at a point of the start posture; along: direction of its z axis [rad], else across the plane."""
+        """A marker at a point of the start posture; along: direction of its z axis [rad], else it is across."""
         x, y = self.centres[body]
         where = [f"PART = {self.parts[body]}", f"QP = {numbers(point[0] - x, point[1] - y, 0.0)}"]
         if along is not None:  # body 3-1-3: z = (sin psi, -cos psi, 0) for theta = 90 degrees

@@ -21,7 +21,7 @@ class Requests:
 
     def write(self, out: Statements) -> dict[str, str]:
         """Write all; returns what results call each channel."""
-        columns = {}
+        columns: dict[str, str] = {}
         for stem, expressions in self._asked.items():
             for count, some in enumerate(_groups(expressions)):
                 name = result_name(stem) + (f"_{count + 1}" if count else "")

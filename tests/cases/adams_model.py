@@ -33,7 +33,11 @@ class Statement:
 
 
 class Dataset(dict[tuple[str, int], Statement]):
-    """The statements of a dataset by kind and number."""
+    """The statements of a dataset by kind and number; named: by the names in the comments before them."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.named: dict[str, Statement] = {}
 
     def of(self, kind: str) -> dict[int, Statement]:
         return {number: one for (name, number), one in self.items() if name == kind}
@@ -44,16 +48,20 @@ def read_dataset(text: str) -> Dataset:
     title, *lines = text.splitlines()
     assert "/" not in title.partition(":")[0].replace("ADAMS/View", "")
     assert lines[-1] == "END"
-    found, now = Dataset(), Statement("", 0)
+    found, now, name = Dataset(), Statement("", 0), ""
     for line in lines[:-1]:
         assert len(line) < 80 or line.startswith("!")
         assert line.isascii()
         if line.startswith("!"):
+            name = line.partition("adams_view_name='")[2].rstrip("'")
             continue
         if head := HEAD.match(line):
             now = Statement(head[1], int(head[2] or 0))
             assert (now.kind, now.number) not in found
             found[now.kind, now.number] = now
+            if now.number:
+                assert name not in found.named
+                found.named[name] = now
             continue
         assert line.startswith(", ")
         _argument(now, line[2:])

@@ -161,6 +161,8 @@ def test_the_force_is_that_of_our_laws(
     found = [evaluated(force.arguments[one], names) for one in ("FX", "FY", "TZ")]
     wanted = [exact.force_x, exact.force_y, exact.journal_moment]
     np.testing.assert_allclose(found, wanted, rtol=1e-12, atol=1e-12 * (1.0 + exact.normal_force))
+    slip = evaluated(data.named[f"{PIN}_slip_variable"].arguments["FUNCTION"], names)
+    assert slip == pytest.approx(exact.slip, rel=1e-12, abs=1e-12)
     follows = evaluated(data["DIFF", 1].arguments["FUNCTION"], names)
     assert follows == (
         0.0 if exact.depth >= 0.0 else pytest.approx((exact.rate - remembered) / 1e-5, rel=1e-12)

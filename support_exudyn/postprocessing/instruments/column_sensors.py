@@ -23,8 +23,8 @@ class PressureGauge(Instrument):
 
     Of a hydraulic cylinder it is the recorded pressure of that side. Otherwise the side that the force F loads
     has |F| / A, and the other none: the piston side where the column is pressed together, the rod side where
-    it is pulled apart. A is the area of that side, all cylinders of the column together. A column of oil says it in its
-    scenario; then a bore of the gauge has to fit.
+    it is pulled apart. A is the area of that side, all cylinders of the column together. A column of oil says
+    it in its scenario; then a bore of the gauge has to fit.
 
     Arguments:
         column: name of an actuator; in space also of one of a pair, such as front_column_left.
@@ -66,8 +66,8 @@ class PressureGauge(Instrument):
             if known is None:
                 needed = "bore_mm" if self.side == "piston" else "bore_mm and rod_mm"
                 raise InputError(
-                    f"gauge on {self.column}: the area on which the oil presses is not known; allowed: {needed} "
-                    "of the gauge, diameters, with the number of cylinders; or a scenario whose column is a "
+                    f"gauge on {self.column}: the area on which the oil presses is not known; allowed: "
+                    f"{needed} of the gauge, diameters, with the number of cylinders; or a scenario whose column is a "
                     "HydraulicCylinder, or on the piston side an OilColumn"
                 )
             return known
