@@ -1,14 +1,14 @@
-"""Series from ADAMS result files (`.res`): XML with entities, their components, and a step of numbers each time.
+"""Series from ADAMS result files (`.res`): XML with entities, their components, and a step for each time.
 
-A file has analyses; each has a map of steps, which says what entity and component the numbers of a step are, and
-the steps, whose numbers are broken over lines in the order of the ids of the components:
+A file has analyses. Each has a map of steps, which says what entity and component the numbers of a step are,
+and the steps, whose numbers are broken over lines in the order of the ids of the components:
 
     <Results><Analysis name="..."><StepMap>
     <Entity name="PART_2_XFORM"><Component name="Y" unitsValue="inch" id="3" /></Entity>
     </StepMap><Data><Step type="dynamic"> 0.01 0 -0.0194 ... </Step></Data></Analysis></Results>
 
-The parser is expat, which is given the file piece by piece: nothing is kept but the numbers that are wanted. Such
-files declare no entities, so that a declaration of the document's type, by which few bytes could become
+The parser is expat, which is given the file piece by piece: nothing is kept but the numbers that are wanted.
+Such files declare no entities, so that a declaration of the document's type, by which few bytes could become
 gigabytes, is refused. Step maps as of genuine files of Adams 2015 to 2022, and of VI-CarRealTime.
 """
 
@@ -86,8 +86,8 @@ class AdamsReading:
         except expat.ExpatError as error:
             said = expat.ErrorString(error.code)
             raise InputError(
-                f"{self._path}: line {error.lineno}, column {error.offset + 1}: {said}; allowed: the whole of an "
-                "ADAMS result file"
+                f"{self._path}: line {error.lineno}, column {error.offset + 1}: {said}; allowed: the whole of "
+                "an ADAMS result file"
             ) from None
         except (LookupError, UnicodeError, ValueError) as error:
             if isinstance(error, InputError):
@@ -222,8 +222,8 @@ class AdamsReading:
         there = SHARE * (available() + taken)
         if needed > there:
             raise InputError(
-                f"{self._path}: {len(self.columns)} series of it take {needed / 1e9:.3g} GB, and {there / 1e9:.3g} "
-                "GB are free; allowed: fewer, by their names or patterns of them"
+                f"{self._path}: {len(self.columns)} series of it take {needed / 1e9:.3g} GB, and "
+                f"{there / 1e9:.3g} GB are free; allowed: fewer, by their names or patterns of them"
             )
 
 

@@ -19,10 +19,10 @@ SAID = {"\t": "tabs", ";": "';'", ",": "commas", BLANKS: "blanks"}
 COMMENT = re.compile(r"\s*(#|%|!|//)")
 MISSING = ("", "nan", "NaN", "NAN", "NA", "N/A", "n/a", "null", "NULL", "-nan", "#N/A")  # no number
 NUMBERS = {
-    ".": re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?(inf|Inf|INF|infinity)"),
-    ",": re.compile(r"[+-]?(\d+(,\d+)?|,\d+)([eEdD][+-]?\d+)?"),
+    ".": re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?(inf|Inf|INF|infinity)", re.ASCII),
+    ",": re.compile(r"[+-]?(\d+(,\d+)?|,\d+)([eEdD][+-]?\d+)?", re.ASCII),
 }
-GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+")  # 1,234: a thousand, or one and a bit
+GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)  # 1,234: a thousand, or one and a bit
 LINES, LETTERS = 400, 1_000_000  # that are looked at
 ALLOWED = "rows of two or more numbers below a line of titles such as time_s,tip.x_mm"
 Rows = tuple[int, str, bool]  # items of each, what separates them, whether all end with that
