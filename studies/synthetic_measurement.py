@@ -1,10 +1,10 @@
 """`python -m studies.synthetic_measurement`: the measurement that an example compares with, made again.
 
 It is computed, for nobody has measured the reference support. The run behind it is what a real support is and
-a model mostly is not: its columns are oil, the rear-link pin has 1.5 mm of clearance and friction, and it starts
-at rest. It is computed to the accuracy "reference". The instruments of `measured_rise.toml` read it: late by
-their filters, with noise, in whole digits, and by a clock that is 0.37 s ahead of the run. A reader of the CSV
-knows none of this.
+a model mostly is not: its columns are oil, the rear-link pin has 1.5 mm of clearance and friction. It starts at
+rest and is computed to the accuracy "reference". The instruments of `measured_rise.toml` read it: late by their
+filters, with noise, in whole digits, and by a clock that is 0.37 s ahead of the run. A reader of the CSV knows
+none of this.
 """
 
 import sys

@@ -2,9 +2,9 @@
 
 Parts have their frames in their centres of mass, parallel to the ground. A mechanism in space whose pins were
 all revolute joints would be held several times in the direction across its plane. So revolute joints make a
-tree from the ground to every body; a pin that closes a loop is the primitive INLINE, which holds the two directions
-in the plane alone; and a body that no ideal pin ties to the ground is kept in the plane by a planar joint.
-No constraint repeats another.
+tree from the ground to every body; a pin that closes a loop is the primitive INLINE, which holds the two
+directions in the plane alone; and a body that no ideal pin ties to the ground is kept in the plane by a planar
+joint. No constraint repeats another.
 
 A column is two parts, which weigh 0.1 g: a cylinder on a revolute joint at its foot, in it the rod on a
 translational joint whose motion is the drive, and the rod's INLINE at the head.

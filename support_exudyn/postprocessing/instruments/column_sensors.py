@@ -66,9 +66,9 @@ class PressureGauge(Instrument):
             if known is None:
                 needed = "bore_mm" if self.side == "piston" else "bore_mm and rod_mm"
                 raise InputError(
-                    f"gauge on {self.column}: the area on which the oil presses is not known; allowed: "
-                    f"{needed} of the gauge, diameters, with the number of cylinders; or a scenario whose column is a "
-                    "HydraulicCylinder, or on the piston side an OilColumn"
+                    f"gauge on {self.column}: the area on which the oil presses is not known; "
+                    f"allowed: {needed} of the gauge, diameters, with the number of cylinders; or a scenario "
+                    "whose column is a HydraulicCylinder, or on the piston side an OilColumn"
                 )
             return known
         if known is not None and abs(own - known) > ALIKE * known:
