@@ -31,7 +31,7 @@ class Requests:
 
     @staticmethod
     def _request(out: Statements, name: str, some: Mapping[str, str]) -> None:
-        """A request; angles are numbers without a unit, so that no setting of degrees is applied to them."""
+        """A request, with the names and the kinds of unit of its components."""
         at = dict(zip(FUNCTIONS, some, strict=False))
         places = [at.get(f"F{n}", "") for n in range(1, PLACES + 1)]
         units = [_unit(one) for one in places]
@@ -56,7 +56,7 @@ def _groups(expressions: Mapping[str, str]) -> Iterator[dict[str, str]]:
 def _unit(name: str) -> str:
     if name in LENGTHS:
         return "length"
-    return "force" if "force" in name else "no_units"
+    return "angle" if name == "angle" else "force" if "force" in name else "no_units"
 
 
 def _quoted(word: str) -> str:

@@ -129,6 +129,19 @@ def test_the_bore_of_an_oil_column_is_its_own() -> None:
         read(run, PressureGauge(column="front_column", bore=0.25))
 
 
+def test_in_space_each_side_has_its_share_of_the_bore() -> None:
+    scenario = Scenario(
+        machine=reference_support(), actuators={"front_column": OIL}, duration=1.0, dimensions=3
+    )
+    force = np.full(TIME.size, 2e5)
+    run = synthetic.result(
+        scenario, TIME, {"front_column_left.force": (force, "N"), "front_column.force": (2.0 * force, "N")}
+    )
+    left, both = (read(run, PressureGauge(column=name))[0] for name in ("front_column_left", "front_column"))
+    assert left == pytest.approx(2e5 / (0.5 * OIL.bore_area), rel=1e-14)
+    assert both == pytest.approx(left, rel=1e-14)
+
+
 def test_a_hydraulic_cylinder_tells_its_pressures() -> None:
     scenario = Scenario(machine=reference_support(), actuators={"front_column": CYLINDER}, duration=1.0)
     pressures = {"front_column.pressure": (1e7 + TIME, "Pa"), "front_column.rod_pressure": (2e6 + TIME, "Pa")}

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 
 from studies.__main__ import main
 from studies.adams.dataset import adams_dataset, solver_commands
@@ -27,6 +29,8 @@ from support_exudyn import (
     read_scenario,
     simulate,
 )
+from support_exudyn.files.series.read import read_series
+from support_exudyn.files.series.units import converted
 from support_exudyn.model.linkage import GROUND
 from tests.cases.adams_model import Dataset, Motion, PlanarModel, evaluated, read_dataset
 from user_forces import Impact
@@ -125,6 +129,15 @@ def test_the_commands_run_to_the_end() -> None:
 SPEEDS = st.floats(-2.0, 2.0)
 
 
+@cache
+def loose(bore: str, friction: bool) -> tuple[ClearancePin, Dataset]:
+    """The paper's pin, and the dataset with it."""
+    pin = replace(RISE.pins[PIN], bore=bore)
+    if not friction:
+        pin = replace(pin, contact=replace(pin.contact, friction=Frictionless()))
+    return pin, data_of(replace(RISE, pins={PIN: pin}))
+
+
 @given(
     depth=st.floats(-1e-3, 1e-3), angle=st.floats(-4.0, 4.0), vx=SPEEDS, vy=SPEEDS, spin=st.floats(-3.0, 3.0),
     remembered=st.floats(-1.0, 1.0), bore=st.sampled_from(["first", "second"]), friction=st.booleans(),
@@ -132,11 +145,7 @@ SPEEDS = st.floats(-2.0, 2.0)
 def test_the_force_is_that_of_our_laws(
     depth: float, angle: float, vx: float, vy: float, spin: float, remembered: float, bore: str, friction: bool
 ) -> None:
-    pin = replace(RISE.pins[PIN], bore=bore)
-    if not friction:
-        pin = replace(pin, contact=replace(pin.contact, friction=ClearancePin.simple(
-            clearance=1e-3, bore_radius=0.06).contact.friction))  # fmt: skip
-    data = data_of(replace(RISE, pins={PIN: pin}))
+    pin, data = loose(bore, friction)
     model = PlanarModel(data)
     motion = model.start()
     part = model.parts[0]  # the rear link, whose pin in the ground it is
@@ -239,10 +248,43 @@ def test_the_equations_are_those_of_our_runs(run: Result) -> None:
             assert found == pytest.approx(run[channel][n], rel=1e-5, abs=2e-6 * scale), (channel, n)
 
 
+@pytest.mark.slow
+def test_solved_by_another_solver_it_falls_and_hits_as_our_run() -> None:
+    model = PlanarModel(READ)
+    size, start = 3 * len(model.parts), model.start()
+
+    def motion_of(t: float, state: np.ndarray) -> Motion:
+        at, rate = dict(start.position), dict(start.velocity)
+        for part, n in model.place.items():
+            at[part], rate[part] = state[n : n + 3], state[size + n : size + n + 3]
+        return Motion(at, rate, t, {1: float(state[-1])})
+
+    def rates(t: float, state: np.ndarray) -> np.ndarray:
+        motion = motion_of(t, state)
+        accelerations, _ = model.solved(motion)
+        follows = evaluated(READ["DIFF", 1].arguments["FUNCTION"], model.names(motion))
+        return np.concatenate([state[size:-1], *(accelerations[part] for part in model.parts), [follows]])
+
+    first = np.concatenate([*(start.position[part] for part in model.parts), np.zeros(size + 1)])
+    held = simulate(replace(RISE, duration=0.05, accuracy="reference"))
+    found = solve_ivp(
+        rates, (0.0, 0.05), first, method="LSODA", rtol=1e-9, atol=1e-10, t_eval=held.time, max_step=1e-3
+    )
+    assert (held[f"pin.{PIN}.depth"] > 1e-4).any()
+    for n, t in enumerate(held.time):
+        names = model.names(motion_of(t, found.y[:, n]))
+        for axis, value in (("x", "VARVAL(1)"), ("y", "VARVAL(2)")):
+            assert evaluated(value, names) == pytest.approx(held[f"pin.{PIN}.eccentricity_{axis}"][n], abs=2e-7)
+    forces = [
+        evaluated("VARVAL(17)", model.names(motion_of(t, found.y[:, n]))) for n, t in enumerate(held.time)
+    ]
+    assert max(forces) == pytest.approx(held[f"pin.{PIN}.normal_force"].max(), rel=1e-3)
+
+
 def test_every_result_has_its_unit_and_is_a_channel_of_ours() -> None:
     dataset = adams_dataset(RISE, "model")
     entities = {one.arguments["RESULTS_NAME"]: one for one in READ.of("REQUEST").values()}
-    units = {"m": "length", "N": "force", "rad": "no_units"}
+    units = {"m": "length", "N": "force", "rad": "angle"}
     for channel, column in dataset.columns.items():
         entity, component = column.split(".")
         place = entities[entity].words("CNAMES").index(component)
@@ -250,6 +292,28 @@ def test_every_result_has_its_unit_and_is_a_channel_of_ours() -> None:
         assert entities[entity].words("CUNITS")[place] == units[RISE.channel_definitions[channel].unit]
     asked = sum(len([one for one in entity.arguments if one[1:].isdigit()]) for entity in entities.values())
     assert asked == len(dataset.columns)
+
+
+def test_results_as_adams_writes_them_are_read_by_the_names_of_the_mapping(tmp_path: Path) -> None:
+    dataset, units = adams_dataset(RISE, "model"), {"length": "meter", "force": "newton", "angle": "radian"}
+    entities, count = ['<Entity name="time"><Component name="TIME" unitsValue="sec" id="1"/></Entity>'], 1
+    for request in READ.of("REQUEST").values():
+        named = zip(request.words("CNAMES"), request.words("CUNITS"), strict=True)
+        components = ""
+        for name, unit in ((name, unit) for name, unit in named if name):
+            count += 1
+            components += f'<Component name="{name}" unitsValue="{units[unit]}" id="{count}"/>'
+        entities.append(f'<Entity name="{request.arguments["RESULTS_NAME"]}">{components}</Entity>')
+    steps = "".join(f'<Step type="dynamic">{" ".join([str(t)] * count)}</Step>' for t in range(3))
+    path = tmp_path / "model.res"
+    inside = f"<StepMap>{''.join(entities)}</StepMap><Data>{steps}</Data>"
+    path.write_text(f'<Results><Analysis name="a">{inside}</Analysis></Results>')
+    series = read_series(path).series
+    assert set(series) == set(dataset.columns.values())
+    for channel, column in dataset.columns.items():
+        np.testing.assert_array_equal(
+            converted(series[column], RISE.channel_definitions[channel].unit), [0, 1, 2]
+        )
 
 
 # --- the command, and what is refused ---
