@@ -32,7 +32,7 @@ def mapping_text(columns: Mapping[str, str], results: str) -> str:
     """The mapping file of `compare` for the results of ADAMS: channels, and what they are called there."""
     lines = [
         "# Our channels, and what they are called in the results of ADAMS (names of requests and components).",
-        "# ADAMS writes their units. They are compared with a run by `compare`, which takes this file by --map.",
+        "# ADAMS writes their units. `compare` takes this file by --map.",
         "",
         f'[files."{results}".columns]',
         *(f'"{channel}" = "{column}"' for channel, column in columns.items()),

@@ -33,7 +33,7 @@ from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.model.linkage import GROUND
 from tests.cases.adams_model import Dataset, Motion, PlanarModel, evaluated, read_dataset
-from user_forces import Impact
+from user_forces import Frictionless, Impact
 from user_forces.values.value import InputError
 
 PIN = "rear_base"
