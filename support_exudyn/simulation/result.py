@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING, Any, cast
 import h5py
 import numpy as np
 
+from support_exudyn.files.free_memory import available
 from support_exudyn.files.hdf5 import Inside, check_checksum, checksum_block, file_image, write_texts
 from support_exudyn.files.own_modules import import_modules_of, modules_of
+from support_exudyn.files.series.own_runs import RUN
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse
@@ -24,7 +26,6 @@ from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.simulation.data_frames import to_pandas, to_xarray
 from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
 from support_exudyn.simulation.horizon import horizon
-from support_exudyn.simulation.memory import available
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import measures
 from user_forces.values.names import Named
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-FORMAT = "support_exudyn result 5"
+FORMAT = RUN
 COLUMNS = "time [s], initial impact velocity [m/s], time of separation [s], speed of separation [m/s]"
 DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
 

@@ -1,1 +1,1 @@
-"""Readers of quantities over time, one format a file."""
+"""Series of files that other programs, and this one, have written."""

@@ -1,0 +1,140 @@
+"""Series from tables of text: CSV, and items that tabs, semicolons or blanks separate.
+
+What separates items, whether decimals have a comma and where titles stand is found in the file, see
+`table_layout`. pyarrow parses the numbers.
+"""
+
+from __future__ import annotations
+
+import re
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+
+from support_exudyn.files.series.asked import Asked
+from support_exudyn.files.series.columns import Column, Numbers, is_named_time, series_file
+from support_exudyn.files.series.named_series import SeriesFile
+from support_exudyn.files.series.plain_text import lines_of, text_of
+from support_exudyn.files.series.table_layout import (
+    BLANKS,
+    COMMENT,
+    LETTERS,
+    LINES,
+    MISSING,
+    TableLayout,
+    layout,
+)
+from user_forces.values.value import InputError, short
+
+BLOCK = 2**24  # bytes that are parsed at a time, more than a line has
+COMMENTS = re.compile(rb"(?m)^[ \t]*(#|%|!|//)[^\n]*\n?")
+
+
+def read_text_table(path: Path, asked: Asked) -> SeriesFile:
+    """The series of a table: every column but those of times.
+
+    A column is of times if it is called time or t, or if it is the first of columns without titles. Of several
+    columns of times each is of the columns to its right, up to the next.
+
+    Raises InputError for what is no table, or can be read in two ways, with line and column; OSError if it
+    cannot be read.
+    """
+    data, notes = text_of(path)
+    asked.progress(0.2)
+    head = list(islice(lines_of(data[: 4 * LETTERS]), LINES))
+    how = layout(path, head)
+    values = numbers_of(path, data, how)
+    asked.progress(0.9)
+    columns = [
+        Column(name, unit, one)
+        for (name, unit), one in zip(how.titles, values, strict=True)
+        if not (name.startswith("column_") and np.isnan(one).all())  # after a last separator
+    ]
+    groups, said = _over_times(path, columns)
+    found = series_file(path, "table of text", groups, asked, (*notes, *how.notes, *said))
+    asked.progress(1.0)
+    return found
+
+
+def numbers_of(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
+    """The columns of numbers of a text that is written so.
+
+    Raises InputError that names line and column of what is no number.
+    """
+    start = 0
+    for _ in range(how.first):
+        start = data.index(b"\n", start) + 1
+    body = data[start:]
+    if COMMENTS.search(body):
+        body = COMMENTS.sub(b"", body)
+    if how.separator == BLANKS:
+        body = re.sub(rb"[ \t]+", b"\t", re.sub(rb"(?m)^[ \t]+|[ \t]+$", b"", body))
+    found = _by_arrow(body, how)
+    return _by_line(path, data, how) if found is None else found
+
+
+def _by_arrow(body: bytes, how: TableLayout) -> list[Numbers] | None:
+    """The columns as pyarrow parses them; None if it does not take an item."""
+    import pyarrow as pa
+    from pyarrow import csv
+
+    names = [str(n) for n in range(how.width)]
+    try:
+        table = csv.read_csv(
+            pa.BufferReader(body),
+            csv.ReadOptions(use_threads=False, block_size=BLOCK, column_names=names),
+            csv.ParseOptions(delimiter="\t" if how.separator == BLANKS else how.separator),
+            csv.ConvertOptions(
+                column_types=dict.fromkeys(names, pa.float64()),
+                null_values=[*MISSING],
+                decimal_point=how.decimal,
+            ),
+        )
+    except (pa.ArrowException, ValueError):
+        return None
+    return [np.asarray(table.column(n).to_numpy(), dtype=np.float64) for n in range(how.width)]
+
+
+def _by_line(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
+    """The columns line by line, which finds what is wrong, and numbers that pyarrow does not take, 1D+3."""
+    rows = []
+    for number, line in enumerate(lines_of(data), 1):
+        if number <= how.first or not line.strip() or COMMENT.match(line):
+            continue
+        found = how.items(line)
+        if len(found) != how.width:
+            raise InputError(f"{path}: line {number}: has {len(found)} items; allowed: {how.width}, as before")
+        row = [how.number(one) for one in found]
+        if None in row:
+            place = row.index(None)
+            point = "12,5" if how.decimal == "," else "12.5"
+            raise InputError(
+                f"{path}: line {number}, column {short(how.titles[place][0])}: {short(found[place])}; "
+                f"allowed: a number such as {point}, or nothing"
+            )
+        rows.append(row)
+    return list(np.array(rows, dtype=np.float64).reshape(-1, how.width).T)
+
+
+def _over_times(path: Path, columns: list[Column]) -> tuple[list[tuple[Column, list[Column]]], list[str]]:
+    """Columns of times, each with the columns that are over it."""
+    times = [n for n, one in enumerate(columns) if one.name.casefold() in ("time", "t")]
+    if not times and columns and (is_named_time(columns[0].name) or columns[0].name == "column_1"):
+        times = [0]
+    if not times:
+        known = ", ".join(short(one.name) for one in columns[:6])
+        raise InputError(
+            f"{path}: has no times; allowed: a column time_s, time_ms or 'time [s]'; it has {known}"
+        )
+    if len(times) == 1:
+        (place,) = times
+        return [(columns[place], columns[:place] + columns[place + 1 :])], []
+    if times[0] != 0:
+        raise InputError(
+            f"{path}: column {short(columns[0].name)}: stands before the first of {len(times)} columns of "
+            "times; allowed: after that of its own"
+        )
+    ends = [*times[1:], len(columns)]
+    groups = [(columns[start], columns[start + 1 : end]) for start, end in zip(times, ends, strict=True)]
+    return groups, [f"{len(times)} columns of times; each is of the columns to its right, up to the next."]
