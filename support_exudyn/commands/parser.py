@@ -36,6 +36,7 @@ NAMES = {  # of commands, each with a line of what it does
     "render": "ray-traced frames and a movie of a run, without a display",
     "view": "open Exudyn's solution viewer on a run",
     "export": "moving meshes for ParaView (XDMF, VTU) and tables of all channels (CSV, HDF5)",
+    "measure": "what instruments on the machine read of a run: pressures, extensions, tilts; a table (CSV)",
     "scenario": "the scenario of a run as a TOML file, which `run` takes",
     "schema": "all keys of scenario files, or of machine files: as a table, or as a JSON Schema for editors",
     "docs": "build the documentation as a site: pages, reference, gallery; needs the extra [docs]",
