@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support_exudyn.postprocessing.curves import read_curves
 
 from support_exudyn import HydraulicCylinder, OilColumn, Result, Scenario, bore_area, reference_support
 from support_exudyn.__main__ import main
 from support_exudyn.files.machines.read import machine
-from support_exudyn.postprocessing.curves import read_curves
 from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge
 from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer
 from support_exudyn.postprocessing.instruments.instrument import Instrument
