@@ -102,9 +102,8 @@ def layout(path: Path, lines: Sequence[str]) -> TableLayout:
     if decimal == ",":
         _check_commas(path, [line for _, line in text[place:]], separator)
     first = text[place][0]
-    ended = all(
-        not items(line, separator)[-1] for _, line in text[place:]
-    )  # by a separator, as lines of titles need not be
+    # rows may end with a separator where the line of titles does not
+    ended = all(not items(line, separator)[-1] for _, line in text[place:])
     titles, notes = _titles(path, lines[:first], text[:place], (width, separator, ended))
     return TableLayout(separator, decimal, first, width, titles, notes)
 
