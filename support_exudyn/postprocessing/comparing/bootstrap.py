@@ -12,6 +12,7 @@ import numpy.typing as npt
 from scipy import fft
 
 Values = npt.NDArray[np.float64]
+ROUNDING = 1e-14  # of the largest value, that a mean of equal values may differ by
 BAND = 2.0  # correlations below BAND sqrt(log10(n) / n) are taken to be none
 
 
@@ -77,8 +78,8 @@ def _flat_top(values: Values) -> tuple[Values, Values]:
     centred = values - values.mean()
     power = np.abs(fft.rfft(centred, fft.next_fast_len(count + most + 1, real=True))) ** 2
     covariances = fft.irfft(power, fft.next_fast_len(count + most + 1, real=True))[: most + 1] / count
-    if not covariances[0] > 0.0:
-        return covariances[:1], np.ones(1)
+    if not covariances[0] > (ROUNDING * float(np.abs(values).max())) ** 2:
+        return np.zeros(1), np.ones(1)  # constant
     none = np.abs(covariances[1:]) < BAND * math.sqrt(math.log10(count) / count) * covariances[0]
     in_a_row = np.convolve(none, np.ones(row), "valid") == row  # [m]: those of lags m + 1 to m + row
     last = 2 * max(int(in_a_row.argmax()), 1) if in_a_row.any() else most

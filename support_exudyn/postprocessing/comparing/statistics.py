@@ -31,7 +31,7 @@ LONGER = 3.0
 RESAMPLES = 400  # so that a standard error is known to 4 %
 FEWEST_BLOCKS = 5.0
 IMPACTS = "impacts_per_second"
-EXACT = 1e-12  # of the size of a statistic: what rounding may leave of a difference of curves that do not vary
+EXACT = 1e-12  # of the largest value: what rounding may leave of a difference of curves that do not vary
 
 STATISTICS: Mapping[str, Callable[[Values], float]] = {
     "mean": lambda values: float(values.mean()),
@@ -119,11 +119,12 @@ def compared_statistics(
 
 
 class _Known(NamedTuple):
-    """A statistic of a curve, its standard error, and of how many blocks it is known."""
+    """A statistic of a curve, its standard error, of how many blocks it is known, and the largest value."""
 
     value: float
     error: float
     blocks: float
+    largest: float
 
 
 def _of_curve(curve: EvenSamples, random: np.random.Generator) -> dict[str, _Known]:
@@ -138,7 +139,7 @@ def _of_curve(curve: EvenSamples, random: np.random.Generator) -> dict[str, _Kno
         found[n] = [statistic(drawn) for statistic in STATISTICS.values()]
     errors = found.std(axis=0, ddof=1)
     return {
-        name: _Known(statistic(values), float(error), values.size / length)
+        name: _Known(statistic(values), float(error), values.size / length, float(np.abs(values).max()))
         for (name, statistic), error in zip(STATISTICS.items(), errors, strict=True)
     }
 
@@ -151,7 +152,8 @@ def _of_impacts(curve: EvenSamples, impacts: Sequence[float], random: np.random.
     counts = np.histogram(np.asarray(impacts, dtype=float), edges)[0].astype(float)
     length = LONGER * block_length(counts)
     found = [counts[resampled(count, length, random)].sum() / duration for _ in range(RESAMPLES)]
-    return _Known(float(counts.sum()) / duration, float(np.std(found, ddof=1)), count / length)
+    rate = float(counts.sum()) / duration
+    return _Known(rate, float(np.std(found, ddof=1)), count / length, rate)
 
 
 def _difference(name: str, first: _Known, second: _Known, confidence: float) -> StatisticDifference:
@@ -168,7 +170,7 @@ def _difference(name: str, first: _Known, second: _Known, confidence: float) -> 
     freedoms = [one.blocks - 1.0 for one in (first, second)]
     both = sum(squares)
     shares = sum(square**2 / freedom for square, freedom in zip(squares, freedoms, strict=True))
-    rounding = EXACT * max(abs(first.value), abs(second.value))
+    rounding = EXACT * max(first.largest, second.largest)
     return StatisticDifference(
         name,
         _interval(first.value, squares[0], freedoms[0], confidence),
