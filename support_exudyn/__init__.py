@@ -91,6 +91,7 @@ if TYPE_CHECKING:
     from support_exudyn.model.machine import Machine
     from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
     from support_exudyn.model.to_space import Width
+    from support_exudyn.postprocessing.comparing.files_compared import FilesCompared, compare_files
     from support_exudyn.postprocessing.export.solution_file import save_solution
     from support_exudyn.postprocessing.known_channels import channels
     from support_exudyn.postprocessing.side_by_side import RunsSideBySide, compare
@@ -124,6 +125,7 @@ __all__ = [
     "Estimate",
     "Failure",
     "FallingBlock",
+    "FilesCompared",
     "FrictionLaw",
     "Gear",
     "Guide",
@@ -182,6 +184,7 @@ __all__ = [
     "bore_area",
     "channels",
     "compare",
+    "compare_files",
     "cylinders_and_rods",
     "load_machine",
     "load_support",
@@ -269,6 +272,7 @@ _PLACES = {
 # what needs the engine or draws
 _SHOWN = {
     ".postprocessing.export.solution_file": ("save_solution",),
+    ".postprocessing.comparing.files_compared": ("FilesCompared", "compare_files"),
     ".postprocessing.known_channels": ("channels",),
     ".postprocessing.side_by_side": ("RunsSideBySide", "compare"),
 }

@@ -28,7 +28,8 @@ NAMES = {  # of commands, each with a line of what it does
     "tornado",
     "table": "table of a sweep's runs for a text, as Markdown, CSV or LaTeX",
     "show": "tables of what a run or a sweep was and what came out of it",
-    "compare": "by how much a second run differs from a first, channel by channel, with errors",
+    "compare": "by how much runs, measurements and results of other programs differ from a first file, and "
+    "whether that is allowed",
     "plot": "figures of runs as PNG and PDF: channels over time, journal orbit, Poincare section, force "
     "spectrum",
     "report": "a page on runs: what was run, the machine, numbers with errors, live figures, a picture",
@@ -49,8 +50,9 @@ all.
 
 exit codes:
   0    done
-  1    not done, for a reason that is said in one line: an input, a file, a run that cannot be finished
-  2    the command line cannot be read
+  1    not done, for a reason that is said in one line: an input, a file, a run that cannot be finished;
+       of compare: something is not within its tolerance
+  2    the command line cannot be read; of compare: nothing was compared, for a reason that is said in one line
   3    a sweep is done, but some of its runs failed
   130  interrupted
 """

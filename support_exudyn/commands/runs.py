@@ -1,14 +1,17 @@
 """Files of runs on a command line: how they are told from channels, and what they are called."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from support_exudyn.commands.command_line import folder
+from support_exudyn.files.series.matlab import is_matlab
+from support_exudyn.files.series.own_runs import is_exported, is_run
 from user_forces.values.value import InputError
 
 ENDING = ".h5"  # of runs
-CSV = ".csv"
+CSV, TOML = ".csv", ".toml"
+HEAD = 600  # bytes by which runs are told from series of others
 NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
 LONGEST = 80  # letters of what a file's name says of channels
 
@@ -28,9 +31,33 @@ def named_runs(paths: Sequence[Path]) -> dict[str, Path]:
     return found
 
 
+def named_curves(paths: Sequence[Path], taken: Collection[str]) -> dict[str, Path]:
+    """Names of files of others: with the ending where that tells two apart, or with the folder.
+
+    taken: names of runs. Raises InputError if a file is given twice.
+    """
+    found: dict[str, Path] = {}
+    stems = [*taken, *(path.stem for path in paths)]
+    for path in paths:
+        if path in found.values():
+            raise InputError(f"{path}: is given twice; allowed: every file once")
+        name = path.stem if stems.count(path.stem) == 1 else path.name
+        found[name if name not in found else str(path)] = path
+    return found
+
+
 def files_of_curves(words: Sequence[str]) -> list[Path]:
-    """The CSV files among words."""
-    return [folder(word) for word in words if word.lower().endswith(CSV)]
+    """The files among words that are series of others; a table that is missing is one, too."""
+    return [folder(word) for word in words if word.lower().endswith(CSV) or _is_of_others(folder(word))]
+
+
+def _is_of_others(path: Path) -> bool:
+    """Whether a path is a file, and neither a run, whole or damaged, nor a text of ours."""
+    if not path.is_file() or path.suffix.lower() == TOML:
+        return False
+    with path.open("rb") as file:
+        head = file.read(HEAD)
+    return not is_run(head) and (path.suffix.lower() != ENDING or is_exported(head) or is_matlab(head))
 
 
 def runs_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:

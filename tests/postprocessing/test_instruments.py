@@ -12,7 +12,8 @@ import pytest
 from support_exudyn import HydraulicCylinder, OilColumn, Result, Scenario, bore_area, reference_support
 from support_exudyn.__main__ import main
 from support_exudyn.files.machines.read import machine
-from support_exudyn.postprocessing.curves import read_curves
+from support_exudyn.files.series.read import read_series
+from support_exudyn.files.series.units import converted
 from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge
 from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer
 from support_exudyn.postprocessing.instruments.instrument import Instrument
@@ -214,10 +215,10 @@ def test_samples_are_taken_at_their_rates_and_told_by_the_clock(tmp_path: Path) 
     found = measure(pushed(1e6 * TIME), station)
     np.testing.assert_allclose(found["slow"].time, 0.5 + np.arange(5) / 4.0)
     np.testing.assert_allclose(found["fast"].values * bore_area(0.25), 1e6 * np.arange(17) / 16.0, rtol=1e-9)
-    curves = read_curves(write_measured(found, tmp_path / "measured.csv"))
-    assert list(curves.columns) == ["time_s", "slow_MPa", "fast_MPa"]
-    np.testing.assert_allclose(curves.time, found["fast"].time)
-    again = curves.of("slow", "Pa")
+    series = read_series(write_measured(found, tmp_path / "measured.csv")).series
+    assert {name: one.unit for name, one in series.items()} == {"slow": "MPa", "fast": "MPa"}
+    np.testing.assert_allclose(series["slow"].time, found["fast"].time)
+    again = converted(series["slow"], "Pa")
     np.testing.assert_array_equal(np.isnan(again), np.arange(17) % 4 != 0)
     np.testing.assert_allclose(again[::4], found["slow"].values, rtol=1e-9)
 
@@ -291,10 +292,10 @@ def test_the_command_writes_the_table(tmp_path: Path, capsys: pytest.CaptureFixt
     (tmp_path / "instruments.toml").write_text(FILE)
     assert main(["measure", str(run), str(tmp_path / "instruments.toml")]) == 0
     assert "1 instruments, 6 samples" in capsys.readouterr().out
-    curves = read_curves(tmp_path / "run_measured.csv")
+    series = read_series(tmp_path / "run_measured.csv").series
     exact = 1.0 / bore_area(0.25, 2)
-    assert np.abs(curves.columns["front_column.pressure_MPa"] - exact).max() < 5 * 0.05 + 0.05
-    assert curves.time[0] == 0.25
+    assert np.abs(converted(series["front_column.pressure"], "MPa") - exact).max() < 5 * 0.05 + 0.05
+    assert next(iter(series.values())).time[0] == 0.25
     assert main(["measure", str(run), "--json"]) == 1
     assert "'rear_column.length': was not recorded" in capsys.readouterr().err
 

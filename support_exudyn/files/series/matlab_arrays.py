@@ -43,7 +43,7 @@ def _standing(values: Any) -> Numbers | None:
 
 
 def _of_scipy(data: bytes) -> Found:
-    from scipy.io import loadmat
+    from scipy.io.matlab import loadmat
 
     stream: Any = io.BytesIO(data)  # which scipy takes, and its stubs do not tell
     for name, item in loadmat(stream).items():
