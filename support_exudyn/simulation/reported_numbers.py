@@ -92,7 +92,6 @@ def measures(
         )
     found: dict[str, ReportedNumber] = {}
     left = left_by_newton(result.scenario)
-    steps_chosen = result.scenario.chooses_steps
     turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
     fastest = max((largest(result[name]) for name in turning), default=0.0) if sized else 0.0
     for name, channel in result.channels.items():
@@ -133,7 +132,7 @@ def measures(
         for axis in ("x", "y"):
             measure = over(f"{point}.{axis}", np.mean, after, until)
             found[f"{point}.{axis}.mean"] = ReportedNumber("m", measure, farthest, "place")
-    for pin, onsets in result.onsets.items():
+    for pin in result.onsets:
         stem = result.scenario.contact_stem(pin)
         # not of an edge in space: a section's share of the force is the less the more sections there are
         if pin.rpartition(".")[0] not in result.onsets:
@@ -144,15 +143,22 @@ def measures(
                 found[f"{stem}.largest_force_time"] = ReportedNumber(
                     "s", _time_at_any_step(pin), missed=_other_impacts(pin), settles=False
                 )
-        for n, onset in enumerate(onsets[:ONSETS]):
-            impact = f"{stem}.onset_{n + 1}"
-            late, slow = _of_a_step(result.scenario, pin, onset) if steps_chosen else (0.0, 0.0)
-            found[f"{impact}.time"] = ReportedNumber(
-                "s", _onset(pin, n, "time"), of=impact, left=left, step=late
-            )
-            found[f"{impact}.speed"] = ReportedNumber(
-                "m/s", _onset(pin, n, "speed"), of=impact, left=left, step=slow
-            )
+        found |= impact_numbers(result, pin, ONSETS)
+    return found
+
+
+def impact_numbers(result: RecordedRun, pin: str, most: int) -> dict[str, ReportedNumber]:
+    """Times [s] and initial velocities [m/s] of the first impacts of a clearance pin, `most` of them at most."""
+    scenario = result.scenario
+    left, stem = left_by_newton(scenario), scenario.contact_stem(pin)
+    found: dict[str, ReportedNumber] = {}
+    for n, onset in enumerate(result.onsets[pin][:most]):
+        impact = f"{stem}.onset_{n + 1}"
+        late, slow = _of_a_step(scenario, pin, onset) if scenario.chooses_steps else (0.0, 0.0)
+        found[f"{impact}.time"] = ReportedNumber("s", _onset(pin, n, "time"), of=impact, left=left, step=late)
+        found[f"{impact}.speed"] = ReportedNumber(
+            "m/s", _onset(pin, n, "speed"), of=impact, left=left, step=slow
+        )
     return found
 
 

@@ -1,0 +1,120 @@
+"""What is kept of a run: its numbers, impacts and thinned curves, each with its error."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.baselines.fluctuation import fluctuation
+from support_exudyn.postprocessing.baselines.kept_impacts import Impacts, kept_impacts
+from support_exudyn.postprocessing.figures.channels import error_over_time
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.result import Result
+from support_exudyn.sweeps.key import program
+
+RECORDS = 100  # of every curve that are kept
+TIME = "time"
+ONSET = ".onset_"  # in names of numbers: impacts are kept by themselves
+STATISTICS = (".mean", ".std")  # which are numbers of a run, whatever its single impacts
+# Share of the largest value of a unit, for the whole run, that an error is at least: what is nothing in truth,
+# as the force of a pin that carries nothing, is left by rounding of what others are.
+ROUNDING = 1e-12
+# Estimates of errors hold for 98 % of numbers, and the worst was wrong by 3.1, see `simulation.estimate`. Curves
+# have thousands, of which one that is wrong would be told: they get more.
+OF_CURVES = 3.5
+
+
+class KeptCurve(NamedTuple):
+    """A channel at the records that are kept: unit, values and their errors (n,), in SI."""
+
+    unit: str
+    values: Series
+    errors: Series
+
+
+@dataclass(frozen=True)
+class KeptRun:
+    """What is kept of a run, to tell later what has changed.
+
+    scenario: that was run, as plain data; empty if numbers alone are kept.
+    numbers: by name, those of single impacts left out.
+    time: of the records that are kept (n,) [s]. curves: at these, by channel.
+    impacts: the first of every clearance pin.
+    horizon: up to when single impacts and curves are determined [s], see `kept_impacts`.
+    provenance: versions, platform, time, and a digest of our own sources.
+    history: what was said when the baseline was changed: date and reason.
+    """
+
+    numbers: Mapping[str, Estimate]
+    provenance: Mapping[str, str]
+    scenario: Mapping[str, Any] = field(default_factory=dict)
+    time: Series = field(default_factory=lambda: np.zeros(0))
+    curves: Mapping[str, KeptCurve] = field(default_factory=dict)
+    impacts: Impacts = field(default_factory=dict)
+    horizon: float = math.inf
+    history: tuple[Mapping[str, str], ...] = ()
+
+
+def kept_run(result: Result, scenario: Scenario) -> KeptRun:
+    """What is kept of a run.
+
+    Beyond the horizon single impacts, extremes and curves are no results, so of a run that has one the numbers
+    kept are means and spreads, whose errors then are at least what they fluctuate by.
+
+    Arguments:
+        result: with errors.
+        scenario: that was asked for; the result's own has the settings that were chosen.
+
+    Raises InputError if the result has nothing to estimate errors by.
+    """
+    impacts, horizon = kept_impacts(result)
+    rows = np.unique(np.linspace(0, result.time.size - 1, RECORDS).round().astype(np.intp))
+    return KeptRun(
+        numbers=_numbers(result, horizon),
+        provenance={**result.provenance, "sources": program()["sources"]},
+        scenario=scenario.plain,
+        time=result.time[rows],
+        curves=_curves(result, rows),
+        impacts=impacts,
+        horizon=horizon,
+    )
+
+
+def _numbers(result: Result, horizon: float) -> dict[str, Estimate]:
+    numbers = {name: one for name, one in result.numbers().items() if ONSET not in name}
+    if math.isinf(horizon):
+        return numbers
+    statistics = {name: one for name, one in numbers.items() if name.endswith(STATISTICS)}
+    return {
+        name: one._replace(error=one.error + fluctuation(result, name, horizon))
+        for name, one in statistics.items()
+    }
+
+
+def _curves(result: Result, rows: npt.NDArray[np.intp]) -> dict[str, KeptCurve]:
+    """All channels at some records.
+
+    The error of a record is `OF_CURVES` times the largest of all records up to the next that is kept: where the
+    curves of two runs cross they agree by chance, and what is behind an impact is not more certain than that is.
+    """
+    sizes: dict[str, float] = {}
+    for channel in result.channels.values():
+        largest = np.abs(channel.values[np.isfinite(channel.values)]).max(initial=0.0)
+        sizes[channel.unit] = max(sizes.get(channel.unit, 0.0), float(largest))
+    found = {}
+    for name, channel in result.channels.items():
+        if name == TIME or not channel.is_determined:
+            continue
+        around = error_over_time(result, name)
+        if around is None:
+            worst = np.full(rows.size, math.inf)
+        else:
+            worst = np.maximum.accumulate(around)[np.concatenate([rows[1:], rows[-1:]])]
+        least = ROUNDING * sizes[channel.unit]
+        found[name] = KeptCurve(channel.unit, channel.values[rows], OF_CURVES * worst + least)
+    return found
