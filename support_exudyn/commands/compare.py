@@ -9,7 +9,7 @@ from rich.console import Console
 from support_exudyn.commands.command_line import add_json, add_times, answer, folder, say
 from support_exudyn.commands.tables import printed, show_table
 from support_exudyn.postprocessing import summary as summary
-from support_exudyn.postprocessing.comparison import Difference, compared, same_to_the_bit
+from support_exudyn.postprocessing.comparing.own_runs import Difference, compared, same_to_the_bit
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.figures.units import readable_change

@@ -1,42 +1,9 @@
-"""How much memory is free."""
+"""Whether the records of a run fit into memory."""
 
-import os
-from pathlib import Path
-
+from support_exudyn.files.free_memory import available
 from support_exudyn.mechanics.channels import chosen
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
-
-UNKNOWN = 2**36  # bytes, where the system does not tell how much there is
-ASKED = Path("/proc/meminfo")
-OF_GROUP = (Path("/sys/fs/cgroup/memory.max"), Path("/sys/fs/cgroup/memory.current"))
-
-
-def available() -> int:
-    """Memory that is free for this process [bytes], as far as the system tells."""
-    return min(_of_machine(), _of_group())
-
-
-def _of_machine() -> int:
-    try:
-        lines = ASKED.read_text(encoding="ascii", errors="replace").splitlines()
-        return next(int(line.split()[1]) * 1024 for line in lines if line.startswith("MemAvailable:"))
-    except (OSError, ValueError, LookupError, StopIteration):
-        pass
-    try:
-        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, ValueError, OSError):  # Windows
-        return UNKNOWN
-
-
-def _of_group() -> int:
-    """What a container leaves."""
-    try:
-        most, taken = (int(path.read_text(encoding="ascii")) for path in OF_GROUP)
-    except (OSError, ValueError):  # there is none, or it has no limit
-        return UNKNOWN
-    return max(0, most - taken)
-
 
 NUMBER = 2 * 8  # bytes of a number at a record, and of the states that it follows from; 2.9 * 8 were measured
 GIGA = 1e9

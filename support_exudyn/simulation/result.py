@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, cast
 import h5py
 import numpy as np
 
+from support_exudyn.files.free_memory import available
 from support_exudyn.files.hdf5 import Inside, check_checksum, checksum_block, file_image, write_texts
 from support_exudyn.files.own_modules import import_modules_of, modules_of
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
@@ -24,7 +25,6 @@ from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.simulation.data_frames import to_pandas, to_xarray
 from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
 from support_exudyn.simulation.horizon import horizon
-from support_exudyn.simulation.memory import available
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import measures
 from user_forces.values.names import Named

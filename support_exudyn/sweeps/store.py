@@ -20,10 +20,10 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Literal, NamedTuple
 
+from support_exudyn.files.free_memory import available
 from support_exudyn.files.hdf5 import check_checksum
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import contents, whole_file, writing_alone
-from support_exudyn.simulation.memory import available
 from support_exudyn.simulation.result import FORMAT
 from support_exudyn.sweeps.key import LENGTH
 

@@ -10,8 +10,8 @@ import numpy as np
 import pyarrow as pa
 from pyarrow import csv, parquet
 
+from support_exudyn.files.free_memory import available
 from support_exudyn.files.whole_file import check_is_file, whole_file
-from support_exudyn.simulation.memory import available
 from support_exudyn.sweeps.key import program
 from support_exudyn.sweeps.plan import MOST, Plan
 from support_exudyn.sweeps.store import StoredRun

@@ -12,7 +12,7 @@ import pytest
 
 from support_exudyn import CubicStep, Result, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.postprocessing.comparison import compared, same_to_the_bit
+from support_exudyn.postprocessing.comparing.own_runs import compared, same_to_the_bit
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
 from user_forces import InputError
 

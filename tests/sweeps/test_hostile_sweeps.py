@@ -13,6 +13,7 @@ import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError, simulate
 from support_exudyn.__main__ import main
+from support_exudyn.files import free_memory
 from support_exudyn.simulation import memory
 from support_exudyn.sweeps import Plan, Record, read_table, sweep, work
 from tests.cases.run_cases import loose_support, paper_contact
@@ -169,7 +170,7 @@ def test_what_a_run_takes_follows_from_records_and_channels(monkeypatch: pytest.
 
 
 def test_the_memory_that_is_free_is_known() -> None:
-    assert 10**6 < memory.available() <= memory.UNKNOWN
+    assert 10**6 < free_memory.available() <= free_memory.UNKNOWN
 
 
 # --- single runs ---

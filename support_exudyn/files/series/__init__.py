@@ -1,0 +1,1 @@
+"""Series of files that other programs, and this one, have written."""

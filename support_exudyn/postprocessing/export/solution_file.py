@@ -17,6 +17,7 @@ import numpy as np
 from exudyn.basicUtilities import LoadSolutionFile
 from scipy.spatial.transform import Rotation
 
+from support_exudyn.files.free_memory import available
 from support_exudyn.files.whole_file import check_is_file, whole_file
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.redundant.run import Model, model
@@ -25,7 +26,6 @@ from support_exudyn.mechanics.space.motion import UNTURNED, parameter_rates
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.look.poses import WHY, Poses
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.simulation.memory import available
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, cleaned
 

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from support_exudyn.postprocessing.comparison import common_records
+from support_exudyn.postprocessing.comparing.own_runs import common_records
 from support_exudyn.postprocessing.curves import Curves
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.channels import error_over_time, label_values

@@ -1,0 +1,121 @@
+"""Series from columns of numbers: times in seconds that increase, and what is told of how they came so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn.files.series.asked import Asked
+from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
+from support_exudyn.files.series.units import as_pint_writes, is_time, scaled, unit_checked
+from user_forces.values.value import InputError, cleaned, short
+
+Numbers = npt.NDArray[np.float64]
+TIMES = ("time", "t")  # names of columns of times, in any letters
+MANY = 5  # names that are told
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table: its name, unit (None: the table gives none) and values (n,)."""
+
+    name: str
+    unit: str | None
+    values: Numbers
+
+
+def is_named_time(name: str) -> bool:
+    """Whether a name is one of times, such as time, T or .MODEL_1.Last_Run.TIME."""
+    return name.casefold() in TIMES or name.casefold().rpartition(".")[2] == "time"
+
+
+def series_file(
+    path: Path,
+    kind: str,
+    groups: Iterable[tuple[Column, Iterable[Column]]],
+    asked: Asked,
+    notes: Iterable[str] = (),
+) -> SeriesFile:
+    """Series from columns over their times.
+
+    Rows without a time are left out. Rows are sorted by time; of rows of one time the last of the file stays.
+    All that is told in a note.
+
+    Arguments:
+        path, kind, notes: of the file.
+        groups: a column of times each, with the columns that have a value at each of them.
+        asked: units of columns without one, and the names that are wanted.
+
+    Raises InputError if there are no times, if they have no unit of time, or if two columns have one name.
+    """
+    series: dict[str, NamedSeries] = {}
+    told = [*notes]
+    for times, columns in groups:
+        time, order, said = _increasing(path, times, asked)
+        told += [one for one in said if one not in told]
+        for column in columns:
+            if not asked.wants(column.name):
+                continue
+            if column.name in series:
+                raise InputError(
+                    f"{path}: column {short(column.name)}: stands twice; allowed: a title for each column"
+                )
+            values = column.values if order is None else column.values[order]
+            series[column.name] = NamedSeries(column.name, _unit(path, column, asked), time, values)
+    if not series:
+        raise InputError(f"{path}: {_nothing(asked)}")
+    return SeriesFile(path, kind, series, tuple(cleaned(one) for one in told))
+
+
+def _nothing(asked: Asked) -> str:
+    if asked.names:
+        return f"has no series {', '.join(map(short, asked.names[:MANY]))}; allowed: its own names"
+    return "has times and nothing else; allowed: a column of numbers beside them"
+
+
+def _unit(path: Path, column: Column, asked: Asked) -> str | None:
+    unit = asked.unit(column.name, column.unit)
+    if unit is None or unit == column.unit:
+        return unit
+    return as_pint_writes(unit_checked(unit, f"units, {column.name} of {path}"))
+
+
+def _increasing(
+    path: Path, column: Column, asked: Asked
+) -> tuple[Numbers, npt.NDArray[np.intp] | None, list[str]]:
+    """Times [s] that increase, the rows that they are of (None: all as they are), and what is told of it."""
+    unit = _unit(path, column, asked)
+    where = f"{path}: times, column {short(column.name)}"
+    if unit is None:
+        raise InputError(
+            f"{where}: have no unit; allowed: one in the title, such as time_s or 'time [ms]', or in "
+            f'compare.toml, [units] "{column.name}" = "s"'
+        )
+    if not is_time(unit):
+        raise InputError(f"{where}: are in {short(unit)}; allowed: a unit of time, such as s, ms, min")
+    time = scaled(column.values, unit, "s", where)
+    if np.isinf(time).any():
+        raise InputError(f"{where}: row {int(np.argmax(np.isinf(time))) + 1} is infinite; allowed: numbers")
+    there = np.isfinite(time)
+    if not there.any():
+        raise InputError(f"{where}: has no numbers; allowed: one or more")
+    if there.all() and (np.diff(time) > 0.0).all():
+        return time, None, []
+    told = []
+    if missing := int((~there).sum()):
+        told.append(f"Rows without a time are left out: {missing}.")
+    order = np.flatnonzero(there)
+    if (np.diff(time[order]) < 0.0).any():
+        told.append(f"The times of column {column.name!r} go back; rows are sorted by time.")
+        order = order[np.argsort(time[order], kind="stable")]
+    last = np.append(np.diff(time[order]) > 0.0, True)
+    if repeated := int((~last).sum()):
+        told.append(
+            f"Times stand twice; of rows of one time the last of the file stays, {repeated} are left out."
+        )
+    order = order[last]
+    return time[order], order, told

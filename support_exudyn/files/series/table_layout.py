@@ -1,0 +1,191 @@
+"""How a table of text is written: what separates its items, what its decimals are, where its titles stand."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from support_exudyn.files.series.titles import split_title
+from support_exudyn.files.series.units import as_pint_writes, is_unit
+from user_forces.values.value import InputError
+
+BLANKS = " "  # any number of blanks and tabs
+SEPARATORS = ("\t", ";", ",", BLANKS)
+SAID = {"\t": "tabs", ";": "';'", ",": "commas", BLANKS: "blanks"}
+COMMENT = re.compile(r"\s*(#|%|!|//)")
+MISSING = ("", "nan", "NaN", "NAN", "NA", "N/A", "n/a", "null", "NULL", "-nan", "#N/A")  # no number
+NUMBERS = {
+    ".": re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?(inf|Inf|INF|infinity)"),
+    ",": re.compile(r"[+-]?(\d+(,\d+)?|,\d+)([eEdD][+-]?\d+)?"),
+}
+GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+")  # 1,234: a thousand, or one and a bit
+LINES, LETTERS = 400, 1_000_000  # that are looked at
+ALLOWED = "rows of two or more numbers below a line of titles such as time_s,tip.x_mm"
+Rows = tuple[int, str, bool]  # items of each, what separates them, whether all end with that
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a table is written.
+
+    separator: between items. decimal: "." or ",". first: the index of the first line of numbers.
+    width: items of a row. titles: a name and a unit (None: it has none) for each item. notes: what is told.
+    """
+
+    separator: str
+    decimal: str
+    first: int
+    width: int
+    titles: tuple[tuple[str, str | None], ...]
+    notes: tuple[str, ...]
+
+    def items(self, line: str) -> list[str]:
+        """The items of a line."""
+        return items(line, self.separator)
+
+    def number(self, item: str) -> float | None:
+        """The number that an item is, NaN where it says that there is none; None if it is no number."""
+        if item in MISSING:
+            return float("nan")
+        if not NUMBERS[self.decimal].fullmatch(item):
+            return None
+        return float(item.replace(",", ".").replace("d", "e").replace("D", "e"))
+
+
+def items(line: str, separator: str) -> list[str]:
+    """The items of a line, without blanks around them."""
+    if separator == BLANKS:
+        return line.split()
+    if '"' not in line:
+        return [one.strip() for one in line.split(separator)]
+    try:
+        return [one.strip() for one in next(csv.reader([line], delimiter=separator), [])]
+    except csv.Error:  # an item that is too long
+        return [line]
+
+
+def is_row(line: str, separator: str, decimal: str) -> int:
+    """How many items a row of numbers has; 0 if it is none."""
+    found = items(line, separator)
+    number = NUMBERS[decimal]
+    if len(found) < 2 or not all(one in MISSING or number.fullmatch(one) for one in found):
+        return 0
+    return len(found) if any(found) else 0
+
+
+def layout(path: Path, lines: Sequence[str]) -> Layout:
+    """How a table is written, from its first lines.
+
+    Raises InputError if there are no rows of numbers, if they can be read in two ways, or if titles and rows
+    do not fit each other.
+    """
+    text = [(n, line) for n, line in enumerate(lines[:LINES]) if line.strip() and not COMMENT.match(line)]
+    best: tuple[int, int, str, str] | None = None  # rows, items in each, separator, decimals
+    for separator in SEPARATORS:
+        for decimal in ".,"[: 1 if separator == "," else 2]:
+            widths = Counter(filter(None, (is_row(line, separator, decimal) for _, line in text)))
+            if widths:
+                width, rows = widths.most_common(1)[0]
+                if best is None or rows > best[0]:
+                    best = rows, width, separator, decimal
+    if best is None:
+        raise InputError(f"{path}: is no table of numbers; allowed: {ALLOWED}")
+    _, width, separator, decimal = best
+    place = next(n for n, (_, line) in enumerate(text) if is_row(line, separator, decimal) == width)
+    if decimal == ",":
+        _check_commas(path, [line for _, line in text[place:]], separator)
+    first = text[place][0]
+    ended = all(
+        not items(line, separator)[-1] for _, line in text[place:]
+    )  # by a separator, as lines of titles need not be
+    titles, notes = _titles(path, lines[:first], text[:place], (width, separator, ended))
+    return Layout(separator, decimal, first, width, titles, notes)
+
+
+def _check_commas(path: Path, lines: Sequence[str], separator: str) -> None:
+    """Raise InputError if all commas may stand between thousands."""
+    with_comma = [one for line in lines for one in items(line, separator) if "," in one]
+    if with_comma and all(GROUPED.fullmatch(one) for one in with_comma):
+        whole, part = with_comma[0].replace(",", ""), with_comma[0].replace(",", ".", 1)
+        raise InputError(
+            f"{path}: {with_comma[0]!r} may be {whole} or {part}; allowed: decimals with a point, or at least "
+            "one number that tells what the comma is, such as 0,5"
+        )
+
+
+def _titles(
+    path: Path, above: Sequence[str], text: Sequence[tuple[int, str]], rows: Rows
+) -> tuple[tuple[tuple[str, str | None], ...], tuple[str, ...]]:
+    """A name and a unit for each column, and what is told."""
+    width, separator, _ = rows
+    notes: list[str] = []
+    if not text:
+        words = _of_comment(above, rows)
+        if words is None:
+            notes.append("There are no titles; columns are called by their numbers, column_1 and so on.")
+            return tuple((f"column_{n}", None) for n in range(1, width + 1)), tuple(notes)
+        return _named(words, None, width, notes), tuple(notes)
+    number, line = text[-1]
+    words = _fitted(line, rows)
+    if words is None:
+        found = len(items(line, separator))
+        more = "; where commas are decimal points items need another separator, ';'" if separator == "," else ""
+        raise InputError(
+            f"{path}: line {number + 1}: has {found} titles, separated by {SAID[separator]}, above rows of "
+            f"{width} items; allowed: as many titles as items{more}"
+        )
+    below, rest = None, text[:-1]
+    if rest and _are_units(words) and (upper := _fitted(rest[-1][1], rows)) is not None:
+        below, words, rest = words, upper, rest[:-1]
+    if rest:
+        notes.append(
+            f"{len(rest)} {'line' if len(rest) == 1 else 'lines'} above the titles "
+            f"{'is' if len(rest) == 1 else 'are'} passed over."
+        )
+    return _named(words, below, width, notes), tuple(notes)
+
+
+def _of_comment(above: Sequence[str], rows: Rows) -> list[str] | None:
+    """Titles in the last comment before the rows, as numpy writes them."""
+    comments = [line for line in above if COMMENT.match(line)]
+    if not comments:
+        return None
+    line = COMMENT.sub("", comments[-1], count=1)
+    return _fitted(line, rows)
+
+
+def _fitted(line: str, rows: Rows) -> list[str] | None:
+    """The items of a line of titles, None if they are not as many as those of a row."""
+    width, separator, ended = rows
+    found = items(line, separator)
+    if separator == BLANKS and len(found) != width:  # a unit in brackets is no title
+        found = re.split(r"\s+(?![\[(])", line.strip())
+    if ended and len(found) == width - 1:
+        found.append("")
+    return found if len(found) == width else None
+
+
+def _are_units(words: Sequence[str]) -> bool:
+    """Whether a line has units for titles above it."""
+    bare = [one.strip("[]() ") for one in words]
+    return any(one not in ("", "-") for one in bare) and all(is_unit(one) for one in bare)
+
+
+def _named(
+    words: Sequence[str], below: Sequence[str] | None, width: int, notes: list[str]
+) -> tuple[tuple[str, str | None], ...]:
+    found = []
+    for n in range(width):
+        if below is not None:
+            bare = below[n].strip("[]() ")
+            found.append((words[n] or f"column_{n + 1}", as_pint_writes(bare) if bare else None))
+            continue
+        name, unit, told = split_title(words[n])
+        if told:
+            notes.append(f"{told[0].upper()}{told[1:]}.")
+        found.append((name or f"column_{n + 1}", unit))
+    return tuple(found)

@@ -1,0 +1,150 @@
+"""A file that is compared: a run with its numerical errors, or series of another program or a measurement."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from support_exudyn.files.series.asked import Progress, silent
+from support_exudyn.files.series.named_series import NamedSeries
+from support_exudyn.files.series.read import read_series
+from support_exudyn.files.series.units import converted
+from support_exudyn.files.toml.faults import nearest
+from support_exudyn.postprocessing.comparing.compare_file import MappedColumn, MappedFile
+from support_exudyn.postprocessing.comparing.with_errors import curve_errors
+from support_exudyn.simulation.result import FORMAT, Result
+from user_forces.values.value import InputError
+
+Values = npt.NDArray[np.float64]
+ENDING = ".h5"  # of runs
+OWN = FORMAT.rpartition(" ")[0].encode()  # by which the file of a run begins, of whichever version
+AS_IT_IS = MappedFile()
+
+
+@dataclass(frozen=True)
+class ComparedFile:
+    """A file that is compared.
+
+    name: by which tables and figures call it. path: of it. kind: what it is, in words.
+    run: with its errors, if it is one of this program. series: of it, by the names of the file.
+    mapped: what is said of its columns; `shift` is added to its times [s].
+    notes: what a reader of the numbers has to know.
+    """
+
+    name: str
+    path: Path
+    kind: str
+    run: Result | None
+    series: Mapping[str, NamedSeries]
+    mapped: MappedFile = AS_IT_IS
+    notes: tuple[str, ...] = ()
+    meanings: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def channels(self) -> list[str]:
+        """Names of the channels: those that are mapped first, then columns under their own names."""
+        return list(dict.fromkeys([*self.mapped.columns, *self.series]))
+
+    def column(self, channel: str) -> MappedColumn:
+        """The column that is a channel. Raises InputError if there is none."""
+        if found := self.mapped.columns.get(channel):
+            return found
+        if channel not in self.series:
+            raise InputError(f"{channel}: {self.name} has no such channel; {nearest(channel, self.channels[:12])}")
+        return MappedColumn(column=channel)
+
+    def unit(self, channel: str) -> str | None:
+        """Unit of a channel in the file; None if it names none."""
+        return self.series[self.column(channel).column].unit
+
+    def meaning(self, channel: str) -> str:
+        """What a channel is, in words; empty if the file does not say."""
+        return self.meanings.get(self.column(channel).column, "")
+
+    def time(self, channel: str) -> Values:
+        """Times of a channel, shifted [s], (n,)."""
+        time = self.series[self.column(channel).column].time
+        return time + self.mapped.shift if self.mapped.shift else time
+
+    def values(self, channel: str, unit: str) -> Values:
+        """Values of a channel in a unit, (n,). Raises InputError if its unit is not known or of another kind."""
+        column = self.column(channel)
+        series = self.series[column.column]
+        try:
+            if column.sign == 1 and column.offset == 0.0:
+                return converted(series, unit)
+            return converted(replace(series, values=column.sign * series.values + column.offset), unit)
+        except InputError as error:
+            raise InputError(f"{self.path}: {error}") from None
+
+    def errors(self, channel: str) -> Values:
+        """Numerical errors of a channel in SI, (n,); NaN if they are not known."""
+        if self.run is None:
+            return np.full(self.time(channel).size, np.nan)
+        return curve_errors(self.run, self.column(channel).column)
+
+    def of(self, run: Result) -> ComparedFile:
+        """The same of another run of the scene, such as one with longer steps."""
+        return replace(self, run=run, series=_series(run))
+
+    def shifted(self, seconds: float) -> ComparedFile:
+        """The same with a time added to all of its times [s]."""
+        return replace(self, mapped=replace(self.mapped, shift=self.mapped.shift + seconds))
+
+
+def is_run(path: Path) -> bool:
+    """Whether a file is a run of this program, or is called as one and not there."""
+    if not path.is_file():
+        return path.suffix.lower() == ENDING
+    with path.open("rb") as file:
+        return file.read(len(OWN)) == OWN
+
+
+def compared_file(
+    path: Path, mapped: MappedFile = AS_IT_IS, name: str = "", progress: Progress = silent
+) -> ComparedFile:
+    """Read a file that is compared.
+
+    Arguments:
+        path: of a run, or of whatever `read_series` reads.
+        mapped: what is said of its columns.
+        name: by which tables and figures call it; its file name if it is empty.
+        progress: is told the share that is read.
+
+    Raises InputError if it cannot be read, or lacks a column that `mapped` names; OSError if it is not there.
+    """
+    name = name or path.name
+    if is_run(path):
+        return _mapped(of_run(Result.load(path), path, name), mapped)
+    found = read_series(path, units=mapped.units, analysis=mapped.analysis, progress=progress)
+    return _mapped(ComparedFile(name, path, found.kind, None, found.series, AS_IT_IS, found.notes), mapped)
+
+
+def of_run(run: Result, path: Path, name: str) -> ComparedFile:
+    """A run as a file that is compared."""
+    meanings = {channel: one.meaning for channel, one in run.channels.items()}
+    return ComparedFile(name, path, "run of this program", run, _series(run), meanings=meanings)
+
+
+def _series(run: Result) -> Mapping[str, NamedSeries]:
+    return {
+        channel: NamedSeries(channel, one.unit, run.time, one.values)
+        for channel, one in run.channels.items()
+        if channel != "time"
+    }
+
+
+def _mapped(file: ComparedFile, mapped: MappedFile) -> ComparedFile:
+    """The file with what is said of its columns. Raises InputError with a line for each that it lacks."""
+    lacking = [
+        f"{file.path}: has no column {one.column!r}, which is to be {channel}; {nearest(one.column, list(file.series))}"
+        for channel, one in mapped.columns.items()
+        if one.column not in file.series
+    ]
+    if lacking:
+        raise InputError("\n".join(lacking))
+    return replace(file, mapped=mapped)
