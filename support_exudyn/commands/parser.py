@@ -29,6 +29,7 @@ NAMES = {  # of commands, each with a line of what it does
     "table": "table of a sweep's runs for a text, as Markdown, CSV or LaTeX",
     "show": "tables of what a run or a sweep was and what came out of it",
     "compare": "by how much a second run differs from a first, channel by channel, with errors",
+    "baseline": "keep what scenarios come out at, and tell what has changed since by more than the errors",
     "plot": "figures of runs as PNG and PDF: channels over time, journal orbit, Poincare section, force "
     "spectrum",
     "report": "a page on runs: what was run, the machine, numbers with errors, live figures, a picture",

@@ -148,7 +148,7 @@ def measures(
 
 
 def impact_numbers(result: RecordedRun, pin: str, most: int) -> dict[str, ReportedNumber]:
-    """Times [s] and initial velocities [m/s] of the first impacts of a clearance pin, `most` of them at most."""
+    """Times [s] and initial velocities [m/s] of the first impacts of a clearance pin; most: how many."""
     scenario = result.scenario
     left, stem = left_by_newton(scenario), scenario.contact_stem(pin)
     found: dict[str, ReportedNumber] = {}

@@ -151,15 +151,15 @@ def _impacts(old: KeptRun, new: KeptRun) -> Iterator[Change]:
     for pin in new.impacts.keys() - old.impacts.keys():
         yield Change(NEW, "impact", f"{pin}: all")
     last = [run.time[-1] for run in (old, new) if run.time.size]
-    end = min([(1.0 - AT_THE_HORIZON) * min(old.horizon, new.horizon), *((1.0 - AT_THE_END) * one for one in last)])
+    end = min(
+        [(1.0 - AT_THE_HORIZON) * min(old.horizon, new.horizon), *((1.0 - AT_THE_END) * one for one in last)]
+    )
     for pin, was in old.impacts.items():
         if pin in new.impacts:
             yield from _of_pin(pin, was, new.impacts[pin], end)
 
 
-def _of_pin(
-    pin: str, was: tuple[KeptImpact, ...], now: tuple[KeptImpact, ...], end: float
-) -> Iterator[Change]:
+def _of_pin(pin: str, was: tuple[KeptImpact, ...], now: tuple[KeptImpact, ...], end: float) -> Iterator[Change]:
     """Impacts are matched in their order; one that has no other near it is gone, or new.
 
     Only so many of a pin are kept: beyond the last that both have kept nothing is gone.

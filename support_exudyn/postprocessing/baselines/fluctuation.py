@@ -1,4 +1,4 @@
-"""How far means and spreads of a run are off by chance, for its impacts beyond the horizon are not determined."""
+"""How far means and spreads of a run are off by chance: its impacts beyond the horizon are not determined."""
 
 import math
 

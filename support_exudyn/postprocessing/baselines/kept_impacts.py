@@ -1,13 +1,15 @@
 """Impacts of a run with their errors, and up to when the run is determined.
 
 Each impact multiplies the errors of all before it, of whatever pin. The distances of three runs can be small by
-chance at one of them; so the error of an impact is at least, as a share, the largest of those before.
+chance at one of them; so the error of an impact is at least, as a share, the largest of those before, and all of
+them get a factor, see `curve_errors`.
 """
 
 import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from support_exudyn.postprocessing.baselines.curve_errors import OF_MANY
 from support_exudyn.simulation.estimate import Estimate, errors
 from support_exudyn.simulation.horizon import horizon
 from support_exudyn.simulation.reported_numbers import impact_numbers, measures
@@ -28,10 +30,10 @@ Impacts = Mapping[str, tuple[KeptImpact, ...]]
 
 
 def kept_impacts(result: Result) -> tuple[Impacts, float]:
-    """The first impacts of every clearance pin, and up to when the run is determined [s]; infinite: to its end.
+    """The first impacts of every clearance pin; up to when the run is determined [s], infinite: to its end.
 
-    It is up to the horizon of the run, to that of the next coarser one, and to the first impact that may be wrong
-    by more than `DOUBTFUL`: its time of the time since the one before, or its initial impact velocity of itself.
+    It is up to the horizon of the run, to that of the next coarser one, and to the first impact that may be
+    wrong by more than `DOUBTFUL`: its time, of the time since the one before, or its initial impact velocity.
     """
     end = horizon(result)
     if result.coarser is not None and result.coarser.coarser is not None:
@@ -46,8 +48,9 @@ def kept_impacts(result: Result) -> tuple[Impacts, float]:
             end = min(end, impact.time.value)
         if impact.time.value >= end:
             break
-        time = impact.time._replace(error=max(impact.time.error, late * since))
-        found[pin].append(KeptImpact(time, impact.speed._replace(error=max(impact.speed.error, slow * speed))))
+        off, wrong = max(impact.time.error, late * since), max(impact.speed.error, slow * speed)
+        time = impact.time._replace(error=OF_MANY * off)
+        found[pin].append(KeptImpact(time, impact.speed._replace(error=OF_MANY * wrong)))
     return {pin: tuple(impacts[:MOST]) for pin, impacts in found.items()}, end
 
 

@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.baselines.curve_errors import safe_errors
 from support_exudyn.postprocessing.baselines.fluctuation import fluctuation
 from support_exudyn.postprocessing.baselines.kept_impacts import Impacts, kept_impacts
-from support_exudyn.postprocessing.figures.channels import error_over_time
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -21,12 +21,6 @@ RECORDS = 100  # of every curve that are kept
 TIME = "time"
 ONSET = ".onset_"  # in names of numbers: impacts are kept by themselves
 STATISTICS = (".mean", ".std")  # which are numbers of a run, whatever its single impacts
-# Share of the largest value of a unit, for the whole run, that an error is at least: what is nothing in truth,
-# as the force of a pin that carries nothing, is left by rounding of what others are.
-ROUNDING = 1e-12
-# Estimates of errors hold for 98 % of numbers, and the worst was wrong by 3.1, see `simulation.estimate`. Curves
-# have thousands, of which one that is wrong would be told: they get more.
-OF_CURVES = 3.5
 
 
 class KeptCurve(NamedTuple):
@@ -99,22 +93,11 @@ def _numbers(result: Result, horizon: float) -> dict[str, Estimate]:
 def _curves(result: Result, rows: npt.NDArray[np.intp]) -> dict[str, KeptCurve]:
     """All channels at some records.
 
-    The error of a record is `OF_CURVES` times the largest of all records up to the next that is kept: where the
-    curves of two runs cross they agree by chance, and what is behind an impact is not more certain than that is.
+    The error at a record is that of the next one that is kept: with those between, see `safe_errors`.
     """
-    sizes: dict[str, float] = {}
-    for channel in result.channels.values():
-        largest = np.abs(channel.values[np.isfinite(channel.values)]).max(initial=0.0)
-        sizes[channel.unit] = max(sizes.get(channel.unit, 0.0), float(largest))
-    found = {}
-    for name, channel in result.channels.items():
-        if name == TIME or not channel.is_determined:
-            continue
-        around = error_over_time(result, name)
-        if around is None:
-            worst = np.full(rows.size, math.inf)
-        else:
-            worst = np.maximum.accumulate(around)[np.concatenate([rows[1:], rows[-1:]])]
-        least = ROUNDING * sizes[channel.unit]
-        found[name] = KeptCurve(channel.unit, channel.values[rows], OF_CURVES * worst + least)
-    return found
+    following = np.concatenate([rows[1:], rows[-1:]])
+    return {
+        name: KeptCurve(channel.unit, channel.values[rows], safe_errors(result, name)[following])
+        for name, channel in result.channels.items()
+        if name != TIME and channel.is_determined
+    }
