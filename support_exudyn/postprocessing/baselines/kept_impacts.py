@@ -1,7 +1,7 @@
 """Impacts of a run with their errors, and up to when the run is determined.
 
 Each impact multiplies the errors of all before it, of whatever pin. The distances of three runs can be small by
-chance at one of them; so the error of an impact is at least, as a share, the largest of those before, and all of
+chance at one of them; so the error of an impact is at least, as a share, the largest of those before. All of
 them get a factor, see `curve_errors`.
 """
 
