@@ -213,6 +213,16 @@ def mendable() -> tuple[type[Exception], ...]:
     return SimulationError, InputError, OSError, ProcessEndedError, NoProcessError
 
 
+@contextmanager
+def refusing(code: int) -> Iterator[None]:
+    """Let what the user can mend end the program with this exit code, said in a sentence."""
+    try:
+        yield
+    except mendable() as error:
+        warn(f"error: {_sentence(error)}")
+        raise SystemExit(code) from None
+
+
 def answered(work: Callable[[], None]) -> int:
     """Do it; what the user can mend is said in a sentence. Returns the exit code."""
     be_readable()

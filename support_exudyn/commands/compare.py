@@ -1,96 +1,189 @@
-"""`compare FIRST SECOND [CHANNEL...]`: by how much a second run differs from a first."""
+"""`compare REFERENCE OTHER... [CHANNEL...]`: by how much files differ from a reference, and whether that is allowed."""
+
+from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Mapping
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 
-from support_exudyn.commands.command_line import add_json, add_times, answer, folder, say
+from support_exudyn.commands.command_line import (
+    add_json,
+    add_times,
+    answer,
+    folder,
+    refusing,
+    say,
+    shown_progress,
+)
 from support_exudyn.commands.tables import printed, show_table
-from support_exudyn.postprocessing import summary as summary
-from support_exudyn.postprocessing.comparing.own_runs import Difference, compared, same_to_the_bit
-from support_exudyn.postprocessing.figures import selection
-from support_exudyn.postprocessing.figures.selection import matching
-from support_exudyn.postprocessing.figures.units import readable_change
-from support_exudyn.simulation.estimate import Estimate
-from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
-WHOLE = (0.0, math.inf)  # run
+if TYPE_CHECKING:
+    from support_exudyn.postprocessing.comparing.compare_files import FilesCompared
+
+DIFFERENT, REFUSED = 1, 2  # exit codes
+# of files that are not there, so that they are not taken for channels
+ENDINGS = (".h5", ".csv", ".txt", ".tab", ".tsv", ".dat", ".res", ".req", ".mat", ".parquet", ".xml")
+FEWEST = 2  # files
+WHOLE = (-math.inf, math.inf)
+CODES = """\
+The first file is the reference. Any file that can be read will do: runs, CSV and text tables, results of ADAMS,
+Exudyn's sensor and solution files, MATLAB, Parquet. Columns are channels by their names, or by --map.
+
+exit codes:
+  0  within all tolerances, or none was given
+  1  not within, or not decided: the numerical errors are larger than what is allowed
+  2  a wrong command line, file, mapping or tolerance: nothing was compared
+"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Both files, and which channels."""
+    """The files, what of them is compared, what is allowed, and what is written."""
+    parser.epilog, parser.formatter_class = CODES, argparse.RawDescriptionHelpFormatter
     add = parser.add_argument
-    for name in ("first", "second"):
-        add(name, type=folder, metavar=name.upper(), help="file of a run, as Result.save writes it")
     add(
-        "channels",
-        nargs="*",
-        default=[],
-        metavar="CHANNEL",
-        help="only these: names or patterns, such as 'tip.*'; by default forces and traced points",
+        "names",
+        nargs="+",
+        metavar="FILE|CHANNEL",
+        help="the reference, then the files that are compared with it, then channels: names or patterns, such as "
+        "'tip.*'; by default forces and traced points of runs, and all that other files have in common",
+    )
+    add(
+        "--map",
+        type=folder,
+        metavar="FILE",
+        help="compare.toml: which column is which channel, tolerances, bands",
+    )
+    add(
+        "--propose",
+        action="store_true",
+        help="print a compare.toml for columns that are alike, to be confirmed",
+    )
+    add(
+        "--shift",
+        action="store_true",
+        help="find by how much each file lags behind the reference, and take it off",
+    )
+    add(
+        "--tolerance",
+        metavar="LIST",
+        help="what is allowed: shares of the reference's range or amounts, 'pin.*.force=2%%,tip.*=0.1mm'",
     )
     add_json(parser)
+    add("--junit", type=folder, metavar="FILE", help="JUnit XML for test servers: a test case for each channel")
+    add(
+        "--figure",
+        type=folder,
+        metavar="FILE",
+        help="figure, .png, .pdf or .svg: curves, differences, what is allowed",
+    )
+    add("--page", type=folder, metavar="FILE", help="page for a browser with all of it")
     add_times(parser, *WHOLE)
 
 
 def run(given: argparse.Namespace) -> None:
-    """Print the table, or the object."""
-    first, second = Result.load(given.first), Result.load(given.second)
-    names = matching(first.channels, given.channels)
-    if not names:
-        names = [name for name in summary.telling(first) if name in second.channels]
-        names = [name for name in names if not name.startswith("energy.")]
-    if not names:
-        raise InputError(
-            f"{given.first}, {given.second}: have no channel in common; allowed: runs of like machines"
+    """Compare, and say what came out."""
+    with refusing(REFUSED):
+        verdict = _compared(given)
+    if verdict in ("not within", "not decided"):
+        raise SystemExit(DIFFERENT)
+
+
+def _compared(given: argparse.Namespace) -> str:
+    """Print and write; returns the verdict."""
+    files, channels = files_and_channels(given.names)
+    from support_exudyn.postprocessing.comparing.compare_files import compare_files, read_files
+
+    with shown_progress("reading") as progress:
+        if given.propose:
+            from support_exudyn.postprocessing.comparing.propose import proposal
+
+            say(proposal(*read_files(files, given.map, progress)).rstrip("\n"))
+            return "told"
+        found = compare_files(
+            *files,
+            channels=channels,
+            mapping=given.map,
+            tolerance=() if given.tolerance is None else given.tolerance,
+            after=given.after,
+            until=given.until,
+            find_shift=given.shift,
+            progress=progress,
         )
-    found = compared(first, second, names, given.after, given.until)
+    written = _write(given, found)
     if given.json:
-        answer({name: _object(one) for name, one in found.items()})
-        return
-    ends = given.after, given.until
-    piece = f", {selection.said(first, *ends)}"
-    printed(lambda console: _table(console, found, f"{given.second.name} less {given.first.name}{piece}"))
-    if same := same_to_the_bit(first, second):
-        say(f"the same to the bit: all records of {same} channels")
+        from support_exudyn.postprocessing.comparing.as_data import as_data
+
+        answer(as_data(found) | {"written": written})
+        return found.verdict
+    _print(found)
+    for path in written:
+        say(str(path))
+    return found.verdict
 
 
-def _object(one: Difference) -> dict[str, object]:
-    numbers = {
-        name: {"value": number.value, "error": number.error}
-        for name, number in one._asdict().items()
-        if isinstance(number, Estimate)
-    }
-    return {"unit": one.mean.unit, **numbers, "time_s": one.time}
+def files_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:
+    """The files and the channels among words: the first is a file, others are if they are there or end so.
+
+    Raises InputError if there are not two files, or if one of them is the file of a comparison.
+    """
+    chosen = [
+        n == 0 or folder(word).is_file() or (word.lower().endswith(ENDINGS) and not set(word) & set("*?"))
+        for n, word in enumerate(words)
+    ]
+    files = [folder(word) for word, is_file in zip(words, chosen, strict=True) if is_file]
+    for path in files:
+        if path.suffix.lower() == ".toml":
+            raise InputError(f"{path}: is no file that is compared; allowed: --map {path}")
+    channels = [word for word, is_file in zip(words, chosen, strict=True) if not is_file]
+    if len(files) < FEWEST:
+        rest = f"; {channels[0]} is no file that is there, so it is taken for a channel" if channels else ""
+        raise InputError(
+            f"{files[0]}: is the only file{rest}; allowed: two files or more, the first is the reference"
+        )
+    return files, channels
 
 
-def _table(console: Console, found: Mapping[str, Difference], title: str) -> None:
-    known = all(math.isfinite(one.mean.error) for one in found.values())
-    header = ("channel", "unit", ">first, mean", ">second, mean", ">difference, mean", ">largest", ">at [s]")
-    errors = (
-        "± numerical errors of both runs"
-        if known
-        else "numerical errors not known: an accuracy was not asked of both"
-    )
-    show_table(console, f"{title} ({errors})", header, [_row(name, one) for name, one in found.items()])
+def _write(given: argparse.Namespace, found: FilesCompared) -> list[Path]:
+    """Write what is asked for; returns the paths."""
+    if given.junit is not None:
+        from support_exudyn.postprocessing.comparing.junit import write_junit
+
+        write_junit(found, given.junit)
+    if given.figure is not None:
+        from support_exudyn.postprocessing.comparing.compare_figure import write_figure
+
+        write_figure(found, given.figure)
+    if given.page is not None:
+        from support_exudyn.postprocessing.comparing.compare_page import write_page
+
+        write_page(found, given.page)
+    return [path for path in (given.junit, given.figure, given.page) if path is not None]
 
 
-def _row(name: str, one: Difference) -> tuple[str, ...]:
-    means = max(abs(one.first.value), abs(one.second.value))
-    unit = readable_change(one.mean.unit, means, abs(one.largest.value))
-    numbers = (_said(number, unit.scale) for number in (one.first, one.second, one.mean, one.largest))
-    return name, unit.name, *numbers, f"{one.time:.6g}"
+def _print(found: FilesCompared) -> None:
+    """Print the tables and what has to be known of them."""
+    from support_exudyn.postprocessing.comparing import further_tables as further
+    from support_exudyn.postprocessing.comparing import told
 
+    def tables(console: Console) -> None:
+        for pair in found.pairs:
+            show_table(console, told.title(pair), told.header(pair), told.rows(pair))
+            if rows := further.statistics_rows(pair):
+                show_table(console, f"statistics after {pair.parting.time:.6g} s", further.STATISTICS, rows)
+            if rows := further.impacts_rows(pair):
+                show_table(console, "impacts", further.IMPACTS, rows)
+            if rows := further.bands_rows(pair):
+                show_table(console, "RMS in bands of frequency", further.BANDS, rows)
+            for line in told.sentences(pair):
+                console.print(line, markup=False, soft_wrap=True)
+            for one in pair.channels.values():
+                for line in told.faults(one):
+                    console.print(line, markup=False, soft_wrap=True)
+        console.print(told.VERDICTS[found.verdict], markup=False, soft_wrap=True)
 
-def _said(number: Estimate, scale: float) -> str:
-    """A number in a unit, with its error if that is known."""
-    value, error = scale * number.value, scale * number.error
-    if math.isnan(error):
-        return f"{value:.{summary.DIGITS}g}"
-    if not math.isfinite(error) or error <= 0.0:
-        return f"{value:.{summary.DIGITS}g} ± {'not known' if error else '0'}"
-    digits = min(max(0, 1 - math.floor(math.log10(error))), 9)
-    return f"{value:.{digits}f} ± {error:.1g}"
+    printed(tables)

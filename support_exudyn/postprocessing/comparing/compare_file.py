@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from dataclasses import field, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, Literal
@@ -47,8 +47,8 @@ class MappedFile(Value):
         analysis: which of its analyses is read, where the file has several.
     """
 
-    columns: Mapping[str, MappedColumn] = {}
-    units: Mapping[str, str] = {}
+    columns: Mapping[str, MappedColumn] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
     shift: Seconds[Real] = 0.0
     analysis: str | None = None
 
@@ -65,9 +65,9 @@ class CompareFile(Value):
         confirmed: false in what `--propose` has written, until somebody has looked at it.
     """
 
-    files: Mapping[str, MappedFile] = {}
-    units: Mapping[str, str] = {}
-    tolerances: Mapping[str, str] = {}
+    files: Mapping[str, MappedFile] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    tolerances: Mapping[str, str] = field(default_factory=dict)
     bands: Hertz[tuple[NonNegative, ...]] = ()
     confirmed: bool = True
 
@@ -80,7 +80,9 @@ class CompareFile(Value):
     def of(self, path: Path) -> MappedFile:
         """What is said of a file, by the first name or pattern that fits it; with the units of all files."""
         found = next((one for name, one in self.files.items() if fits(path, name)), MappedFile())
-        return replace(found, units={**found.units, **{k: v for k, v in self.units.items() if k not in found.units}})
+        return replace(
+            found, units={**found.units, **{k: v for k, v in self.units.items() if k not in found.units}}
+        )
 
 
 def fits(path: Path, name: str) -> bool:
@@ -141,4 +143,6 @@ def _check_units(table: Any, place: Place, faults: Faults) -> None:
     units = table.get("units") if isinstance(table, dict) else None
     for name, text in units.items() if isinstance(units, dict) else ():
         if isinstance(text, str) and not is_unit(text):
-            faults.wrong((*place, "units", name), text, 'a unit such as "mm", "kN", "deg" or "m/s^2"; "1" of none')
+            faults.wrong(
+                (*place, "units", name), text, 'a unit such as "mm", "kN", "deg" or "m/s^2"; "1" of none'
+            )

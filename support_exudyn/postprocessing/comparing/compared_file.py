@@ -45,6 +45,11 @@ class ComparedFile:
     meanings: Mapping[str, str] = field(default_factory=dict)
 
     @property
+    def has_errors(self) -> bool:
+        """Whether its numerical errors are known."""
+        return self.run is not None and self.run.coarser is not None
+
+    @property
     def channels(self) -> list[str]:
         """Names of the channels: those that are mapped first, then columns under their own names."""
         return list(dict.fromkeys([*self.mapped.columns, *self.series]))
@@ -54,7 +59,9 @@ class ComparedFile:
         if found := self.mapped.columns.get(channel):
             return found
         if channel not in self.series:
-            raise InputError(f"{channel}: {self.name} has no such channel; {nearest(channel, self.channels[:12])}")
+            raise InputError(
+                f"{channel}: {self.name} has no such channel; {nearest(channel, self.channels[:12])}"
+            )
         return MappedColumn(column=channel)
 
     def unit(self, channel: str) -> str | None:

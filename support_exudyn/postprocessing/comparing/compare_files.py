@@ -1,0 +1,214 @@
+"""Files compared with a reference, channel by channel: runs, measurements, results of other programs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from support_exudyn.files.series.asked import Progress, silent
+from support_exudyn.postprocessing.comparing.compare_file import CompareFile, read_compare_file, tolerances_of
+from support_exudyn.postprocessing.comparing.compared_channel import (
+    JUDGED,
+    ComparedChannel,
+    ComparedWindow,
+    compared_channel,
+)
+from support_exudyn.postprocessing.comparing.compared_file import ComparedFile, compared_file, of_run
+from support_exudyn.postprocessing.comparing.found_shift import FoundShift, found_shift
+from support_exudyn.postprocessing.comparing.matched_channels import common_channels
+from support_exudyn.postprocessing.comparing.matched_impacts import MatchedImpacts, match_impacts
+from support_exudyn.postprocessing.comparing.own_runs import same_to_the_bit
+from support_exudyn.postprocessing.comparing.pair_parting import onsets_of, pair_parting
+from support_exudyn.postprocessing.comparing.parting import Parting
+from support_exudyn.postprocessing.comparing.si_units import si_unit
+from support_exudyn.postprocessing.comparing.tolerances import (
+    Tolerance,
+    check_patterns,
+    of_channel,
+    read_tolerances,
+)
+from support_exudyn.postprocessing.comparing.verdict import ToleranceVerdict, worst
+from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
+
+FEWEST = 2  # files
+Comparable = Result | str | Path
+
+
+@dataclass(frozen=True)
+class ComparedPair:
+    """A file compared with the reference.
+
+    channels: by their names. parting: when both part, and why. impacts: of contacts that both know.
+    shift: the shift in time that was found, which `other` has been given; None: none was asked for.
+    same: how many channels there are, if both are runs and all records are the same to the bit; else 0.
+    left_out: names of channels of the reference that the other file has not.
+    """
+
+    reference: ComparedFile
+    other: ComparedFile
+    channels: Mapping[str, ComparedChannel]
+    parting: Parting
+    impacts: Mapping[str, MatchedImpacts]
+    shift: FoundShift | None
+    same: int
+    left_out: tuple[str, ...]
+
+    @property
+    def verdict(self) -> ToleranceVerdict:
+        """The worst of those on the channels."""
+        return worst(one.verdict for one in self.channels.values())
+
+
+@dataclass(frozen=True)
+class FilesCompared:
+    """Files compared with a reference. after, until: what of them [s]."""
+
+    reference: ComparedFile
+    pairs: tuple[ComparedPair, ...]
+    after: float
+    until: float
+
+    @property
+    def verdict(self) -> ToleranceVerdict:
+        """Whether all channels of all files are within their tolerances; "told" if none was given."""
+        return worst(pair.verdict for pair in self.pairs)
+
+
+def compare_files(
+    reference: Comparable,
+    *others: Comparable,
+    channels: Sequence[str] = (),
+    mapping: str | Path | CompareFile | None = None,
+    tolerance: str | Sequence[Tolerance] = (),
+    after: float = -math.inf,
+    until: float = math.inf,
+    find_shift: bool = False,
+    progress: Progress = silent,
+) -> FilesCompared:
+    """Compare files with a reference.
+
+        compare_files("measured.csv", "rise.h5", mapping="compare.toml", tolerance="tip.*=0.1mm").verdict
+
+    Arguments:
+        reference, others: runs, or paths of files of any kind that can be read.
+        channels: names, or patterns as in a shell. Without: of two runs forces and traced points, else all that
+            both files have.
+        mapping: the file of the comparison, compare.toml, or what it says.
+        tolerance: as on a command line, 'pin.*.force=2%,tip.*=0.1mm'; goes before those of the mapping.
+        after, until: what is compared [s].
+        find_shift: find by how much every file lags behind the reference, and take it off.
+        progress: is told the share of the files that is read.
+
+    Raises InputError if something cannot be read, mapped or compared: what, where, and what is allowed; OSError
+    if a file is not there.
+    """
+    given = [reference, *others]
+    if len(given) < FEWEST:
+        raise InputError(f"{len(given)} file: allowed: {FEWEST} or more, the first is the reference")
+    files, said = read_files(given, mapping, progress)
+    asked = read_tolerances(tolerance) if isinstance(tolerance, str) else list(tolerance)
+    tolerances = [*asked, *tolerances_of(said)]
+    first, *rest = files
+    chosen = [common_channels(first, other, channels) for other in rest]
+    check_patterns(tolerances, list(dict.fromkeys(name for names, _ in chosen for name in names)))
+    pairs = tuple(
+        _pair(first, other, *names, (after, until), said, tolerances, find_shift)
+        for other, names in zip(rest, chosen, strict=True)
+    )
+    return FilesCompared(first, pairs, after, until)
+
+
+def read_files(
+    given: Sequence[Comparable], mapping: str | Path | CompareFile | None = None, progress: Progress = silent
+) -> tuple[list[ComparedFile], CompareFile]:
+    """Files that are compared, each with what a mapping says of it; and the mapping. Raises as `compare_files`."""
+    paths = [one if isinstance(one, Result) else Path(one) for one in given]
+    if isinstance(mapping, (str, Path)):
+        mapping = read_compare_file(Path(mapping), [path for path in paths if isinstance(path, Path)])
+    said = mapping or CompareFile()
+    files: list[ComparedFile] = []
+    for n, path in enumerate(paths):
+        name = _name(path, n, [one.name for one in files], paths)
+        if isinstance(path, Result):
+            files.append(of_run(path, Path(name), name))
+            continue
+        start = n / len(paths)
+        files.append(
+            compared_file(
+                path, said.of(path), name, lambda share, start=start: progress(start + share / len(paths))
+            )  # type: ignore[misc]
+        )
+    progress(1.0)
+    return files, said
+
+
+def _name(path: Path | Result, number: int, taken: Sequence[str], paths: Sequence[Path | Result]) -> str:
+    """By which a file is called: its name; with its folder if another has the same, with its place if it comes again."""
+    if isinstance(path, Result):
+        return f"run {number + 1}"
+    alike = {other for other in paths if isinstance(other, Path) and other.name == path.name}
+    name = path.name if len(alike) == 1 else str(path)
+    return name if name not in taken else f"{name} ({number + 1})"
+
+
+def _pair(
+    reference: ComparedFile,
+    other: ComparedFile,
+    names: Sequence[str],
+    left_out: tuple[str, ...],
+    ends: tuple[float, float],
+    said: CompareFile,
+    tolerances: Sequence[Tolerance],
+    find_shift: bool,
+) -> ComparedPair:
+    """Compare two files."""
+    units = {name: _unit(reference, other, name) for name in names}
+    shift = found_shift(reference, other, units) if find_shift else None
+    if shift is not None:
+        other = other.shifted(-shift.found.shift)
+    onsets = onsets_of(reference), onsets_of(other)
+    parting = pair_parting(reference, other)
+    contacts = [name for name in onsets[0] if name in onsets[1]]
+    told = len(names) * len(JUDGED) + len(contacts)
+    window = ComparedWindow(*ends, parting.time, said.bands, max(told, 1))
+    channels = {}
+    for name in names:
+        contact = next((one for one in contacts if name.startswith(f"pin.{one}.")), None)
+        impacts = None
+        if contact is not None:
+            impacts = tuple([one.time for one in side[contact]] for side in onsets)
+        channels[name] = compared_channel(
+            reference,
+            other,
+            name,
+            units[name],
+            window,
+            of_channel(tolerances, name),
+            impacts,  # type: ignore[arg-type]
+        )
+    matched = {name: match_impacts(onsets[0][name], onsets[1][name]) for name in contacts}
+    same = 0
+    if reference.run is not None and other.run is not None and other.mapped == reference.mapped:
+        same = same_to_the_bit(reference.run, other.run)
+    return ComparedPair(reference, other, channels, parting, matched, shift, same, left_out)
+
+
+def _unit(reference: ComparedFile, other: ComparedFile, channel: str) -> str:
+    """The unit in which a channel is told: that of a run, else the SI unit of what the files name.
+
+    Raises InputError if none names one.
+    """
+    for file in (reference, other):
+        if file.run is not None:
+            return file.run.unit(file.column(channel).column)
+    for file in (reference, other):
+        if (found := file.unit(channel)) is not None:
+            return si_unit(found)
+    column = reference.column(channel).column
+    raise InputError(
+        f"{reference.path}, {other.path}: {channel} has a unit in neither; allowed: one in the title of the column, "
+        f'such as \'{column} [mm]\', or in compare.toml, [files."{reference.path.name}".units] "{column}" = "mm"'
+    )

@@ -1,0 +1,36 @@
+"""The unit in SI in which a quantity is compared."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import cache
+
+import numpy as np
+
+from support_exudyn.files.series.units import scaled
+from user_forces.values.value import InputError
+
+# the house's units, each of another kind; of a work and a moment the words decide
+UNITS = (
+    "s", "m", "m/s", "m/s^2", "N", "N m", "rad", "rad/s", "rad/s^2", "Pa", "m^3/s", "kg", "Hz", "W", "N/m", "N s",
+    "m^2", "m^3", "1",
+)  # fmt: skip
+WORK = re.compile(r"joule|J|Wh")
+
+
+@cache
+def si_unit(unit: str) -> str:
+    """The house's unit of the kind of a unit: "N" of kN, "m" of inch; itself if it is of no kind of the house.
+
+    Raises InputError if it is no unit.
+    """
+    known = ("J", *UNITS) if WORK.search(unit) else (*UNITS, "J")
+    for one in known:
+        try:
+            if math.isfinite(scaled(np.ones(1), unit, one, "unit")[0]):
+                return one
+        except InputError:
+            continue
+    scaled(np.ones(1), unit, unit, "unit")
+    return unit

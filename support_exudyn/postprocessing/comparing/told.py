@@ -1,0 +1,234 @@
+"""What a comparison says, in sentences and rows of tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from support_exudyn.postprocessing.comparing.compare_files import ComparedPair
+from support_exudyn.postprocessing.comparing.compared_channel import LARGEST, ComparedChannel, extent
+from support_exudyn.postprocessing.comparing.verdict import JudgedDifference, ToleranceVerdict
+from support_exudyn.postprocessing.figures.units import DisplayUnit, readable_change, said
+from support_exudyn.simulation.estimate import Estimate
+
+Row = tuple[str, ...]
+DIGITS = 6  # of numbers without a known error
+SHARE = 3  # of shares of a range
+NONE = "-"
+HEADER = (
+    "channel", "unit", ">reference, mean", ">difference, mean", ">largest", ">at [s]", ">RMS/range", ">C", "beside errors",
+)  # fmt: skip
+WITH_VERDICT = (*HEADER, "verdict")
+VERDICTS: dict[ToleranceVerdict, str] = {
+    "within": "All channels are within their tolerances.",
+    "not within": "Not all channels are within their tolerances.",
+    "not decided": "Whether all channels are within their tolerances cannot be told.",
+    "told": "No tolerance was given: nothing is judged.",
+}
+
+
+def title(pair: ComparedPair) -> str:
+    """The head of the table of a file: which files, which times, whose numerical errors stand behind ±."""
+    first = min(one.common.time[0] for one in pair.channels.values())
+    last = max(one.common.time[-1] for one in pair.channels.values())
+    return f"{pair.other.name} less {pair.reference.name}, {first:g} to {last:g} s ({errors_said(pair)})"
+
+
+def errors_said(pair: ComparedPair) -> str:
+    """Whose numerical errors are known, in words."""
+    with_errors = [one for one in (pair.reference, pair.other) if one.has_errors]
+    if len(with_errors) == 2:
+        return "± numerical errors of both runs"
+    if not with_errors:
+        runs = [one for one in (pair.reference, pair.other) if one.run is not None]
+        return "numerical errors not known" + (": an accuracy was not asked of the runs" if runs else "")
+    rest = pair.other if with_errors[0] is pair.reference else pair.reference
+    return f"± numerical errors of {with_errors[0].name}; those of {rest.name} are not known"
+
+
+def rows(pair: ComparedPair) -> list[Row]:
+    """A row a channel; without the verdict if no tolerance is given."""
+    return [_row(one, len(header(pair)) > len(HEADER)) for one in pair.channels.values()]
+
+
+def header(pair: ComparedPair) -> Row:
+    """Heads of the table of the channels."""
+    return HEADER if pair.verdict == "told" else WITH_VERDICT
+
+
+def _row(one: ComparedChannel, judged: bool) -> Row:
+    unit = shown_unit(one)
+    largest = "" if math.isnan(one.largest.value) else math.copysign(1.0, one.measures.largest)
+    signed = one.largest._replace(value=one.measures.largest) if largest else one.largest
+    cells = (
+        one.name,
+        unit.name,
+        number(one.reference._replace(error=math.nan), unit.scale),
+        number(one.mean, unit.scale),
+        number(signed, unit.scale),
+        NONE if math.isnan(one.measures.largest_time) else f"{one.measures.largest_time:.6g}",
+        share(one.measures.rms_of_range),
+        share(one.measures.combined_error),
+        beside(one),
+    )
+    return (*cells, verdict_words(one)) if judged else cells
+
+
+def shown_unit(one: ComparedChannel) -> DisplayUnit:
+    """The unit in which a channel and its differences are read best."""
+    means = max(abs(one.reference.value), abs(one.other.value))
+    largest = one.largest.value if math.isfinite(one.largest.value) else abs(one.mean.value)
+    return readable_change(one.unit, means, abs(largest))
+
+
+def number(found: Estimate, scale: float) -> str:
+    """A number in a unit, with its error if that is known."""
+    value, error = scale * found.value, scale * found.error
+    if math.isnan(value):
+        return NONE
+    if math.isnan(error):
+        return f"{value:.{DIGITS}g}"
+    if not math.isfinite(error) or error <= 0.0:
+        return f"{value:.{DIGITS}g} ± {'not known' if error else '0'}"
+    digits = min(max(0, 1 - math.floor(math.log10(error))), 9)
+    return f"{value:.{digits}f} ± {error:.1g}"
+
+
+def share(value: float) -> str:
+    """A share in percent."""
+    return NONE if math.isnan(value) else f"{100.0 * value:.{SHARE}g} %"
+
+
+def beside(one: ComparedChannel) -> str:
+    """The largest difference beside the numerical errors that are known, in words."""
+    if not one.with_errors:
+        return "not known"
+    said_so = str(one.beside_errors)
+    if len(one.with_errors) == 2:
+        return said_so
+    return said_so.replace("both errors", f"the error of {one.with_errors[0]}")
+
+
+def verdict_words(one: ComparedChannel) -> str:
+    """The verdict on a channel, with its tolerance."""
+    if one.tolerance is None:
+        return "no tolerance"
+    asked = one.tolerance.text
+    return {"within": f"within {asked}", "not within": f"NOT within {asked}"}.get(
+        one.verdict, f"not decided, {asked}"
+    )
+
+
+def faults(one: ComparedChannel) -> list[str]:
+    """Why a channel is not within its tolerance, or why that cannot be told: a sentence a number."""
+    if one.tolerance is None:
+        return []
+    if not one.judged:
+        return [f"{one.name}: there is nothing to judge by: no two common times on one side of the parting."]
+    return [_fault(one, judged) for judged in one.judged if judged.verdict in ("not within", "not decided")]
+
+
+def _fault(one: ComparedChannel, judged: JudgedDifference) -> str:
+    assert one.tolerance is not None
+    allowed = said(judged.allowed, one.unit, 4)
+    if one.tolerance.is_relative:
+        allowed = f"{allowed} ({one.tolerance.text} of the reference's range)"
+    what = judged.what if judged.what == LARGEST else f"{judged.what.replace('_', ' ')} after the parting"
+    at = f" at {one.measures.largest_time:.6g} s" if judged.what == LARGEST else ""
+    if math.isnan(judged.value):
+        return f"{one.name}: {what}: could not be computed; allowed is {allowed}."
+    value = said(judged.value, one.unit, 4)
+    if judged.verdict == "not within":
+        return f"{one.name}: {what} {value}{at}; allowed is {allowed}."
+    error = said(judged.error, one.unit, 2) if math.isfinite(judged.error) else "not known"
+    kind = "its error" if judged.what == LARGEST else "half its confidence interval"
+    return (
+        f"{one.name}: {what} {value}{at}; {kind}, {error}, is larger than what is allowed, {allowed}: not decided. "
+        "A finer accuracy, longer runs or more records may decide it."
+    )
+
+
+def sentences(pair: ComparedPair) -> Iterator[str]:
+    """What has to be known of the comparison of a file."""
+    if pair.same:
+        yield f"the same to the bit: all records of {pair.same} channels"
+    yield from _files(pair)
+    yield from _shift(pair)
+    yield from _parting(pair)
+    yield from _times(pair)
+    for one in pair.channels.values():
+        yield from (f"{one.name}: {reason}" for reason in one.not_told)
+    if pair.left_out:
+        more = f" and {len(pair.left_out) - 6} more" if len(pair.left_out) > 6 else ""
+        yield f"{pair.other.name} has no {', '.join(pair.left_out[:6])}{more}"
+
+
+def _files(pair: ComparedPair) -> Iterator[str]:
+    for file in (pair.reference, pair.other):
+        for note in file.notes:
+            yield f"{file.name}: {note}"
+        if file.mapped.shift and (pair.shift is None or file is pair.reference):
+            yield f"{file.name}: {said(file.mapped.shift, 's', 4)} are added to its times"
+
+
+def _shift(pair: ComparedPair) -> Iterator[str]:
+    if pair.shift is None:
+        return
+    found = pair.shift.found
+    late = "lags behind" if found.shift > 0.0 else "is ahead of"
+    yield (
+        f"{pair.other.name} {late} {pair.reference.name} by {said(abs(found.shift), 's', 5)} ± "
+        f"{said(found.error, 's', 2)}, found by {pair.shift.channel} (correlation {found.correlation:.4f}); that is "
+        "taken off its times"
+    )
+
+
+def _parting(pair: ComparedPair) -> Iterator[str]:
+    if not math.isfinite(pair.parting.time):
+        if any(pair.impacts.values()):
+            yield "point by point over all of it: no impact parts the runs"
+        return
+    yield (
+        f"point by point up to {pair.parting.time:.6g} s: {pair.parting.because.rstrip('.')}; after it by statistics"
+    )
+    if equal := equality(pair):
+        yield equal
+
+
+def equality(pair: ComparedPair) -> str:
+    """Whether the statistics after the parting are equal, in a sentence; empty if there are none."""
+    found = [(one.name, what) for one in pair.channels.values() for what in one.statistics.values()]
+    if not found:
+        return "after it there is too little for statistics"
+    confidence = f"{100.0 * found[0][1].confidence:.3g} % confidence of all together"
+    differ = [f"{what.name.replace('_', ' ')} of {name}" for name, what in found if what.equal is False]
+    silent = sum(what.equal is None for _, what in found)
+    told = f"{len(found) - silent} statistics"
+    tail = f"; {silent} have no interval" if silent else ""
+    if not differ:
+        return f"after it {told} are equal, with {confidence}{tail}"
+    some = ", ".join(differ[:4]) + (f" and {len(differ) - 4} more" if len(differ) > 4 else "")
+    return f"after it {len(differ)} of {told} differ, with {confidence}: {some}{tail}"
+
+
+def _times(pair: ComparedPair) -> Iterator[str]:
+    """That curves were interpolated, and what it may add."""
+    worst = max(pair.channels.values(), key=_interpolation)
+    if not worst.common.interpolated:
+        return
+    added = _interpolation(worst)
+    yield (
+        f"{worst.common.interpolated} of {worst.common.time.size} times lie between records of one file; straight lines "
+        f"there may be wrong by {share(added) if math.isfinite(added) else 'an amount not known'} of the range "
+        f"({worst.name}, where it is most)"
+    )
+
+
+def _interpolation(one: ComparedChannel) -> float:
+    """Largest error of interpolation, as a share of the reference's range; -1 if nothing is interpolated."""
+    if not one.common.interpolated:
+        return -1.0
+    size = extent(one.common.reference)
+    return float(np.nanmax(one.common.interpolation_error)) / size if size > 0.0 else math.inf
