@@ -4,11 +4,10 @@ import argparse
 import math
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from typing import Any
 
-from support_exudyn.commands.command_line import add_json, answer, folder, say, shown_progress, warn
+from support_exudyn.commands.command_line import add_json, answer, folder, refusing, say, shown_progress, warn
 from support_exudyn.commands.tables import printed, show_table
 from support_exudyn.postprocessing.baselines import told
 from support_exudyn.postprocessing.baselines.folder import BaselineFolder, Looked
@@ -45,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Do it; ends with exit code 1 if something has changed, and 2 if an input is wrong."""
-    with _wrong_input():
+    with refusing(WRONG):
         if given.action != UPDATE and (given.names or given.reason):
             raise InputError(f"{given.action} takes DIR alone; allowed: names and a reason with {UPDATE}")
         kept = BaselineFolder(given.folder)
@@ -66,17 +65,6 @@ def run(given: argparse.Namespace) -> None:
             raise SystemExit(CHANGED)
         return
     _update(kept, found, given)
-
-
-@contextmanager
-def _wrong_input() -> Iterator[None]:
-    """Whatever the user has to mend first ends with exit code 2: 1 says that something has changed."""
-    try:
-        yield
-    except (InputError, OSError) as error:
-        named = isinstance(error, OSError) and error.filename is not None and error.strerror
-        warn(f"error: {error.filename}: {error.strerror}" if named else f"error: {error}")
-        raise SystemExit(WRONG) from None
 
 
 def _make(kept: BaselineFolder, given: argparse.Namespace) -> None:
@@ -122,16 +110,16 @@ def _tell(found: Sequence[Looked]) -> None:
         elif one.state == "gone":
             say(f"{one.name}: gone, there is a baseline and no such scenario")
         else:
-            title = f"{one.name}: {len(one.changes)} changed by more than both errors, new, or gone"
-            printed(
-                lambda console, one=one, title=title: show_table(
-                    console, title, told.HEADER, told.rows(one.changes)
-                )
-            )  # type: ignore[misc]
+            _show_changes(one)
             if said := _versions(one):
                 say(f"made with {said}\n")
     counts = Counter(one.state for one in found)
     say(", ".join(f"{number} {state}" for state, number in counts.items()))
+
+
+def _show_changes(one: Looked) -> None:
+    title = f"{one.name}: {len(one.changes)} changed by more than both errors, new, or gone"
+    printed(lambda console: show_table(console, title, told.HEADER, told.rows(one.changes)))
 
 
 def _versions(one: Looked) -> str:
@@ -152,7 +140,7 @@ def _update(kept: BaselineFolder, found: Sequence[Looked], given: argparse.Names
         if one.state == "failed" or not (one.name in given.names or _is_confirmed(one, given)):
             left += 1
             continue
-        with _wrong_input():
+        with refusing(WRONG):
             path = kept.write(one, given.reason)
         if not given.json:
             say(f"{path}: {'removed' if one.now is None else 'written'}")

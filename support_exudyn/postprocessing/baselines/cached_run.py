@@ -25,9 +25,9 @@ OLD = 86400.0  # [s] since the runs of another program were made: nobody works w
 class RunCache:
     """Runs in a folder, one for each scenario and program.
 
-    The key of a run is that of sweeps: all fields of the scenario, versions of packages, a digest of our sources
-    and of modules of one's own. Another program thus never finds a run of this one. Several processes may use the
-    folder: one makes a run, others that ask for the same wait for it.
+    The key of a run is that of sweeps: all fields of the scenario, versions of packages, a digest of our
+    sources and of modules of one's own. Another program thus never finds a run of this one. Several processes
+    may use the folder: one makes a run, others that ask for the same wait for it.
 
     Arguments:
         folder: where they are kept; made if it is missing. Runs of other programs, a day old, are removed.
@@ -86,7 +86,7 @@ def _alone(folder: Path) -> Iterator[None]:
 
 
 def _remove_old(folder: Path) -> None:
-    """Remove runs of other programs that are old; what another process removes at the same time is gone, too."""
+    """Remove runs of other programs that are old; another process may do so at the same time."""
     for other in folder.iterdir():
         try:
             is_old = time.time() - other.stat().st_mtime > OLD

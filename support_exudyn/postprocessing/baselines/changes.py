@@ -129,10 +129,10 @@ def _curve(name: str, was: KeptCurve, now: KeptCurve, time: np.ndarray, end: flo
     if was.unit != now.unit:
         return Change(CHANGED, "channel", name, said=f"in {was.unit} -> in {now.unit}")
     worst, where = 0.0, -1
-    for n in np.flatnonzero(time < end):
+    for n in np.flatnonzero(time < end).tolist():
         ratio = apart(_at(was, n), _at(now, n))
         if ratio > worst:
-            worst, where = ratio, int(n)
+            worst, where = ratio, n
     if worst <= 1.0:
         return None
     return Change(CHANGED, "channel", name, _at(was, where), _at(now, where), float(time[where]), worst)

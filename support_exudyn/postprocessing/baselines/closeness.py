@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-import numbers
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from typing_extensions import TypeGuard
 
 from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
 from support_exudyn.files.series.read import read_series
@@ -19,7 +19,7 @@ from support_exudyn.postprocessing.baselines.curve_errors import safe_errors
 from support_exudyn.postprocessing.baselines.kept_impacts import kept_impacts
 from support_exudyn.postprocessing.comparing.common_times import on_common_times
 from support_exudyn.postprocessing.comparing.tolerances import Tolerance, tolerance
-from support_exudyn.postprocessing.comparing.verdict import JudgedDifference
+from support_exudyn.postprocessing.comparing.verdict import ToleranceVerdict
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -39,8 +39,8 @@ class Compared(NamedTuple):
     """A curve or number beside its reference.
 
     name: of it. unit: of all. time: [s], (n,); of a number empty. values, reference, allowed: (n,), of a number
-    (1,). allowed: by how much they may differ. verdict: see `JudgedDifference`. where: the record that is farthest
-    beyond what is allowed. by_errors: whether that is the errors of both. rule: the tolerance in words.
+    (1,). allowed: by how much they may differ. verdict: within, not within, or not decided. where: the record
+    that is farthest beyond what is allowed. rule: the tolerance in words.
     """
 
     name: str
@@ -49,7 +49,7 @@ class Compared(NamedTuple):
     values: Series
     reference: Series
     allowed: Series
-    verdict: str
+    verdict: ToleranceVerdict
     where: int
     rule: str
 
@@ -71,10 +71,11 @@ class Compared(NamedTuple):
         """The worst number in a line: where, what it is, what it should be."""
         now, was, allowed = (float(one[self.where]) for one in (self.values, self.reference, self.allowed))
         at = f" at t = {self.time[self.where]:.6g} s" if self.time.size else ""
+        limit = f"{allowed:.3g} {self.unit} ({self.rule})"
         said = f"{self.name}: {now:.9g} {self.unit}{at}, where the reference is {was:.9g} {self.unit}: "
         if self.verdict == "not decided":
-            return f"{said}the numerical error is larger than what is allowed, {allowed:.3g} {self.unit} ({self.rule})"
-        return f"{said}they differ by {abs(now - was):.3g} {self.unit}, allowed: {allowed:.3g} {self.unit} ({self.rule})"
+            return f"{said}not decided, the numerical error is larger than what is allowed: {limit}"
+        return f"{said}they differ by {abs(now - was):.3g} {self.unit}; allowed: {limit}"
 
 
 class _Side(NamedTuple):
@@ -99,11 +100,11 @@ def closeness(
 
     Arguments:
         result: a Result, a NamedSeries, an Estimate such as `result.numbers()[name]`, or a number.
-        reference: another Result; a file with curves, by its path or as `read_series` gives it; a NamedSeries; an
-            Estimate or a number; or several of these by the names of channels and numbers of a Result.
+        reference: another Result; a file with curves, by its path or as `read_series` gives it; a NamedSeries;
+            an Estimate or a number; or several of these by the names of channels and numbers of a Result.
         allowed: a relative tolerance, such as 0.02 or "2 %": of curves it is of the range of the reference, of
-            numbers of their reference; an amount with its unit, "0.1 mm"; None: the errors of both, which have to
-            be known of one side at least, and of curves up to the time when runs are determined, see
+            numbers of their reference; an amount with its unit, "0.1 mm"; None: the errors of both, which have
+            to be known of one side at least, and of curves up to the time when runs are determined, see
             `kept_impacts`.
         channels: of a Result, by names or patterns; without, all that both have.
         after, until: what of curves and runs is compared [s].
@@ -128,13 +129,17 @@ def closeness(
 def _rule(allowed: float | str | None) -> Tolerance | None:
     if allowed is None:
         return None
-    if isinstance(allowed, numbers.Real) and not isinstance(allowed, bool):
-        if not 0.0 <= float(allowed) < math.inf:
-            raise InputError(f"tolerance = {short(allowed)}: allowed: a share from 0 on, such as 0.02")
-        return Tolerance("*", f"{100.0 * float(allowed):.4g} %", 100.0 * float(allowed), PERCENT)
     if isinstance(allowed, str):
         return tolerance("*", allowed)
+    if _is_number(allowed):
+        if not 0.0 <= allowed < math.inf:
+            raise InputError(f"tolerance = {short(allowed)}: allowed: a share from 0 on, such as 0.02")
+        return Tolerance("*", f"{100.0 * allowed:.4g} %", 100.0 * allowed, PERCENT)
     raise InputError(f"tolerance = {short(allowed)}: allowed: a share, a text such as '2 %' or '0.1 mm', None")
+
+
+def _is_number(item: object) -> TypeGuard[float]:
+    return isinstance(item, (int, float)) and not isinstance(item, bool)
 
 
 # --- what is compared with what ---
@@ -146,8 +151,8 @@ def _pairs(
     if not isinstance(result, Result):
         if isinstance(reference, (Result, SeriesFile, Mapping)):
             raise InputError(
-                f"result = {short(result)}: has one value, its reference several; allowed: a Result, or the one "
-                "channel or number of the reference"
+                f"result = {short(result)}: has one value, its reference several; allowed: a Result, or the "
+                "one channel or number of the reference"
             )
         return [(_name(result), _side(result), _side(reference))]
     others = _others(reference)
@@ -159,7 +164,8 @@ def _pairs(
     names = [name for name in (matching(known, channels) if channels else known) if name != TIME]
     if not names:
         raise InputError(
-            f"reference: has no channel of the result; allowed: names such as {', '.join(list(result.channels)[1:4])}"
+            "reference: has no channel of the result; allowed: names such as "
+            f"{', '.join(list(result.channels)[1:4])}"
         )
     pairs = []
     for name in names:
@@ -179,7 +185,7 @@ def _others(reference: Reference) -> Mapping[str, object]:
     if isinstance(reference, Mapping):
         return reference
     raise InputError(
-        f"reference = {short(reference)}: is one number, the result a whole run; allowed: numbers by their names"
+        f"reference = {short(reference)}: is one number, the result a whole run; allowed: numbers by names"
     )
 
 
@@ -199,7 +205,7 @@ def _side(one: object) -> _Side:
     none = np.zeros(0)
     if isinstance(one, Estimate):
         return _Side(one.unit, none, np.array([one.value]), np.array([one.error]))
-    if isinstance(one, numbers.Real) and not isinstance(one, bool):
+    if _is_number(one):
         return _Side(None, none, np.array([float(one)]), np.array([math.nan]))
     raise InputError(f"{short(one)}: cannot be compared; allowed: {KINDS}")
 
@@ -230,27 +236,34 @@ def _compared(
     if rule is None:
         if np.isnan(errors).all():
             raise InputError(
-                f"{name}: no numerical error is known; allowed: a tolerance, such as '2 %', or runs with an accuracy"
+                f"{name}: no numerical error is known; allowed: a tolerance, such as '2 %', or runs with an "
+                "accuracy"
             )
-        allowed, errors, words = errors + more, np.zeros(values.size), "both numerical errors"
+        allowed, errors, words = errors + more, np.zeros(values.size), "both errors"
     else:
         extent = float(np.nanmax(reference) - np.nanmin(reference)) if time.size else abs(float(reference[0]))
         allowed = np.full(values.size, rule.in_si(name, unit, extent))
         errors, words = np.nan_to_num(errors) + more, rule.text
-    off = np.abs(values - reference)
-    off[np.isnan(reference)] = 0.0  # where nothing is known to compare with
-    excess = np.where(np.isnan(off), math.inf, off - allowed)
-    where = int(excess.argmax())
-    verdicts = [
-        JudgedDifference(name, float(off[n]), float(errors[n]), float(allowed[n])).verdict
-        for n in (where, int((off + np.where(errors > allowed, math.inf, 0.0)).argmax()))
-    ]
-    worst = next((one for one in verdicts if one == "not within"), verdicts[1])
-    if np.isnan(off).any():
-        worst = "not within"
-    if worst == "not decided":
-        where = int(errors.argmax())
-    return Compared(name, unit, time, values, reference, allowed, worst, where, words)
+    return _judged(Compared(name, unit, time, values, reference, allowed, "within", 0, words), errors)
+
+
+def _judged(one: Compared, errors: Series) -> Compared:
+    """Whether it is as close as is allowed, and where it is least so.
+
+    errors: of the difference, (n,). Where they are larger than what is allowed, and a difference that is within
+    them could turn the answer, nothing is decided.
+    """
+    off, unknown = np.abs(one.values - one.reference), ~np.isfinite(one.allowed)
+    off[np.isnan(one.reference)] = 0.0  # where there is nothing to compare with
+    off = np.where(np.isnan(off), math.inf, off)
+    undecided = unknown | ((errors > one.allowed) & (off - errors <= one.allowed))
+    beyond = (off > one.allowed) & ~undecided
+    if beyond.any():
+        excess = np.where(beyond, off - one.allowed, -math.inf)
+        return one._replace(verdict="not within", where=int(excess.argmax()))
+    if undecided.any():
+        return one._replace(verdict="not decided", where=int(np.where(undecided, errors, -1.0).argmax()))
+    return one._replace(where=int((off - one.allowed).argmax()))
 
 
 def _sum(one: Series, other: Series) -> Series:
@@ -259,4 +272,8 @@ def _sum(one: Series, other: Series) -> Series:
 
 
 def _at(side: _Side, time: Series) -> Series:
-    return np.interp(time, side.time, side.errors) if np.isfinite(side.errors).all() else np.full(time.size, side.errors[0])
+    return (
+        np.interp(time, side.time, side.errors)
+        if np.isfinite(side.errors).all()
+        else np.full(time.size, side.errors[0])
+    )

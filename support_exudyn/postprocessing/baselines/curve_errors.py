@@ -26,7 +26,10 @@ def safe_errors(result: Result, name: str) -> Series:
     if around is None:
         return np.full(result.time.size, math.inf)
     worst = np.maximum.accumulate(np.concatenate([around[1:], around[-1:]]))
-    return OF_MANY * np.maximum(worst, around[0]) + ROUNDING * largest_of_unit(result, result.unit(name))
+    found: Series = OF_MANY * np.maximum(worst, around[0]) + ROUNDING * largest_of_unit(
+        result, result.unit(name)
+    )
+    return found
 
 
 def largest_of_unit(result: Result, unit: str) -> float:

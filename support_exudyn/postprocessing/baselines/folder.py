@@ -118,7 +118,7 @@ class BaselineFolder:
             if looked.now is None:
                 path.unlink(missing_ok=True)
             else:
-                write_baseline(_with_history(looked, reason), path)
+                write_with_history(looked, path, reason)
         return path
 
 
@@ -126,17 +126,18 @@ def run_kept(file: ScenarioFile, progress: Progress) -> KeptRun:
     """Run a scenario, always with errors, and take of it what is kept. Raises SimulationError if it fails."""
     scenario = file.scenario
     result = simulate(scenario, errors=file.errors or scenario.accuracy is None, progress=progress)
-    return kept_run(result, scenario)
+    return replace(kept_run(result), scenario=scenario.plain)
 
 
-def _with_history(looked: Looked, reason: str) -> KeptRun:
+def write_with_history(looked: Looked, path: Path, reason: str = "") -> None:
+    """Write what something came out at, with what was told of it before and now; it is not gone."""
     now, was = looked.now, looked.was
     assert now is not None
     told = {"date": datetime.now(timezone.utc).isoformat(timespec="seconds")}
     told["changes"] = "first" if was is None else str(len(looked.changes))
     if reason:
         told["reason"] = cleaned(reason)[:MOST_REASON]
-    return replace(now, history=(*(was.history if was is not None else ()), told))
+    write_baseline(replace(now, history=(*(was.history if was is not None else ()), told)), path)
 
 
 def _is_scenario(path: Path) -> bool:

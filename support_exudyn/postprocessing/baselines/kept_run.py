@@ -12,13 +12,14 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.baselines.curve_errors import safe_errors
 from support_exudyn.postprocessing.baselines.fluctuation import fluctuation
 from support_exudyn.postprocessing.baselines.kept_impacts import Impacts, kept_impacts
-from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.provenance import provenance
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.key import program
 
 RECORDS = 100  # of every curve that are kept
 TIME = "time"
+SOURCES = "sources"
 ONSET = ".onset_"  # in names of numbers: impacts are kept by themselves
 STATISTICS = (".mean", ".std")  # which are numbers of a run, whatever its single impacts
 
@@ -35,7 +36,7 @@ class KeptCurve(NamedTuple):
 class KeptRun:
     """What is kept of a run, to tell later what has changed.
 
-    scenario: that was run, as plain data; empty if numbers alone are kept.
+    scenario: that was asked for, as plain data; empty where that is not compared.
     numbers: by name, those of single impacts left out.
     time: of the records that are kept (n,) [s]. curves: at these, by channel.
     impacts: the first of every clearance pin.
@@ -54,7 +55,7 @@ class KeptRun:
     history: tuple[Mapping[str, str], ...] = ()
 
 
-def kept_run(result: Result, scenario: Scenario) -> KeptRun:
+def kept_run(result: Result) -> KeptRun:
     """What is kept of a run.
 
     Beyond the horizon single impacts, extremes and curves are no results, so of a run that has one the numbers
@@ -62,7 +63,6 @@ def kept_run(result: Result, scenario: Scenario) -> KeptRun:
 
     Arguments:
         result: with errors.
-        scenario: that was asked for; the result's own has the settings that were chosen.
 
     Raises InputError if the result has nothing to estimate errors by.
     """
@@ -70,13 +70,17 @@ def kept_run(result: Result, scenario: Scenario) -> KeptRun:
     rows = np.unique(np.linspace(0, result.time.size - 1, RECORDS).round().astype(np.intp))
     return KeptRun(
         numbers=_numbers(result, horizon),
-        provenance={**result.provenance, "sources": program()["sources"]},
-        scenario=scenario.plain,
+        provenance={**result.provenance, SOURCES: program()[SOURCES]},
         time=result.time[rows],
         curves=_curves(result, rows),
         impacts=impacts,
         horizon=horizon,
     )
+
+
+def kept_numbers(numbers: Mapping[str, Estimate]) -> KeptRun:
+    """Numbers of one's own with their errors, kept as those of a run are."""
+    return KeptRun(numbers=dict(numbers), provenance={**provenance(), SOURCES: program()[SOURCES]})
 
 
 def _numbers(result: Result, horizon: float) -> dict[str, Estimate]:

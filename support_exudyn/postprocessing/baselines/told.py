@@ -19,7 +19,7 @@ def worst_first(changes: Sequence[Change]) -> list[Change]:
 def rows(changes: Sequence[Change], most: int = MOST) -> list[tuple[str, ...]]:
     """The worst changes as rows of a table with `HEADER`, and how many more there are."""
     shown = worst_first(changes)[:most]
-    found = [_row(one) for one in shown]
+    found: list[tuple[str, ...]] = [_row(one) for one in shown]
     if len(changes) > len(shown):
         found.append(("", "", f"and {len(changes) - len(shown)} more", "", "", ""))
     return found
