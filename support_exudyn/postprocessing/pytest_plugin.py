@@ -151,7 +151,7 @@ def assert_close(tmp_path_factory: pytest.TempPathFactory) -> AssertClose:
 
         found = closeness(result, reference, tolerance, channels=channels, after=after, until=until)
         if any(not one.is_close for one in found):
-            pytest.fail(said_apart(found, tmp_path_factory.mktemp(FIGURES)))
+            raise AssertionError(said_apart(found, tmp_path_factory.mktemp(FIGURES)))
 
     return check
 
@@ -177,12 +177,11 @@ def baseline(
     def check(item: Result | Estimate | Mapping[str, Estimate], name: str = "") -> None:
         __tracebackhide__ = True
         whole = f"{request.path.stem}.{name or request.node.name}"
-        try:
-            written = _baselines.compare(item, request.path, whole, tmp_path_factory.mktemp(FIGURES))
-        except AssertionError as error:
-            pytest.fail(str(error))
+        said, written = _baselines.compare(item, request.path, whole, tmp_path_factory.mktemp(FIGURES))
         if written:
-            request.node.user_properties.append((WRITTEN, written))
+            request.node.user_properties.append((WRITTEN, said))
+        elif said:
+            raise AssertionError(said)
 
     return check
 

@@ -6,10 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeGuard
 
 import numpy as np
-from typing_extensions import TypeGuard
 
 from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
 from support_exudyn.files.series.read import read_series

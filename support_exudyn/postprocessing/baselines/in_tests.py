@@ -74,7 +74,7 @@ class SessionBaselines:
 
     def compare(
         self, item: Result | Estimate | Mapping[str, Estimate], beside: Path, name: str, figures: Path
-    ) -> str:
+    ) -> tuple[str, bool]:
         """Compare with the baseline, or write it if it is one of those.
 
         Arguments:
@@ -84,9 +84,10 @@ class SessionBaselines:
             figures: folder for the figure of a failure.
 
         Returns:
-            What was written, in lines; empty if nothing was, for nothing has changed.
+            What has changed, or that there is no baseline, in lines, empty if nothing has changed; and whether
+            the baseline was written.
 
-        Raises AssertionError if something has changed, or if there is no baseline; InputError if it is damaged.
+        Raises InputError if it is damaged, or if its name was used before.
         """
         path = beside.parent / FOLDER / f"{file_name(name)}{ENDING}"
         if path in self._used:
@@ -99,14 +100,14 @@ class SessionBaselines:
         writes = any(fnmatchcase(path.stem, pattern) for pattern in self.updated)
         said = said_changed(path.stem, was, now, figures) if was is not None else f"{path.stem}: first"
         if not said:
-            return ""
+            return "", False
         if writes:
             found = tuple(changes(was, now)) if was is not None else ()
             write_with_history(Looked(path.stem, was, now, found), path)
-            return f"{path}: written\n{said}"
+            return f"{path}: written\n{said}", True
         if was is None:
             said = f"{path}: there is no such baseline"
-        raise AssertionError(f"{said}\nto write it: pytest --baseline-update {path.stem}")
+        return f"{said}\nto write it: pytest --baseline-update {path.stem}", False
 
 
 def _kept(item: Result | Estimate | Mapping[str, Estimate]) -> KeptRun:
