@@ -10,7 +10,7 @@ def rocker(duration: float = 0.02, **pin: object) -> Scenario:
     return simple_scenario(
         "crank_rocker",
         duration_s=duration,
-        record_period_s=duration / 40,
+        record_period_s=duration / 20,
         accuracy="reference",
         drives={"crank": {"type": "Steady", "rate_rad_per_s": 60}},
         pins={
@@ -23,4 +23,18 @@ def rocker(duration: float = 0.02, **pin: object) -> Scenario:
             }
             | pin
         },
+    )
+
+
+def rise() -> Scenario:
+    """The reference support rises by 20 mm on columns of oil, with clearance in the lower pin of the rear link."""
+    oil = {"type": "OilColumn", "bore_area_mm2": 50000, "oil_length_mm": 1000, "bulk_modulus_MPa": 1500}
+    return simple_scenario(
+        "reference",
+        duration_s=0.2,
+        record_period_s=0.01,
+        accuracy="reference",
+        drive={"mode": 2, "stroke_mm": 20, "start_s": 0.05, "end_s": 0.15},
+        pins={"rear_base": {"clearance_mm": 1.5, "friction": 0.25}},
+        actuators=dict.fromkeys(("front_column", "rear_column"), oil),
     )
