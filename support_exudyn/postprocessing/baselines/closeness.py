@@ -227,11 +227,12 @@ def _compared(
     elif its.unit is None and its.time.size:
         reference = converted(NamedSeries(name, None, its.time, reference), unit)  # which refuses it
     time, values, more = mine.time, mine.values, np.zeros(1)
-    errors = _sum(mine.errors, scale * its.errors)
     if mine.time.size:
         common = on_common_times(its.time, reference, mine.time, mine.values, *window)
         time, values, reference, more = common.time, common.other, common.reference, common.interpolation_error
         errors = _sum(_at(mine, time), scale * _at(its, time))
+    else:
+        errors = _sum(mine.errors, scale * its.errors)
     if rule is None:
         if np.isnan(errors).all():
             raise InputError(

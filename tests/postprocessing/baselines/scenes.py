@@ -27,7 +27,7 @@ def rocker(duration: float = 0.02, **pin: object) -> Scenario:
 
 
 def rise() -> Scenario:
-    """The reference support rises by 20 mm on columns of oil, with clearance in the lower pin of the rear link."""
+    """The reference support rises by 20 mm on columns of oil, with clearance in a pin of the rear link."""
     oil = {"type": "OilColumn", "bore_area_mm2": 50000, "oil_length_mm": 1000, "bulk_modulus_MPa": 1500}
     return simple_scenario(
         "reference",

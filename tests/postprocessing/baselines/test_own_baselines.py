@@ -1,4 +1,4 @@
-"""What two scenes came out at is kept in `baseline/`: a change of the program is seen here, see `tests/planted`.
+"""What two scenes came out at is kept in `baseline/`; what changes of the program are seen: `tests/planted`.
 
 If it is meant: `python -m pytest -n 0 tests/postprocessing/baselines --baseline-update 'test_own_baselines.*'`
 """
