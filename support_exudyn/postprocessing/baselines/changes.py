@@ -20,7 +20,7 @@ SLIGHT = 1e-3  # share of a pin's fastest impact, below which rounding decides w
 AT_THE_END, AT_THE_HORIZON = 1e-9, 0.01
 
 
-class Change(NamedTuple):
+class RunChange(NamedTuple):
     """Something that is no longer what it was.
 
     kind: whether it has changed, is new, or gone. what: "number", "channel", "impact", "key" of the scenario.
@@ -39,7 +39,7 @@ class Change(NamedTuple):
     said: str = ""
 
 
-def changes(old: KeptRun, new: KeptRun) -> list[Change]:
+def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
     """All that has changed by more than the errors of both runs, is new, or gone.
 
     What is not determined is not compared: numbers of which an error is not known, curves and impacts beyond
@@ -53,15 +53,15 @@ def changes(old: KeptRun, new: KeptRun) -> list[Change]:
     ]
 
 
-def _scenario(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[Change]:
+def _scenario(old: Mapping[str, Any], new: Mapping[str, Any]) -> Iterator[RunChange]:
     was, now = dict(_leaves(old)), dict(_leaves(new))
     for key in sorted(was.keys() | now.keys()):
         if key not in now:
-            yield Change(GONE, "key", key, said=f"{was[key]}")
+            yield RunChange(GONE, "key", key, said=f"{was[key]}")
         elif key not in was:
-            yield Change(NEW, "key", key, said=f"{now[key]}")
+            yield RunChange(NEW, "key", key, said=f"{now[key]}")
         elif was[key] != now[key]:
-            yield Change(CHANGED, "key", key, said=f"{was[key]} -> {now[key]}")
+            yield RunChange(CHANGED, "key", key, said=f"{was[key]} -> {now[key]}")
 
 
 def _leaves(data: Any, place: str = "") -> Iterator[tuple[str, Any]]:
@@ -75,22 +75,22 @@ def _leaves(data: Any, place: str = "") -> Iterator[tuple[str, Any]]:
         yield place, data
 
 
-def _numbers(old: KeptRun, new: KeptRun) -> Iterator[Change]:
+def _numbers(old: KeptRun, new: KeptRun) -> Iterator[RunChange]:
     # a run without a horizon has numbers that one with a horizon has not
     alike = math.isinf(old.horizon) == math.isinf(new.horizon)
     for name, was in old.numbers.items():
         now = new.numbers.get(name)
         if now is None:
             if alike:
-                yield Change(GONE, "number", name, was)
+                yield RunChange(GONE, "number", name, was)
         elif was.unit != now.unit:
-            yield Change(CHANGED, "number", name, was, now)
+            yield RunChange(CHANGED, "number", name, was, now)
         elif (ratio := apart(was, now)) > 1.0:
-            yield Change(CHANGED, "number", name, was, now, ratio=ratio)
+            yield RunChange(CHANGED, "number", name, was, now, ratio=ratio)
     if alike:
         for name, now in new.numbers.items():
             if name not in old.numbers:
-                yield Change(NEW, "number", name, None, now)
+                yield RunChange(NEW, "number", name, None, now)
 
 
 def apart(was: Estimate, now: Estimate) -> float:
@@ -106,16 +106,16 @@ def apart(was: Estimate, now: Estimate) -> float:
     return off / both if both > 0.0 else (math.inf if off > 0.0 else 0.0)
 
 
-def _curves(old: KeptRun, new: KeptRun) -> Iterator[Change]:
+def _curves(old: KeptRun, new: KeptRun) -> Iterator[RunChange]:
     for name in old.curves.keys() - new.curves.keys():
-        yield Change(GONE, "channel", name)
+        yield RunChange(GONE, "channel", name)
     for name in new.curves.keys() - old.curves.keys():
-        yield Change(NEW, "channel", name)
+        yield RunChange(NEW, "channel", name)
     common = [name for name in old.curves if name in new.curves]
     if not common:
         return
     if old.time.shape != new.time.shape or not np.allclose(old.time, new.time, rtol=1e-9, atol=1e-12):
-        yield Change(CHANGED, "channel", "time", said="the records are at other times")
+        yield RunChange(CHANGED, "channel", "time", said="the records are at other times")
         return
     end = min(old.horizon, new.horizon)
     for name in common:
@@ -124,10 +124,10 @@ def _curves(old: KeptRun, new: KeptRun) -> Iterator[Change]:
             yield change
 
 
-def _curve(name: str, was: KeptCurve, now: KeptCurve, time: np.ndarray, end: float) -> Change | None:
+def _curve(name: str, was: KeptCurve, now: KeptCurve, time: np.ndarray, end: float) -> RunChange | None:
     """Where a channel is farthest from what it was, as a share of both errors."""
     if was.unit != now.unit:
-        return Change(CHANGED, "channel", name, said=f"in {was.unit} -> in {now.unit}")
+        return RunChange(CHANGED, "channel", name, said=f"in {was.unit} -> in {now.unit}")
     worst, where = 0.0, -1
     for n in np.flatnonzero(time < end).tolist():
         ratio = apart(_at(was, n), _at(now, n))
@@ -135,7 +135,7 @@ def _curve(name: str, was: KeptCurve, now: KeptCurve, time: np.ndarray, end: flo
             worst, where = ratio, n
     if worst <= 1.0:
         return None
-    return Change(CHANGED, "channel", name, _at(was, where), _at(now, where), float(time[where]), worst)
+    return RunChange(CHANGED, "channel", name, _at(was, where), _at(now, where), float(time[where]), worst)
 
 
 def _at(curve: KeptCurve, n: int) -> Estimate:
@@ -145,11 +145,11 @@ def _at(curve: KeptCurve, n: int) -> Estimate:
 # --- impacts ---
 
 
-def _impacts(old: KeptRun, new: KeptRun) -> Iterator[Change]:
+def _impacts(old: KeptRun, new: KeptRun) -> Iterator[RunChange]:
     for pin in old.impacts.keys() - new.impacts.keys():
-        yield Change(GONE, "impact", f"{pin}: all")
+        yield RunChange(GONE, "impact", f"{pin}: all")
     for pin in new.impacts.keys() - old.impacts.keys():
-        yield Change(NEW, "impact", f"{pin}: all")
+        yield RunChange(NEW, "impact", f"{pin}: all")
     last = [run.time[-1] for run in (old, new) if run.time.size]
     end = min(
         [(1.0 - AT_THE_HORIZON) * min(old.horizon, new.horizon), *((1.0 - AT_THE_END) * one for one in last)]
@@ -159,7 +159,9 @@ def _impacts(old: KeptRun, new: KeptRun) -> Iterator[Change]:
             yield from _of_pin(pin, was, new.impacts[pin], end)
 
 
-def _of_pin(pin: str, was: tuple[KeptImpact, ...], now: tuple[KeptImpact, ...], end: float) -> Iterator[Change]:
+def _of_pin(
+    pin: str, was: tuple[KeptImpact, ...], now: tuple[KeptImpact, ...], end: float
+) -> Iterator[RunChange]:
     """Impacts are matched in their order; one that has no other near it is gone, or new.
 
     Only so many of a pin are kept: beyond the last that both have kept nothing is gone.
@@ -175,11 +177,11 @@ def _of_pin(pin: str, was: tuple[KeptImpact, ...], now: tuple[KeptImpact, ...], 
             n, m = n + 1, m + 1
         elif not its or (mine and mine[0].time.value < its[0].time.value):
             if _counts(mine[0], end, least):
-                yield Change(GONE, "impact", f"{pin}: {n + 1}", mine[0].time, None, mine[0].time.value)
+                yield RunChange(GONE, "impact", f"{pin}: {n + 1}", mine[0].time, None, mine[0].time.value)
             n += 1
         else:
             if _counts(its[0], end, least):
-                yield Change(NEW, "impact", f"{pin}: {m + 1}", None, its[0].time, its[0].time.value)
+                yield RunChange(NEW, "impact", f"{pin}: {m + 1}", None, its[0].time, its[0].time.value)
             m += 1
 
 
@@ -202,7 +204,7 @@ def _same(was: KeptImpact, now: KeptImpact, gap: float, other: float) -> bool:
     return off <= was.time.error + now.time.error or off < NEAR * min(gap, other)
 
 
-def _of_impact(name: str, was: KeptImpact, now: KeptImpact) -> Iterator[Change]:
+def _of_impact(name: str, was: KeptImpact, now: KeptImpact) -> Iterator[RunChange]:
     for word, one, other in (("time", was.time, now.time), ("speed", was.speed, now.speed)):
         if (ratio := apart(one, other)) > 1.0:
-            yield Change(CHANGED, "impact", f"{name}, {word}", one, other, was.time.value, ratio)
+            yield RunChange(CHANGED, "impact", f"{name}, {word}", one, other, was.time.value, ratio)

@@ -34,7 +34,7 @@ KINDS = "a Result, a NamedSeries, an Estimate, a number"
 PERCENT = "%"
 
 
-class Compared(NamedTuple):
+class Closeness(NamedTuple):
     """A curve or number beside its reference.
 
     name: of it. unit: of all. time: [s], (n,); of a number empty. values, reference, allowed: (n,), of a number
@@ -94,7 +94,7 @@ def closeness(
     channels: Sequence[str] = (),
     after: float = 0.0,
     until: float = math.inf,
-) -> list[Compared]:
+) -> list[Closeness]:
     """Each curve or number of a result beside its reference, the farthest from it first.
 
     Arguments:
@@ -214,7 +214,7 @@ def _side(one: object) -> _Side:
 
 def _compared(
     name: str, mine: _Side, its: _Side, rule: Tolerance | None, window: tuple[float, float]
-) -> Compared:
+) -> Closeness:
     if bool(mine.time.size) != bool(its.time.size):
         raise InputError(f"{name}: is a curve beside a number; allowed: curves with curves")
     unit = mine.unit if mine.unit is not None else (its.unit or "")
@@ -244,10 +244,10 @@ def _compared(
         extent = float(np.nanmax(reference) - np.nanmin(reference)) if time.size else abs(float(reference[0]))
         allowed = np.full(values.size, rule.in_si(name, unit, extent))
         errors, words = np.nan_to_num(errors) + more, rule.text
-    return _judged(Compared(name, unit, time, values, reference, allowed, "within", 0, words), errors)
+    return _judged(Closeness(name, unit, time, values, reference, allowed, "within", 0, words), errors)
 
 
-def _judged(one: Compared, errors: Series) -> Compared:
+def _judged(one: Closeness, errors: Series) -> Closeness:
     """Whether it is as close as is allowed, and where it is least so.
 
     errors: of the difference, (n,). Where they are larger than what is allowed, and a difference that is within

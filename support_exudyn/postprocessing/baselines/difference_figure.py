@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from support_exudyn.postprocessing.baselines.changes import Change
-from support_exudyn.postprocessing.baselines.closeness import Compared
+from support_exudyn.postprocessing.baselines.changes import RunChange
+from support_exudyn.postprocessing.baselines.closeness import Closeness
 from support_exudyn.postprocessing.baselines.kept_run import KeptRun
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.units import readable, readable_change
@@ -15,7 +15,7 @@ WIDTH_MM, HEIGHT_MM = 140.0, 95.0
 SIDE = 10.0  # times what is allowed, or the largest difference, that is drawn of either side
 
 
-def difference_figure(one: Compared) -> Figure:
+def difference_figure(one: Closeness) -> Figure:
     """Both curves one upon the other, below them their difference within the band that is allowed."""
     seconds = readable("s", float(np.ptp(one.time)))
     known = np.concatenate([one.values, one.reference])
@@ -46,7 +46,7 @@ def difference_figure(one: Compared) -> Figure:
     return drawing
 
 
-def save_figure(one: Compared, folder: Path, name: str) -> Path | None:
+def save_figure(one: Closeness, folder: Path, name: str) -> Path | None:
     """Write the figure of a curve as PNG; nothing of a number, or of a single record."""
     if one.time.size < 2:
         return None
@@ -54,7 +54,7 @@ def save_figure(one: Compared, folder: Path, name: str) -> Path | None:
         return style.save(difference_figure(one), folder, name, pdf=False)[0]
 
 
-def changed_curve(old: KeptRun, new: KeptRun, changes: list[Change]) -> Compared | None:
+def changed_curve(old: KeptRun, new: KeptRun, changes: list[RunChange]) -> Closeness | None:
     """The curve that shows the worst of some changes: that of the channel itself, or of which a number is.
 
     None if there is none.
@@ -67,7 +67,7 @@ def changed_curve(old: KeptRun, new: KeptRun, changes: list[Change]) -> Compared
             allowed = was.errors + now.errors
             excess = np.nan_to_num(np.abs(now.values - was.values) - allowed, nan=np.inf)
             where = int(excess.argmax())
-            return Compared(
+            return Closeness(
                 name, now.unit, new.time, now.values, was.values, allowed, "not within", where, "both errors"
             )
     return None

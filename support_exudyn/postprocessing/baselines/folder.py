@@ -14,7 +14,7 @@ from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import writing_alone
 from support_exudyn.formulations.contract import Progress, SimulationError
 from support_exudyn.postprocessing.baselines.baseline_file import read_baseline, write_baseline
-from support_exudyn.postprocessing.baselines.changes import Change, changes
+from support_exudyn.postprocessing.baselines.changes import RunChange, changes
 from support_exudyn.postprocessing.baselines.kept_run import KeptRun, kept_run
 from support_exudyn.simulation.simulate import simulate
 from user_forces.values.texts import cleaned
@@ -36,7 +36,7 @@ class Looked:
     name: str
     was: KeptRun | None
     now: KeptRun | None
-    changes: tuple[Change, ...] = ()
+    changes: tuple[RunChange, ...] = ()
     failed: str = ""
 
     @property

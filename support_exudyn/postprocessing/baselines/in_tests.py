@@ -9,7 +9,7 @@ from pathlib import Path
 
 from support_exudyn.postprocessing.baselines.baseline_file import read_baseline
 from support_exudyn.postprocessing.baselines.changes import changes
-from support_exudyn.postprocessing.baselines.closeness import Compared
+from support_exudyn.postprocessing.baselines.closeness import Closeness
 from support_exudyn.postprocessing.baselines.difference_figure import changed_curve, save_figure
 from support_exudyn.postprocessing.baselines.folder import ENDING, FOLDER, Looked, write_with_history
 from support_exudyn.postprocessing.baselines.kept_run import KeptRun, kept_numbers, kept_run
@@ -23,7 +23,7 @@ TOLD = 5  # changes that a failure tells
 LONGEST = 150  # letters of a name
 
 
-def said_apart(found: Sequence[Compared], figures: Path) -> str:
+def said_apart(found: Sequence[Closeness], figures: Path) -> str:
     """What a failed comparison says; empty if all is close.
 
     figures: folder for the figure of the worst curve.

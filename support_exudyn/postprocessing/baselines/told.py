@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from support_exudyn.postprocessing.baselines.changes import Change
+from support_exudyn.postprocessing.baselines.changes import RunChange
 from support_exudyn.postprocessing.figures.units import readable_change
 from support_exudyn.simulation.estimate import Estimate
 
@@ -11,12 +11,12 @@ HEADER = ("change", "of", "name", "was -> is", ">times both errors", ">at")
 MOST = 12  # rows of a scenario
 
 
-def worst_first(changes: Sequence[Change]) -> list[Change]:
+def worst_first(changes: Sequence[RunChange]) -> list[RunChange]:
     """Keys of the scenario first, for they explain the rest; then what is gone and new, then the farthest."""
     return sorted(changes, key=lambda one: (one.what != "key", -one.ratio))
 
 
-def rows(changes: Sequence[Change], most: int = MOST) -> list[tuple[str, ...]]:
+def rows(changes: Sequence[RunChange], most: int = MOST) -> list[tuple[str, ...]]:
     """The worst changes as rows of a table with `HEADER`, and how many more there are."""
     shown = worst_first(changes)[:most]
     found: list[tuple[str, ...]] = [_row(one) for one in shown]
@@ -25,14 +25,14 @@ def rows(changes: Sequence[Change], most: int = MOST) -> list[tuple[str, ...]]:
     return found
 
 
-def line(change: Change) -> str:
+def line(change: RunChange) -> str:
     """A change in a line."""
     kind, what, name, values, ratio, time = _row(change)
     told = f"{what} {name} {kind}" + (f": {values}" if values else "")
     return told + (f", {ratio} times both errors" if ratio else "") + (f", at {time}" if time else "")
 
 
-def _row(change: Change) -> tuple[str, str, str, str, str, str]:
+def _row(change: RunChange) -> tuple[str, str, str, str, str, str]:
     ratio = f"{change.ratio:.3g}" if math.isfinite(change.ratio) else ""
     time = f"{change.time:.6g} s" if change.time is not None else ""
     return change.kind, change.what, change.name, change.said or _values(change.was, change.now), ratio, time
