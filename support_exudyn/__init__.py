@@ -93,6 +93,7 @@ if TYPE_CHECKING:
     from support_exudyn.model.to_space import Width
     from support_exudyn.postprocessing.export.solution_file import save_solution
     from support_exudyn.postprocessing.known_channels import channels
+    from support_exudyn.postprocessing.comparing.files_compared import FilesCompared, compare_files
     from support_exudyn.postprocessing.side_by_side import RunsSideBySide, compare
     from support_exudyn.scenario.recorded_channels import Channel
     from support_exudyn.scenario.scenario import Scenario
@@ -124,6 +125,7 @@ __all__ = [
     "Estimate",
     "Failure",
     "FallingBlock",
+    "FilesCompared",
     "FrictionLaw",
     "Gear",
     "Guide",
@@ -182,6 +184,7 @@ __all__ = [
     "bore_area",
     "channels",
     "compare",
+    "compare_files",
     "cylinders_and_rods",
     "load_machine",
     "load_support",
@@ -269,6 +272,7 @@ _PLACES = {
 # what needs the engine or draws
 _SHOWN = {
     ".postprocessing.export.solution_file": ("save_solution",),
+    ".postprocessing.comparing.files_compared": ("FilesCompared", "compare_files"),
     ".postprocessing.known_channels": ("channels",),
     ".postprocessing.side_by_side": ("RunsSideBySide", "compare"),
 }

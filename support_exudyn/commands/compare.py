@@ -1,4 +1,4 @@
-"""`compare REFERENCE OTHER... [CHANNEL...]`: by how much files differ from a reference, and whether that is allowed."""
+"""`compare REFERENCE OTHER... [CHANNEL...]`: by how much files differ, and whether that is allowed."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from support_exudyn.commands.tables import printed, show_table
 from user_forces.values.value import InputError
 
 if TYPE_CHECKING:
-    from support_exudyn.postprocessing.comparing.compare_files import FilesCompared
+    from support_exudyn.postprocessing.comparing.files_compared import FilesCompared
 
 DIFFERENT, REFUSED = 1, 2  # exit codes
 # of files that are not there, so that they are not taken for channels
@@ -49,8 +49,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "names",
         nargs="+",
         metavar="FILE|CHANNEL",
-        help="the reference, then the files that are compared with it, then channels: names or patterns, such as "
-        "'tip.*'; by default forces and traced points of runs, and all that other files have in common",
+        help="the reference, then the files that are compared with it, then channels: names or patterns, such "
+        "as 'tip.*'; by default forces and traced points of runs, and all that other files have in common",
     )
     add(
         "--map",
@@ -96,7 +96,8 @@ def run(given: argparse.Namespace) -> None:
 def _compared(given: argparse.Namespace) -> str:
     """Print and write; returns the verdict."""
     files, channels = files_and_channels(given.names)
-    from support_exudyn.postprocessing.comparing.compare_files import compare_files, read_files
+    _check_outputs(given)
+    from support_exudyn.postprocessing.comparing.files_compared import compare_files, read_files
 
     with shown_progress("reading") as progress:
         if given.propose:
@@ -148,6 +149,18 @@ def files_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:
     return files, channels
 
 
+def _check_outputs(given: argparse.Namespace) -> None:
+    """Raise InputError, before anything is read, for a file that cannot be written as what it is called."""
+    if given.figure is not None:
+        from support_exudyn.postprocessing.comparing.compare_figure import check_format
+
+        check_format(given.figure)
+    if given.page is not None:
+        from support_exudyn.postprocessing.comparing.compare_page import check_page
+
+        check_page(given.page)
+
+
 def _write(given: argparse.Namespace, found: FilesCompared) -> list[Path]:
     """Write what is asked for; returns the paths."""
     if given.junit is not None:
@@ -169,21 +182,21 @@ def _print(found: FilesCompared) -> None:
     """Print the tables and what has to be known of them."""
     from support_exudyn.postprocessing.comparing import further_tables as further
     from support_exudyn.postprocessing.comparing import told
+    from support_exudyn.postprocessing.comparing.sentences import sentences
 
     def tables(console: Console) -> None:
         for pair in found.pairs:
             show_table(console, told.title(pair), told.header(pair), told.rows(pair))
-            if rows := further.statistics_rows(pair):
-                show_table(console, f"statistics after {pair.parting.time:.6g} s", further.STATISTICS, rows)
+            if rows := further.brief_statistics_rows(pair):
+                title = f"after {pair.parting.time:.6g} s: means, and what else differs (all: --page)"
+                show_table(console, title, further.STATISTICS, rows)
             if rows := further.impacts_rows(pair):
                 show_table(console, "impacts", further.IMPACTS, rows)
             if rows := further.bands_rows(pair):
                 show_table(console, "RMS in bands of frequency", further.BANDS, rows)
-            for line in told.sentences(pair):
+            lines = [*sentences(pair), *filter(None, map(told.fault, pair.channels.values()))]
+            for line in lines:
                 console.print(line, markup=False, soft_wrap=True)
-            for one in pair.channels.values():
-                for line in told.faults(one):
-                    console.print(line, markup=False, soft_wrap=True)
         console.print(told.VERDICTS[found.verdict], markup=False, soft_wrap=True)
 
     printed(tables)

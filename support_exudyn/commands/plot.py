@@ -28,7 +28,8 @@ from support_exudyn.commands.runs import (
     said_channels,
     said_window,
 )
-from support_exudyn.postprocessing.curves import Curves, read_curves
+from support_exudyn.files.series.named_series import SeriesFile
+from support_exudyn.files.series.read import read_series
 from support_exudyn.postprocessing.figures.journal import chosen_pin, clearance_joints
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
@@ -50,8 +51,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         metavar="RUN|CHANNEL",
         help="files of runs, as Result.save writes them, then channels over time: names, or patterns as "
-        "'pin.*.force'; several runs are drawn one upon another, and so are curves of CSV files "
-        "(time_s,tip.x_mm)",
+        "'pin.*.force'; several runs are drawn one upon another, and so are curves of others: CSV "
+        "(time_s,tip.x_mm), ADAMS, MATLAB, Parquet, Exudyn",
     )
     add("--difference", action="store_true", help="of several runs: what differs from the first")
     add("--orbit", action="store_true", help="path of the journal of a clearance pin in its bore")
@@ -87,12 +88,13 @@ def run(given: argparse.Namespace) -> None:
         )
     if given.difference and (len(paths) < 2 or tables):
         raise InputError(
-            "--difference: needs a second run, and no CSV; allowed: plot FIRST.h5 SECOND.h5 [CHANNEL...]"
+            "--difference: needs a second run, and no curves of others; allowed: plot FIRST.h5 SECOND.h5 "
+            "[CHANNEL...]"
         )
     runs = {name: Result.load(path) for name, path in named_runs(paths).items()}
     first = paths[0]
     out = given.out or first.with_name(f"{first.stem}_figures")
-    curves = {name: read_curves(path) for name, path in named_runs(tables).items()}
+    curves = {name: read_series(path) for name, path in named_runs(tables).items()}
     several = len(runs) + len(curves) > 1
     wanted, optional = _of_several(runs, curves, given) if several else _of_one(runs, given)
     drawings = []
@@ -118,9 +120,9 @@ def run(given: argparse.Namespace) -> None:
 
 
 def _of_several(
-    runs: Mapping[str, Result], curves: Mapping[str, Curves], given: argparse.Namespace
+    runs: Mapping[str, Result], curves: Mapping[str, SeriesFile], given: argparse.Namespace
 ) -> tuple[dict[str, Draw], set[str]]:
-    """Channels of several runs and of CSV files, one upon another or less those of the first."""
+    """Channels of several runs and of others, one upon another or less those of the first."""
     from support_exudyn.postprocessing.figures.overlay import difference, overlay
 
     of_one = (
@@ -137,12 +139,8 @@ def _of_several(
             f"{len(runs) + len(curves)} are given; allowed with several: channels"
         )
     first = next(iter(runs.values()))
-    in_files = [
-        name
-        for name in first.channels
-        if any(one.of(name, first.unit(name)) is not None for one in curves.values())
-    ]
-    channels = given.channels or [name for name in in_files if name != "time"] or _told_first(first)
+    in_files = [name for name in first.channels if any(name in one.series for one in curves.values())]
+    channels = given.channels or in_files or _told_first(first)
     names = [*runs, *curves]
     joined = ("_less_" if given.difference else "_and_").join(names[::-1] if given.difference else names)
     what = said_channels(given.channels) if given.channels else "overview"

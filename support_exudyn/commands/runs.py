@@ -5,10 +5,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from support_exudyn.commands.command_line import folder
+from support_exudyn.files.series.matlab import is_matlab
+from support_exudyn.files.series.own_runs import is_exported, is_run
 from user_forces.values.value import InputError
 
 ENDING = ".h5"  # of runs
-CSV = ".csv"
+CSV, TOML = ".csv", ".toml"
+HEAD = 600  # bytes by which runs are told from series of others
 NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
 LONGEST = 80  # letters of what a file's name says of channels
 
@@ -29,8 +32,17 @@ def named_runs(paths: Sequence[Path]) -> dict[str, Path]:
 
 
 def files_of_curves(words: Sequence[str]) -> list[Path]:
-    """The CSV files among words."""
-    return [folder(word) for word in words if word.lower().endswith(CSV)]
+    """The files among words that are series of others; a table that is missing is one, too."""
+    return [folder(word) for word in words if word.lower().endswith(CSV) or _is_of_others(folder(word))]
+
+
+def _is_of_others(path: Path) -> bool:
+    """Whether a path is a file, and neither a run, whole or damaged, nor a text of ours."""
+    if not path.is_file() or path.suffix.lower() == TOML:
+        return False
+    with path.open("rb") as file:
+        head = file.read(HEAD)
+    return not is_run(head) and (path.suffix.lower() != ENDING or is_exported(head) or is_matlab(head))
 
 
 def runs_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:

@@ -143,18 +143,17 @@ def measures(
                 found[f"{stem}.largest_force_time"] = ReportedNumber(
                     "s", _time_at_any_step(pin), missed=_other_impacts(pin), settles=False
                 )
-        found |= impact_numbers(result, pin, ONSETS)
+        found.update(impact_numbers(result, pin, ONSETS))
     return found
 
 
 def impact_numbers(result: RecordedRun, pin: str, most: int) -> dict[str, ReportedNumber]:
-    """Times [s] and initial velocities [m/s] of the first impacts of a clearance pin; most: how many."""
-    scenario = result.scenario
-    left, stem = left_by_newton(scenario), scenario.contact_stem(pin)
+    """Time and speed of the first impacts of a clearance pin, `most` of them, by names such as onset_1.time."""
+    stem, left = result.scenario.contact_stem(pin), left_by_newton(result.scenario)
     found: dict[str, ReportedNumber] = {}
     for n, onset in enumerate(result.onsets[pin][:most]):
         impact = f"{stem}.onset_{n + 1}"
-        late, slow = _of_a_step(scenario, pin, onset) if scenario.chooses_steps else (0.0, 0.0)
+        late, slow = _of_a_step(result.scenario, pin, onset) if result.scenario.chooses_steps else (0.0, 0.0)
         found[f"{impact}.time"] = ReportedNumber("s", _onset(pin, n, "time"), of=impact, left=left, step=late)
         found[f"{impact}.speed"] = ReportedNumber(
             "m/s", _onset(pin, n, "speed"), of=impact, left=left, step=slow

@@ -17,6 +17,7 @@ import numpy as np
 from support_exudyn.files.free_memory import available
 from support_exudyn.files.hdf5 import Inside, check_checksum, checksum_block, file_image, write_texts
 from support_exudyn.files.own_modules import import_modules_of, modules_of
+from support_exudyn.files.series.own_runs import RUN
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-FORMAT = "support_exudyn result 5"
+FORMAT = RUN
 COLUMNS = "time [s], initial impact velocity [m/s], time of separation [s], speed of separation [m/s]"
 DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
 

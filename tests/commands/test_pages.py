@@ -14,6 +14,7 @@ import pytest
 from support_exudyn.commands.command_line import Parser
 from support_exudyn.commands.parser import NAMES, parser
 from support_exudyn.files.scenarios.scenario_file import read_scenario
+from support_exudyn.postprocessing.comparing.compare_file import read_compare_file
 from support_exudyn.sweeps import read_sweep
 from tests.pages import README, ROOT, Listing, links, listings, named, pages
 
@@ -136,6 +137,8 @@ def test_toml_is_read(one: Listing, tmp_path: Path) -> None:
         scenario = next(other for other in listings(one.page) if "machine = " in other.text)
         (tmp_path / "rise.toml").write_text(scenario.text, encoding="utf-8")
         assert read_sweep(path)
+    elif "[tolerances]" in one.text:
+        assert read_compare_file(path, [Path("measured.csv")])
     elif "machine" in one.text:
         assert read_scenario(path)
 

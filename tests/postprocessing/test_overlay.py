@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import Result
-from support_exudyn.postprocessing.curves import read_curves
+from support_exudyn.files.series.read import read_series
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.overlay import difference, overlay
 from tests import figure_checks, synthetic
@@ -48,7 +48,7 @@ def test_a_difference_is_taken_where_both_have_records() -> None:
 def test_curves_of_files_are_read_by_their_units(tmp_path: Path, title: str, scale: float) -> None:
     path = tmp_path / "a.csv"
     path.write_text(f"time_ms,{title}\n0,1\n500,2\n", encoding="utf-8")
-    drawing = overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_curves(path)})
+    drawing = overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_series(path)})
     line = drawing.axes[0].lines[1]
     assert line.get_xdata() == pytest.approx([0.0, 0.5])
     assert line.get_ydata() == pytest.approx([1e3 * scale, 2e3 * scale])
@@ -57,7 +57,7 @@ def test_curves_of_files_are_read_by_their_units(tmp_path: Path, title: str, sca
 def test_measured_points_are_markers_and_those_beyond_the_run_are_told(tmp_path: Path) -> None:
     path = tmp_path / "a.csv"
     path.write_text("time_s,tip.x_mm\n0,1\n1,2\n2.5,3\n3,3\n", encoding="utf-8")
-    drawing = overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_curves(path)})
+    drawing = overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_series(path)})
     line = drawing.axes[0].lines[1]
     assert (line.get_marker(), line.get_linestyle()) == ("o", "None")
     said = " ".join(drawing.get_supxlabel().split())
@@ -68,8 +68,9 @@ def test_measured_points_are_markers_and_those_beyond_the_run_are_told(tmp_path:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("time_s;tip.x_mm\n0,5;1,2\n", "separator ';' found; allowed: commas .* point"),
-        ("time_s,tip.x\n0,1\n1,2\n", "has a column of none of these channels with its unit; .*tip.x_mm"),
+        ("time_s,pin_mm\n0,1\n1,2\n", "has a series of none of these channels; allowed: .*tip.x; it has pin"),
+        ("time_s,tip.x\n0,1\n1,2\n", r"tip.x: its file gives no unit, and m is asked for; .*'tip.x \[m\]'"),
+        ("time_s,tip.x_kN\n0,1\n1,2\n", "tip.x: is in kN, which cannot be given in m"),
         ("time_s,tip.x_mm\n5,1\n6,2\n", "its times, 5 to 6 s, have no number between 0 and 2 s"),
     ],
 )
@@ -77,7 +78,7 @@ def test_each_fault_of_a_file_has_a_sentence_of_its_own(tmp_path: Path, text: st
     path = tmp_path / "a.csv"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=message):
-        overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_curves(path)})
+        overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_series(path)})
 
 
 def test_too_few_or_too_many_runs_are_refused() -> None:

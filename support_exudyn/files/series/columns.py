@@ -114,8 +114,6 @@ def _increasing(
         order = order[np.argsort(time[order], kind="stable")]
     last = np.append(np.diff(time[order]) > 0.0, True)
     if repeated := int((~last).sum()):
-        told.append(
-            f"Times stand twice; of rows of one time the last of the file stays, {repeated} are left out."
-        )
+        told.append(f"Times are repeated; of rows of one time the last stays, {repeated} are left out.")
     order = order[last]
     return time[order], order, told

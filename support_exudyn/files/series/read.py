@@ -6,8 +6,20 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from support_exudyn.files.series.adams_requests import is_request_file, read_adams_requests
+from support_exudyn.files.series.adams_results import read_adams_results
 from support_exudyn.files.series.asked import Asked, Progress, silent
+from support_exudyn.files.series.exudyn_files import (
+    is_exudyn_binary,
+    is_exudyn_text,
+    read_exudyn_binary,
+    read_exudyn_text,
+)
+from support_exudyn.files.series.matlab import is_matlab, read_matlab
 from support_exudyn.files.series.named_series import SeriesFile
+from support_exudyn.files.series.own_runs import is_exported, is_run, read_exported, read_own_run
+from support_exudyn.files.series.parquet import is_parquet, read_parquet
+from support_exudyn.files.series.plain_text import UTF_16
 from support_exudyn.files.series.text_tables import read_text_table
 from support_exudyn.files.whole_file import check_is_file, missing_file
 from user_forces.values.value import InputError
@@ -25,11 +37,26 @@ class SeriesFormat:
     read: Callable[[Path, Asked], SeriesFile]
 
 
+def _is_xml(head: bytes) -> bool:
+    text = head.decode("utf-16" if head.startswith(UTF_16) else "utf-8-sig", "replace")
+    return text.lstrip().startswith("<")
+
+
 def _is_text(head: bytes) -> bool:
-    return bool(head.strip()) and (b"\0" not in head or head.startswith((b"\xff\xfe", b"\xfe\xff")))
+    return bool(head.strip()) and (b"\0" not in head or head.startswith(UTF_16))
 
 
-FORMATS = (SeriesFormat("table of text (CSV)", _is_text, read_text_table),)
+FORMATS = (  # the first that fits is taken
+    SeriesFormat("run of this program", is_run, read_own_run),
+    SeriesFormat("channels that `export --to hdf5` has written", is_exported, read_exported),
+    SeriesFormat("MATLAB file (.mat)", is_matlab, read_matlab),
+    SeriesFormat("Parquet file", is_parquet, read_parquet),
+    SeriesFormat("binary solution of Exudyn", is_exudyn_binary, read_exudyn_binary),
+    SeriesFormat("ADAMS result file (.res)", _is_xml, read_adams_results),
+    SeriesFormat("ADAMS request file (.req)", is_request_file, read_adams_requests),
+    SeriesFormat("sensor or solution of Exudyn as text", is_exudyn_text, read_exudyn_text),
+    SeriesFormat("table of text (CSV)", _is_text, read_text_table),
+)
 
 
 def read_series(

@@ -19,17 +19,18 @@ SAID = {"\t": "tabs", ";": "';'", ",": "commas", BLANKS: "blanks"}
 COMMENT = re.compile(r"\s*(#|%|!|//)")
 MISSING = ("", "nan", "NaN", "NAN", "NA", "N/A", "n/a", "null", "NULL", "-nan", "#N/A")  # no number
 NUMBERS = {
-    ".": re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?(inf|Inf|INF|infinity)"),
-    ",": re.compile(r"[+-]?(\d+(,\d+)?|,\d+)([eEdD][+-]?\d+)?"),
+    ".": re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?|[+-]?(inf|Inf|INF|infinity)", re.ASCII),
+    ",": re.compile(r"[+-]?(\d+(,\d+)?|,\d+)([eEdD][+-]?\d+)?", re.ASCII),
 }
-GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+")  # 1,234: a thousand, or one and a bit
+GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)  # 1,234: a thousand, or one and a bit
+WORDS = re.compile(r'"[^"]*"|\S+')  # that blanks separate
 LINES, LETTERS = 400, 1_000_000  # that are looked at
 ALLOWED = "rows of two or more numbers below a line of titles such as time_s,tip.x_mm"
 Rows = tuple[int, str, bool]  # items of each, what separates them, whether all end with that
 
 
 @dataclass(frozen=True)
-class Layout:
+class TableLayout:
     """How a table is written.
 
     separator: between items. decimal: "." or ",". first: the index of the first line of numbers.
@@ -59,7 +60,7 @@ class Layout:
 def items(line: str, separator: str) -> list[str]:
     """The items of a line, without blanks around them."""
     if separator == BLANKS:
-        return line.split()
+        return [one.strip('"') for one in WORDS.findall(line)]
     if '"' not in line:
         return [one.strip() for one in line.split(separator)]
     try:
@@ -77,7 +78,7 @@ def is_row(line: str, separator: str, decimal: str) -> int:
     return len(found) if any(found) else 0
 
 
-def layout(path: Path, lines: Sequence[str]) -> Layout:
+def layout(path: Path, lines: Sequence[str]) -> TableLayout:
     """How a table is written, from its first lines.
 
     Raises InputError if there are no rows of numbers, if they can be read in two ways, or if titles and rows
@@ -95,7 +96,9 @@ def layout(path: Path, lines: Sequence[str]) -> Layout:
     if best is None:
         raise InputError(f"{path}: is no table of numbers; allowed: {ALLOWED}")
     _, width, separator, decimal = best
-    place = next(n for n, (_, line) in enumerate(text) if is_row(line, separator, decimal) == width)
+    place = next(  # of whatever decimals: a row of others is wrong, and no line of titles
+        n for n, (_, line) in enumerate(text) if width in (is_row(line, separator, one) for one in ".,")
+    )
     if decimal == ",":
         _check_commas(path, [line for _, line in text[place:]], separator)
     first = text[place][0]
@@ -103,7 +106,7 @@ def layout(path: Path, lines: Sequence[str]) -> Layout:
         not items(line, separator)[-1] for _, line in text[place:]
     )  # by a separator, as lines of titles need not be
     titles, notes = _titles(path, lines[:first], text[:place], (width, separator, ended))
-    return Layout(separator, decimal, first, width, titles, notes)
+    return TableLayout(separator, decimal, first, width, titles, notes)
 
 
 def _check_commas(path: Path, lines: Sequence[str], separator: str) -> None:
@@ -131,6 +134,8 @@ def _titles(
         return _named(words, None, width, notes), tuple(notes)
     number, line = text[-1]
     words = _fitted(line, rows)
+    if words is None and (words := _a_line_each(text, rows)) is not None:
+        text = text[: 1 - width]  # of which the last is the first title
     if words is None:
         found = len(items(line, separator))
         more = "; where commas are decimal points items need another separator, ';'" if separator == "," else ""
@@ -147,6 +152,19 @@ def _titles(
             f"{'is' if len(rest) == 1 else 'are'} passed over."
         )
     return _named(words, below, width, notes), tuple(notes)
+
+
+def _a_line_each(text: Sequence[tuple[int, str]], rows: Rows) -> list[str] | None:
+    """Titles that stand a line each; None if the lines above the rows are other ones."""
+    width, separator, _ = rows
+    words = [line.strip().strip('"') for _, line in text[-width:]]
+    single = all(len(items(one, separator)) == 1 or separator == BLANKS for one in words)
+    return words if len(words) == width and single and is_time_title(words[0]) else None
+
+
+def is_time_title(title: str) -> bool:
+    """Whether a title is one of times."""
+    return split_title(title)[0].casefold() in ("time", "t")
 
 
 def _of_comment(above: Sequence[str], rows: Rows) -> list[str] | None:

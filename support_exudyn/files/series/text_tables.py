@@ -6,27 +6,29 @@ What separates items, whether decimals have a comma and where titles stand is fo
 
 from __future__ import annotations
 
-import codecs
-import io
 import re
-from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
-from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.asked import Asked
 from support_exudyn.files.series.columns import Column, Numbers, is_named_time, series_file
 from support_exudyn.files.series.named_series import SeriesFile
-from support_exudyn.files.series.table_layout import BLANKS, COMMENT, LETTERS, LINES, MISSING, Layout, layout
-from support_exudyn.files.whole_file import contents
+from support_exudyn.files.series.plain_text import lines_of, text_of
+from support_exudyn.files.series.table_layout import (
+    BLANKS,
+    COMMENT,
+    LETTERS,
+    LINES,
+    MISSING,
+    TableLayout,
+    layout,
+)
 from user_forces.values.value import InputError, short
 
-SHARE = 8  # of the memory that is free, one part is for the file: text, columns and what is between them
 BLOCK = 2**24  # bytes that are parsed at a time, more than a line has
 COMMENTS = re.compile(rb"(?m)^[ \t]*(#|%|!|//)[^\n]*\n?")
-UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 def read_text_table(path: Path, asked: Asked) -> SeriesFile:
@@ -38,11 +40,11 @@ def read_text_table(path: Path, asked: Asked) -> SeriesFile:
     Raises InputError for what is no table, or can be read in two ways, with line and column; OSError if it
     cannot be read.
     """
-    data, notes = _text(path)
+    data, notes = text_of(path)
     asked.progress(0.2)
-    head = list(islice(_lines(data[: 4 * LETTERS]), LINES))
+    head = list(islice(lines_of(data[: 4 * LETTERS]), LINES))
     how = layout(path, head)
-    values = _numbers(path, data, how)
+    values = numbers_of(path, data, how)
     asked.progress(0.9)
     columns = [
         Column(name, unit, one)
@@ -55,39 +57,11 @@ def read_text_table(path: Path, asked: Asked) -> SeriesFile:
     return found
 
 
-def _text(path: Path) -> tuple[bytes, list[str]]:
-    """The text of a file in UTF-8, lines ended by line feeds, and what is told of it."""
-    data, notes = contents(path, available() // SHARE), []
-    if data.startswith(UTF_16):
-        data = _decoded(path, data, "utf-16").encode()
-    data = data.removeprefix(codecs.BOM_UTF8)
-    if b"\0" in data:
-        raise InputError(f"{path}: has a byte 0; allowed: tables of text in UTF-8, UTF-16, Windows-1252")
-    try:
-        data.decode()
-    except UnicodeDecodeError:
-        data = _decoded(path, data, "cp1252").encode()
-        notes.append("The text is not in UTF-8; it was read as Windows-1252.")
-    if b"\r" in data:
-        data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-    return data, notes
+def numbers_of(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
+    """The columns of numbers of a text that is written so.
 
-
-def _decoded(path: Path, data: bytes, encoding: str) -> str:
-    try:
-        return data.decode(encoding)
-    except UnicodeDecodeError as error:
-        raise InputError(
-            f"{path}: byte {error.start} is no text; allowed: tables in UTF-8, UTF-16 or Windows-1252"
-        ) from None
-
-
-def _lines(data: bytes) -> Iterator[str]:
-    return (line.decode(errors="replace").rstrip("\n") for line in io.BytesIO(data))
-
-
-def _numbers(path: Path, data: bytes, how: Layout) -> list[Numbers]:
-    """The columns of numbers."""
+    Raises InputError that names line and column of what is no number.
+    """
     start = 0
     for _ in range(how.first):
         start = data.index(b"\n", start) + 1
@@ -100,7 +74,7 @@ def _numbers(path: Path, data: bytes, how: Layout) -> list[Numbers]:
     return _by_line(path, data, how) if found is None else found
 
 
-def _by_arrow(body: bytes, how: Layout) -> list[Numbers] | None:
+def _by_arrow(body: bytes, how: TableLayout) -> list[Numbers] | None:
     """The columns as pyarrow parses them; None if it does not take an item."""
     import pyarrow as pa
     from pyarrow import csv
@@ -122,10 +96,10 @@ def _by_arrow(body: bytes, how: Layout) -> list[Numbers] | None:
     return [np.asarray(table.column(n).to_numpy(), dtype=np.float64) for n in range(how.width)]
 
 
-def _by_line(path: Path, data: bytes, how: Layout) -> list[Numbers]:
+def _by_line(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
     """The columns line by line, which finds what is wrong, and numbers that pyarrow does not take, 1D+3."""
     rows = []
-    for number, line in enumerate(_lines(data), 1):
+    for number, line in enumerate(lines_of(data), 1):
         if number <= how.first or not line.strip() or COMMENT.match(line):
             continue
         found = how.items(line)

@@ -14,11 +14,11 @@ from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.baselines.curve_errors import safe_errors
 from support_exudyn.postprocessing.baselines.kept_impacts import kept_impacts
 from support_exudyn.postprocessing.comparing.common_times import on_common_times
 from support_exudyn.postprocessing.comparing.tolerances import Tolerance, tolerance
 from support_exudyn.postprocessing.comparing.verdict import ToleranceVerdict
+from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -193,9 +193,7 @@ def _name(one: object) -> str:
 
 
 def _channel(run: Result, name: str) -> _Side:
-    unknown = np.full(run.time.size, math.nan)
-    errors = unknown if run.coarser is None else safe_errors(run, name)
-    return _Side(run.unit(name), run.time, run[name], errors)
+    return _Side(run.unit(name), run.time, run[name], curve_errors(run, [name])[name])
 
 
 def _side(one: object) -> _Side:

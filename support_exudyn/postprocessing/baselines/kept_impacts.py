@@ -2,14 +2,14 @@
 
 Each impact multiplies the errors of all before it, of whatever pin. The distances of three runs can be small by
 chance at one of them; so the error of an impact is at least, as a share, the largest of those before. All of
-them get a factor, see `curve_errors`.
+them get a factor, as records of curves do, see `comparing.with_errors`.
 """
 
 import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from support_exudyn.postprocessing.baselines.curve_errors import OF_MANY
+from support_exudyn.postprocessing.comparing.with_errors import SINGLE
 from support_exudyn.simulation.estimate import Estimate, errors
 from support_exudyn.simulation.horizon import horizon
 from support_exudyn.simulation.reported_numbers import impact_numbers, measures
@@ -49,8 +49,8 @@ def kept_impacts(result: Result) -> tuple[Impacts, float]:
         if impact.time.value >= end:
             break
         off, wrong = max(impact.time.error, late * since), max(impact.speed.error, slow * speed)
-        time = impact.time._replace(error=OF_MANY * off)
-        found[pin].append(KeptImpact(time, impact.speed._replace(error=OF_MANY * wrong)))
+        time = impact.time._replace(error=SINGLE * off)
+        found[pin].append(KeptImpact(time, impact.speed._replace(error=SINGLE * wrong)))
     return {pin: tuple(impacts[:MOST]) for pin, impacts in found.items()}, end
 
 

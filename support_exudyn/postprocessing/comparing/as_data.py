@@ -1,4 +1,4 @@
-"""A comparison as plain data, for scripts: everything in SI."""
+"""A comparison as plain data, for scripts: everything in SI. The rating, which takes its time, is not in it."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from typing import Any
 
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.bands import BandRms
-from support_exudyn.postprocessing.comparing.compare_files import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
-from support_exudyn.postprocessing.comparing.told import faults, sentences
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
+from support_exudyn.postprocessing.comparing.sentences import sentences
+from support_exudyn.postprocessing.comparing.told import faults
 from support_exudyn.simulation.estimate import Estimate
 
 MOST_IMPACTS = 1000  # of a contact that are told one by one
@@ -46,6 +47,7 @@ def _pair(pair: ComparedPair) -> dict[str, Any]:
             }
             for contact, one_contact in pair.impacts.items()
         },
+        "numbers": {name: {**one._asdict(), "times": one.times} for name, one in pair.numbers.items()},
         "left_out": list(pair.left_out),
         "channels": {name: _channel(one) for name, one in pair.channels.items()},
     }
@@ -76,11 +78,11 @@ def _channel(one: ComparedChannel) -> dict[str, Any]:
             **_number(one.largest),
             "signed": one.measures.largest,
             "time_s": one.measures.largest_time,
+            "of_reference_there": one.largest_of_reference,
         },
         "beside_errors": {"within": one.beside_errors.within, "times": one.beside_errors.times},
         "judged": [{**item._asdict(), "verdict": item.verdict} for item in one.judged],
         "measures": {**measures, **peaks, "not_told": dict(one.measures.not_told)},
-        "rating": None if one.rating is None else _plain(one.rating._asdict()),
         "statistics": {
             name: _plain(item._asdict()) | {"equal": item.equal} for name, item in one.statistics.items()
         },

@@ -112,11 +112,8 @@ def read_compare_file(path: Path, files: Iterable[Path]) -> CompareFile:
     _check_units(table, (), faults)
     tolerances = table.get("tolerances")
     for pattern, text in tolerances.items() if isinstance(tolerances, dict) else ():
-        try:
-            tolerance(pattern, text if isinstance(text, str) else "")
-        except InputError as error:
-            if isinstance(text, str):
-                faults.add(("tolerances",), str(error))
+        if isinstance(text, str) and (said := _no_tolerance(pattern, text)):
+            faults.add(("tolerances",), said)
     if table.get("confirmed") is False:
         faults.wrong(("confirmed",), False, "true, once somebody has looked whether the proposals are right")
     faults.check()
@@ -127,6 +124,15 @@ def read_compare_file(path: Path, files: Iterable[Path]) -> CompareFile:
 def tolerances_of(file: CompareFile) -> list[Tolerance]:
     """The tolerances of a file, in its order."""
     return [tolerance(pattern, text) for pattern, text in file.tolerances.items()]
+
+
+def _no_tolerance(pattern: str, text: str) -> str:
+    """Why a text is no tolerance; empty if it is one."""
+    try:
+        tolerance(pattern, text)
+    except InputError as error:
+        return str(error)
+    return ""
 
 
 def _named_alone(reader: Reader, item: Any, place: Place) -> MappedColumn | None:

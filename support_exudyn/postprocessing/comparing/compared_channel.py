@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
@@ -28,6 +29,7 @@ Values = npt.NDArray[np.float64]
 JUDGED = ("mean", "rms", "spread", "quantile_95")  # statistics that are in the unit of the channel
 LARGEST = "largest difference"
 FEWEST = 2  # times that make a curve
+CONFIDENCE = 0.95  # of all intervals of the statistics of two files together
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,7 @@ class ComparedWindow:
 
     after, until: times [s]. parting: from when on curves are compared by their statistics [s]; infinite: never.
     edges: of the bands in which spectra are compared [Hz]; empty: they are not. among: how many statistics are
-    told together. confidence: of their intervals.
+    told together.
     """
 
     after: float = -math.inf
@@ -44,7 +46,6 @@ class ComparedWindow:
     parting: float = math.inf
     edges: Sequence[float] = ()
     among: int = 1
-    confidence: float = 0.95
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class ComparedChannel:
     reference, other, mean: means over the whole window, and that of the difference. largest: magnitude of the
     largest difference before the parting, with its numerical error; NaN if nothing lies before.
     statistics: after the parting, by their names; empty if the curves do not part, or if nothing lies after.
-    rating: of ISO/TS 18571, before the parting. bands: of the reference and the other, over the whole window.
+    bands: of the reference and the other, over the whole window.
     tolerance, allowed: what was asked for, and what that is; None and NaN if nothing was.
     not_told: what could not be computed and why, in sentences.
     """
@@ -75,16 +76,32 @@ class ComparedChannel:
     mean: Estimate
     largest: Estimate
     statistics: Mapping[str, StatisticDifference]
-    rating: IsoRating | None
     bands: tuple[BandRms, BandRms] | None
     tolerance: Tolerance | None
     allowed: float
     not_told: tuple[str, ...]
 
+    @cached_property
+    def rating(self) -> IsoRating | None:
+        """The rating of ISO/TS 18571 before the parting; None if it cannot be computed. It takes its time."""
+        pieces = (one[: self.before] for one in self.common[:3])
+        try:
+            return iso_rating(*pieces) if self.before >= FEWEST else None
+        except InputError:
+            return None
+
     @property
     def beside_errors(self) -> BesideErrors:
         """The largest difference beside the numerical errors that are known."""
         return BesideErrors(self.largest.value, self.largest.error)
+
+    @property
+    def largest_of_reference(self) -> float:
+        """The largest difference over the reference at its time; NaN if that is zero."""
+        if math.isnan(self.measures.largest):
+            return math.nan
+        there = abs(float(self.common.reference[np.searchsorted(self.common.time, self.measures.largest_time)]))
+        return self.largest.value / there if there > 0.0 else math.nan
 
     @property
     def judged(self) -> tuple[JudgedDifference, ...]:
@@ -154,7 +171,6 @@ def compared_channel(
         mean=laid.estimate(lambda both: curve_measures(*both[:3]).mean_difference),
         largest=_largest(laid, errors, measures, window.parting),
         statistics=statistics,
-        rating=_tried(lambda: iso_rating(*pieces), "ISO rating", not_told) if start >= FEWEST else None,
         bands=_bands(common, window, not_told) if window.edges else None,
         tolerance=tolerance,
         allowed=math.nan if tolerance is None else tolerance.in_si(channel, unit, extent(common.reference)),
@@ -216,7 +232,7 @@ def _statistics(
                 *pieces,
                 first_impacts=touches[0],
                 second_impacts=touches[1],
-                confidence=window.confidence,
+                confidence=CONFIDENCE,
                 among=window.among,
             ),
             "statistics",

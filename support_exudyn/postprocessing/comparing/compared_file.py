@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -11,17 +12,18 @@ import numpy.typing as npt
 
 from support_exudyn.files.series.asked import Progress, silent
 from support_exudyn.files.series.named_series import NamedSeries
+from support_exudyn.files.series.own_runs import is_run
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.files.toml.faults import nearest
 from support_exudyn.postprocessing.comparing.compare_file import MappedColumn, MappedFile
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
-from support_exudyn.simulation.result import FORMAT, Result
+from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
 ENDING = ".h5"  # of runs
-OWN = FORMAT.rpartition(" ")[0].encode()  # by which the file of a run begins, of whichever version
+HEAD = 64  # bytes by which a run is told
 AS_IT_IS = MappedFile()
 
 
@@ -78,21 +80,25 @@ class ComparedFile:
         return time + self.mapped.shift if self.mapped.shift else time
 
     def values(self, channel: str, unit: str) -> Values:
-        """Values of a channel in a unit, (n,). Raises InputError if its unit is not known or of another kind."""
+        """Values of a channel in a unit, (n,). Raises InputError if its own is not known or of another kind."""
         column = self.column(channel)
         series = self.series[column.column]
         try:
             if column.sign == 1 and column.offset == 0.0:
-                return converted(series, unit)
+                return series.values if series.unit == unit else converted(series, unit)
             return converted(replace(series, values=column.sign * series.values + column.offset), unit)
         except InputError as error:
             raise InputError(f"{self.path}: {error}") from None
 
     def errors(self, channel: str) -> Values:
-        """Numerical errors of a channel in SI, (n,); NaN if they are not known."""
-        if self.run is None:
-            return np.full(self.time(channel).size, np.nan)
-        return curve_errors(self.run, self.column(channel).column)
+        """Numerical errors of a channel in SI, (n,); NaN: not known, infinite from the horizon on."""
+        found = self._errors.get(self.column(channel).column)
+        return np.full(self.time(channel).size, np.nan) if found is None else found
+
+    @cached_property
+    def _errors(self) -> Mapping[str, Values]:
+        """Of all channels of a run, which share most of the work."""
+        return {} if self.run is None else curve_errors(self.run, self.series)
 
     def of(self, run: Result) -> ComparedFile:
         """The same of another run of the scene, such as one with longer steps."""
@@ -103,12 +109,12 @@ class ComparedFile:
         return replace(self, mapped=replace(self.mapped, shift=self.mapped.shift + seconds))
 
 
-def is_run(path: Path) -> bool:
+def _is_own(path: Path) -> bool:
     """Whether a file is a run of this program, or is called as one and not there."""
     if not path.is_file():
         return path.suffix.lower() == ENDING
     with path.open("rb") as file:
-        return file.read(len(OWN)) == OWN
+        return is_run(file.read(HEAD))
 
 
 def compared_file(
@@ -125,7 +131,7 @@ def compared_file(
     Raises InputError if it cannot be read, or lacks a column that `mapped` names; OSError if it is not there.
     """
     name = name or path.name
-    if is_run(path):
+    if _is_own(path):
         return _mapped(of_run(Result.load(path), path, name), mapped)
     found = read_series(path, units=mapped.units, analysis=mapped.analysis, progress=progress)
     return _mapped(ComparedFile(name, path, found.kind, None, found.series, AS_IT_IS, found.notes), mapped)
@@ -148,7 +154,8 @@ def _series(run: Result) -> Mapping[str, NamedSeries]:
 def _mapped(file: ComparedFile, mapped: MappedFile) -> ComparedFile:
     """The file with what is said of its columns. Raises InputError with a line for each that it lacks."""
     lacking = [
-        f"{file.path}: has no column {one.column!r}, which is to be {channel}; {nearest(one.column, list(file.series))}"
+        f"{file.path}: has no column {one.column!r}, which is to be {channel}; "
+        f"{nearest(one.column, list(file.series))}"
         for channel, one in mapped.columns.items()
         if one.column not in file.series
     ]

@@ -40,10 +40,11 @@ def found_shift(reference: ComparedFile, other: ComparedFile, units: Mapping[str
     if tried:
         best = max(tried, key=lambda one: one.found.correlation)
         reasons = [
-            f"the best is {best.found.shift:.4g} s by {best.channel}, correlation {best.found.correlation:.2f}, and "
-            f"{best.found.next_best:.2f} at another shift"
+            f"the best is {best.found.shift:.4g} s by {best.channel}, correlation "
+            f"{best.found.correlation:.2f}, and {best.found.next_best:.2f} at another shift"
         ]
     raise InputError(
-        f"--shift: {other.name} and {reference.name}: no shift in time is sure ({'; '.join(reasons[:3])}); allowed: "
+        f"--shift: {other.name} and {reference.name}: no shift in time is sure ({'; '.join(reasons[:3])}); "
+        "allowed: "
         f'a channel with one clear event, or shift_s of [files."{other.path.name}"] in compare.toml'
     )

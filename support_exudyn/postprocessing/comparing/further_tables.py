@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from support_exudyn.postprocessing.comparing.compare_files import ComparedPair
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair
 from support_exudyn.postprocessing.comparing.statistics import Interval, StatisticDifference
 from support_exudyn.postprocessing.comparing.told import DIGITS, NONE, Row, share
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable, said
@@ -20,9 +20,12 @@ STATISTICS = (
     ">to",
     "difference is",
 )
-IMPACTS = ("contact", ">matched", ">only in reference", ">only in other", ">first apart by", ">last apart by")
+IMPACTS = (
+    "contact", ">matched before parting", ">times apart, most", ">speeds apart, most", ">matched after",
+    ">only in reference", ">only in other",
+)  # fmt: skip
 BANDS = ("channel", "unit", ">from [Hz]", ">to [Hz]", ">reference, RMS", ">other, RMS", ">difference")
-PER_SECOND = "impacts_per_second"
+MEAN, PER_SECOND = "mean", "impacts_per_second"
 
 
 def statistics_rows(pair: ComparedPair) -> list[Row]:
@@ -31,6 +34,16 @@ def statistics_rows(pair: ComparedPair) -> list[Row]:
         _statistic(name, one.unit, found)
         for name, one in pair.channels.items()
         for found in one.statistics.values()
+    ]
+
+
+def brief_statistics_rows(pair: ComparedPair) -> list[Row]:
+    """The same of the means, and of what is not equal."""
+    return [
+        _statistic(name, one.unit, found)
+        for name, one in pair.channels.items()
+        for found in one.statistics.values()
+        if found.name == MEAN or found.equal is False
     ]
 
 
@@ -53,14 +66,16 @@ def _plain(value: float, scale: float) -> str:
 
 def impacts_rows(pair: ComparedPair) -> list[Row]:
     """A row for each contact that both runs know."""
+    end = pair.parting.time
     rows = []
     for contact, found in pair.impacts.items():
         if not (found.pairs or found.only_first or found.only_second):
             continue
-        apart = [abs(second.time - first.time) for first, second in found.pairs]
-        ends = (said(apart[0], "s"), said(apart[-1], "s")) if apart else (NONE, NONE)
-        counts = (str(len(item)) for item in (found.pairs, found.only_first, found.only_second))
-        rows.append((contact, *counts, *ends))
+        before = [(one, other) for one, other in found.pairs if max(one.time, other.time) < end]
+        late = said(max(abs(b.time - a.time) for a, b in before), "s") if before else NONE
+        fast = said(max(abs(b.speed - a.speed) for a, b in before), "m/s") if before else NONE
+        counts = (len(found.pairs) - len(before), len(found.only_first), len(found.only_second))
+        rows.append((contact, str(len(before)), late, fast, *map(str, counts)))
     return rows
 
 

@@ -6,16 +6,17 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.postprocessing.comparing.compare_files import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
-from support_exudyn.postprocessing.comparing.told import beside, faults, number, sentences, share, shown_unit
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
+from support_exudyn.postprocessing.comparing.sentences import sentences
+from support_exudyn.postprocessing.comparing.told import beside, faults, number, share, shown_unit
 from user_forces.values.value import cleaned
 
 NAME = "support-exudyn compare"
 
 
 def junit_xml(found: FilesCompared) -> str:
-    """The text of the XML. A channel that is not within its tolerance, or of which that cannot be told, is a failure."""
+    """The text of the XML. A channel that is not within its tolerance, or not decided, is a failure."""
     whole = ElementTree.Element("testsuites", name=NAME)
     for pair in found.pairs:
         whole.append(_suite(pair))
@@ -60,6 +61,7 @@ def _numbers(one: ComparedChannel) -> str:
     return (
         f"mean difference {number(one.mean, unit.scale)} {unit.name}; largest difference "
         f"{number(one.largest, unit.scale)} {unit.name} at {one.measures.largest_time:.6g} s; RMS "
-        f"{share(one.measures.rms_of_range)} of the range; Sprague-Geers C {share(one.measures.combined_error)}; "
+        f"{share(one.measures.rms_of_range)} of the range; Sprague-Geers C "
+        f"{share(one.measures.combined_error)}; "
         f"beside the numerical errors: {beside(one)}"
     )

@@ -36,7 +36,7 @@ class LaidCurves:
 
     @property
     def common(self) -> CommonCurves:
-        """Both curves. Raises InputError if they do not overlap, or if a unit is not known or of another kind."""
+        """Both curves. Raises InputError if they do not overlap, or if a unit is not known or does not fit."""
         return self._laid(self.reference, self.other)
 
     def estimate(self, measure: Measure) -> Estimate:
@@ -60,7 +60,7 @@ class LaidCurves:
         return tuple(one.name for one in (self.reference, self.other) if one.has_errors)
 
     def errors(self) -> Values:
-        """Numerical errors of the difference at the common times, (n,); of both if both are known, NaN if none.
+        """Numerical errors of the difference at the common times, (n,): the sum of those known; NaN of none.
 
         Between the records of a run the errors are joined by straight lines. What interpolation of the curves
         may add is part of it.
@@ -71,7 +71,7 @@ class LaidCurves:
             return np.full(common.time.size, math.nan)
         total = np.zeros(common.time.size) + common.interpolation_error
         for side in sides:
-            total += np.interp(common.time, side.time(self.channel), side.errors(self.channel))
+            total += _joined(common.time, side.time(self.channel), side.errors(self.channel))
         return total
 
     def _laid(self, reference: ComparedFile, other: ComparedFile) -> CommonCurves:
@@ -89,6 +89,13 @@ class LaidCurves:
             except InputError as error:
                 raise InputError(f"{self.channel} of {reference.name} and {other.name}: {error}") from None
         return self._found[key]
+
+
+def _joined(at: Values, time: Values, errors: Values) -> Values:
+    """Errors (n,) at other times (m,) [s], joined by straight lines; infinite beside those that are."""
+    endless = np.isinf(errors)
+    finite = np.interp(at, time, np.where(endless, 0.0, errors))
+    return np.where(np.interp(at, time, endless.astype(float)) > 0.0, math.inf, finite)
 
 
 def _error(file: ComparedFile, measure: Callable[[ComparedFile], float]) -> float | None:

@@ -45,7 +45,8 @@ def _usual(reference: ComparedFile, other: ComparedFile) -> list[str]:
 
 def _way_out(reference: ComparedFile, other: ComparedFile) -> str:
     return (
-        f"{_has(reference)}; {_has(other)}; allowed: columns called as channels, or --map compare.toml, which says "
+        f"{_has(reference)}; {_has(other)}; allowed: columns called as channels, or --map compare.toml, "
+        "which says "
         f'which column is which: [files."{other.path.name}".columns] "{reference.channels[0]}" = '
         f'"{other.channels[0]}" (`--propose` writes one)'
     )

@@ -8,7 +8,7 @@ sentence says why; there are no warnings.
 import math
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -205,8 +205,8 @@ def _reasons(found: CurveMeasures, extent: float) -> Mapping[str, str]:
 def _nothing(times: int) -> CurveMeasures:
     names = CurveMeasures._fields[: CurveMeasures._fields.index("times")]
     no_peak = CurvePeak(math.nan, math.nan)
-    values = [no_peak if name.startswith("peak") else math.nan for name in names]
-    return CurveMeasures(*values, 0, times, dict.fromkeys(names, NOTHING))  # type: ignore[arg-type]
+    values: dict[str, Any] = {name: no_peak if name.startswith("peak") else math.nan for name in names}
+    return CurveMeasures(**values, times=0, left_out=times, not_told=dict.fromkeys(names, NOTHING))
 
 
 def _peak(time: Values, values: Values) -> CurvePeak:

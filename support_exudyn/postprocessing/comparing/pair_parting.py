@@ -33,7 +33,9 @@ def pair_parting(reference: ComparedFile, other: ComparedFile) -> Parting:
     """
     if reference.run is not None and other.run is not None:
         if reference.has_errors and other.has_errors and not (reference.mapped.shift or other.mapped.shift):
-            return parting_of_runs(reference.run, other.run)
+            found = parting_of_runs(reference.run, other.run)
+            said = found.because.replace("the first run", reference.name).replace("the second run", other.name)
+            return found._replace(because=said)
         return parting_of_impacts(onsets_of(reference), onsets_of(other))
     file = reference if reference.run is not None else other
     if file.run is None or not file.has_errors or not math.isfinite(file.run.horizon):

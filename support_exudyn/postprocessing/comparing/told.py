@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
-import numpy as np
-
-from support_exudyn.postprocessing.comparing.compare_files import ComparedPair
-from support_exudyn.postprocessing.comparing.compared_channel import LARGEST, ComparedChannel, extent
-from support_exudyn.postprocessing.comparing.verdict import JudgedDifference, ToleranceVerdict
+from support_exudyn.postprocessing.comparing.compared_channel import LARGEST, ComparedChannel
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair
+from support_exudyn.postprocessing.comparing.verdict import WORST_FIRST, JudgedDifference, ToleranceVerdict
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable_change, said
 from support_exudyn.simulation.estimate import Estimate
 
@@ -18,7 +15,8 @@ DIGITS = 6  # of numbers without a known error
 SHARE = 3  # of shares of a range
 NONE = "-"
 HEADER = (
-    "channel", "unit", ">reference, mean", ">difference, mean", ">largest", ">at [s]", ">RMS/range", ">C", "beside errors",
+    "channel", "unit", ">reference, mean", ">difference, mean", ">largest", ">at [s]", ">RMS/range", ">C",
+    "beside errors",
 )  # fmt: skip
 WITH_VERDICT = (*HEADER, "verdict")
 VERDICTS: dict[ToleranceVerdict, str] = {
@@ -122,12 +120,19 @@ def verdict_words(one: ComparedChannel) -> str:
 
 
 def faults(one: ComparedChannel) -> list[str]:
-    """Why a channel is not within its tolerance, or why that cannot be told: a sentence a number."""
+    """Why a channel is not within its tolerance, or not decided: a sentence a number, the worst first."""
     if one.tolerance is None:
         return []
     if not one.judged:
         return [f"{one.name}: there is nothing to judge by: no two common times on one side of the parting."]
-    return [_fault(one, judged) for judged in one.judged if judged.verdict in ("not within", "not decided")]
+    worst_first = sorted(one.judged, key=lambda judged: WORST_FIRST.index(judged.verdict))
+    return [_fault(one, judged) for judged in worst_first if judged.verdict in ("not within", "not decided")]
+
+
+def fault(one: ComparedChannel) -> str:
+    """The first of the faults, and how many more there are; empty if there are none."""
+    first, *more = faults(one) or [""]
+    return f"{first} And {len(more)} more." if more else first
 
 
 def _fault(one: ComparedChannel, judged: JudgedDifference) -> str:
@@ -137,6 +142,8 @@ def _fault(one: ComparedChannel, judged: JudgedDifference) -> str:
         allowed = f"{allowed} ({one.tolerance.text} of the reference's range)"
     what = judged.what if judged.what == LARGEST else f"{judged.what.replace('_', ' ')} after the parting"
     at = f" at {one.measures.largest_time:.6g} s" if judged.what == LARGEST else ""
+    if judged.what == LARGEST and math.isfinite(one.largest_of_reference):
+        at += f" ({share(one.largest_of_reference)} of the reference there)"
     if math.isnan(judged.value):
         return f"{one.name}: {what}: could not be computed; allowed is {allowed}."
     value = said(judged.value, one.unit, 4)
@@ -145,90 +152,7 @@ def _fault(one: ComparedChannel, judged: JudgedDifference) -> str:
     error = said(judged.error, one.unit, 2) if math.isfinite(judged.error) else "not known"
     kind = "its error" if judged.what == LARGEST else "half its confidence interval"
     return (
-        f"{one.name}: {what} {value}{at}; {kind}, {error}, is larger than what is allowed, {allowed}: not decided. "
+        f"{one.name}: {what} {value}{at}; {kind}, {error}, is larger than what is allowed, {allowed}: not "
+        "decided. "
         "A finer accuracy, longer runs or more records may decide it."
     )
-
-
-def sentences(pair: ComparedPair) -> Iterator[str]:
-    """What has to be known of the comparison of a file."""
-    if pair.same:
-        yield f"the same to the bit: all records of {pair.same} channels"
-    yield from _files(pair)
-    yield from _shift(pair)
-    yield from _parting(pair)
-    yield from _times(pair)
-    for one in pair.channels.values():
-        yield from (f"{one.name}: {reason}" for reason in one.not_told)
-    if pair.left_out:
-        more = f" and {len(pair.left_out) - 6} more" if len(pair.left_out) > 6 else ""
-        yield f"{pair.other.name} has no {', '.join(pair.left_out[:6])}{more}"
-
-
-def _files(pair: ComparedPair) -> Iterator[str]:
-    for file in (pair.reference, pair.other):
-        for note in file.notes:
-            yield f"{file.name}: {note}"
-        if file.mapped.shift and (pair.shift is None or file is pair.reference):
-            yield f"{file.name}: {said(file.mapped.shift, 's', 4)} are added to its times"
-
-
-def _shift(pair: ComparedPair) -> Iterator[str]:
-    if pair.shift is None:
-        return
-    found = pair.shift.found
-    late = "lags behind" if found.shift > 0.0 else "is ahead of"
-    yield (
-        f"{pair.other.name} {late} {pair.reference.name} by {said(abs(found.shift), 's', 5)} ± "
-        f"{said(found.error, 's', 2)}, found by {pair.shift.channel} (correlation {found.correlation:.4f}); that is "
-        "taken off its times"
-    )
-
-
-def _parting(pair: ComparedPair) -> Iterator[str]:
-    if not math.isfinite(pair.parting.time):
-        if any(pair.impacts.values()):
-            yield "point by point over all of it: no impact parts the runs"
-        return
-    yield (
-        f"point by point up to {pair.parting.time:.6g} s: {pair.parting.because.rstrip('.')}; after it by statistics"
-    )
-    if equal := equality(pair):
-        yield equal
-
-
-def equality(pair: ComparedPair) -> str:
-    """Whether the statistics after the parting are equal, in a sentence; empty if there are none."""
-    found = [(one.name, what) for one in pair.channels.values() for what in one.statistics.values()]
-    if not found:
-        return "after it there is too little for statistics"
-    confidence = f"{100.0 * found[0][1].confidence:.3g} % confidence of all together"
-    differ = [f"{what.name.replace('_', ' ')} of {name}" for name, what in found if what.equal is False]
-    silent = sum(what.equal is None for _, what in found)
-    told = f"{len(found) - silent} statistics"
-    tail = f"; {silent} have no interval" if silent else ""
-    if not differ:
-        return f"after it {told} are equal, with {confidence}{tail}"
-    some = ", ".join(differ[:4]) + (f" and {len(differ) - 4} more" if len(differ) > 4 else "")
-    return f"after it {len(differ)} of {told} differ, with {confidence}: {some}{tail}"
-
-
-def _times(pair: ComparedPair) -> Iterator[str]:
-    """That curves were interpolated, and what it may add."""
-    worst = max(pair.channels.values(), key=_interpolation)
-    if not worst.common.interpolated:
-        return
-    added = _interpolation(worst)
-    yield (
-        f"{worst.common.interpolated} of {worst.common.time.size} times lie between records of one file; straight lines "
-        f"there may be wrong by {share(added) if math.isfinite(added) else 'an amount not known'} of the range "
-        f"({worst.name}, where it is most)"
-    )
-
-
-def _interpolation(one: ComparedChannel) -> float:
-    """Largest error of interpolation, as a share of the reference's range; -1 if nothing is interpolated."""
-    if not one.common.interpolated:
-        return -1.0
-    size = extent(one.common.reference)
-    return float(np.nanmax(one.common.interpolation_error)) / size if size > 0.0 else math.inf

@@ -10,6 +10,7 @@ from typing import Any
 import h5py
 import numpy as np
 
+from support_exudyn.files.series.own_runs import EXPORTED
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.mechanics.contact_state import Onset
@@ -20,7 +21,6 @@ from support_exudyn.simulation.result import Result
 
 TABLES = Sampling()  # all records
 AT_ONCE = 500  # rows
-FORMAT = "support_exudyn channels 1"
 ONSET_COLUMNS = {  # field of an onset: unit, meaning
     "time": ("s", "beginning of the contact"),
     "speed": ("m/s", "initial impact velocity at zero depth"),
@@ -73,7 +73,7 @@ def to_hdf5(result: Result, path: str | Path, sampling: Sampling = TABLES) -> tu
     check_is_no_run(path)
     # made in memory: on a full disk HDF5 would end the whole process
     with h5py.File("channels", "w", driver="core", backing_store=False) as file:
-        _set_text(file, "format", FORMAT)
+        _set_text(file, "format", EXPORTED)
         for name, channel in result.channels.items():
             _put(file, f"channels/{name}", channel.values[records], channel.unit, channel.meaning)
         for pin, onsets in result.onsets.items():

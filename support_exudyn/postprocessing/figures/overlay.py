@@ -8,8 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from support_exudyn.files.series.named_series import SeriesFile
+from support_exudyn.files.series.units import converted
 from support_exudyn.postprocessing.comparing.own_runs import common_records
-from support_exudyn.postprocessing.curves import Curves
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.channels import error_over_time, label_values
 from support_exudyn.postprocessing.figures.journal import Series
@@ -19,7 +20,7 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
 CURVES = style.CURVES
-NO_CURVES: Mapping[str, Curves] = {}
+NO_CURVES: Mapping[str, SeriesFile] = {}
 MOST = 16  # panels
 FEW = 60  # points of a file that are drawn as markers
 PANEL_MM, REST_MM, LINE_MM = 38.0, 34.0, 4.5  # height of a panel, of the rest, and of a line that names a run
@@ -29,7 +30,7 @@ SECONDS = "s"
 class _Curve(NamedTuple):
     """A line of a panel: its run, times [s], values and their errors, NaN if not known (n,), SI.
 
-    of_file: whether it is of a CSV file, of whose errors nothing is said.
+    of_file: whether it is of a file of curves, of whose errors nothing is said.
     """
 
     run: str
@@ -44,7 +45,7 @@ def overlay(
     channels: Sequence[str],
     after: float = 0.0,
     until: float = math.inf,
-    curves: Mapping[str, Curves] = NO_CURVES,
+    curves: Mapping[str, SeriesFile] = NO_CURVES,
 ) -> Figure:
     """Channels of several runs over time: a panel for each channel, a curve for each run that has it.
 
@@ -52,7 +53,7 @@ def overlay(
         runs: by the names that the figure calls them, at least one.
         channels: names, or patterns of them as in a shell.
         after, until: what of the runs is drawn [s].
-        curves: of CSV files, by the names that the figure calls them; with the runs 2 to 5.
+        curves: files of others, by the names that the figure calls them; with the runs 2 to 5.
 
     Raises InputError if runs or channels are too few or too many, if a pattern matches no channel, if a channel
     has two units, or if no records lie between the times.
@@ -73,17 +74,17 @@ def overlay(
         for channel, one in drawn.items():
             panels[channel] += one
     title = f"{_several([*runs, *curves])}, {said(next(iter(runs.values())), after, until)}"
-    return _drawn(runs, panels, title, "", _left_out(curves, runs, until))
+    return _drawn(runs, panels, title, "", _left_out(curves, panels, runs, until))
 
 
 def _measured(
-    name: str, found: Curves, channel: str, runs: Mapping[str, Result], after: float, until: float
+    name: str, found: SeriesFile, channel: str, runs: Mapping[str, Result], after: float, until: float
 ) -> list[_Curve]:
     """The curve of a file for a channel; none if it has none."""
     run = next(run for run in runs.values() if channel in run.channels)
-    values, time = found.of(channel, run.unit(channel)), found.time
-    if values is None:
+    if channel not in found.series:
         return []
+    values, time = converted(found.series[channel], run.unit(channel)), found.series[channel].time
     last = min(until, _end(runs))
     chosen = (time >= after) & (time <= last) & np.isfinite(values)
     none = np.zeros(int(chosen.sum()))
@@ -96,26 +97,31 @@ def _end(runs: Mapping[str, Result]) -> float:
 
 
 def _none_drawn(
-    found: Curves, channels: Iterable[str], runs: Mapping[str, Result], after: float, until: float
+    found: SeriesFile, channels: Iterable[str], runs: Mapping[str, Result], after: float, until: float
 ) -> str:
     """Why nothing of a file is drawn: it lacks the channels, or its times are others."""
-    units_of = {channel: run.unit(channel) for run in runs.values() for channel in run.channels}
-    if any(found.of(channel, units_of[channel]) is not None for channel in channels):
+    if times := [found.series[channel].time for channel in channels if channel in found.series]:
         return (
-            f"{found.path}: its times, {found.time[0]:g} to {found.time[-1]:g} s, have no number between "
+            f"{found.path}: its times, {times[0][0]:g} to {times[0][-1]:g} s, have no number between "
             f"{max(after, 0.0):g} and {min(until, _end(runs)):g} s; allowed: some within the run"
         )
-    known = ", ".join(list(found.columns)[:6])
+    known = ", ".join(list(found.series)[:6])
     return (
-        f"{found.path}: has a column of none of these channels with its unit; allowed: columns such as "
-        f"{next(iter(channels))}_mm beside time_s; it has {known}"
+        f"{found.path}: has a series of none of these channels; allowed: names such as "
+        f"{next(iter(channels))}; it has {known}"
     )
 
 
-def _left_out(curves: Mapping[str, Curves], runs: Mapping[str, Result], until: float) -> str:
+def _left_out(
+    curves: Mapping[str, SeriesFile], channels: Iterable[str], runs: Mapping[str, Result], until: float
+) -> str:
     """A sentence on points of files beyond the end of the runs; empty if there are none."""
     end = _end(runs)
-    beyond = {name: int((found.time > end).sum()) for name, found in curves.items()} if until >= end else {}
+    beyond = {
+        name: max(int((found.series[one].time > end).sum()) for one in channels if one in found.series)
+        for name, found in curves.items()
+        if until >= end
+    }
     told = [f"{number} points of {name}" for name, number in beyond.items() if number]
     return f"{' and '.join(told)} beyond the end of the run, {end:g} s, are not drawn." if told else ""
 

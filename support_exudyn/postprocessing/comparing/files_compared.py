@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from support_exudyn.files.series.asked import Progress, silent
@@ -30,6 +31,7 @@ from support_exudyn.postprocessing.comparing.tolerances import (
     read_tolerances,
 )
 from support_exudyn.postprocessing.comparing.verdict import ToleranceVerdict, worst
+from support_exudyn.postprocessing.comparing.with_errors import BesideErrors, numbers_beside_errors
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
@@ -44,7 +46,8 @@ class ComparedPair:
     channels: by their names. parting: when both part, and why. impacts: of contacts that both know.
     shift: the shift in time that was found, which `other` has been given; None: none was asked for.
     same: how many channels there are, if both are runs and all records are the same to the bit; else 0.
-    left_out: names of channels of the reference that the other file has not.
+    left_out: names of channels of the reference that the other file has not. after, until: what is compared,
+    [s].
     """
 
     reference: ComparedFile
@@ -55,6 +58,16 @@ class ComparedPair:
     shift: FoundShift | None
     same: int
     left_out: tuple[str, ...]
+    after: float
+    until: float
+
+    @cached_property
+    def numbers(self) -> Mapping[str, BesideErrors]:
+        """The numbers that two runs report, see `Result.numbers`, beside their errors; none without errors."""
+        first, second = self.reference.run, self.other.run
+        if first is None or second is None or not (self.reference.has_errors and self.other.has_errors):
+            return {}
+        return numbers_beside_errors(first, second, self.after, self.until)
 
     @property
     def verdict(self) -> ToleranceVerdict:
@@ -124,7 +137,7 @@ def compare_files(
 def read_files(
     given: Sequence[Comparable], mapping: str | Path | CompareFile | None = None, progress: Progress = silent
 ) -> tuple[list[ComparedFile], CompareFile]:
-    """Files that are compared, each with what a mapping says of it; and the mapping. Raises as `compare_files`."""
+    """Files, each with what a mapping says of it; and the mapping. Raises as `compare_files`."""
     paths = [one if isinstance(one, Result) else Path(one) for one in given]
     if isinstance(mapping, (str, Path)):
         mapping = read_compare_file(Path(mapping), [path for path in paths if isinstance(path, Path)])
@@ -135,18 +148,18 @@ def read_files(
         if isinstance(path, Result):
             files.append(of_run(path, Path(name), name))
             continue
-        start = n / len(paths)
-        files.append(
-            compared_file(
-                path, said.of(path), name, lambda share, start=start: progress(start + share / len(paths))
-            )  # type: ignore[misc]
-        )
+        files.append(compared_file(path, said.of(path), name, _piece(progress, n, len(paths))))
     progress(1.0)
     return files, said
 
 
+def _piece(progress: Progress, number: int, count: int) -> Progress:
+    """What is told of one of several files, as a share of all."""
+    return lambda share: progress((number + share) / count)
+
+
 def _name(path: Path | Result, number: int, taken: Sequence[str], paths: Sequence[Path | Result]) -> str:
-    """By which a file is called: its name; with its folder if another has the same, with its place if it comes again."""
+    """By which a file is called: its name; with its folder or its place if another has the same."""
     if isinstance(path, Result):
         return f"run {number + 1}"
     alike = {other for other in paths if isinstance(other, Path) and other.name == path.name}
@@ -172,11 +185,13 @@ def _pair(
     onsets = onsets_of(reference), onsets_of(other)
     parting = pair_parting(reference, other)
     contacts = [name for name in onsets[0] if name in onsets[1]]
+    run = reference.run or other.run
+    stems = {} if run is None else {one: run.scenario.contact_stem(one) for one in contacts}
     told = len(names) * len(JUDGED) + len(contacts)
     window = ComparedWindow(*ends, parting.time, said.bands, max(told, 1))
     channels = {}
     for name in names:
-        contact = next((one for one in contacts if name.startswith(f"pin.{one}.")), None)
+        contact = next((one for one in contacts if name.startswith(f"{stems[one]}.")), None)
         impacts = None
         if contact is not None:
             impacts = tuple([one.time for one in side[contact]] for side in onsets)
@@ -193,7 +208,7 @@ def _pair(
     same = 0
     if reference.run is not None and other.run is not None and other.mapped == reference.mapped:
         same = same_to_the_bit(reference.run, other.run)
-    return ComparedPair(reference, other, channels, parting, matched, shift, same, left_out)
+    return ComparedPair(reference, other, channels, parting, matched, shift, same, left_out, *ends)
 
 
 def _unit(reference: ComparedFile, other: ComparedFile, channel: str) -> str:
@@ -209,6 +224,8 @@ def _unit(reference: ComparedFile, other: ComparedFile, channel: str) -> str:
             return si_unit(found)
     column = reference.column(channel).column
     raise InputError(
-        f"{reference.path}, {other.path}: {channel} has a unit in neither; allowed: one in the title of the column, "
-        f'such as \'{column} [mm]\', or in compare.toml, [files."{reference.path.name}".units] "{column}" = "mm"'
+        f"{reference.path}, {other.path}: {channel} has a unit in neither; allowed: one in the title of the "
+        "column, "
+        f'such as \'{column} [mm]\', or in compare.toml, [files."{reference.path.name}".units] "{column}" = '
+        '"mm"'
     )

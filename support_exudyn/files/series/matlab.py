@@ -1,0 +1,94 @@
+"""Series of MATLAB files of versions 4 to 7.3.
+
+A vector of times is called t or time, whatever its letters. All vectors as long as it, beside it in the same
+structure or in the file, are series; so are the columns of a matrix that has as many rows. A structure with
+the fields Time and Data is taken as a timeseries. Names are joined by points, `run.pin.force`. MATLAB keeps no
+units: a name such as `force_kN` has one, of all others it is asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from support_exudyn.files.free_memory import available
+from support_exudyn.files.series.apart import read_apart
+from support_exudyn.files.series.asked import Asked
+from support_exudyn.files.series.columns import Column, Numbers, series_file
+from support_exudyn.files.series.matlab_arrays import MAGIC_HDF5
+from support_exudyn.files.series.named_series import SeriesFile
+from support_exudyn.files.series.titles import split_title
+from support_exudyn.files.whole_file import check_is_file
+from user_forces.values.value import InputError, short
+
+MAGIC = b"MATLAB 5.0 MAT-file"
+READER = "support_exudyn.files.series.matlab_arrays:matlab_arrays"
+WIDEST = 1000  # columns of a matrix
+TIMES = ("t", "time")
+DATA = ("data", "values", "signals")
+
+
+def is_matlab(head: bytes) -> bool:
+    """Whether a file begins as MATLAB's do."""
+    return head.startswith((MAGIC, MAGIC_HDF5)) or _is_version_4(head)
+
+
+def _is_version_4(head: bytes) -> bool:
+    """Five whole numbers: type, rows, columns, whether there is an imaginary part, letters of the name."""
+    if len(head) < 22:
+        return False
+    for order in "<>":
+        kind, rows, columns, imaginary, letters = (int(one) for one in np.frombuffer(head[:20], f"{order}i4"))
+        digits = f"{kind:04d}"  # order of bytes, 0, type of the numbers, kind of the matrix
+        known = len(digits) == 4 and digits[0] in "01" and digits[1] == "0" and digits[2] <= "5"
+        if known and min(rows, columns) >= 0 and imaginary in (0, 1) and 2 <= letters <= 64:
+            name = head[20 : 20 + letters]
+            if name[-1:] == b"\0" and name[:-1].replace(b"_", b"a").isalnum():
+                return True
+    return False
+
+
+def read_matlab(path: Path, asked: Asked) -> SeriesFile:
+    """The series of a MATLAB file.
+
+    Raises InputError if it is damaged, or has no vector of times; OSError if it cannot be read.
+    """
+    check_is_file(path, available() // 4)
+    structures: dict[tuple[str, ...], dict[str, Numbers]] = {}
+    for said, values in read_apart(READER, path, "MATLAB file"):
+        *above, name = said["path"]
+        structures.setdefault(tuple(above), {})[name] = values
+    groups = [_over_times(path, ".".join(above), arrays) for above, arrays in structures.items()]
+    found = [one for one in groups if one is not None and one[1]]
+    if not found:
+        known = ", ".join(short(name) for arrays in structures.values() for name in list(arrays)[:6]) or "none"
+        raise InputError(
+            f"{path}: has no vector of times with others as long; allowed: a vector t or time beside them; its "
+            f"vectors are {known:.200}"
+        )
+    return series_file(path, "MATLAB file", found, asked)
+
+
+def _over_times(path: Path, above: str, arrays: Mapping[str, Numbers]) -> tuple[Column, list[Column]] | None:
+    """The times of a structure, and what is as long as they; None if it has none."""
+    names = {title: split_title(title)[:2] for title in arrays}
+    times = [one for one, (name, _) in names.items() if name.casefold() in TIMES and arrays[one].shape[1] == 1]
+    if not times:
+        return None
+    if len(times) > 1:
+        raise InputError(f"{path}: {above}: {len(times)} vectors of times, {', '.join(times)}; allowed: one")
+    (title,) = times
+    found = []
+    for other, values in arrays.items():
+        if other != title and len(values) == len(arrays[title]) and values.shape[1] <= WIDEST:
+            name, unit = names[other]
+            whole = above if name.casefold() in DATA and above else ".".join(filter(None, (above, name)))
+            several = values.shape[1] > 1
+            found += [
+                Column(f"{whole}.{n + 1}" if several else whole, unit, values[:, n])
+                for n in range(values.shape[1])
+            ]
+    name, unit = names[title]
+    return Column(".".join(filter(None, (above, name))), unit, arrays[title][:, 0]), found

@@ -1,0 +1,80 @@
+"""Series of Parquet files: columns of numbers, units in their titles or in the metadata of the fields."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from support_exudyn.files.free_memory import available
+from support_exudyn.files.series.asked import Asked
+from support_exudyn.files.series.columns import Column, is_named_time, series_file
+from support_exudyn.files.series.named_series import SeriesFile
+from support_exudyn.files.series.titles import split_title
+from support_exudyn.files.series.units import as_pint_writes, is_unit
+from support_exudyn.files.whole_file import contents
+from user_forces.values.value import InputError, cleaned, short
+
+MAGIC = b"PAR1"
+UNIT = (b"unit", b"units")  # keys of a field's metadata
+MOST = 100_000  # columns
+DAMAGES = (OSError, ValueError, LookupError, TypeError, MemoryError, OverflowError)
+
+
+def is_parquet(head: bytes) -> bool:
+    """Whether a file begins as Parquet does."""
+    return head.startswith(MAGIC)
+
+
+def read_parquet(path: Path, asked: Asked) -> SeriesFile:
+    """The series of a Parquet file: its columns of numbers; others are told.
+
+    Raises InputError if it is damaged, has no times or more than fits into memory; OSError if it cannot be
+    read.
+    """
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    data = contents(path, available() // 4)
+    try:
+        file = parquet.ParquetFile(pa.BufferReader(data))
+        rows, count = file.metadata.num_rows, file.metadata.num_columns
+        if count > MOST or rows < 0 or 24 * rows * count > available():
+            raise InputError(f"{path}: has {rows} rows of {count} columns; allowed: as many as fit into memory")
+        columns, others = _columns(file.read(use_threads=False))
+    except InputError:
+        raise
+    except (pa.ArrowException, *DAMAGES) as error:
+        said = cleaned(str(error)).partition("\n")[0][:200]
+        raise InputError(f"{path}: is no whole Parquet file ({said}); allowed: columns of numbers") from None
+    times = [one for one in columns if one.name.casefold() in ("time", "t")]
+    times = times or [one for one in columns[:1] if is_named_time(one.name)]
+    if len(times) != 1:
+        known = ", ".join(short(one.name) for one in columns[:6])
+        raise InputError(
+            f"{path}: has {len(times)} columns of times; allowed: one, time_s or 'time [s]'; it has {known}"
+        )
+    notes = [f"Columns that are no numbers are left out: {', '.join(others[:6])}."] if others else []
+    values = [one for one in columns if one is not times[0]]
+    return series_file(path, "Parquet file", [(times[0], values)], asked, notes)
+
+
+def _columns(table: Any) -> tuple[list[Column], list[str]]:
+    """The columns of numbers of a table of pyarrow, and the titles of others."""
+    import pyarrow as pa
+
+    found, others = [], []
+    for field, column in zip(table.schema, table.columns, strict=True):
+        kind = field.type
+        if not (pa.types.is_floating(kind) or pa.types.is_integer(kind)):
+            others.append(short(field.name))
+            continue
+        name, unit, _ = split_title(field.name)
+        metadata = field.metadata or {}
+        said = next((metadata[key].decode("utf-8", "replace") for key in UNIT if key in metadata), "")
+        if said and is_unit(said):
+            name, unit = field.name if unit is None else name, as_pint_writes(said)
+        values = column.cast(pa.float64(), safe=False).to_numpy()
+        found.append(Column(name, unit, np.asarray(values, dtype=np.float64)))
+    return found, others

@@ -1,0 +1,132 @@
+"""Files of series in every format that is read, small, for tests."""
+
+from __future__ import annotations
+
+import io
+import shutil
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pyarrow as pa
+import scipy.io
+from pyarrow import parquet
+
+DATA = Path(__file__).parents[1] / "files" / "series" / "data"
+TIME = np.linspace(0.0, 1.0, 11)
+FORCE = 3.0 + np.sin(7.0 * TIME)
+UNITS = {"time": "s", "t": "s", "*.t": "s"}  # of times of files that give none
+
+CSV = "time_s;tip.x [mm];pin.force_kN\n" + "".join(f"{t:.1f};{t**2:.4f};{3 * t:.2f}\n" for t in TIME)
+REQUESTS = """ A.R3    2019-08-11 13:52:24               2         0  3D
+Adams View model name: two_requests
+    2     MMKGS_N_RACA 1.000000000000000E+03
+    1    4    11    12    9
+hinge_pin
+    7    1    11    12    0
+   0.00000E+00
+  1.0 2.0 3.0 4.0 5.0 6.0
+  7.0 8.0 9.0 10.0 11.0 12.0
+   1.00000E-03
+  1.5 2.5 3.5 4.5 5.5 6.5
+  7.5 8.5 9.5 10.5 11.5 12.5
+"""
+SENSOR = """#Exudyn implicit second order time integration sensor output file
+#measure Node number = 0
+#OutputVariableType = Position
+#simulation started = 2026-11-24,16:26:44
+#columns contain: time, comma separated sensor values (e.g, x,y,z position coordinates)
+#number of sensor values = 3
+#Exudyn version = 1.13.6; Python3.11.15; Linux x86_64 FLOAT64; 1 thread(s)
+#
+0,0,0,0
+0.01,0,-0.0004905,0
+0.02,0,-0.001962,0
+"""
+SOLUTION = """#Exudyn implicit second order time integration solver solution file
+#simulation started=2026-11-24,16:26:44
+#columns contain: time, ODE2 displacements, ODE2 velocities
+#number of system coordinates [nODE2, nODE1, nAlgebraic, nData] = [1,0,0,0]
+#number of written coordinates [nODE2, nVel2, nAcc2, nODE1, nVel1, nAlgebraic, nData] = [1,1,0,0,0,0,0]
+#total columns exported  (excl. time) = 2
+#number of time steps (planned) = 2
+#
+0,0,0
+0.01,-0.0004905,-0.0981
+0.02,-0.001962,-0.1962
+#simulation finished=2026-11-24,16:26:44
+"""
+
+
+def matlab(version: str, compressed: bool = False) -> bytes:
+    """A MATLAB file with a force over time, a structure and a text."""
+    data = {"t": TIME, "pin_force_kN": FORCE}
+    if version == "5":
+        data |= {"run": {"time_ms": 1e3 * TIME, "x": TIME**2, "m": np.ones((TIME.size, 2))}, "said": "abc"}
+    file = io.BytesIO()
+    scipy.io.savemat(file, data, format=version, do_compression=compressed)
+    return file.getvalue()
+
+
+def matlab_73() -> bytes:
+    """One of version 7.3: HDF5 behind a block with its name, columns as rows."""
+    with h5py.File("made", "w", driver="core", backing_store=False, userblock_size=512) as file:
+        for name, values in {"t": TIME, "pin_force_kN": FORCE, "run/t": TIME, "run/x": TIME**2}.items():
+            file.create_dataset(name, data=values.reshape(1, -1)).attrs["MATLAB_class"] = np.bytes_("double")
+        file.flush()
+        image = file.id.get_file_image()
+    return b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(124) + b"\x00\x02IM" + bytes(384) + image
+
+
+def parquet_bytes() -> bytes:
+    """A table with a unit in a title, one in the metadata of a field, and a column of words."""
+    fields = [
+        pa.field("time_s", pa.float64()),
+        pa.field("pin.force", pa.float64(), metadata={"unit": "kN"}),
+        pa.field("said", pa.string()),
+    ]
+    columns = [pa.array(TIME), pa.array(FORCE), pa.array(["a"] * TIME.size)]
+    sink = pa.BufferOutputStream()
+    parquet.write_table(pa.table(columns, schema=pa.schema(fields)), sink)
+    return bytes(sink.getvalue())
+
+
+def exudyn_binary(end: bytes = b"\xff\xff\xff\xff") -> bytes:
+    """A binary solution as Exudyn 1.13 writes it: of two coordinates and their rates."""
+
+    def text(said: str) -> bytes:
+        return np.int32(len(said)).tobytes() + said.encode()
+
+    def whole(*numbers: int) -> bytes:
+        return np.array([len(numbers), *numbers], np.int32).tobytes()
+
+    head = b"EXUBIN" + bytes([10, 4, 8, 8, 0, 0, 0, 0, 0, 0]) + text("1.13.6") + text("Mode0000")
+    head += text("Exudyn solver solution file") + text("2026-11-24") + whole(1, 0, 0, 0)
+    head += whole(1, 1, 0, 0, 0, 0, 0) + np.array([2, 2], np.int32).tobytes() + text("") + text("EndOfHeader")
+    rows = [np.int32(3).tobytes() + np.array([t, t**2, 2 * t]).tobytes() for t in TIME]
+    return head + b"".join(rows) + end
+
+
+def in_process() -> dict[str, bytes]:
+    """A file of every format that is read in this process, by its name."""
+    return {
+        "table.csv": CSV.encode(),
+        "free_fall.res": (DATA / "free_fall.res").read_bytes(),
+        "two.req": REQUESTS.encode(),
+        "sensor.txt": SENSOR.encode(),
+        "solution.txt": SOLUTION.encode(),
+        "solution.sol": exudyn_binary(),
+        "table.parquet": parquet_bytes(),
+    }
+
+
+def apart() -> dict[str, bytes]:
+    """A file of every format that is read in a process of its own."""
+    return {
+        "v4.mat": matlab("4"), "v5.mat": matlab("5"), "v7.mat": matlab("5", True), "v73.mat": matlab_73(),
+    }  # fmt: skip
+
+
+def copied(name: str, folder: Path) -> Path:
+    """A copy of a file of the data in a folder."""
+    return Path(shutil.copy(DATA / name, folder / name))

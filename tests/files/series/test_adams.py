@@ -1,0 +1,209 @@
+"""Files of ADAMS: a genuine one against free fall, and what is damaged, hostile or too large."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from support_exudyn.files.series import adams_results
+from support_exudyn.files.series.read import read_series
+from support_exudyn.files.series.units import converted
+from tests.cases.series_cases import DATA, REQUESTS
+from user_forces import InputError
+
+GENUINE = (DATA / "free_fall.res").read_text("utf-8")
+SMALL = """<?xml version="1.0"?>
+<Results xmlns="http://www.mscsoftware.com/:xrf10"><Analysis name="A"><StepMap name="m">
+<Entity name="time"><Component name="TIME" unitsValue="sec" id="1" /></Entity>
+<Entity name="P"><Component name="X" unitsValue="mm" id="3" /><Component name="Y" id="2" /></Entity>
+<Entity name="R"><Component name="N" unitsValue="" plotLabel="(RPM)" id="4" />
+<Component name="P" unitsValue="" plotLabel="Pressure (MPa)" id="5" /></Entity>
+</StepMap><Data>
+<Step type="dynamic">0.5 2 3
+4 5</Step><Step type="dynamic">
+1 12 13 14
+15</Step></Data></Analysis></Results>"""
+
+
+def written(folder: Path, text: str, name: str = "a.res") -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_genuine_file_is_three_quarters_of_a_percent_off_free_fall_at_its_first_step() -> None:
+    found = read_series(DATA / "free_fall.res")
+    y = found.series["PART_2_XFORM.Y"]
+    assert len(found.series) == 18
+    assert y.unit == "inch"
+    assert y.time[:3] == pytest.approx([0.0, 0.01, 0.02])
+    assert y.values[1:3].tolist() == [-0.0194492123535125, -0.07736249975851248]
+    fall = -0.5 * 9.80665 * y.time**2
+    metres = converted(y, "m")
+    assert metres[1] / fall[1] - 1.0 == pytest.approx(0.0075, abs=5e-5)
+    assert metres[-1] == pytest.approx(fall[-1], rel=2e-4)
+    assert converted(found.series["PART_2_XFORM.ACCY"], "m/s^2") == pytest.approx(-9.80665, rel=1e-9)
+    assert found.series["PART_2_XFORM.PSI"].unit == "rad"
+
+
+def test_numbers_are_in_the_order_of_the_ids_whatever_lines_they_are_on(tmp_path: Path) -> None:
+    found = read_series(written(tmp_path, SMALL)).series
+    read = {name: (one.unit and one.unit.lower(), one.values.tolist()) for name, one in found.items()}
+    assert read == {
+        "P.Y": (None, [2.0, 12.0]),
+        "P.X": ("mm", [3.0, 13.0]),
+        "R.N": ("rpm", [4.0, 14.0]),
+        "R.P": ("mpa", [5.0, 15.0]),
+    }
+    assert found["P.X"].time.tolist() == [0.5, 1.0]
+
+
+def test_only_what_is_wanted_is_kept(tmp_path: Path) -> None:
+    told: list[float] = []
+    found = read_series(written(tmp_path, SMALL), names=["P.*"], progress=told.append)
+    assert list(found.series) == ["P.Y", "P.X"]
+    assert told[-1] == 1.0
+    with pytest.raises(InputError, match="has no series 'Q'; allowed: its own names"):
+        read_series(written(tmp_path, SMALL), names=["Q"])
+
+
+def test_of_several_analyses_one_is_taken_and_told(tmp_path: Path) -> None:
+    start, _, rest = SMALL.partition("<Analysis")
+    one = "<Analysis" + rest.partition("</Results>")[0]
+    other = one.replace('name="A"', 'name="B"').replace("1 12 13", "1 12 99")
+    path = written(tmp_path, start + one + other + "</Results>")
+    found = read_series(path)
+    assert found.series["P.X"].values[-1] == 13.0
+    assert found.notes == ("Of 2 analyses the first is taken, A; others are B.",)
+    assert read_series(path, analysis="B").series["P.X"].values[-1] == 99.0
+    with pytest.raises(InputError, match="has no analysis 'C'; allowed: one of its 2: 'A', 'B'"):
+        read_series(path, analysis="C")
+
+
+BOMB = (
+    '<!DOCTYPE Results [<!ENTITY a "aaaaaaaaaa">'
+    + "".join(f'<!ENTITY {chr(98 + n)} "{f"&{chr(97 + n)};" * 10}">' for n in range(9))
+    + "]>\n<Results>&j;</Results>"
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (BOMB, "line 1: declares a document type; allowed: none"),
+        ('<!DOCTYPE R SYSTEM "file:///etc/passwd"><Results/>', "declares a document type"),
+        (SMALL[:-30], "line 11, column 3: unclosed token; allowed: the whole of an ADAMS result file"),
+        (SMALL.replace("</Step><Step", "</Stop><Step"), "line 9, .*: mismatched tag"),
+        (SMALL.replace("4 5</Step>", "4</Step>"), "line 9: step 1 has 4 numbers; allowed: 5, as the map has"),
+        (SMALL.replace("4 5</Step>", "4 x</Step>"), "line 9: step 1 has what is no number"),
+        (SMALL.replace("4 5</Step>", "4 1_0</Step>"), "line 9: step 1 has what is no number"),
+        (
+            SMALL.replace("4 5</Step>", "4 5" + " 1" * 9000 + "</Step>"),
+            "a step has more letters than numbers need",
+        ),
+        (SMALL.replace('id="4"', 'id="3"'), "line 5, entity 'R': id 3 of component 'N'; allowed: each number"),
+        (SMALL.replace('id="4"', 'id="four"'), "entity 'R': a component without a name or a number"),
+        (SMALL.replace('"TIME"', '"TIMES"'), "0 components TIME; allowed: one"),
+        (SMALL.replace('unitsValue="sec"', ""), "times, column 'time.TIME': have no unit"),
+        ("<Results><Analysis/></Results>", "has no analysis with a map of steps; allowed: one of its 1"),
+        (SMALL.partition("<Data>")[0] + "</Analysis></Results>", "has no steps; allowed: one or more"),
+        ("<html><body/></html>", "is XML of 'html'; allowed: ADAMS result files, of <Results>"),
+        ("<Results>" + "<a>" * 100, "elements are nested too deep; allowed: 32 levels"),
+        (
+            '<?xml version="1.0" encoding="klingon"?><Results/>',
+            r"is no text in its encoding \(unknown encoding: klingon\)",
+        ),
+    ],
+    ids=range(17),
+)
+def test_damaged_and_hostile_files_end_in_a_sentence(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(InputError, match=message) as raised:
+        read_series(written(tmp_path, text))
+    assert "\n" not in str(raised.value)
+    assert "a.res" in str(raised.value)
+
+
+def test_a_file_whose_numbers_do_not_fit_into_memory_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, _, _ = SMALL.partition("<Data>")
+    steps = "".join(f"<Step>{n} 1 2 3 4</Step>\n" for n in range(4000))
+    path = written(tmp_path, f"{first}<Data>{steps}</Data></Analysis></Results>")
+    monkeypatch.setattr(adams_results, "PIECE", 1000)
+    monkeypatch.setattr(adams_results, "available", lambda: 100_000)
+    with pytest.raises(InputError, match=r"5 series of it take .* GB, .* are free; allowed: fewer, by"):
+        read_series(path)
+    assert read_series(path, names=["P.X"]).series["P.X"].time.size == 4000
+
+
+MEASURE = """
+import resource, sys
+from support_exudyn.files.series.read import read_series
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+found = read_series(sys.argv[1], names=["P.X"])
+print(found.series["P.X"].time.size, (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) // 1024)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="peak memory in kilobytes")
+def test_a_large_file_is_read_in_flat_memory(tmp_path: Path) -> None:
+    path, count = tmp_path / "large.res", 400_000
+    numbers = " ".join(["-123.45678901234567"] * 300)
+    components = "".join(f'<Component name="C{n}" id="{n}" />' for n in range(6, 302))
+    head, _, _ = SMALL.partition("<Data>")
+    head = head.replace("</StepMap>", f'<Entity name="Q">{components}</Entity></StepMap>')
+    count = 300_000_000 // len(numbers)
+    with path.open("w") as file:
+        file.write(f"{head}<Data>")
+        file.writelines(f"<Step>{n} {numbers}</Step>\n" for n in range(count))
+        file.write("</Data></Analysis></Results>")
+    command = [sys.executable, "-c", MEASURE, str(path)]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+    assert int(said[0]) == count
+    assert int(said[1]) < 64  # MB, of a file of 300
+
+
+def test_requests_are_read_with_the_units_of_their_system(tmp_path: Path) -> None:
+    found = read_series(written(tmp_path, REQUESTS, "a.req"))
+    read = {name: (one.unit, one.values.tolist()) for name, one in found.series.items()}
+    assert read["hinge_pin.X"] == ("N", [1.0, 1.5])
+    assert read["hinge_pin.R1"] == ("N*mm", [4.0, 4.5])
+    assert read["req7.Z"] == ("mm", [9.0, 9.5])
+    assert read["req7.R3"] == ("rad", [12.0, 12.5])
+    assert found.series["req7.Z"].time.tolist() == [0.0, 1e-3]
+    assert len(read) == 12
+
+
+def test_those_of_other_programs_are_alike(tmp_path: Path) -> None:
+    text = "RecurDyn V9 REQ File\n  1   1000.0\n  3  5  0  0  0\n 0.0\n1 2 3 4 5 6\n 0.1\n1 2 3 4 5 6\n"
+    found = read_series(written(tmp_path, text, "a.req"), units={"time": "s"}).series
+    assert (found["req3.Y"].unit, found["req3.Y"].values.tolist()) == (None, [2.0, 2.0])
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ((DATA / "free_fall.req").read_text(), "has times and no request; allowed: one request or more"),
+        (REQUESTS[:-30], "line 11: 7 numbers behind 1 steps of 13; allowed: the whole"),
+        (REQUESTS.replace("10.5", "1O.5"), "line 12: '1O.5'; allowed: numbers such as 1.5E-03"),
+        (REQUESTS.replace("    7    1", "    7    x"), "line 6: is no request, with five whole numbers"),
+        (REQUESTS.partition("    2  ")[0], "none has the number of requests"),
+        (REQUESTS.replace("    2     MM", "    3     MM"), "is no request, with five whole numbers"),
+    ],
+)
+def test_damaged_requests_end_in_a_sentence(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        read_series(written(tmp_path, text, "a.req"))
+
+
+def test_free_fall_is_the_one_of_the_standard_gravity() -> None:
+    velocity = read_series(DATA / "free_fall.res", names=["*.VY"]).series["PART_2_XFORM.VY"]
+    assert converted(velocity, "m/s") == pytest.approx(
+        -9.80665 * np.asarray(velocity.time), rel=1e-9, abs=1e-12
+    )
+    assert GENUINE.count("<Step ") == 27

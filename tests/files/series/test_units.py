@@ -1,0 +1,128 @@
+"""Units of series, and titles that have one."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn.files.series.adams_units import adams_unit
+from support_exudyn.files.series.named_series import NamedSeries
+from support_exudyn.files.series.titles import split_title
+from support_exudyn.files.series.units import converted, is_unit
+from user_forces import InputError
+
+
+def series(unit: str | None) -> NamedSeries:
+    return NamedSeries("tip.x", unit, np.zeros(1), np.array([2.0]))
+
+
+@pytest.mark.parametrize(
+    ("given_unit", "wanted", "factor"),
+    [
+        ("mm", "m", 1e-3),
+        ("inch", "mm", 25.4),
+        ("deg", "rad", math.pi / 180.0),
+        ("rpm", "rad/s", math.pi / 30.0),
+        ("kN", "N", 1e3),
+        ("Nm", "kN*m", 1e-3),
+        ("lbf", "N", 4.4482216152605),
+        ("bar", "MPa", 0.1),
+        ("l/min", "m^3/s", 1e-3 / 60.0),
+        ("%", "", 0.01),
+        ("m/s2", "mm/s^2", 1e3),
+        ("g", "m/s^2", 9.80665),
+        ("g", "kg", 1e-3),
+        ("J", "N m", 1.0),
+    ],
+)
+def test_values_are_converted(given_unit: str, wanted: str, factor: float) -> None:
+    assert converted(series(given_unit), wanted) == pytest.approx(2.0 * factor, rel=1e-14)
+
+
+def test_temperatures_have_an_offset() -> None:
+    assert converted(series("degC"), "K") == pytest.approx(275.15)
+
+
+@pytest.mark.parametrize(
+    ("given_unit", "wanted", "message"),
+    [
+        ("kN", "mm", "tip.x: is in kN, which cannot be given in mm; allowed: units of one kind"),
+        ("deg", "", "an angle is no pure number"),
+        ("Hz", "rad/s", "an angle is no pure number"),
+        (None, "mm", r"its file gives no unit, and mm is asked for; allowed: .*'tip.x \[mm\]'.*compare.toml"),
+        ("mm", "furlongish", "'furlongish': is no unit; allowed: such as mm"),
+    ],
+)
+def test_nothing_is_guessed(given_unit: str | None, wanted: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        converted(series(given_unit), wanted)
+
+
+@pytest.mark.parametrize(
+    ("title", "name", "unit"),
+    [
+        ("time_s", "time", "s"),
+        ("tip.x_mm", "tip.x", "mm"),
+        ("tip.x [mm]", "tip.x", "mm"),
+        ("Force (kN)", "Force", "kN"),
+        ("rear_link.angular_velocity_deg_per_s", "rear_link.angular_velocity", "deg/s"),
+        ("a_m_per_s2", "a", "m/s**2"),
+        ("k_kN_per_mm", "k", "kN/mm"),
+        ("d_N_s_per_m", "d", "N*s/m"),
+        ("M_N_m", "M", "N*m"),
+        ("n_per_s", "n", "1/s"),
+        ("mu [-]", "mu", ""),
+        ("mu [1]", "mu", ""),
+        ("x []", "x", None),
+        ("pin_A", "pin_A", None),  # no amperes
+        ("column_t", "column_t", None),  # no tonnes
+        ("force [rear]", "force [rear]", None),
+        ("v_m_s", "v_m_s", None),  # metres times or by seconds
+        ("mm", "mm", None),
+    ],
+)
+def test_titles_have_a_name_and_a_unit(title: str, name: str, unit: str | None) -> None:
+    assert split_title(title)[:2] == (name, unit)
+
+
+def test_what_a_title_may_mean_is_told() -> None:
+    assert "two ways" in split_title("v_m_s")[2]
+    assert "'rear' is no unit" in split_title("force [rear]")[2]
+
+
+@pytest.mark.parametrize(
+    ("written", "unit"),
+    [
+        ("inch/sec**2", "inch/sec**2"),
+        ("newton-meter", "newton*meter"),
+        ("Newton", "Newton"),
+        ("no_units", ""),
+        ("", None),
+        ("pound_mass", "pound"),
+        ("knewton", "kilonewton"),
+        ("deg", "deg"),
+        ("furlongish", None),
+    ],
+)
+def test_units_of_adams_are_read(written: str, unit: str | None) -> None:
+    found = adams_unit(written)
+    assert found is unit or (found is not None and unit is not None and found.lower() == unit.lower())
+
+
+@pytest.mark.parametrize(
+    "text", ["9**9**9", "m**9**9", "(m^9)^9^9", "m**999", "1e9*m", "m" * 1000, "m" + "*m" * 50]
+)
+def test_a_unit_that_would_take_long_is_none(text: str) -> None:
+    assert not is_unit(text)
+
+
+@given(st.text(max_size=12) | st.text("mNs*/^()-1239 ", max_size=14))
+def test_any_text_is_a_unit_or_none(text: str) -> None:
+    assert is_unit(text) in (True, False)
+    name, unit, _ = split_title(text)
+    assert isinstance(name, str)
+    assert unit is None or is_unit(unit)
