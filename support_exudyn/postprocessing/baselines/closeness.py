@@ -15,11 +15,11 @@ from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.baselines.kept_impacts import kept_impacts
+from support_exudyn.postprocessing.baselines.safe_errors import safe_errors
 from support_exudyn.postprocessing.comparing.common_times import on_common_times
 from support_exudyn.postprocessing.comparing.tolerances import Tolerance, tolerance
 from support_exudyn.postprocessing.comparing.verdict import ToleranceVerdict
-from support_exudyn.postprocessing.comparing.with_errors import curve_errors
-from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.postprocessing.figures.selection import CLEARANCE, matching
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
@@ -193,7 +193,7 @@ def _name(one: object) -> str:
 
 
 def _channel(run: Result, name: str) -> _Side:
-    return _Side(run.unit(name), run.time, run[name], curve_errors(run, [name])[name])
+    return _Side(run.unit(name), run.time, run[name], safe_errors(run, [name])[name])
 
 
 def _side(one: object) -> _Side:
@@ -270,8 +270,6 @@ def _sum(one: Series, other: Series) -> Series:
 
 
 def _at(side: _Side, time: Series) -> Series:
-    return (
-        np.interp(time, side.time, side.errors)
-        if np.isfinite(side.errors).all()
-        else np.full(time.size, side.errors[0])
-    )
+    """Errors of a curve at other times, (n,): those of the next record, which are no smaller."""
+    following = np.searchsorted(side.time, time - CLEARANCE)
+    return side.errors[np.minimum(following, side.time.size - 1)]

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.baselines.fluctuation import fluctuation
 from support_exudyn.postprocessing.baselines.kept_impacts import Impacts, kept_impacts
-from support_exudyn.postprocessing.comparing.with_errors import curve_errors
+from support_exudyn.postprocessing.baselines.safe_errors import safe_errors
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.provenance import provenance
 from support_exudyn.simulation.result import Result
@@ -97,5 +97,5 @@ def _numbers(result: Result, horizon: float) -> dict[str, Estimate]:
 def _curves(result: Result, rows: npt.NDArray[np.intp]) -> dict[str, KeptCurve]:
     """All channels at some records."""
     names = [name for name, one in result.channels.items() if name != TIME and one.is_determined]
-    known = curve_errors(result, names)
+    known = safe_errors(result, names)
     return {name: KeptCurve(result.unit(name), result[name][rows], known[name][rows]) for name in names}
