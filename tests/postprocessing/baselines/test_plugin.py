@@ -69,7 +69,7 @@ def test_failures_tell_the_worst_number_its_time_and_a_figure(tmp_path: Path) ->
     file.write_text(example.text.replace('"clearance_mm": 0.5', '"clearance_mm": 0.51'), "utf-8")
     found = tried(tmp_path)
     assert "2 failed, 1 passed" in found.stdout
-    assert re.search(r"number pin\.\S+ changed: .* -> .*, \S+ times both errors", found.stdout)
+    assert re.search(r"changed: .* -> .*, \S+ times both errors", found.stdout)
     figures = re.findall(r"figure: (\S+\.png)", found.stdout)
     assert figures
     assert all(Path(path).read_bytes().startswith(b"\x89PNG") for path in figures)
