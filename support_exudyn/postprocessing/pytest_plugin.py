@@ -202,6 +202,4 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
     for text in texts:
         terminalreporter.line(text)
     if not texts:
-        terminalreporter.line(
-            f"nothing was written: no baseline of {', '.join(asked)} has changed, or was asked for"
-        )
+        terminalreporter.line(f"nothing was written: no test has a new or changed baseline {', '.join(asked)}")

@@ -80,7 +80,7 @@ def test_failures_tell_the_worst_number_its_time_and_a_figure(tmp_path: Path) ->
     without = tried(tmp_path, "-p", "no:cacheprovider", "-n", "2", "-m", "baseline")
     assert "1 passed" in without.stdout
     stale = tried(tmp_path, OPTION, "no_such")
-    assert "nothing was written: no baseline no_such has changed, or is there" in stale.stdout
+    assert "nothing was written: no test has a new or changed baseline no_such" in stale.stdout
 
 
 def test_the_plugin_is_declared_under_the_name_of_its_module() -> None:
