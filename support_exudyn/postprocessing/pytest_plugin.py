@@ -7,6 +7,7 @@ nothing of the package is imported before a fixture is used.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -118,10 +119,11 @@ def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPa
 
 
 def _cache_folder(config: pytest.Config, temporary: pytest.TempPathFactory) -> Path:
-    """Where runs are kept: in pytest's cache, without one for this session, for all of its workers."""
+    """Where runs are kept: in pytest's cache; if there is none, for this session, for all of its workers."""
     cache: pytest.Cache | None = getattr(config, "cache", None)
     if cache is not None:
-        return cache.mkdir(CACHE)
+        with suppress(OSError):  # a folder that nobody may write to
+            return cache.mkdir(CACHE)
     folder = temporary.getbasetemp()
     folder = (folder.parent if hasattr(config, "workerinput") else folder) / CACHE
     folder.mkdir(exist_ok=True)
@@ -177,7 +179,8 @@ def baseline(
     def check(item: Result | Estimate | Mapping[str, Estimate], name: str = "") -> None:
         __tracebackhide__ = True
         whole = f"{request.path.stem}.{name or request.node.name}"
-        said, written = _baselines.compare(item, request.path, whole, tmp_path_factory.mktemp(FIGURES))
+        figures = tmp_path_factory.getbasetemp() / FIGURES / request.path.stem
+        said, written = _baselines.compare(item, request.path, whole, figures)
         if written:
             request.node.user_properties.append((WRITTEN, said))
         elif said:

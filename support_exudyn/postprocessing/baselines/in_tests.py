@@ -50,7 +50,7 @@ def said_changed(name: str, was: KeptRun, now: KeptRun, figures: Path) -> str:
     if len(found) > TOLD:
         lines.append(f"and {len(found) - TOLD} more")
     if (curve := changed_curve(was, now, found)) and (
-        path := save_figure(curve, figures, file_name(curve.name))
+        path := save_figure(curve, figures, file_name(f"{name}.{curve.name}"))
     ):
         lines.append(f"figure: {path}")
     return "\n".join(lines)

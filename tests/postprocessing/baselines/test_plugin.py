@@ -34,7 +34,7 @@ def test_the_plugin_imports_nothing_of_the_package_before_it_is_used() -> None:
     tree = ast.parse((ROOT / f"{PLUGIN.replace('.', '/')}.py").read_text("utf-8"))
     imported = {node.module for node in tree.body if isinstance(node, ast.ImportFrom)}
     imported |= {alias.name for node in tree.body if isinstance(node, ast.Import) for alias in node.names}
-    assert imported == {"__future__", "collections.abc", "pathlib", "typing", "pytest"}
+    assert imported == {"__future__", "collections.abc", "contextlib", "pathlib", "typing", "pytest"}
     heavy = ("numpy", "numba", "pydantic")
     code = f"import sys, {PLUGIN}; print([m for m in sys.modules if m.split('.')[0] in {heavy}])"
     found = subprocess.run(
