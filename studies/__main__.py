@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
+from studies.adams import run as adams
 from studies.benchmarking import benchmark
 from studies.catalogue import DEFAULT, STUDIES
 from studies.common.options import Options, add_options, read_options
@@ -19,8 +20,11 @@ from support_exudyn.simulation.at_start import EXIT_CODE
 from support_exudyn.sweeps.workers import Workers, worker_pool
 from user_forces.values.value import InputError, short
 
-BENCHMARK = "benchmark"  # the command that stands beside the studies
-ABOUT = f"Run studies and write the report on them. {BENCHMARK} --help: how fast the program is beside others."
+BENCHMARK, ADAMS = "benchmark", "adams"  # the commands that stand beside the studies
+ABOUT = (
+    f"Run studies and write the report on them. {BENCHMARK} --help: how fast the program is beside others. "
+    f"{ADAMS} --help: the paper's model for ADAMS."
+)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -31,6 +35,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = sys.argv[1:] if argv is None else list(argv)
     if words[:1] == [BENCHMARK]:
         return benchmark.main(words[1:])
+    if words[:1] == [ADAMS]:
+        return adams.main(words[1:])
     parser = Parser(prog="python -m studies", description=ABOUT)
     add_options(parser, Path("results"))
     parser.add_argument("names", nargs="*", metavar="NAME", help="studies to run (the paper's answer)")
@@ -59,6 +65,9 @@ def _list() -> None:
         say(f"{name:20} {_seconds(study.seconds):>8}  {study.question}" + (f" ({about})" if about else ""))
     question = (benchmark.__doc__ or "").partition("?")[0]
     say(f"{BENCHMARK:20} {_seconds(benchmark.BUDGET):>8}  {question}? (alone, not in the report)")
+    say(
+        f"{ADAMS:20} {_seconds(0.0):>8}  How is the paper's model written for ADAMS? (alone, not in the report)"
+    )
 
 
 def _chosen(given: argparse.Namespace) -> list[str]:

@@ -91,9 +91,9 @@ if TYPE_CHECKING:
     from support_exudyn.model.machine import Machine
     from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
     from support_exudyn.model.to_space import Width
+    from support_exudyn.postprocessing.comparing.files_compared import FilesCompared, compare_files
     from support_exudyn.postprocessing.export.solution_file import save_solution
     from support_exudyn.postprocessing.known_channels import channels
-    from support_exudyn.postprocessing.comparing.files_compared import FilesCompared, compare_files
     from support_exudyn.postprocessing.side_by_side import RunsSideBySide, compare
     from support_exudyn.scenario.recorded_channels import Channel
     from support_exudyn.scenario.scenario import Scenario

@@ -206,6 +206,10 @@ def _sentence(error: Exception) -> str:
     return str(error)
 
 
+def _too_large(error: MemoryError) -> str:
+    return f"error: {told(error)}; allowed: fewer records or channels, a smaller file"
+
+
 def mendable() -> tuple[type[Exception], ...]:
     """The errors that tell what the user can mend."""
     from support_exudyn.sweeps.workers import NoProcessError, ProcessEndedError  # and all that processes need
@@ -218,6 +222,9 @@ def refusing(code: int) -> Iterator[None]:
     """Let what the user can mend end the program with this exit code, said in a sentence."""
     try:
         yield
+    except MemoryError as error:
+        warn(_too_large(error))
+        raise SystemExit(code) from None
     except mendable() as error:
         warn(f"error: {_sentence(error)}")
         raise SystemExit(code) from None
@@ -232,7 +239,7 @@ def answered(work: Callable[[], None]) -> int:
         print(INTERRUPTED, file=sys.stderr)
         return EXIT_CODE
     except MemoryError as error:
-        warn(f"error: {told(error)}; allowed: fewer records or channels, a smaller file")
+        warn(_too_large(error))
         return 1
     except mendable() as error:
         warn(f"error: {_sentence(error)}")

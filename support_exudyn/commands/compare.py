@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,21 +30,24 @@ DIFFERENT, REFUSED = 1, 2  # exit codes
 # of files that are not there, so that they are not taken for channels
 ENDINGS = (".h5", ".csv", ".txt", ".tab", ".tsv", ".dat", ".res", ".req", ".mat", ".parquet", ".xml")
 FEWEST = 2  # files
+WIDTH = 78  # letters of a line of help
 WHOLE = (-math.inf, math.inf)
 CODES = """\
-The first file is the reference. Any file that can be read will do: runs, CSV and text tables, results of ADAMS,
-Exudyn's sensor and solution files, MATLAB, Parquet. Columns are channels by their names, or by --map.
+The first file is the reference. Any file that can be read will do: runs, CSV
+and text tables, results of ADAMS, Exudyn's sensor and solution files, MATLAB,
+Parquet. Columns are channels by their names, or by --map.
 
 exit codes:
   0  within all tolerances, or none was given
-  1  not within, or not decided: the numerical errors are larger than what is allowed
+  1  not within, or not decided: errors are larger than what is allowed
   2  a wrong command line, file, mapping or tolerance: nothing was compared
 """
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The files, what of them is compared, what is allowed, and what is written."""
-    parser.epilog, parser.formatter_class = CODES, argparse.RawDescriptionHelpFormatter
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter  # which does not fold the description either
+    parser.epilog, parser.description = CODES, textwrap.fill(parser.description or "", WIDTH)
     add = parser.add_argument
     add(
         "names",
@@ -103,7 +107,7 @@ def _compared(given: argparse.Namespace) -> str:
         if given.propose:
             from support_exudyn.postprocessing.comparing.propose import proposal
 
-            say(proposal(*read_files(files, given.map, progress)).rstrip("\n"))
+            say(proposal(*read_files(files, given.map, channels, progress)).rstrip("\n"))
             return "told"
         found = compare_files(
             *files,

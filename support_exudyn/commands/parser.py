@@ -28,7 +28,8 @@ NAMES = {  # of commands, each with a line of what it does
     "tornado",
     "table": "table of a sweep's runs for a text, as Markdown, CSV or LaTeX",
     "show": "tables of what a run or a sweep was and what came out of it",
-    "compare": "by how much a second run differs from a first, channel by channel, with errors",
+    "compare": "by how much runs, measurements and results of other programs differ from a first file, and "
+    "whether that is allowed",
     "baseline": "keep what scenarios come out at, and tell what has changed since by more than the errors",
     "plot": "figures of runs as PNG and PDF: channels over time, journal orbit, Poincare section, force "
     "spectrum",
@@ -36,6 +37,7 @@ NAMES = {  # of commands, each with a line of what it does
     "render": "ray-traced frames and a movie of a run, without a display",
     "view": "open Exudyn's solution viewer on a run",
     "export": "moving meshes for ParaView (XDMF, VTU) and tables of all channels (CSV, HDF5)",
+    "measure": "what instruments on the machine read of a run: pressures, extensions, tilts; a table (CSV)",
     "scenario": "the scenario of a run as a TOML file, which `run` takes",
     "schema": "all keys of scenario files, or of machine files: as a table, or as a JSON Schema for editors",
     "docs": "build the documentation as a site: pages, reference, gallery; needs the extra [docs]",
@@ -49,8 +51,9 @@ all.
 
 exit codes:
   0    done
-  1    not done, for a reason that is said in one line: an input, a file, a run that cannot be finished
-  2    the command line cannot be read
+  1    not done, for a reason that is said in one line: an input, a file, a run that cannot be finished;
+       of compare: something is not within its tolerance
+  2    the command line cannot be read; of compare: nothing was compared, for a reason that is said in one line
   3    a sweep is done, but some of its runs failed
   130  interrupted
 """

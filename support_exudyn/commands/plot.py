@@ -23,6 +23,7 @@ from support_exudyn.commands.command_line import (
 from support_exudyn.commands.runs import (
     file_name,
     files_of_curves,
+    named_curves,
     named_runs,
     runs_and_channels,
     said_channels,
@@ -94,7 +95,7 @@ def run(given: argparse.Namespace) -> None:
     runs = {name: Result.load(path) for name, path in named_runs(paths).items()}
     first = paths[0]
     out = given.out or first.with_name(f"{first.stem}_figures")
-    curves = {name: read_series(path) for name, path in named_runs(tables).items()}
+    curves = {name: read_series(path) for name, path in named_curves(tables, runs).items()}
     several = len(runs) + len(curves) > 1
     wanted, optional = _of_several(runs, curves, given) if several else _of_one(runs, given)
     drawings = []

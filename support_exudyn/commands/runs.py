@@ -1,7 +1,7 @@
 """Files of runs on a command line: how they are told from channels, and what they are called."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from support_exudyn.commands.command_line import folder
@@ -28,6 +28,21 @@ def named_runs(paths: Sequence[Path]) -> dict[str, Path]:
         if name in found:
             raise InputError(f"{path}: is given twice; allowed: every run once")
         found[name] = path
+    return found
+
+
+def named_curves(paths: Sequence[Path], taken: Collection[str]) -> dict[str, Path]:
+    """Names of files of others: with the ending where that tells two apart, or with the folder.
+
+    taken: names of runs. Raises InputError if a file is given twice.
+    """
+    found: dict[str, Path] = {}
+    stems = [*taken, *(path.stem for path in paths)]
+    for path in paths:
+        if path in found.values():
+            raise InputError(f"{path}: is given twice; allowed: every file once")
+        name = path.stem if stems.count(path.stem) == 1 else path.name
+        found[name if name not in found else str(path)] = path
     return found
 
 

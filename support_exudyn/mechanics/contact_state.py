@@ -39,6 +39,10 @@ class InverseMass(NamedTuple):
         largest = 0.5 * (self.xx + self.yy + math.hypot(self.xx - self.yy, 2.0 * self.xy))
         return (1.0 - ROUNDING) / max(largest, 1.0 / HEAVIEST)
 
+    def mixed(self, other: InverseMass, x: float) -> InverseMass:
+        """The matrix at a fraction x of the way to another, by a straight line."""
+        return InverseMass(*((1.0 - x) * one + x * its for one, its in zip(self, other, strict=True)))
+
     def turned(self, angle: float) -> InverseMass:
         """The matrix in axes against which its own are turned by an angle [rad]."""
         c, s = math.cos(angle), math.sin(angle)

@@ -11,6 +11,8 @@ a free impact then stores at most half of this mass times its initial impact vel
 by the mass (`IndentationVelocity`) deliver their restitution. Pins that are apart transmit nothing.
 """
 
+from __future__ import annotations
+
 import math
 from typing import NamedTuple
 
@@ -33,6 +35,10 @@ class EffectiveMasses(NamedTuple):
 
     alone: InverseMass
     held: InverseMass
+
+    def mixed(self, other: EffectiveMasses, x: float) -> EffectiveMasses:
+        """Those at a fraction x of the way to others, by a straight line."""
+        return EffectiveMasses(*(one.mixed(its, x) for one, its in zip(self, other, strict=True)))
 
 
 NOT_KNOWN = EffectiveMasses(*2 * (InverseMass(math.nan, math.nan, math.nan),))

@@ -71,7 +71,9 @@ def matlab(version: str, compressed: bool = False) -> bytes:
 def matlab_73() -> bytes:
     """One of version 7.3: HDF5 behind a block with its name, columns as rows."""
     with h5py.File("made", "w", driver="core", backing_store=False, userblock_size=512) as file:
-        for name, values in {"t": TIME, "pin_force_kN": FORCE, "run/t": TIME, "run/x": TIME**2}.items():
+        vectors = {"t": TIME, "pin_force_kN": FORCE, "run/t": TIME, "run/x": TIME**2}
+        file.create_dataset("both", data=np.array([TIME, 2.0 * TIME]))  # of MATLAB a column each
+        for name, values in vectors.items():
             file.create_dataset(name, data=values.reshape(1, -1)).attrs["MATLAB_class"] = np.bytes_("double")
         file.flush()
         image = file.id.get_file_image()

@@ -1,4 +1,4 @@
-"""Three comparisons from the command line alone: an ADAMS file, Siconos's four-bar, two accuracies of five loose pins."""
+"""Three comparisons from the command line alone: a file of ADAMS, Siconos's four-bar, two accuracies."""
 
 from __future__ import annotations
 
@@ -6,14 +6,16 @@ import json
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from support_exudyn import CubicStep, Result, machine, simple_scenario
+from support_exudyn import CubicStep, Result, compare_files, machine, simple_scenario
 from support_exudyn.__main__ import main
 from support_exudyn.files.scenarios.scenario_file import save_scenario
+from support_exudyn.postprocessing.comparing.compare_figure import BY_STATISTICS, compare_figure
 
 DATA = Path(__file__).parents[1] / "files" / "series" / "data"
 FOUR_BAR = Path(__file__).parents[2] / "studies" / "outside" / "compare_four_bar"
@@ -118,7 +120,7 @@ def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it
     found = re.search(r"point by point up to ([\d.]+) s, impact \d+ of pin\.\w+ \(.*?\); after it by", told)
     assert found is not None
     assert float(found[1]) <= horizon * (1.0 + 1e-5)
-    assert re.search(r"after it \d+ statistics are equal within their intervals", told)
+    assert re.search(r"after it \d+ statistics are equal within the intervals", told)
     assert told.count("within both errors") >= 7
     assert ended(["compare", str(draft), str(fine), "pin.*.force", "tip.*", "--json"]) == 0
     pair = json.loads(capsys.readouterr().out)["files"]["reference.h5"]
@@ -126,6 +128,19 @@ def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it
         assert one["beside_errors"]["within"], name
         assert {"mean", "rms", "spread", "quantile_95"} <= set(one["statistics"]), name
         assert all(what["equal"] is not False for what in one["statistics"].values()), name
+
+
+def test_figure_and_page_of_runs_that_part(five_pins: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["compare", str(five_pins / "draft.h5"), str(five_pins / "reference.h5"), "tip.x"]
+    assert ended([*words, "--page", str(five_pins / "a.html"), "--figure", str(five_pins / "a.png")]) == 0
+    text = (five_pins / "a.html").read_text(encoding="utf-8")
+    for part in ("point by point up to", "Statistics after", "matched before parting"):
+        assert part in text, part
+    found = compare_files(five_pins / "draft.h5", five_pins / "reference.h5", channels=["tip.x"])
+    drawing = compare_figure(found)
+    assert BY_STATISTICS in {text.get_text() for text in drawing.axes[1].texts}
+    drawn = drawing.axes[1].lines[0].get_xdata()
+    assert float(np.max(drawn)) <= found.pairs[0].parting.time  # nothing is drawn that tells nothing
 
 
 def test_a_changed_scene_is_told_apart_from_two_accuracies(
@@ -151,3 +166,28 @@ def test_a_changed_scene_is_told_apart_from_two_accuracies(
     assert channels["tip.y"]["beside_errors"]["within"]
     assert not math.isnan(channels["pin.rear_base.force"]["largest"]["error"])
     assert ended([*words, "--until", "0.03", "--tolerance", "tip.x=1mm"]) == 1
+
+
+def test_a_computed_force_from_elsewhere_parts_where_the_run_does(
+    five_pins: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The finer run as a table of another program: its impacts are found in its force."""
+    fine = Result.load(five_pins / "reference.h5")
+    name = "pin.rear_base.force"
+    rows = (f"{t:.9g},{force:.12g}" for t, force in zip(fine.time, fine[name], strict=True))
+    path = five_pins / "elsewhere.csv"
+    path.write_text("\n".join([f"time_s,{name} [N]", *rows]) + "\n", encoding="utf-8")
+    plain = Result.load(five_pins / "draft.h5")
+    horizon = plain.horizon
+    replace(plain, coarser=None).save(five_pins / "plain.h5")  # no errors: the impacts alone tell
+    assert ended(["compare", str(five_pins / "plain.h5"), str(path), "--json"]) == 0
+    pair = json.loads(capsys.readouterr().out)["files"]["elsewhere.csv"]
+    assert 0.9 * horizon < pair["parting"]["time"] < 3.0 * horizon
+    assert pair["impacts"]["rear_base"]["number_matched"] > 10
+    assert "impacts_per_second" in pair["channels"][name]["statistics"]
+    # what is measured is never exactly zero: nothing is found in it, and all is compared point by point
+    noisy = fine[name] + 1.0 + np.sin(1e4 * fine.time)
+    rows = (f"{t:.9g},{force:.12g}" for t, force in zip(fine.time, noisy, strict=True))
+    path.write_text("\n".join([f"time_s,{name} [N]", *rows]) + "\n", encoding="utf-8")
+    assert ended(["compare", str(five_pins / "plain.h5"), str(path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["files"]["elsewhere.csv"]["parting"] is None

@@ -85,6 +85,10 @@ def test_two_accuracies_are_not_told_different(runs: Path) -> None:
 def test_a_run_less_itself_is_nothing(runs: Path) -> None:
     found = one(runs, "with_clearance", "with_clearance", "tip.x")
     assert (found.mean.value, found.largest.value) == (0.0, 0.0)
+    # both have the same errors, so even a tolerance far below them is met
+    same = one(runs, "with_clearance", "with_clearance", "pin.rear_base.force", tolerance="pin.*=1e-9N")
+    assert same.largest.error > 1e-9
+    assert same.verdict == "within"
 
 
 def test_runs_of_the_same_bits_are_told(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -201,7 +205,9 @@ def test_a_run_with_a_planted_fault_is_not_within(runs: Path, capsys: pytest.Cap
 def test_nothing_is_decided_by_numbers_that_are_not_known_well_enough(
     runs: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    words = ["compare", str(runs / "with_clearance.h5"), str(runs / "with_clearance.h5"), "pin.rear_base.force"]
+    (with_clearance,) = of(runs, "with_clearance")
+    simulate(with_clearance.scenario, accuracy=1e-4).save(runs / "fine.h5")
+    words = ["compare", str(runs / "with_clearance.h5"), str(runs / "fine.h5"), "pin.rear_base.force"]
     with pytest.raises(SystemExit) as ended:
         main([*words, "--tolerance", "pin.*=1e-9N"])  # far below the numerical errors
     assert ended.value.code == 1

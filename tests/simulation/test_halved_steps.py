@@ -169,7 +169,7 @@ AT_REST = replace(
 def test_runs_at_rest_are_refined_until_their_steps_follow_their_tolerance(how: str) -> None:
     # settled to 1e-2 N; what is left of that is the same in eight steps at all tolerances down to 1e-7
     if how == "errors":
-        result = simulate(replace(AT_REST, solver=SolverSettings(tolerance=1e-5)), errors=True)
+        result = simulate(replace(AT_REST, solver=SolverSettings(tolerance=1e-6)), errors=True)
         assert result.scenario.solver.tolerance < 1e-7
     else:
         result = simulate(AT_REST, accuracy="draft")

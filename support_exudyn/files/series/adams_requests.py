@@ -21,6 +21,7 @@ units are not known, and are asked for.
 from __future__ import annotations
 
 import re
+from array import array
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +32,7 @@ from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.series.plain_text import text_of
 from user_forces.values.value import InputError, short
 
-FIRST = re.compile(rb"\s*A\.R\d\b|MotionSolve\b[^\n]*Plot File|[^\n]{0,200}\bREQ(UEST)? File\b", re.IGNORECASE)
+FIRST = re.compile(rb"\s*A\.R\d\b|MotionSolve\b[^\n]*Plot File|[^\n]{0,200}RecurDyn", re.IGNORECASE)
 COUNT = re.compile(r"\s*(\d{1,7})\s+(?:([A-Z_]{12})\s+)?(\d[\d.]*(?:[eEdD][+-]?\d+)?)\s*")
 ENTRY = re.compile(r"\s*(\d{1,9})\s+(\d{1,3})\s+-?\d{1,9}\s+-?\d{1,9}\s+(\d{1,4})\s*")
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eED][+-]?\d+)?", re.ASCII)
@@ -119,15 +120,15 @@ def _request(path: Path, lines: list[str], place: int) -> tuple[int, str, int]:
 
 def _rows(path: Path, lines: list[str], place: int, width: int) -> np.ndarray:
     """The numbers of all steps (n, width)."""
-    numbers: list[float] = []
+    numbers = array("d")
     for n, line in enumerate(lines[place:], place + 1):
         words = line.split()
         if wrong := [one for one in words if not NUMBER.fullmatch(one)]:
             raise InputError(f"{path}: line {n}: {short(wrong[0])}; allowed: numbers such as 1.5E-03")
-        numbers += [float(one.replace("D", "E")) for one in words]
+        numbers.extend(float(one.replace("D", "E")) for one in words)
     if not numbers or len(numbers) % width:
         steps, rest = divmod(len(numbers), width)
         raise InputError(
             f"{path}: line {len(lines)}: {rest} numbers behind {steps} steps of {width}; allowed: {ALLOWED}"
         )
-    return np.array(numbers).reshape(-1, width)
+    return np.frombuffer(numbers, dtype=np.float64).reshape(-1, width)

@@ -1,9 +1,9 @@
 """Series of MATLAB files of versions 4 to 7.3.
 
-A vector of times is called t or time, whatever its letters. All vectors as long as it, beside it in the same
-structure or in the file, are series; so are the columns of a matrix that has as many rows. A structure with
-the fields Time and Data is taken as a timeseries. Names are joined by points, `run.pin.force`. MATLAB keeps no
-units: a name such as `force_kN` has one, of all others it is asked for.
+A vector of times is called t or time, whatever its letters. All vectors as long as it, beside it and in
+structures without times of their own, are series; so are the columns of a matrix that has as many rows. A
+structure with the fields Time and Data is taken as a timeseries. Names are joined by points, `run.pin.force`.
+MATLAB keeps no units: a name such as `force_kN` has one, of all others it is asked for.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ MAGIC = b"MATLAB 5.0 MAT-file"
 READER = "support_exudyn.files.series.matlab_arrays:matlab_arrays"
 WIDEST = 1000  # columns of a matrix
 TIMES = ("t", "time")
+Place = tuple[str, ...]  # of a structure: the names on the way to it
 DATA = ("data", "values", "signals")
 
 
@@ -56,39 +57,50 @@ def read_matlab(path: Path, asked: Asked) -> SeriesFile:
     Raises InputError if it is damaged, or has no vector of times; OSError if it cannot be read.
     """
     check_is_file(path, available() // 4)
-    structures: dict[tuple[str, ...], dict[str, Numbers]] = {}
+    structures: dict[Place, dict[str, Numbers]] = {}
     for said, values in read_apart(READER, path, "MATLAB file"):
         *above, name = said["path"]
         structures.setdefault(tuple(above), {})[name] = values
-    groups = [_over_times(path, ".".join(above), arrays) for above, arrays in structures.items()]
-    found = [one for one in groups if one is not None and one[1]]
-    if not found:
-        known = ", ".join(short(name) for arrays in structures.values() for name in list(arrays)[:6]) or "none"
+    times = {above: found for above, arrays in structures.items() if (found := _times(path, above, arrays))}
+    groups = []
+    for above, arrays in structures.items():
+        known = [above[:n] for n in range(len(above), -1, -1) if above[:n] in times]
+        if known and (columns := _columns(above, arrays, times[known[0]].values.size)):
+            groups.append((times[known[0]], columns))
+    if not groups:
+        names = ", ".join(short(name) for arrays in structures.values() for name in list(arrays)[:6]) or "none"
         raise InputError(
             f"{path}: has no vector of times with others as long; allowed: a vector t or time beside them; its "
-            f"vectors are {known:.200}"
+            f"vectors are {names:.200}"
         )
-    return series_file(path, "MATLAB file", found, asked)
+    return series_file(path, "MATLAB file", groups, asked)
 
 
-def _over_times(path: Path, above: str, arrays: Mapping[str, Numbers]) -> tuple[Column, list[Column]] | None:
-    """The times of a structure, and what is as long as they; None if it has none."""
-    names = {title: split_title(title)[:2] for title in arrays}
-    times = [one for one, (name, _) in names.items() if name.casefold() in TIMES and arrays[one].shape[1] == 1]
-    if not times:
+def _times(path: Path, above: Place, arrays: Mapping[str, Numbers]) -> Column | None:
+    """The times of a structure, None if it has none."""
+    titles = [one for one in arrays if _is_time(one) and arrays[one].shape[1] == 1]
+    if len(titles) > 1:
+        raise InputError(f"{path}: has {len(titles)} vectors of times, {', '.join(titles)}; allowed: one")
+    if not titles:
         return None
-    if len(times) > 1:
-        raise InputError(f"{path}: {above}: {len(times)} vectors of times, {', '.join(times)}; allowed: one")
-    (title,) = times
+    name, unit, _ = split_title(titles[0])
+    return Column(".".join((*above, name)), unit, arrays[titles[0]][:, 0])
+
+
+def _columns(above: Place, arrays: Mapping[str, Numbers], size: int) -> list[Column]:
+    """What of a structure is as long as the times."""
     found = []
-    for other, values in arrays.items():
-        if other != title and len(values) == len(arrays[title]) and values.shape[1] <= WIDEST:
-            name, unit = names[other]
-            whole = above if name.casefold() in DATA and above else ".".join(filter(None, (above, name)))
-            several = values.shape[1] > 1
-            found += [
-                Column(f"{whole}.{n + 1}" if several else whole, unit, values[:, n])
-                for n in range(values.shape[1])
-            ]
-    name, unit = names[title]
-    return Column(".".join(filter(None, (above, name))), unit, arrays[title][:, 0]), found
+    for title, values in arrays.items():
+        if _is_time(title) or len(values) != size or values.shape[1] > WIDEST:
+            continue
+        name, unit, _ = split_title(title)
+        whole = ".".join(above if name.casefold() in DATA and above else (*above, name))
+        several = values.shape[1] > 1
+        found += [
+            Column(f"{whole}.{n + 1}" if several else whole, unit, values[:, n]) for n in range(values.shape[1])
+        ]
+    return found
+
+
+def _is_time(title: str) -> bool:
+    return split_title(title)[0].casefold() in TIMES

@@ -40,9 +40,9 @@ def read_parquet(path: Path, asked: Asked) -> SeriesFile:
     try:
         file = parquet.ParquetFile(pa.BufferReader(data))
         rows, count = file.metadata.num_rows, file.metadata.num_columns
-        if count > MOST or rows < 0 or 24 * rows * count > available():
+        if count > MOST or rows < 0 or 24 * rows * (len(asked.names) or count) > available():
             raise InputError(f"{path}: has {rows} rows of {count} columns; allowed: as many as fit into memory")
-        columns, others = _columns(file.read(use_threads=False))
+        columns, others = _columns(file, asked)
     except InputError:
         raise
     except (pa.ArrowException, *DAMAGES) as error:
@@ -60,12 +60,12 @@ def read_parquet(path: Path, asked: Asked) -> SeriesFile:
     return series_file(path, "Parquet file", [(times[0], values)], asked, notes)
 
 
-def _columns(table: Any) -> tuple[list[Column], list[str]]:
-    """The columns of numbers of a table of pyarrow, and the titles of others."""
+def _columns(file: Any, asked: Asked) -> tuple[list[Column], list[str]]:
+    """The columns of numbers that are wanted, with those of times, and the titles of what is no number."""
     import pyarrow as pa
 
     found, others = [], []
-    for field, column in zip(table.schema, table.columns, strict=True):
+    for field in file.schema_arrow:
         kind = field.type
         if not (pa.types.is_floating(kind) or pa.types.is_integer(kind)):
             others.append(short(field.name))
@@ -75,6 +75,8 @@ def _columns(table: Any) -> tuple[list[Column], list[str]]:
         said = next((metadata[key].decode("utf-8", "replace") for key in UNIT if key in metadata), "")
         if said and is_unit(said):
             name, unit = field.name if unit is None else name, as_pint_writes(said)
-        values = column.cast(pa.float64(), safe=False).to_numpy()
-        found.append(Column(name, unit, np.asarray(values, dtype=np.float64)))
+        if not (asked.wants(name) or is_named_time(name)):
+            continue
+        values = file.read([field.name], use_threads=False).column(0).cast(pa.float64(), safe=False)
+        found.append(Column(name, unit, np.asarray(values.to_numpy(), dtype=np.float64)))
     return found, others

@@ -11,7 +11,7 @@ from support_exudyn.files.free_memory import available
 from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError
 
-SHARE = 8  # of the memory that is free, one part is for the file: text, columns and what is between them
+SHARE = 12  # of the memory that is free, one part is for the file; the worst, "1;1;1", takes ten times itself
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 ALLOWED = "text in UTF-8, UTF-16 or Windows-1252"
 

@@ -22,7 +22,7 @@ from support_exudyn.files.series.parquet import is_parquet, read_parquet
 from support_exudyn.files.series.plain_text import UTF_16
 from support_exudyn.files.series.text_tables import read_text_table
 from support_exudyn.files.whole_file import check_is_file, missing_file
-from user_forces.values.value import InputError
+from user_forces.values.value import InputError, short
 
 HEAD = 4096  # bytes by which a format is found
 NO_UNITS: Mapping[str, str] = {}
@@ -91,6 +91,8 @@ def read_series(
     asked = Asked(units, analysis, names, progress)
     for one in FORMATS:
         if one.fits(head):
+            if analysis is not None and one.read is not read_adams_results:
+                raise InputError(f"{path}: analysis {short(analysis)}: a {one.name} has none; allowed: none")
             return one.read(path, asked)
     raise InputError(f"{path}: is of no kind that can be read; allowed: {known_formats()}")
 

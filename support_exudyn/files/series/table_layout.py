@@ -102,9 +102,8 @@ def layout(path: Path, lines: Sequence[str]) -> TableLayout:
     if decimal == ",":
         _check_commas(path, [line for _, line in text[place:]], separator)
     first = text[place][0]
-    ended = all(
-        not items(line, separator)[-1] for _, line in text[place:]
-    )  # by a separator, as lines of titles need not be
+    # rows may end with a separator where the line of titles does not
+    ended = all(not items(line, separator)[-1] for _, line in text[place:])
     titles, notes = _titles(path, lines[:first], text[:place], (width, separator, ended))
     return TableLayout(separator, decimal, first, width, titles, notes)
 
@@ -126,6 +125,10 @@ def _titles(
     """A name and a unit for each column, and what is told."""
     width, separator, _ = rows
     notes: list[str] = []
+    words_above = [one for _, line in text for one in line.split()]
+    if text and all(NUMBERS["."].fullmatch(one) for one in words_above):  # sizes, as of rows: no titles
+        notes.append(f"Lines of other numbers above the rows are passed over: {len(text)}.")
+        text = ()
     if not text:
         words = _of_comment(above, rows)
         if words is None:

@@ -7,6 +7,7 @@ What separates items, whether decimals have a comma and where titles stand is fo
 from __future__ import annotations
 
 import re
+from array import array
 from itertools import islice
 from pathlib import Path
 
@@ -98,23 +99,23 @@ def _by_arrow(body: bytes, how: TableLayout) -> list[Numbers] | None:
 
 def _by_line(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
     """The columns line by line, which finds what is wrong, and numbers that pyarrow does not take, 1D+3."""
-    rows = []
+    numbers = array("d")
     for number, line in enumerate(lines_of(data), 1):
         if number <= how.first or not line.strip() or COMMENT.match(line):
             continue
         found = how.items(line)
         if len(found) != how.width:
             raise InputError(f"{path}: line {number}: has {len(found)} items; allowed: {how.width}, as before")
-        row = [how.number(one) for one in found]
-        if None in row:
-            place = row.index(None)
+        row = [one for one in map(how.number, found) if one is not None]
+        if len(row) < how.width:
+            place = next(n for n, one in enumerate(found) if how.number(one) is None)
             point = "12,5" if how.decimal == "," else "12.5"
             raise InputError(
                 f"{path}: line {number}, column {short(how.titles[place][0])}: {short(found[place])}; "
                 f"allowed: a number such as {point}, or nothing"
             )
-        rows.append(row)
-    return list(np.array(rows, dtype=np.float64).reshape(-1, how.width).T)
+        numbers.extend(row)
+    return list(np.frombuffer(numbers, dtype=np.float64).reshape(-1, how.width).T)
 
 
 def _over_times(path: Path, columns: list[Column]) -> tuple[list[tuple[Column, list[Column]]], list[str]]:

@@ -13,6 +13,7 @@ from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
 MOST_BANDS = 64
+ROUNDING = 1e-9  # of times, and so of frequencies
 
 
 class BandRms(NamedTuple):
@@ -47,7 +48,7 @@ def band_rms(time: Values, values: Values, edges: Sequence[float] | None = None)
         edges: [Hz], increasing, between 0 and half the sampling frequency; 0 and that are added if they are
             missing, so that every frequency has a band. None: octaves, see `octaves`.
 
-    Raises InputError if fewer than 4 values are known, or if the edges do not increase.
+    Raises InputError if fewer than 4 values are known, or if the edges do not fit.
     """
     samples = even_samples(time, values)
     count = samples.values.size
@@ -76,7 +77,10 @@ def octaves(lowest: float, highest: float) -> Values:
 def _whole(edges: Values, highest: float) -> Values:
     if edges.size > MOST_BANDS:
         raise InputError(f"{edges.size} edges of bands; allowed: at most {MOST_BANDS}")
-    if not (np.isfinite(edges).all() and (np.diff(edges) > 0.0).all() and (edges >= 0.0).all()):
-        raise InputError(f"edges of bands = {edges.tolist()} Hz; allowed: increasing ones from 0 Hz on")
-    inside = edges[(edges > 0.0) & (edges < highest)]
-    return np.concatenate(([0.0], inside, [highest]))
+    inside = (edges >= 0.0) & (edges <= highest * (1.0 + ROUNDING))
+    if not (inside.all() and (np.diff(edges) > 0.0).all()):
+        raise InputError(
+            f"edges of bands = {edges.tolist()} Hz; allowed: increasing ones from 0 to {highest:g} Hz, half "
+            "the sampling frequency"
+        )
+    return np.concatenate(([0.0], edges[(edges > 0.0) & (edges < highest * (1.0 - ROUNDING))], [highest]))

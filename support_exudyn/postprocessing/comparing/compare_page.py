@@ -39,6 +39,7 @@ from support_exudyn.postprocessing.page.pieces import (
 )
 from user_forces.values.value import InputError
 
+IMPACTS = "Impacts"
 TEMPLATE = "compare.html.j2"
 ENDING = ".html"
 DIGITS = 5
@@ -138,9 +139,12 @@ def _tiles(found: FilesCompared) -> tuple[KeyNumber, ...]:
     if found.verdict == "told":
         tiles.append(KeyNumber("channels compared", str(len(channels))))
     else:
+        judged = [one for one in channels if one.tolerance is not None]
         for verdict in ("within", "not within", "not decided"):
             count = sum(one.verdict == verdict for one in channels)
-            tiles.append(KeyNumber(f"channels {verdict}", f"{count}", note=f"of {len(channels)}"))
+            tiles.append(
+                KeyNumber(f"channels {verdict}", f"{count}", note=f"of {len(judged)} with a tolerance")
+            )
     parting = min(pair.parting.time for pair in found.pairs)
     if math.isfinite(parting):
         tiles.append(KeyNumber("point by point up to", f"{parting:.6g} s"))
@@ -164,7 +168,7 @@ def _sources(found: FilesCompared) -> Sheet:
 
 def _part(found: FilesCompared, number: int, pair: ComparedPair, live: Markup) -> ComparedFilePart:
     tables = [
-        Sheet(title, tuple(head.lstrip(">") for head in header), tuple(rows), note, left=2)
+        Sheet(title, tuple(head.lstrip(">") for head in header), tuple(rows), note, left=1 + (title != IMPACTS))
         for title, header, rows, note in (
             (
                 f"Statistics after {pair.parting.time:.6g} s",
@@ -172,7 +176,7 @@ def _part(found: FilesCompared, number: int, pair: ComparedPair, live: Markup) -
                 further.statistics_rows(pair),
                 "From, to: confidence interval of the difference, by the stationary block bootstrap.",
             ),
-            ("Impacts", further.IMPACTS, further.impacts_rows(pair), "Matched in their order."),
+            (IMPACTS, further.IMPACTS, further.impacts_rows(pair), "Matched in their order."),
             ("RMS in bands of frequency", further.BANDS, further.bands_rows(pair), ""),
         )
         if rows
@@ -187,7 +191,7 @@ def _part(found: FilesCompared, number: int, pair: ComparedPair, live: Markup) -
     return ComparedFilePart(
         pair.other.name,
         f"file{number}",
-        tuple(line for one in pair.channels.values() for line in told.faults(one)),
+        tuple(filter(None, map(told.fault, pair.channels.values()))),
         tuple(line[:1].upper() + line[1:].rstrip(".") for line in sentences(pair)),
         ShownTable(sheet, f"channels{number}"),
         _curves(found, pair, live),
@@ -251,20 +255,14 @@ def _panels(pair: ComparedPair, one: ComparedChannel) -> tuple[LivePanel, LivePa
         )
         for file, own, values, shade in curves
     ]
-    apart = one.common.other - one.common.reference
+    piece = slice(0, one.before or None)  # after the parting differences tell nothing
+    when, apart = time[piece], (one.common.other - one.common.reference)[piece]
     small = readable(one.unit, float(np.nanmax(np.abs(apart), initial=0.0)))
-    lines = [Drawn("difference", time, small.scale * apart, colour, "solid", 1.1)]
+    lines = [Drawn("difference", when, small.scale * apart, colour, "solid", 1.1)]
     if np.isfinite(one.errors).any():
         lines += [
-            Drawn(
-                f"difference {sign} errors",
-                time,
-                small.scale * (apart + factor * one.errors),
-                "#bbbbbb",
-                "solid",
-                0.8,
-            )
-            for sign, factor in (("+", 1.0), ("-", -1.0))
+            Drawn(f"difference {sign} errors", when, small.scale * (apart + way * one.errors[piece]), "#bbbbbb")
+            for sign, way in (("+", 1.0), ("-", -1.0))
         ]
     if math.isfinite(one.allowed) and not reach(one.allowed, size_of_difference(one))[1]:
         ends = time[[0, -1]]

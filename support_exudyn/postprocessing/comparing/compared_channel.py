@@ -104,8 +104,18 @@ class ComparedChannel:
         return self.largest.value / there if there > 0.0 else math.nan
 
     @property
+    def is_same(self) -> bool:
+        """Whether both curves are the same to the bit."""
+        return bool(np.array_equal(self.common.reference, self.common.other, equal_nan=True))
+
+    @property
     def judged(self) -> tuple[JudgedDifference, ...]:
-        """What is judged: the largest difference before the parting, and statistics after it."""
+        """What is judged: the largest difference before the parting, and statistics after it.
+
+        Curves that are the same to the bit have the same errors, whatever these are.
+        """
+        if self.is_same:
+            return (JudgedDifference(LARGEST, 0.0, 0.0, self.allowed),)
         error = self.largest.error if math.isfinite(self.largest.error) else self._interpolation
         found = [JudgedDifference(LARGEST, abs(self.largest.value), error, self.allowed)] if self.before else []
         for name in JUDGED:

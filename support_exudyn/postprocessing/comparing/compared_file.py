@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import glob
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -11,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.files.series.asked import Progress, silent
-from support_exudyn.files.series.named_series import NamedSeries
+from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
 from support_exudyn.files.series.own_runs import is_run
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
@@ -118,7 +119,11 @@ def _is_own(path: Path) -> bool:
 
 
 def compared_file(
-    path: Path, mapped: MappedFile = AS_IT_IS, name: str = "", progress: Progress = silent
+    path: Path,
+    mapped: MappedFile = AS_IT_IS,
+    name: str = "",
+    channels: Sequence[str] = (),
+    progress: Progress = silent,
 ) -> ComparedFile:
     """Read a file that is compared.
 
@@ -126,6 +131,7 @@ def compared_file(
         path: of a run, or of whatever `read_series` reads.
         mapped: what is said of its columns.
         name: by which tables and figures call it; its file name if it is empty.
+        channels: patterns of those that are wanted, all if there are none: others take no memory.
         progress: is told the share that is read.
 
     Raises InputError if it cannot be read, or lacks a column that `mapped` names; OSError if it is not there.
@@ -133,8 +139,20 @@ def compared_file(
     name = name or path.name
     if _is_own(path):
         return _mapped(of_run(Result.load(path), path, name), mapped)
-    found = read_series(path, units=mapped.units, analysis=mapped.analysis, progress=progress)
+    found = _series_of(path, mapped, channels, progress)
     return _mapped(ComparedFile(name, path, found.kind, None, found.series, AS_IT_IS, found.notes), mapped)
+
+
+def _series_of(path: Path, mapped: MappedFile, channels: Sequence[str], progress: Progress) -> SeriesFile:
+    """The series of a file that may be wanted; all if none is, so that it can be told which there are."""
+    columns = [one.column for one in mapped.columns.values()]  # they have to be there, wanted or not
+    names = [*channels, *map(glob.escape, columns)] if channels else []
+    try:
+        return read_series(path, units=mapped.units, analysis=mapped.analysis, names=names, progress=progress)
+    except InputError:
+        if not names:
+            raise
+        return read_series(path, units=mapped.units, analysis=mapped.analysis, progress=progress)
 
 
 def of_run(run: Result, path: Path, name: str) -> ComparedFile:

@@ -35,11 +35,12 @@ def lagged_correlations(first: Values, second: Values, lags: Lags) -> Values:
         both = products / count - sum_one * sum_other / count**2
         known = (count >= 2.0) & (spread_one > FLAT) & (spread_other > FLAT)
         found: Values = np.where(known, both / np.sqrt(spread_one * spread_other), np.nan)
-    return np.asarray(np.clip(found, -1.0, 1.0), dtype=np.float64)
+    return np.clip(found, -1.0, 1.0)
 
 
 def _scaled(values: Values) -> Values:
     """About the mean, the largest magnitude 1."""
     centred = values - values.mean()
     size = float(np.abs(centred).max(initial=0.0))
-    return centred / size if size > 0.0 else centred
+    scaled: Values = centred / size if size > 0.0 else centred
+    return scaled

@@ -21,7 +21,7 @@ from support_exudyn.postprocessing.comparing.found_shift import FoundShift, foun
 from support_exudyn.postprocessing.comparing.matched_channels import common_channels
 from support_exudyn.postprocessing.comparing.matched_impacts import MatchedImpacts, match_impacts
 from support_exudyn.postprocessing.comparing.own_runs import same_to_the_bit
-from support_exudyn.postprocessing.comparing.pair_parting import onsets_of, pair_parting
+from support_exudyn.postprocessing.comparing.pair_parting import NEVER, impacts_of, pair_parting
 from support_exudyn.postprocessing.comparing.parting import Parting
 from support_exudyn.postprocessing.comparing.si_units import si_unit
 from support_exudyn.postprocessing.comparing.tolerances import (
@@ -43,7 +43,8 @@ Comparable = Result | str | Path
 class ComparedPair:
     """A file compared with the reference.
 
-    channels: by their names. parting: when both part, and why. impacts: of contacts that both know.
+    channels: by their names. parting: when both part, and why; never, if all is the same to the bit.
+    impacts: of contacts that both know.
     shift: the shift in time that was found, which `other` has been given; None: none was asked for.
     same: how many channels there are, if both are runs and all records are the same to the bit; else 0.
     left_out: names of channels of the reference that the other file has not. after, until: what is compared,
@@ -121,7 +122,7 @@ def compare_files(
     given = [reference, *others]
     if len(given) < FEWEST:
         raise InputError(f"{len(given)} file: allowed: {FEWEST} or more, the first is the reference")
-    files, said = read_files(given, mapping, progress)
+    files, said = read_files(given, mapping, channels, progress)
     asked = read_tolerances(tolerance) if isinstance(tolerance, str) else list(tolerance)
     tolerances = [*asked, *tolerances_of(said)]
     first, *rest = files
@@ -135,7 +136,10 @@ def compare_files(
 
 
 def read_files(
-    given: Sequence[Comparable], mapping: str | Path | CompareFile | None = None, progress: Progress = silent
+    given: Sequence[Comparable],
+    mapping: str | Path | CompareFile | None = None,
+    channels: Sequence[str] = (),
+    progress: Progress = silent,
 ) -> tuple[list[ComparedFile], CompareFile]:
     """Files, each with what a mapping says of it; and the mapping. Raises as `compare_files`."""
     paths = [one if isinstance(one, Result) else Path(one) for one in given]
@@ -148,7 +152,7 @@ def read_files(
         if isinstance(path, Result):
             files.append(of_run(path, Path(name), name))
             continue
-        files.append(compared_file(path, said.of(path), name, _piece(progress, n, len(paths))))
+        files.append(compared_file(path, said.of(path), name, channels, _piece(progress, n, len(paths))))
     progress(1.0)
     return files, said
 
@@ -182,11 +186,15 @@ def _pair(
     shift = found_shift(reference, other, units) if find_shift else None
     if shift is not None:
         other = other.shifted(-shift.found.shift)
-    onsets = onsets_of(reference), onsets_of(other)
-    parting = pair_parting(reference, other)
+    known = impacts_of(reference, names), impacts_of(other, names)
+    same = 0
+    if reference.run is not None and other.run is not None and other.mapped == reference.mapped:
+        same = same_to_the_bit(reference.run, other.run)
+    parting = NEVER if same else pair_parting(reference, other, known)
+    onsets = known[0].onsets, known[1].onsets
     contacts = [name for name in onsets[0] if name in onsets[1]]
     run = reference.run or other.run
-    stems = {} if run is None else {one: run.scenario.contact_stem(one) for one in contacts}
+    stems = {one: f"pin.{one}" if run is None else run.scenario.contact_stem(one) for one in contacts}
     told = len(names) * len(JUDGED) + len(contacts)
     window = ComparedWindow(*ends, parting.time, said.bands, max(told, 1))
     channels = {}
@@ -205,9 +213,6 @@ def _pair(
             impacts,  # type: ignore[arg-type]
         )
     matched = {name: match_impacts(onsets[0][name], onsets[1][name]) for name in contacts}
-    same = 0
-    if reference.run is not None and other.run is not None and other.mapped == reference.mapped:
-        same = same_to_the_bit(reference.run, other.run)
     return ComparedPair(reference, other, channels, parting, matched, shift, same, left_out, *ends)
 
 

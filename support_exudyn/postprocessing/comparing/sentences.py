@@ -9,7 +9,7 @@ import numpy as np
 
 from support_exudyn.postprocessing.comparing.compared_channel import CONFIDENCE, ComparedChannel, extent
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair
-from support_exudyn.postprocessing.comparing.pair_parting import onsets_of
+from support_exudyn.postprocessing.comparing.pair_parting import impacts_of
 from support_exudyn.postprocessing.comparing.told import share
 from support_exudyn.postprocessing.figures.units import said
 
@@ -54,8 +54,10 @@ def _shift(pair: ComparedPair) -> Iterator[str]:
 
 def _parting(pair: ComparedPair) -> Iterator[str]:
     if not math.isfinite(pair.parting.time):
-        if any(pair.impacts.values()):
-            yield "point by point over all of it: no impact parts the runs"
+        if not pair.same and any(
+            one.pairs or one.only_first or one.only_second for one in pair.impacts.values()
+        ):
+            yield "point by point over all of it: no impact parts the curves"
         return
     told = f"{pair.parting.time:.6g} s" + (f", {which}" if (which := _impact(pair)) else "")
     yield f"point by point up to {told} ({pair.parting.because.rstrip('.')}); after it by statistics"
@@ -69,7 +71,7 @@ def _impact(pair: ComparedPair) -> str:
         (abs(one.time - pair.parting.time), number, file.run.scenario.contact_stem(contact))
         for file in (pair.reference, pair.other)
         if file.run is not None
-        for contact, onsets in onsets_of(file).items()
+        for contact, onsets in impacts_of(file, ()).onsets.items()
         for number, one in enumerate(onsets, 1)
     ]
     _, number, stem = min(near, default=(0.0, 0, ""))
@@ -84,10 +86,13 @@ def equality(pair: ComparedPair) -> str:
     confidence = f"{100.0 * CONFIDENCE:.3g} % confidence of all together"
     differ = [f"{what.name.replace('_', ' ')} of {name}" for name, what in found if what.equal is False]
     silent = sum(what.equal is None for _, what in found)
-    told = f"{len(found) - silent} statistics"
+    number = len(found) - silent
+    told, verb = f"{number} {'statistic' if number == 1 else 'statistics'}", "is" if number == 1 else "are"
     tail = f"; {silent} have no interval" if silent else ""
+    if not number:
+        return "after it there is too little for confidence intervals of statistics"
     if not differ:
-        return f"after it {told} are equal within their intervals, with {confidence}{tail}"
+        return f"after it {told} {verb} equal within the intervals, with {confidence}{tail}"
     some = ", ".join(differ[:4]) + (f" and {len(differ) - 4} more" if len(differ) > 4 else "")
     return f"after it {len(differ)} of {told} differ, with {confidence}: {some}{tail}"
 

@@ -125,6 +125,8 @@ def test_every_version_of_matlab_is_read(tmp_path: Path, name: str) -> None:
     found = read(tmp_path, cases.apart()[name], name, units=UNITS)
     force = found.series["pin_force"]
     assert (force.unit, force.time.tolist(), force.values.tolist()) == ("kN", TIME.tolist(), FORCE.tolist())
+    if name == "v73.mat":
+        assert found.series["both.2"].values.tolist() == (2.0 * TIME).tolist()
     if name != "v4.mat":
         assert found.series["run.x"].values.tolist() == (TIME**2).tolist()
         assert found.series["run.x"].time == pytest.approx(
@@ -149,6 +151,15 @@ def test_a_timeseries_is_called_by_its_name(tmp_path: Path) -> None:
 def test_a_file_that_ends_the_process_of_scipy_ends_in_a_sentence() -> None:
     with pytest.raises(InputError, match=r"crashes_scipy.mat: is .*; allowed: a whole MATLAB file"):
         read_series(DATA / "crashes_scipy.mat")
+
+
+@pytest.mark.usefixtures("_in_this_process")
+def test_a_structure_without_times_has_those_above_it(tmp_path: Path) -> None:
+    file = io.BytesIO()
+    scipy.io.savemat(file, {"time_s": TIME, "pins": {"rear": {"force_kN": FORCE, "short": FORCE[1:]}}})
+    found = read(tmp_path, file.getvalue())
+    assert list(found.series) == ["pins.rear.force"]
+    assert found.series["pins.rear.force"].time.tolist() == TIME.tolist()
 
 
 @pytest.mark.usefixtures("_in_this_process")

@@ -101,6 +101,19 @@ def test_names_in_quotes_may_have_blanks(folder: Path) -> None:
     assert values(found) == {".M.Last_Run.REQ 1.X": TWO["x"]}
 
 
+def test_sizes_above_the_rows_are_no_titles(folder: Path) -> None:
+    found = read(folder, "3 2\n0.0 1.5 7\n0.5 -2.0 7\n", units={"column_1": "s", "column_2": "mm"})
+    assert values(found)["column_2"] == TWO["x"]
+    assert found.notes[0] == "Lines of other numbers above the rows are passed over: 1."
+    with pytest.raises(InputError, match="line 2: has 3 titles"):
+        read(folder, "time_s,x\n0,1,5\n1,2\n2,3\n")
+
+
+def test_an_analysis_of_a_table_is_refused(folder: Path) -> None:
+    with pytest.raises(InputError, match=r"analysis 'A': a table of text .* has none; allowed: none"):
+        read(folder, "time_s,x\n0,1\n", analysis="A")
+
+
 def test_a_unit_is_asked_for_and_given_by_a_pattern(folder: Path) -> None:
     text = "0 1\n1 2\n"
     with pytest.raises(InputError, match=r"'column_1': have no unit; allowed: .*time_s"):
@@ -141,7 +154,7 @@ def test_what_is_wrong_or_has_two_meanings_is_refused(folder: Path, text: str | 
 def test_a_table_that_does_not_fit_into_memory_is_refused(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(plain_text, "available", lambda: 8 * 20)
+    monkeypatch.setattr(plain_text, "available", lambda: 12 * 20)
     with pytest.raises(InputError, match="has more than 20 bytes"):
         read(folder, "time_s,x_mm\n0,1.5\n0.5,-2\n")
 

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 import pytest
+import tomli_w
+from hypothesis import given
+from hypothesis import strategies as st
 
 from support_exudyn import compare_files
 from support_exudyn.postprocessing.comparing.compare_file import MappedColumn, read_compare_file, tolerances_of
@@ -179,3 +184,31 @@ def test_nan_is_not_compared(tmp_path: Path) -> None:
     assert found.largest.value == 0.5
     assert found.measures.left_out == 1
     assert not math.isnan(found.mean.value)
+
+
+KEYS = st.sampled_from(
+    ["files", "columns", "units", "tolerances", "bands_Hz", "confirmed", "seen.csv", "a", "shift_s"]
+)
+ITEMS = st.recursive(
+    st.one_of(
+        st.text(max_size=5), st.integers(), st.booleans(), st.decimals(), st.sampled_from(["s", "2 %", "?"])
+    ),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(KEYS, inner, max_size=4),
+    max_leaves=12,
+)
+
+
+@given(st.dictionaries(KEYS, ITEMS, max_size=5))
+def test_whatever_is_in_the_file_it_is_read_or_refused_in_sentences(table: dict[str, Any]) -> None:
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "compare.toml"
+        path.write_text(tomli_w.dumps(table), encoding="utf-8")
+        said = ""
+        try:
+            found = read_compare_file(path, [Path("seen.csv")])
+        except InputError as error:
+            said = str(error)
+        if said:
+            assert str(path) in said
+        else:
+            assert all(one.amount >= 0.0 for one in tolerances_of(found))

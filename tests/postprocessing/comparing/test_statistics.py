@@ -156,14 +156,6 @@ def test_intervals_hold_the_truth_as_often_as_measured(count: int, memory: float
         for name, truth in truths().items():
             held[name] += found[name].first.low <= truth <= found[name].first.high
             equal[name] += bool(found[name].equal)
-    print(
-        count,
-        memory,
-        "told",
-        told,
-        {k: 100 * v / told for k, v in held.items()},
-        {k: 100 * v / told for k, v in equal.items()},
-    )
     assert told > 0.8 * tries
     assert min(held.values()) >= least / 100.0 * told, held
     assert min(equal.values()) >= least / 100.0 * told, equal

@@ -3,8 +3,11 @@
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any, Protocol
 
-from support_exudyn.formulations.contact_events import Action, Verdict, goes_on, judge, judge_at_ends
+import exudyn as exu
+
+from support_exudyn.formulations.contact_events import Action, DepthPath, Verdict, goes_on, judge, judge_at_ends
 from support_exudyn.formulations.impact_steps import ImpactSteps
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment, Relative
@@ -24,7 +27,15 @@ from user_forces.lawful import PROBED, look
 from user_forces.normal.law import Impact
 from user_forces.values.value import Vector2
 
+START_OF_STEP = exu.ConfigurationType.StartOfStep
 SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been been in contact
+
+
+class FindMasses(Protocol):
+    """What tells how a journal answers impulses."""
+
+    def __call__(self, state: Any = ..., /) -> EffectiveMasses:
+        """Now, or in another state of the engine."""
 
 
 class ClearanceJoint(LargestForce):
@@ -35,7 +46,7 @@ class ClearanceJoint(LargestForce):
         connector: in the engine, which is assembled.
         moving: how bore and journal move.
         bore_spin: tells the angular velocity of the bore's body now [rad/s].
-        find_mobilities: tells how the journal answers impulses now.
+        find_inverse_masses: tells how the journal answers impulses, now or in another state of the engine.
         settings: of the solver: what evaluates the force, how many steps are in an impact, whether impacts and
             separations are located.
         share: of the contact that inverse effective masses are told for.
@@ -47,7 +58,7 @@ class ClearanceJoint(LargestForce):
         connector: PinConnector,
         moving: Moving,
         bore_spin: Callable[[], float],
-        find_inverse_masses: Callable[[], EffectiveMasses],
+        find_inverse_masses: FindMasses,
         settings: SolverSettings,
         share: float = 1.0,
     ) -> None:
@@ -339,10 +350,23 @@ class ClearanceJoint(LargestForce):
         memory = verdict.memory
         if verdict.action is Action.REPEAT:
             return self._renewed(memory, self.find_inverse_masses())._replace(deflection=0.0)
-        if verdict.onset is not None or verdict.anew:
+        if verdict.anew:
+            memory = self._renewed(memory, self._pressed_again())
+        elif verdict.onset is not None:
             memory = self._renewed(memory, self.find_inverse_masses())
         sticks = memory.in_contact and verdict.onset is None
         return memory.slid(self.force.slip, self.force.deflection if sticks else 0.0)
+
+    def _pressed_again(self) -> EffectiveMasses:
+        """The inverse effective masses at the turn of the depth in the step just tried.
+
+        They are taken to change by a straight line over the step. Taken at its end, they would be late by up to
+        a step, in which other pins may begin to press.
+        """
+        start, end = self.memory, self.force
+        x = DepthPath(start.depth, start.rate, end.depth, end.rate, self._step).turns_up()
+        now = self.find_inverse_masses()
+        return now if x is None else self.find_inverse_masses(START_OF_STEP).mixed(now, x)
 
     def _renewed(self, memory: PinMemory, inverse_masses: EffectiveMasses) -> PinMemory:
         """A memory with the inverse effective mass that laws go by from now on.

@@ -5,15 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import cast
+from typing import Any, cast
 
 from support_exudyn.formulations.impact_steps import ImpactSteps
 from support_exudyn.formulations.peak_force import NEAR_PEAK, has_a_top, peak
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint, FindMasses
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.pin_frames import PinFrames
 from support_exudyn.formulations.redundant.clearance.pin_motion import Moving
 from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce
+from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT
 from support_exudyn.formulations.redundant.space.bearing_connector import (
     SectionConnector,
     SectionForce,
@@ -37,12 +38,12 @@ class SectionJournal:
 
     Arguments:
         moving: how its middle moves.
-        find_mobilities: tells how its middle answers impulses now, in the axes of its bore.
+        find_inverse_masses: tells how its middle answers impulses, in the axes of its bore.
     """
 
-    def __init__(self, moving: SectionMover, find_inverse_masses: Callable[[], EffectiveMasses]) -> None:
+    def __init__(self, moving: SectionMover, find_inverse_masses: FindMasses) -> None:
         self.moving = moving
-        self._find_mobilities = find_inverse_masses
+        self._find_inverse_masses = find_inverse_masses
         self._inverse_masses: EffectiveMasses | None = None
         self._place: Vector2 | None = None
         self.sections: list[SectionPin] = []
@@ -56,10 +57,12 @@ class SectionJournal:
         """The bodies are elsewhere now; place: of the middle, if it is known [m]."""
         self._inverse_masses, self._place = None, place
 
-    def inverse_masses(self) -> EffectiveMasses:
+    def inverse_masses(self, state: Any = CURRENT) -> EffectiveMasses:
         """How the middle of the journal answers impulses, in the axes of its bore."""
+        if state != CURRENT:
+            return self._find_inverse_masses(state)
         if self._inverse_masses is None:
-            self._inverse_masses = self._find_mobilities()
+            self._inverse_masses = self._find_inverse_masses()
         return self._inverse_masses
 
     def place(self) -> Vector2:

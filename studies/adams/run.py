@@ -1,0 +1,89 @@
+"""`python -m studies adams`: the paper's rise, or a scenario of yours, written for ADAMS.
+
+Four files: the dataset and the commands for ADAMS/Solver, our scenario, and the mapping by which `compare`
+finds our channels in the results.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from studies.adams.dataset import adams_dataset, solver_commands
+from studies.common.paper_machine import SLIDING_COEFFICIENT, STEP, clearance_rise
+from studies.common.study import work_in_folder
+from support_exudyn import Scenario
+from support_exudyn.commands.command_line import Parser, folder, say
+from support_exudyn.files import read_scenario, save_scenario
+from support_exudyn.files.whole_file import whole_file
+from user_forces.values.value import InputError
+
+CLEARANCE_MM = 1.5
+PAPER = "rise"  # name of the paper's files
+MAPPING = "compare.toml"
+LONGEST_NAME = 40
+
+
+def paper_rise() -> Scenario:
+    """The paper's rise, to the accuracy that is usual."""
+    return replace(clearance_rise(CLEARANCE_MM, SLIDING_COEFFICIENT, STEP), accuracy="standard")
+
+
+def mapping_text(columns: Mapping[str, str], results: str) -> str:
+    """The mapping file of `compare` for the results of ADAMS: channels, and what they are called there."""
+    lines = [
+        "# Our channels, and what they are called in the results of ADAMS (names of requests and components).",
+        "# ADAMS writes their units. `compare` takes this file by --map.",
+        "",
+        f'[files."{results}".columns]',
+        *(f'"{channel}" = "{column}"' for channel, column in columns.items()),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def write(scenario: Scenario, name: str, out: Path) -> list[Path]:
+    """Write the four files of a scenario into a folder; returns their paths.
+
+    Raises InputError with a line for everything that there are no statements for; OSError if the folder cannot
+    be written to.
+    """
+    dataset = adams_dataset(scenario, name)
+    texts = {
+        f"{name}.adm": dataset.text,
+        f"{name}.acf": solver_commands(scenario, name),
+        MAPPING: mapping_text(dataset.columns, f"{name}.res"),
+    }
+    for file, text in texts.items():
+        with whole_file(out / file) as temporary:
+            temporary.write_text(text, encoding="ascii", newline="\n")
+    return [*(out / file for file in texts), save_scenario(scenario, out / f"{name}.toml")]
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Entry of `python -m studies adams`; returns the exit code."""
+    parser = Parser(prog="python -m studies adams", description=(__doc__ or "").partition("\n\n")[0])
+    parser.add_argument(
+        "scenario", nargs="?", type=folder, metavar="SCENARIO", help="a scenario's TOML file (the paper's rise)"
+    )
+    out = Path("results") / "adams"
+    parser.add_argument("--out", type=folder, default=out, metavar="DIR", help=f"folder for output ({out})")
+    given = parser.parse_args(argv)
+
+    def work(out: Path) -> None:
+        scenario = paper_rise() if given.scenario is None else read_scenario(given.scenario)
+        name = PAPER if given.scenario is None else _name(given.scenario)
+        for path in write(scenario, name, out):
+            say(str(path))
+        say("not run in ADAMS here; see studies/adams/README.md")
+
+    return work_in_folder(work, given.out)
+
+
+def _name(path: Path) -> str:
+    """The name of a scenario's file, as ADAMS takes names."""
+    name = path.stem
+    if not (name.isascii() and name.isidentifier() and len(name) <= LONGEST_NAME):
+        raise InputError(
+            f"{path}: ADAMS takes names of letters, digits and underscores; allowed: a file of such a name, "
+            f"up to {LONGEST_NAME} letters"
+        )
+    return name
