@@ -9,6 +9,9 @@ import signal
 import pytest
 from hypothesis import settings
 
+# where the package is installed pytest finds it by itself, under the same name
+pytest_plugins = ["support_exudyn.postprocessing.pytest_plugin"]
+
 settings.register_profile("unit", parent=settings.default, deadline=None, max_examples=60)
 settings.register_profile("long", parent=settings.get_profile("unit"), max_examples=50 * 60)
 settings.register_profile("quick", parent=settings.get_profile("unit"), max_examples=20)

@@ -103,3 +103,20 @@ def test_a_study_and_the_report_run_outside_the_checkout(installed: Path, tmp_pa
     run(installed, tmp_path, "-m", "studies.slider_crank")
     run(installed, tmp_path, "-m", "studies.report")
     assert (tmp_path / "results" / "report.html").is_file()
+
+
+@pytest.mark.slow
+def test_pytest_finds_the_plugin_by_itself(installed: Path, tmp_path: Path) -> None:
+    # pytest rewrites the assertions of all modules of a package that brings a plugin: runs must not mind
+    (tmp_path / "test_it.py").write_text(
+        "from support_exudyn import simple_scenario\n"
+        "from support_exudyn.postprocessing import pytest_plugin\n\n"
+        "def test_it(simulate_cached, assert_close, pytestconfig):\n"
+        f"    assert pytest_plugin.__file__.startswith({str(installed)!r})\n"
+        "    assert pytestconfig.pluginmanager.hasplugin(pytest_plugin.__name__)\n"
+        "    drives = {'crank': {'type': 'Steady', 'rate_rad_per_s': 60}}\n"
+        "    scene = simple_scenario('crank_rocker', duration_s=0.01, accuracy='draft', drives=drives)\n"
+        "    assert_close(simulate_cached(scene), simulate_cached(scene))\n",
+        encoding="utf-8",
+    )
+    assert "1 passed" in run(installed, tmp_path, "-m", "pytest", "-q", "-W", "error", "--strict-markers")

@@ -30,6 +30,7 @@ NAMES = {  # of commands, each with a line of what it does
     "show": "tables of what a run or a sweep was and what came out of it",
     "compare": "by how much runs, measurements and results of other programs differ from a first file, and "
     "whether that is allowed",
+    "baseline": "keep what scenarios come out at, and tell what has changed since by more than the errors",
     "plot": "figures of runs as PNG and PDF: channels over time, journal orbit, Poincare section, force "
     "spectrum",
     "report": "a page on runs: what was run, the machine, numbers with errors, live figures, a picture",

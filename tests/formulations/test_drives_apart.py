@@ -8,6 +8,7 @@ from scipy.optimize import root
 
 from support_exudyn import CubicStep, Held, OilColumn, Result, UniformSpeed, bore_area, simulate
 from support_exudyn.files.machines import reference_support
+from support_exudyn.postprocessing.pytest_plugin import SimulateCached
 from tests.cases.run_cases import FORCE, loose_support, support
 
 FRONT = CubicStep(stroke=0.12, start=0.05, end=0.45)
@@ -16,8 +17,8 @@ OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulu
 
 
 @pytest.fixture(scope="module")
-def apart() -> Result:
-    return simulate(support(drive=FRONT, drives={"rear_column": REAR}, duration=0.5, step=1e-3))
+def apart(simulate_cached: SimulateCached) -> Result:
+    return simulate_cached(support(drive=FRONT, drives={"rear_column": REAR}, duration=0.5, step=1e-3))
 
 
 def test_actuators_driven_apart_bring_the_support_where_their_lengths_say(apart: Result) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Result, UniformSpeed, reference_support, simulate
+from support_exudyn.postprocessing.pytest_plugin import SimulateCached
 from tests.cases.run_cases import FORCE, support
 
 # Independent integrator (minimal coordinates, tolerance 1e-10), mode 2:
@@ -21,8 +22,8 @@ CHECK = {
 
 
 @pytest.fixture(scope="module")
-def rise() -> Result:
-    return simulate(support(step=5e-4))
+def rise(simulate_cached: SimulateCached) -> Result:
+    return simulate_cached(support(step=5e-4))
 
 
 def at(result: Result, name: str, t: float) -> float:

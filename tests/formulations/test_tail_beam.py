@@ -23,6 +23,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.model.plane_geometry import moved
+from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
 from tests.cases.run_cases import FORCE, loose_support, paper_contact, support
 
 G = 9.81
@@ -32,18 +33,20 @@ SOFT = {"tail_beam": OwnBody(jack=JACK)}
 
 
 @pytest.fixture(scope="module")
-def lumped() -> Result:
-    return simulate(support(drive=RISE, duration=0.5))
+def lumped(simulate_cached: SimulateCached) -> Result:
+    return simulate_cached(support(drive=RISE, duration=0.5))
 
 
 def test_a_lumped_part_is_what_is_there_by_default() -> None:
     assert support(parts={"tail_beam": Lumped()}).linkage == support().linkage
 
 
-def test_a_rigid_jack_holds_the_tail_beam_as_if_it_were_fixed(lumped: Result) -> None:
+def test_a_rigid_jack_holds_the_tail_beam_as_if_it_were_fixed(
+    lumped: Result, assert_close: AssertClose
+) -> None:
     own = simulate(replace(lumped.scenario, parts=RIGID))
-    for channel in ("tip.x", "tip.y", "rear_link.angle"):
-        np.testing.assert_allclose(own[channel], lumped[channel], atol=1e-12)  # rounding
+    assert_close(own, lumped, "1e-9 mm", channels=["tip.*"])  # rounding
+    assert_close(own, lumped, "1e-12 rad", channels=["rear_link.angle"])
     np.testing.assert_allclose(np.ptp(own["tail_beam.angle"] - own["shield.angle"]), 0.0, atol=1e-12)
     off = np.abs(own[FORCE] - lumped[FORCE])
     # Newton's tolerance of 1e-8; in the steps after the drive's breaks, where joint forces overshoot, 5e-6
@@ -100,13 +103,13 @@ def test_stiffer_jacks_tend_to_the_fixed_tail_beam_with_order_one() -> None:
     assert off(20.0) / off(200.0) == pytest.approx(10.0, rel=0.1)
 
 
-def test_a_soft_jack_is_as_in_the_compiled_formulation() -> None:
+def test_a_soft_jack_is_as_in_the_compiled_formulation(assert_close: AssertClose) -> None:
     scene = {"drive": RISE, "duration": 0.15, "actuators": oil_columns(), "parts": SOFT}
     compiled = simulate(loose_support(formulation="compiled", **scene))
     redundant = simulate(loose_support(step=1e-4, **scene))
     # measured 2e-7 m and 4e-7 rad: the redundant formulation's errors of impacts and steps
-    np.testing.assert_allclose(compiled["tip.y"], redundant["tip.y"], atol=2e-6)
-    np.testing.assert_allclose(compiled["tail_beam.angle"], redundant["tail_beam.angle"], atol=4e-6)
+    assert_close(compiled, redundant, "0.002 mm", channels=["tip.y"])
+    assert_close(compiled, redundant, "4e-6 rad", channels=["tail_beam.angle"])
     largest = compiled["tail_jack.force"].max()
     # measured 4e-5
     np.testing.assert_allclose(compiled["tail_jack.force"], redundant["tail_jack.force"], atol=3e-4 * largest)

@@ -15,6 +15,7 @@ from support_exudyn.files.machines import load_machine
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.check.shield_stroke import stations
 from support_exudyn.postprocessing.look.looks import look
+from support_exudyn.postprocessing.pytest_plugin import SimulateCached
 from tests.machine_files import written
 
 DATA = read_machine("two_leg_shield")
@@ -23,8 +24,8 @@ RISE = Scenario(machine=MACHINE, drive=CubicStep(stroke=1.15, start=0.1, end=2.1
 
 
 @pytest.fixture(scope="module")
-def rise() -> Result:
-    return simulate(RISE)
+def rise(simulate_cached: SimulateCached) -> Result:
+    return simulate_cached(RISE)
 
 
 def test_the_canopy_keeps_level_while_the_leg_is_driven(rise: Result) -> None:

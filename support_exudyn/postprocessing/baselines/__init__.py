@@ -1,0 +1,1 @@
+"""Baselines: what runs came out at, kept in files, and what has changed since."""

@@ -1,0 +1,96 @@
+"""Runs that are kept on disk between sessions of tests: made once for each scenario and program."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shutil
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from support_exudyn.files.whole_file import writing_alone
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.simulate import simulate
+from support_exudyn.sweeps.key import key, program
+from user_forces.values.value import InputError
+
+FILE = "run.h5"
+WAIT = 0.05  # [s] between two looks whether another process is done
+OLD = 86400.0  # [s] since the runs of another program were made: nobody works with it any more
+
+
+class RunCache:
+    """Runs in a folder, one for each scenario and program.
+
+    The key of a run is that of sweeps: all fields of the scenario, versions of packages, a digest of our
+    sources and of modules of one's own. Another program thus never finds a run of this one. Several processes
+    may use the folder: one makes a run, others that ask for the same wait for it.
+
+    Arguments:
+        folder: where they are kept; made if it is missing. Runs of other programs, a day old, are removed.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        text = json.dumps(program(), sort_keys=True)
+        self.folder = folder / hashlib.sha256(text.encode()).hexdigest()[:16]
+        if not self.folder.is_dir():
+            self.folder.mkdir(parents=True, exist_ok=True)
+            _remove_old(folder)
+
+    def run(self, scenario: Scenario, errors: bool = False) -> Result:
+        """The run of a scenario, made if it is not there or damaged; always as it is read from its file.
+
+        errors: whether it is made with estimated errors, see `simulate`.
+
+        Raises InputError and SimulationError as `simulate` does; OSError if it cannot be kept.
+        """
+        folder = self.folder / key(scenario, errors)
+        path = folder / FILE
+        if (found := _loaded(path)) is not None:
+            return found
+        folder.mkdir(exist_ok=True)
+        with _alone(folder):
+            if (found := _loaded(path)) is not None:  # another process has made it meanwhile
+                return found
+            simulate(scenario, errors=errors).save(path)
+            return Result.load(path)
+
+
+def _loaded(path: Path) -> Result | None:
+    """A run that is there and whole."""
+    if not path.is_file():
+        return None
+    try:
+        return Result.load(path)
+    except (InputError, OSError):  # it was damaged, or removed as it was read: it is made again
+        return None
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    """Wait until no other process works in a folder, and keep others from it."""
+    while True:
+        lock = writing_alone(folder)
+        try:
+            lock.__enter__()
+            break
+        except BlockingIOError:
+            time.sleep(WAIT)
+    try:
+        yield
+    finally:
+        lock.__exit__(None, None, None)
+
+
+def _remove_old(folder: Path) -> None:
+    """Remove runs of other programs that are old; another process may do so at the same time."""
+    for other in folder.iterdir():
+        try:
+            is_old = time.time() - other.stat().st_mtime > OLD
+        except OSError:
+            continue
+        if is_old:
+            shutil.rmtree(other, ignore_errors=True)

@@ -1,0 +1,208 @@
+"""The pytest plugin: runs that are kept between sessions, comparisons that say where, baselines.
+
+Every pytest run of an environment with this package loads this file, whether it tests anything of it or not: so
+nothing of the package is imported before a fixture is used.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import pytest
+
+if TYPE_CHECKING:
+    from support_exudyn.postprocessing.baselines.cached_run import RunCache
+    from support_exudyn.postprocessing.baselines.closeness import Measured, Reference
+    from support_exudyn.postprocessing.baselines.in_tests import SessionBaselines
+    from support_exudyn.scenario.scenario import Scenario
+    from support_exudyn.scenario.scenario_data import Accuracy
+    from support_exudyn.simulation.estimate import Estimate
+    from support_exudyn.simulation.result import Result
+
+OPTION = "--baseline-update"
+MARKS = {  # by the fixture that a test uses
+    "simulate_cached": "simulation: simulates a scenario, or takes the run that is kept; set by the plugin",
+    "baseline": "baseline: is compared with a baseline beside its file; set by the plugin",
+}
+WRITTEN = "baseline written"  # property of a test, by which workers tell
+CACHE = "support_exudyn"  # folder in pytest's cache
+FIGURES = "support_exudyn_figures"
+
+
+class SimulateCached(Protocol):
+    """What the fixture `simulate_cached` gives."""
+
+    def __call__(
+        self, scenario: Scenario | str | Path, *, accuracy: Accuracy | None = None, errors: bool = False
+    ) -> Result:
+        """The run of a scenario, or of a scenario's file."""
+
+
+class AssertClose(Protocol):
+    """What the fixture `assert_close` gives."""
+
+    def __call__(
+        self,
+        result: Measured,
+        reference: Reference,
+        tolerance: float | str | None = None,
+        *,
+        channels: Sequence[str] = (),
+        after: float = 0.0,
+        until: float = float("inf"),
+    ) -> None:
+        """Fail if they are farther apart than is allowed."""
+
+
+class Baseline(Protocol):
+    """What the fixture `baseline` gives."""
+
+    def __call__(self, item: Result | Estimate | Mapping[str, Estimate], name: str = "") -> None:
+        """Fail if it has changed by more than both errors."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Take the option by which baselines are written."""
+    parser.getgroup("support-exudyn").addoption(
+        OPTION,
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="write baselines of this name, or pattern; what changes is told at the end; repeatable",
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Make the marks known."""
+    for text in MARKS.values():
+        config.addinivalue_line("markers", text)
+
+
+@pytest.hookimpl(tryfirst=True)  # before `-m` chooses by the marks
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark tests by the fixtures that they use."""
+    for item in items:
+        for fixture, text in MARKS.items():
+            if fixture in getattr(item, "fixturenames", ()):
+                item.add_marker(text.partition(":")[0])
+
+
+@pytest.fixture(scope="session")
+def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPathFactory) -> SimulateCached:
+    """Simulate a scenario; a run of the same scenario with the same program is taken from the cache.
+
+    `simulate_cached(scenario, accuracy=None, errors=False)` takes a Scenario or the path of its file; accuracy
+    and errors are those of `simulate`. Results are read anew at each call: no test changes those of another.
+    """
+    cache: RunCache | None = None
+
+    def run(
+        scenario: Scenario | str | Path, *, accuracy: Accuracy | None = None, errors: bool = False
+    ) -> Result:
+        from dataclasses import replace
+
+        from support_exudyn.files.scenarios.scenario_file import read_scenario_file
+        from support_exudyn.postprocessing.baselines.cached_run import RunCache
+
+        nonlocal cache
+        if cache is None:
+            cache = RunCache(_cache_folder(pytestconfig, tmp_path_factory))
+        if isinstance(scenario, (str, Path)):
+            file = read_scenario_file(scenario)
+            scenario, errors = file.scenario, errors or file.errors
+        return cache.run(scenario if accuracy is None else replace(scenario, accuracy=accuracy), errors)
+
+    return run
+
+
+def _cache_folder(config: pytest.Config, temporary: pytest.TempPathFactory) -> Path:
+    """Where runs are kept: in pytest's cache; if there is none, for this session, for all of its workers."""
+    cache: pytest.Cache | None = getattr(config, "cache", None)
+    if cache is not None:
+        with suppress(OSError):  # a folder that nobody may write to
+            return cache.mkdir(CACHE)
+    folder = temporary.getbasetemp()
+    folder = (folder.parent if hasattr(config, "workerinput") else folder) / CACHE
+    folder.mkdir(exist_ok=True)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def assert_close(tmp_path_factory: pytest.TempPathFactory) -> AssertClose:
+    """Fail if a result, a curve or a number is farther from a reference than is allowed.
+
+    `assert_close(result, reference, tolerance=None, channels=(), after=0, until=inf)`. Without a tolerance the
+    errors of both are allowed. The failure tells the worst number with its time, and the path of a figure.
+    """
+
+    def check(
+        result: Measured,
+        reference: Reference,
+        tolerance: float | str | None = None,
+        *,
+        channels: Sequence[str] = (),
+        after: float = 0.0,
+        until: float = float("inf"),
+    ) -> None:
+        __tracebackhide__ = True
+        from support_exudyn.postprocessing.baselines.closeness import closeness
+        from support_exudyn.postprocessing.baselines.in_tests import said_apart
+
+        found = closeness(result, reference, tolerance, channels=channels, after=after, until=until)
+        if any(not one.is_close for one in found):
+            raise AssertionError(said_apart(found, tmp_path_factory.mktemp(FIGURES)))
+
+    return check
+
+
+@pytest.fixture(scope="session")
+def _baselines(pytestconfig: pytest.Config) -> SessionBaselines:
+    from support_exudyn.postprocessing.baselines.in_tests import SessionBaselines
+
+    return SessionBaselines(pytestconfig.getoption(OPTION))
+
+
+@pytest.fixture
+def baseline(
+    request: pytest.FixtureRequest, _baselines: SessionBaselines, tmp_path_factory: pytest.TempPathFactory
+) -> Baseline:
+    """Fail if a result or number has changed by more than both errors from its baseline.
+
+    `baseline(item, name="")` takes a Result with errors, an Estimate, or Estimates by names. The baseline is
+    `baseline/MODULE.TEST.json` beside the test's file, or `baseline/MODULE.NAME.json`. It is written by
+    `pytest --baseline-update MODULE.TEST`, and by nothing else.
+    """
+
+    def check(item: Result | Estimate | Mapping[str, Estimate], name: str = "") -> None:
+        __tracebackhide__ = True
+        whole = f"{request.path.stem}.{name or request.node.name}"
+        figures = tmp_path_factory.getbasetemp() / FIGURES / request.path.stem
+        said, written = _baselines.compare(item, request.path, whole, figures)
+        if written:
+            request.node.user_properties.append((WRITTEN, said))
+        elif said:
+            raise AssertionError(said)
+
+    return check
+
+
+def pytest_terminal_summary(terminalreporter: Any) -> None:
+    """Tell which baselines were written, and of patterns for which none was."""
+    texts = {
+        text: None
+        for reports in terminalreporter.stats.values()
+        for report in reports
+        for key, text in getattr(report, "user_properties", ())
+        if key == WRITTEN
+    }
+    asked = terminalreporter.config.getoption(OPTION)
+    if not (texts or asked):
+        return
+    terminalreporter.section("baselines")
+    for text in texts:
+        terminalreporter.line(text)
+    if not texts:
+        terminalreporter.line(f"nothing was written: no test has a new or changed baseline {', '.join(asked)}")

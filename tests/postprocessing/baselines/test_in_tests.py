@@ -1,0 +1,68 @@
+"""Baselines of tests: nothing is written but what is named, and failures say what has changed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from support_exudyn import InputError, Result
+from support_exudyn.postprocessing.baselines.in_tests import SessionBaselines
+from support_exudyn.postprocessing.pytest_plugin import SimulateCached
+from support_exudyn.simulation.estimate import Estimate
+from tests.postprocessing.baselines.scenes import rocker
+
+FORCE = Estimate(100.0, 0.1, "N")
+LARGER = Estimate(100.3, 0.1, "N")
+
+
+def compared(item: object, folder: Path, *updated: str, name: str = "test_it.test_force") -> tuple[str, bool]:
+    """In a session of its own."""
+    return SessionBaselines(updated).compare(item, folder / "test_it.py", name, folder)  # type: ignore[arg-type]
+
+
+def test_only_what_is_named_is_written(tmp_path: Path) -> None:
+    path = tmp_path / "baseline" / "test_it.test_force.json"
+    said, written = compared(FORCE, tmp_path)
+    assert (said, written) == (
+        f"{path}: there is no such baseline\nto write it: pytest --baseline-update test_it.test_force",
+        False,
+    )
+    assert not path.exists()
+    assert compared(FORCE, tmp_path, "another.*")[1] is False
+    assert compared(FORCE, tmp_path, "test_it.*") == (f"{path}: written\ntest_it.test_force: first", True)
+    first = path.read_bytes()
+    assert compared(FORCE, tmp_path) == ("", False)
+    assert compared(Estimate(100.15, 0.1, "N"), tmp_path, "*") == ("", False)  # within both errors
+    assert path.read_bytes() == first
+
+    said, written = compared(LARGER, tmp_path)
+    assert (path.read_bytes(), written) == (first, False)
+    assert "number it changed: 100.0 ± 0.1 N -> 100.3 ± 0.1 N, 1.5 times both errors" in said
+    said, written = compared(LARGER, tmp_path, "test_it.test_force")
+    assert written
+    assert "100.0 ± 0.1 N -> 100.3 ± 0.1 N" in said
+    assert compared(LARGER, tmp_path) == ("", False)
+
+
+def test_a_changed_run_is_told_with_a_figure(simulate_cached: SimulateCached, tmp_path: Path) -> None:
+    run: Result = simulate_cached(rocker())
+    assert compared(run, tmp_path, "*")[1]
+    assert compared(run, tmp_path) == ("", False)
+    said, _ = compared(simulate_cached(rocker(friction=0.1001)), tmp_path)
+    lines = said.splitlines()
+    assert "changed by more than both errors, new, or gone" in lines[0]
+    assert " times both errors" in lines[1]
+    (figure,) = (Path(line.partition("figure: ")[2]) for line in lines if line.startswith("figure: "))
+    assert figure.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_name_is_used_once_and_only_numbers_with_errors_are_kept(tmp_path: Path) -> None:
+    session = SessionBaselines(["*"])
+    session.compare({"a": FORCE, "b": LARGER}, tmp_path / "test_it.py", "one[x/y]", tmp_path)
+    assert (tmp_path / "baseline" / "one_x_y.json").exists()
+    with pytest.raises(InputError, match="is compared already; allowed: a name of its own"):
+        session.compare(FORCE, tmp_path / "test_it.py", "one[x/y]", tmp_path)
+    for item in (1.0, {"a": 1.0}, None, "text"):
+        with pytest.raises(InputError, match="cannot be a baseline; allowed:"):
+            compared(item, tmp_path, name="other")
