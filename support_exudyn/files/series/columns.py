@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,6 +31,21 @@ class Column:
 def is_named_time(name: str) -> bool:
     """Whether a name is one of times, such as time, T or .MODEL_1.Last_Run.TIME."""
     return name.casefold() in TIMES or name.casefold().rpartition(".")[2] == "time"
+
+
+def places_of_times(columns: Sequence[Column]) -> tuple[list[int], list[str]]:
+    """Which columns are times, and what is told of it.
+
+    Those that are named so; else the first if its name ends so; else the only one that is in a unit of time.
+    """
+    if named := [n for n, one in enumerate(columns) if one.name.casefold() in TIMES]:
+        return named, []
+    if columns and is_named_time(columns[0].name):
+        return [0], []
+    found = [n for n, one in enumerate(columns) if one.unit is not None and is_time(one.unit)]
+    if len(found) != 1:
+        return [], []
+    return found, [f"Column {columns[found[0]].name!r} is taken for the times: it alone is in a unit of time."]
 
 
 def series_file(

@@ -9,10 +9,10 @@ import numpy as np
 
 from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.asked import Asked
-from support_exudyn.files.series.columns import Column, is_named_time, series_file
+from support_exudyn.files.series.columns import Column, is_named_time, places_of_times, series_file
 from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.series.titles import split_title
-from support_exudyn.files.series.units import as_pint_writes, is_unit
+from support_exudyn.files.series.units import as_pint_writes, is_time, is_unit
 from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, cleaned, short
 
@@ -48,16 +48,16 @@ def read_parquet(path: Path, asked: Asked) -> SeriesFile:
     except (pa.ArrowException, *DAMAGES) as error:
         said = cleaned(str(error)).partition("\n")[0][:200]
         raise InputError(f"{path}: is no whole Parquet file ({said}); allowed: columns of numbers") from None
-    times = [one for one in columns if one.name.casefold() in ("time", "t")]
-    times = times or [one for one in columns[:1] if is_named_time(one.name)]
+    times, told = places_of_times(columns)
     if len(times) != 1:
         known = ", ".join(short(one.name) for one in columns[:6])
         raise InputError(
             f"{path}: has {len(times)} columns of times; allowed: one, time_s or 'time [s]'; it has {known}"
         )
     notes = [f"Columns that are no numbers are left out: {', '.join(others[:6])}."] if others else []
-    values = [one for one in columns if one is not times[0]]
-    return series_file(path, "Parquet file", [(times[0], values)], asked, notes)
+    (place,) = times
+    values = columns[:place] + columns[place + 1 :]
+    return series_file(path, "Parquet file", [(columns[place], values)], asked, [*notes, *told])
 
 
 def _columns(file: Any, asked: Asked) -> tuple[list[Column], list[str]]:
@@ -75,7 +75,7 @@ def _columns(file: Any, asked: Asked) -> tuple[list[Column], list[str]]:
         said = next((metadata[key].decode("utf-8", "replace") for key in UNIT if key in metadata), "")
         if said and is_unit(said):
             name, unit = field.name if unit is None else name, as_pint_writes(said)
-        if not (asked.wants(name) or is_named_time(name)):
+        if not (asked.wants(name) or is_named_time(name) or (unit is not None and is_time(unit))):
             continue
         values = file.read([field.name], use_threads=False).column(0).cast(pa.float64(), safe=False)
         found.append(Column(name, unit, np.asarray(values.to_numpy(), dtype=np.float64)))

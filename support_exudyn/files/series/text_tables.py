@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from support_exudyn.files.series.asked import Asked
-from support_exudyn.files.series.columns import Column, Numbers, is_named_time, series_file
+from support_exudyn.files.series.columns import Column, Numbers, places_of_times, series_file
 from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.series.plain_text import lines_of, text_of
 from support_exudyn.files.series.table_layout import (
@@ -120,8 +120,8 @@ def _by_line(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
 
 def _over_times(path: Path, columns: list[Column]) -> tuple[list[tuple[Column, list[Column]]], list[str]]:
     """Columns of times, each with the columns that are over it."""
-    times = [n for n, one in enumerate(columns) if one.name.casefold() in ("time", "t")]
-    if not times and columns and (is_named_time(columns[0].name) or columns[0].name == "column_1"):
+    times, told = places_of_times(columns)
+    if not times and columns and columns[0].name == "column_1":
         times = [0]
     if not times:
         known = ", ".join(short(one.name) for one in columns[:6])
@@ -130,7 +130,7 @@ def _over_times(path: Path, columns: list[Column]) -> tuple[list[tuple[Column, l
         )
     if len(times) == 1:
         (place,) = times
-        return [(columns[place], columns[:place] + columns[place + 1 :])], []
+        return [(columns[place], columns[:place] + columns[place + 1 :])], told
     if times[0] != 0:
         raise InputError(
             f"{path}: column {short(columns[0].name)}: stands before the first of {len(times)} columns of "

@@ -25,7 +25,8 @@ from user_forces.values.value import InputError, cleaned
 
 LEAST = 0.5  # likeness of what is proposed
 BY_NAME = 0.4  # share of the likeness that names have; the rest is that of the curves
-LESS = 0.9  # of what a correlation counts beside equal values, and the other sign beside the same
+LESS = 0.9  # of what a correlation counts where values are not known, and the other sign beside the same
+CLOSE = 0.9  # values that agree by this are no chance
 FEWEST = 3  # common times that tell anything
 WORDS = re.compile(r"[a-z]+|\d+")
 UNKNOWN = "?"  # a unit that has to be given
@@ -50,7 +51,8 @@ class Likeness(NamedTuple):
         """0 to 1; of curves without correlation the names alone count, less."""
         if math.isnan(self.curves):
             return 0.9 * self.names
-        told = max(LESS * abs(self.curves), 0.0 if math.isnan(self.values) else abs(self.values))
+        known = not math.isnan(self.values)
+        told = 0.5 * (abs(self.curves) + abs(self.values)) if known else LESS * abs(self.curves)
         turned = LESS if self.curves < 0.0 else 1.0
         return turned * (BY_NAME * self.names + (1.0 - BY_NAME) * told)
 
@@ -72,6 +74,7 @@ def proposal(files: Sequence[ComparedFile], said: CompareFile) -> str:
         f"# What of {', '.join(one.name for one in others)} may be what of {reference.name}. Look at every "
         "line,",
         "# take out or mend what is wrong, then set confirmed = true, and give it as --map.",
+        "# A line behind # is a guess by the curve alone.",
         "",
         "confirmed = false",
     ]
@@ -95,13 +98,19 @@ def _of(reference: ComparedFile, other: ComparedFile) -> list[str]:
         column = _quoted(one.column)
         if one.curves < 0.0:
             column = f"{{ column = {column}, sign = -1 }}"
-        lines.append(f"{_quoted(one.channel)} = {column} # {one}{nexts[one.column]}")
-    units = [one.column for one in found if other.unit(one.column) is None]
+        doubtful = _is_doubtful(one)
+        lines.append(f"{'# ' * doubtful}{_quoted(one.channel)} = {column} # {one}{nexts[one.column]}")
+    units = [one.column for one in found if other.unit(one.column) is None and not _is_doubtful(one)]
     if units or other.mapped.units:
         lines += ["", f"[files.{_quoted(other.path.name)}.units]"]
         lines += [f"{_quoted(name)} = {_quoted(unit)}" for name, unit in other.mapped.units.items()]
         lines += [f'{_quoted(column)} = "{UNKNOWN}" # the file names none' for column in units]
     return lines
+
+
+def _is_doubtful(one: Likeness) -> bool:
+    """Whether little more than the shape of a curve speaks for it: steady rises are all alike."""
+    return one.names < LEAST and not abs(one.values) > CLOSE
 
 
 def _quoted(text: str) -> str:

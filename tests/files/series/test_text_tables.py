@@ -109,6 +109,14 @@ def test_sizes_above_the_rows_are_no_titles(folder: Path) -> None:
         read(folder, "time_s,x\n0,1,5\n1,2\n2,3\n")
 
 
+def test_the_only_column_in_a_unit_of_time_is_the_times(folder: Path) -> None:
+    found = read(folder, "Zeit [s];Weg [mm];Kraft\n0,0;1,5;7\n0,5;-2,0;7\n")
+    assert values(found)["Weg"] == TWO["x"]
+    assert found.notes == ("Column 'Zeit' is taken for the times: it alone is in a unit of time.",)
+    with pytest.raises(InputError, match="has no times"):
+        read(folder, "Beginn [s];Ende [s]\n0,0;1,5\n0,5;2,0\n")
+
+
 def test_an_analysis_of_a_table_is_refused(folder: Path) -> None:
     with pytest.raises(InputError, match=r"analysis 'A': a table of text .* has none; allowed: none"):
         read(folder, "time_s,x\n0,1\n", analysis="A")
