@@ -214,13 +214,13 @@ def test_a_proposal_is_refused_until_it_is_confirmed(folder: Path, capsys: pytes
 
 def test_what_only_a_curve_speaks_for_is_a_comment(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     # both rise, as everything in a rise does
-    (folder / "rise.csv").write_text("time_s,alpha_mm\n0,0\n1,1\n2,4\n", encoding="utf-8")
+    (folder / "rise.csv").write_text("time_s,q_mm\n0,0\n1,1\n2,4\n", encoding="utf-8")
     (folder / "other.csv").write_text("time_s,Kraft,Weg_mm\n0,7,0\n1,9,1.1\n2,15,4\n", encoding="utf-8")
     assert ended(["compare", "rise.csv", "other.csv", "--propose"]) == 0
-    assert '\n"alpha" = "Weg" # ' in capsys.readouterr().out
+    assert '\n"q" = "Weg" # ' in capsys.readouterr().out
     (folder / "other.csv").write_text("time_s,Kraft\n0,7\n1,9\n2,15\n", encoding="utf-8")
     assert ended(["compare", "rise.csv", "other.csv", "--propose"]) == 0
-    assert '\n# "alpha" = "Kraft" # ' in capsys.readouterr().out
+    assert '\n# "q" = "Kraft" # ' in capsys.readouterr().out
 
 
 def test_a_shift_that_is_not_sure_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
