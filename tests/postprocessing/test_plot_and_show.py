@@ -121,10 +121,10 @@ def test_a_curve_of_a_csv_file_is_drawn_beside_a_run(
     assert main(["plot", str(runs / "ideal.h5"), str(measured), "--out", str(tmp_path / "out")]) == 0
     assert names(tmp_path / "out") == both("ideal_and_measured_overview")
     for text, message in (
-        ("time_s,x\n0,1\n", "has a column of none of these channels"),
-        ("tip.x_mm\n1\n", "has no times"),
-        ("time_s,tip.x_mm\n0,x\n", "line 2, column tip.x_mm: 'x': allowed: a number"),
-        ("time_s,tip.x_mm\n0\n", "line 2: has 1 items"),
+        ("time_s,x\n0,1\n", "has a series of none of these channels"),
+        ("tip.x_mm,tip.y_mm\n1,2\n", "has no times"),
+        ("time_s,tip.x_mm\n0,1\n1,x\n", "line 3, column 'tip.x': 'x'; allowed: a number"),
+        ("time_s,tip.x_mm\n0,1\n1\n", "line 3: has 1 items"),
     ):
         measured.write_text(text, encoding="utf-8")
         assert main(["plot", str(runs / "ideal.h5"), str(measured), "tip.x"]) == 1
