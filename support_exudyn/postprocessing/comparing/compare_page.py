@@ -258,12 +258,13 @@ def _panels(pair: ComparedPair, one: ComparedChannel) -> tuple[LivePanel, LivePa
     piece = slice(0, one.before or None)  # after the parting differences tell nothing
     when, apart = time[piece], (one.common.other - one.common.reference)[piece]
     small = readable(one.unit, float(np.nanmax(np.abs(apart), initial=0.0)))
-    lines = [Drawn("difference", when, small.scale * apart, colour, "solid", 1.1)]
+    lines: list[Drawn] = []
     if np.isfinite(one.errors).any():
-        lines += [
+        lines = [
             Drawn(f"difference {sign} errors", when, small.scale * (apart + way * one.errors[piece]), "#bbbbbb")
             for sign, way in (("+", 1.0), ("-", -1.0))
         ]
+    lines.append(Drawn("difference", when, small.scale * apart, colour, "solid", 1.1))  # over its errors
     if math.isfinite(one.allowed) and not reach(one.allowed, size_of_difference(one))[1]:
         ends = time[[0, -1]]
         lines += [
