@@ -57,8 +57,8 @@ def series_file(
 ) -> SeriesFile:
     """Series from columns over their times.
 
-    Rows without a time are left out. Rows are sorted by time; of rows of one time the last of the file stays.
-    All that is told in a note.
+    Rows without a time are left out. Infinite values count as not known. Rows are sorted by time; of rows of
+    one time the last of the file stays. All that is told in a note.
 
     Arguments:
         path, kind, notes: of the file.
@@ -80,6 +80,9 @@ def series_file(
                     f"{path}: column {short(column.name)}: stands twice; allowed: a title for each column"
                 )
             values = column.values if order is None else column.values[order]
+            if endless := int(np.isinf(values).sum()):
+                values = np.where(np.isinf(values), np.nan, values)
+                told.append(f"{column.name}: infinite values count as not known: {endless}.")
             series[column.name] = NamedSeries(column.name, _unit(path, column, asked), time, values)
     if not series:
         raise InputError(f"{path}: {_nothing(asked)}")
