@@ -252,7 +252,8 @@ def read_adams_results(path: Path, asked: Asked) -> SeriesFile:
     if asked.analysis is None and len(found.analyses) > 1:
         others = ", ".join(found.analyses[1:5])
         found.notes.append(
-            f"Of {len(found.analyses)} analyses the first is taken, {found.analyses[0]}; others are {others}."
+            f"Of {len(found.analyses)} analyses the first is taken, {found.analyses[0]}; others are {others} "
+            "(analysis = of compare.toml)."
         )
     rows = np.frombuffer(found.numbers, dtype=np.float64).reshape(-1, len(found.columns))
     columns = [Column(one.name, one.unit, rows[:, n]) for n, one in enumerate(found.columns)]

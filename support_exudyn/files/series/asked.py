@@ -33,8 +33,11 @@ class Asked:
         """The unit of a series: that of the file if it gives one."""
         if given is not None:
             return given
-        return next((unit for pattern, unit in self.units.items() if fnmatchcase(name, pattern)), None)
+        return next(
+            (unit for pattern, unit in self.units.items() if name == pattern or fnmatchcase(name, pattern)),
+            None,
+        )
 
     def wants(self, name: str) -> bool:
         """Whether a series is wanted."""
-        return not self.names or any(fnmatchcase(name, pattern) for pattern in self.names)
+        return not self.names or any(name == pattern or fnmatchcase(name, pattern) for pattern in self.names)

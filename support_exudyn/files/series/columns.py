@@ -15,7 +15,6 @@ from support_exudyn.files.series.units import as_pint_writes, is_time, scaled, u
 from user_forces.values.value import InputError, cleaned, short
 
 Numbers = npt.NDArray[np.float64]
-TIMES = ("time", "t")  # names of columns of times, in any letters
 MANY = 5  # names that are told
 
 
@@ -30,19 +29,32 @@ class Column:
 
 def is_named_time(name: str) -> bool:
     """Whether a name is one of times, such as time, T or .MODEL_1.Last_Run.TIME."""
-    return name.casefold() in TIMES or name.casefold().rpartition(".")[2] == "time"
+    return name.casefold() in ("time", "t") or name.casefold().rpartition(".")[2] == "time"
 
 
-def places_of_times(columns: Sequence[Column]) -> tuple[list[int], list[str]]:
+def named_times(names: Sequence[tuple[str, str | None]]) -> list[int]:
+    """Which of names, each with its unit (None: it has none), are called as times are.
+
+    `time` in any letters goes before `t`, and that before `T`, which a temperature is called, too.
+    """
+    named = [n for n, (name, _) in enumerate(names) if name.casefold() == "time"]
+    brief = [
+        n for n, (name, unit) in enumerate(names) if name.casefold() == "t" and (unit is None or is_time(unit))
+    ]
+    return named or [n for n in brief if names[n][0] == "t"] or brief
+
+
+def places_of_times(columns: Sequence[Column], asked: Asked) -> tuple[list[int], list[str]]:
     """Which columns are times, and what is told of it.
 
     Those that are named so; else the first if its name ends so; else the only one that is in a unit of time.
     """
-    if named := [n for n, one in enumerate(columns) if one.name.casefold() in TIMES]:
+    if named := named_times([(one.name, one.unit) for one in columns]):
         return named, []
     if columns and is_named_time(columns[0].name):
         return [0], []
-    found = [n for n, one in enumerate(columns) if one.unit is not None and is_time(one.unit)]
+    units = [asked.unit(one.name, one.unit) for one in columns]
+    found = [n for n, unit in enumerate(units) if unit is not None and is_time(unit)]
     if len(found) != 1:
         return [], []
     return found, [f"Column {columns[found[0]].name!r} is taken for the times: it alone is in a unit of time."]
@@ -57,8 +69,8 @@ def series_file(
 ) -> SeriesFile:
     """Series from columns over their times.
 
-    Rows without a time are left out. Rows are sorted by time; of rows of one time the last of the file stays.
-    All that is told in a note.
+    Rows without a time are left out. Infinite values count as not known. Rows are sorted by time; of rows of
+    one time the last of the file stays. All that is told in a note.
 
     Arguments:
         path, kind, notes: of the file.
@@ -80,9 +92,12 @@ def series_file(
                     f"{path}: column {short(column.name)}: stands twice; allowed: a title for each column"
                 )
             values = column.values if order is None else column.values[order]
+            if endless := int(np.isinf(values).sum()):
+                values = np.where(np.isinf(values), np.nan, values)
+                told.append(f"{column.name}: infinite values count as not known: {endless}.")
             series[column.name] = NamedSeries(column.name, _unit(path, column, asked), time, values)
     if not series:
-        raise InputError(f"{path}: {_nothing(asked)}")
+        raise InputError(" ".join(cleaned(one) for one in (f"{path}: {_nothing(asked)}.", *told))[:-1])
     return SeriesFile(path, kind, series, tuple(cleaned(one) for one in told))
 
 

@@ -1,6 +1,6 @@
 """Series of MATLAB files of versions 4 to 7.3.
 
-A vector of times is called t or time, whatever its letters. All vectors as long as it, beside it and in
+A vector of times is called time, t or T, in this order. All vectors as long as it, beside it and in
 structures without times of their own, are series; so are the columns of a matrix that has as many rows. A
 structure with the fields Time and Data is taken as a timeseries. Names are joined by points, `run.pin.force`.
 MATLAB keeps no units: a name such as `force_kN` has one, of all others it is asked for.
@@ -16,7 +16,7 @@ import numpy as np
 from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.apart import read_apart
 from support_exudyn.files.series.asked import Asked
-from support_exudyn.files.series.columns import Column, Numbers, series_file
+from support_exudyn.files.series.columns import Column, Numbers, named_times, series_file
 from support_exudyn.files.series.matlab_arrays import MAGIC_HDF5
 from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.series.titles import split_title
@@ -26,7 +26,6 @@ from user_forces.values.value import InputError, short
 MAGIC = b"MATLAB 5.0 MAT-file"
 READER = "support_exudyn.files.series.matlab_arrays:matlab_arrays"
 WIDEST = 1000  # columns of a matrix
-TIMES = ("t", "time")
 Place = tuple[str, ...]  # of a structure: the names on the way to it
 DATA = ("data", "values", "signals")
 
@@ -65,7 +64,7 @@ def read_matlab(path: Path, asked: Asked) -> SeriesFile:
     groups = []
     for above, arrays in structures.items():
         known = [above[:n] for n in range(len(above), -1, -1) if above[:n] in times]
-        if known and (columns := _columns(above, arrays, times[known[0]].values.size)):
+        if known and (columns := _columns(above, arrays, times[known[0]])):
             groups.append((times[known[0]], columns))
     if not groups:
         names = ", ".join(short(name) for arrays in structures.values() for name in list(arrays)[:6]) or "none"
@@ -78,7 +77,8 @@ def read_matlab(path: Path, asked: Asked) -> SeriesFile:
 
 def _times(path: Path, above: Place, arrays: Mapping[str, Numbers]) -> Column | None:
     """The times of a structure, None if it has none."""
-    titles = [one for one in arrays if _is_time(one) and arrays[one].shape[1] == 1]
+    vectors = [title for title, values in arrays.items() if values.shape[1] == 1]
+    titles = [vectors[n] for n in named_times([split_title(one)[:2] for one in vectors])]
     if len(titles) > 1:
         raise InputError(f"{path}: has {len(titles)} vectors of times, {', '.join(titles)}; allowed: one")
     if not titles:
@@ -87,20 +87,17 @@ def _times(path: Path, above: Place, arrays: Mapping[str, Numbers]) -> Column | 
     return Column(".".join((*above, name)), unit, arrays[titles[0]][:, 0])
 
 
-def _columns(above: Place, arrays: Mapping[str, Numbers], size: int) -> list[Column]:
+def _columns(above: Place, arrays: Mapping[str, Numbers], times: Column) -> list[Column]:
     """What of a structure is as long as the times."""
-    found = []
+    found, size = [], times.values.size
     for title, values in arrays.items():
-        if _is_time(title) or len(values) != size or values.shape[1] > WIDEST:
-            continue
         name, unit, _ = split_title(title)
+        is_times = ".".join((*above, name)) == times.name
+        if is_times or len(values) != size or values.shape[1] > WIDEST:
+            continue
         whole = ".".join(above if name.casefold() in DATA and above else (*above, name))
         several = values.shape[1] > 1
         found += [
             Column(f"{whole}.{n + 1}" if several else whole, unit, values[:, n]) for n in range(values.shape[1])
         ]
     return found
-
-
-def _is_time(title: str) -> bool:
-    return split_title(title)[0].casefold() in TIMES

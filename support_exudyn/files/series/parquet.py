@@ -48,7 +48,7 @@ def read_parquet(path: Path, asked: Asked) -> SeriesFile:
     except (pa.ArrowException, *DAMAGES) as error:
         said = cleaned(str(error)).partition("\n")[0][:200]
         raise InputError(f"{path}: is no whole Parquet file ({said}); allowed: columns of numbers") from None
-    times, told = places_of_times(columns)
+    times, told = places_of_times(columns, asked)
     if len(times) != 1:
         known = ", ".join(short(one.name) for one in columns[:6])
         raise InputError(

@@ -5,13 +5,13 @@ from __future__ import annotations
 import csv
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from support_exudyn.files.series.titles import split_title
 from support_exudyn.files.series.units import as_pint_writes, is_unit
-from user_forces.values.value import InputError
+from user_forces.values.value import InputError, short
 
 BLANKS = " "  # any number of blanks and tabs
 SEPARATORS = ("\t", ";", ",", BLANKS)
@@ -24,6 +24,7 @@ NUMBERS = {
 }
 GROUPED = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)  # 1,234: a thousand, or one and a bit
 WORDS = re.compile(r'"[^"]*"|\S+')  # that blanks separate
+FEW = 6  # names that are told
 LINES, LETTERS = 400, 1_000_000  # that are looked at
 ALLOWED = "rows of two or more numbers below a line of titles such as time_s,tip.x_mm"
 Rows = tuple[int, str, bool]  # items of each, what separates them, whether all end with that
@@ -35,6 +36,7 @@ class TableLayout:
 
     separator: between items. decimal: "." or ",". first: the index of the first line of numbers.
     width: items of a row. titles: a name and a unit (None: it has none) for each item. notes: what is told.
+    words: which items are no numbers, as of dates and remarks.
     """
 
     separator: str
@@ -43,6 +45,7 @@ class TableLayout:
     width: int
     titles: tuple[tuple[str, str | None], ...]
     notes: tuple[str, ...]
+    words: frozenset[int] = frozenset()
 
     def items(self, line: str) -> list[str]:
         """The items of a line."""
@@ -69,13 +72,68 @@ def items(line: str, separator: str) -> list[str]:
         return [line]
 
 
-def is_row(line: str, separator: str, decimal: str) -> int:
-    """How many items a row of numbers has; 0 if it is none."""
+def is_row(line: str, separator: str, decimal: str, words: Collection[int] = ()) -> int:
+    """How many items a row of numbers has, but for those that are words; 0 if it is none."""
     found = items(line, separator)
     number = NUMBERS[decimal]
-    if len(found) < 2 or not all(one in MISSING or number.fullmatch(one) for one in found):
+    wanted = [one for n, one in enumerate(found) if n not in words] if words else found
+    if len(found) < 2 or not all(one in MISSING or number.fullmatch(one) for one in wanted):
         return 0
-    return len(found) if any(found) else 0
+    return len(found) if any(wanted) else 0
+
+
+def _words(text: Sequence[str], separator: str, decimal: str, width: int) -> frozenset[int]:
+    """Which items of rows of a width are words: never a number, and not always missing."""
+    split = (items(line, separator) for line in text)
+    rows = [one for one in split if len(one) == width and any(NUMBERS[decimal].fullmatch(item) for item in one)]
+    kinds = ({_kind(one[n], decimal) for one in rows} for n in range(width))
+    return frozenset(n for n, found in enumerate(kinds) if "word" in found and "number" not in found)
+
+
+def _kind(item: str, decimal: str) -> str:
+    if item in MISSING:
+        return "missing"
+    return "number" if NUMBERS[decimal].fullmatch(item) else "word"
+
+
+def _written(text: Sequence[str]) -> tuple[int, str, str, frozenset[int]] | None:
+    """Items of a row, what separates them, what their decimals are, and which are words; None of no table.
+
+    Only if no row is of numbers alone, separators are looked for by which rows have words, too.
+    """
+    tried = [(one, decimal) for one in SEPARATORS for decimal in ".,"[: 1 if one == "," else 2]]
+    best: tuple[int, int, str, str] | None = None  # rows, items in each, separator, decimals
+    for separator, decimal in tried:
+        widths = Counter(filter(None, (is_row(line, separator, decimal) for line in text)))
+        if widths:
+            width, rows = widths.most_common(1)[0]
+            if best is None or rows > best[0]:
+                best = rows, width, separator, decimal
+    if best is not None:
+        _, width, separator, decimal = best
+        words = frozenset[int]() if separator == BLANKS else _words(text, separator, decimal, width)
+        return width, separator, decimal, words
+    found = [_with_words(text, *one) for one in tried if one[0] != BLANKS]
+    rows, _, (width, separator, decimal, words) = max(found, key=lambda one: one[:2])
+    return (width, separator, decimal, words) if rows else None
+
+
+def _with_words(
+    text: Sequence[str], separator: str, decimal: str
+) -> tuple[int, int, tuple[int, str, str, frozenset[int]]]:
+    """How many rows of numbers and words there are, how many of their items are numbers, and how it is written.
+
+    An item that another separator could part is no word.
+    """
+    split = [items(line, separator) for line in text]
+    widths = Counter(len(one) for one in split if len(one) > 1)
+    others = "\t;".replace(separator, "")
+    width = widths.most_common(1)[0][0] if widths else 0
+    words = _words(text, separator, decimal, width)
+    rows = sum(is_row(line, separator, decimal, words) == width for line in text) if width else 0
+    if any(set(others) & set(item) for one in split if len(one) == width for item in one):
+        rows = 0
+    return rows, width - len(words), (width, separator, decimal, words)
 
 
 def layout(path: Path, lines: Sequence[str]) -> TableLayout:
@@ -85,32 +143,28 @@ def layout(path: Path, lines: Sequence[str]) -> TableLayout:
     do not fit each other.
     """
     text = [(n, line) for n, line in enumerate(lines[:LINES]) if line.strip() and not COMMENT.match(line)]
-    best: tuple[int, int, str, str] | None = None  # rows, items in each, separator, decimals
-    for separator in SEPARATORS:
-        for decimal in ".,"[: 1 if separator == "," else 2]:
-            widths = Counter(filter(None, (is_row(line, separator, decimal) for _, line in text)))
-            if widths:
-                width, rows = widths.most_common(1)[0]
-                if best is None or rows > best[0]:
-                    best = rows, width, separator, decimal
-    if best is None:
+    if (written := _written([line for _, line in text])) is None:
         raise InputError(f"{path}: is no table of numbers; allowed: {ALLOWED}")
-    _, width, separator, decimal = best
+    width, separator, decimal, words = written
     place = next(  # of whatever decimals: a row of others is wrong, and no line of titles
-        n for n, (_, line) in enumerate(text) if width in (is_row(line, separator, one) for one in ".,")
+        n for n, (_, line) in enumerate(text) if width in (is_row(line, separator, one, words) for one in ".,")
     )
     if decimal == ",":
-        _check_commas(path, [line for _, line in text[place:]], separator)
+        _check_commas(path, [line for _, line in text[place:]], separator, words)
     first = text[place][0]
     # rows may end with a separator where the line of titles does not
     ended = all(not items(line, separator)[-1] for _, line in text[place:])
     titles, notes = _titles(path, lines[:first], text[:place], (width, separator, ended))
-    return TableLayout(separator, decimal, first, width, titles, notes)
+    if words:
+        others = ", ".join(short(titles[n][0]) for n in sorted(words)[:FEW])
+        notes = (*notes, f"Columns that are no numbers are left out: {others}.")
+    return TableLayout(separator, decimal, first, width, titles, notes, words)
 
 
-def _check_commas(path: Path, lines: Sequence[str], separator: str) -> None:
+def _check_commas(path: Path, lines: Sequence[str], separator: str, words: Collection[int]) -> None:
     """Raise InputError if all commas may stand between thousands."""
-    with_comma = [one for line in lines for one in items(line, separator) if "," in one]
+    rows = (items(line, separator) for line in lines)
+    with_comma = [one for row in rows for n, one in enumerate(row) if "," in one and n not in words]
     if with_comma and all(GROUPED.fullmatch(one) for one in with_comma):
         whole, part = with_comma[0].replace(",", ""), with_comma[0].replace(",", ".", 1)
         raise InputError(

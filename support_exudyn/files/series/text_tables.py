@@ -49,10 +49,11 @@ def read_text_table(path: Path, asked: Asked) -> SeriesFile:
     asked.progress(0.9)
     columns = [
         Column(name, unit, one)
-        for (name, unit), one in zip(how.titles, values, strict=True)
-        if not (name.startswith("column_") and np.isnan(one).all())  # after a last separator
+        for n, ((name, unit), one) in enumerate(zip(how.titles, values, strict=True))
+        if n not in how.words
+        and not (name.startswith("column_") and np.isnan(one).all())  # after a last separator
     ]
-    groups, said = _over_times(path, columns)
+    groups, said = _over_times(path, columns, how, asked)
     found = series_file(path, "table of text", groups, asked, (*notes, *how.notes, *said))
     asked.progress(1.0)
     return found
@@ -87,14 +88,19 @@ def _by_arrow(body: bytes, how: TableLayout) -> list[Numbers] | None:
             csv.ReadOptions(use_threads=False, block_size=BLOCK, column_names=names),
             csv.ParseOptions(delimiter="\t" if how.separator == BLANKS else how.separator),
             csv.ConvertOptions(
-                column_types=dict.fromkeys(names, pa.float64()),
+                column_types={one: pa.string() if int(one) in how.words else pa.float64() for one in names},
+                include_columns=[one for one in names if int(one) not in how.words],
                 null_values=[*MISSING],
                 decimal_point=how.decimal,
             ),
         )
     except (pa.ArrowException, ValueError):
         return None
-    return [np.asarray(table.column(n).to_numpy(), dtype=np.float64) for n in range(how.width)]
+    nothing = np.full(table.num_rows, np.nan)
+    return [
+        nothing if n in how.words else np.asarray(table.column(str(n)).to_numpy(), dtype=np.float64)
+        for n in range(how.width)
+    ]
 
 
 def _by_line(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
@@ -106,9 +112,10 @@ def _by_line(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
         found = how.items(line)
         if len(found) != how.width:
             raise InputError(f"{path}: line {number}: has {len(found)} items; allowed: {how.width}, as before")
-        row = [one for one in map(how.number, found) if one is not None]
+        known = [np.nan if n in how.words else how.number(one) for n, one in enumerate(found)]
+        row = [one for one in known if one is not None]
         if len(row) < how.width:
-            place = next(n for n, one in enumerate(found) if how.number(one) is None)
+            place = known.index(None)
             point = "12,5" if how.decimal == "," else "12.5"
             raise InputError(
                 f"{path}: line {number}, column {short(how.titles[place][0])}: {short(found[place])}; "
@@ -118,15 +125,19 @@ def _by_line(path: Path, data: bytes, how: TableLayout) -> list[Numbers]:
     return list(np.frombuffer(numbers, dtype=np.float64).reshape(-1, how.width).T)
 
 
-def _over_times(path: Path, columns: list[Column]) -> tuple[list[tuple[Column, list[Column]]], list[str]]:
+def _over_times(
+    path: Path, columns: list[Column], how: TableLayout, asked: Asked
+) -> tuple[list[tuple[Column, list[Column]]], list[str]]:
     """Columns of times, each with the columns that are over it."""
-    times, told = places_of_times(columns)
+    times, told = places_of_times(columns, asked)
     if not times and columns and columns[0].name == "column_1":
         times = [0]
     if not times:
         known = ", ".join(short(one.name) for one in columns[:6])
+        others = ", ".join(short(how.titles[n][0]) for n in sorted(how.words)[:6])
         raise InputError(
-            f"{path}: has no times; allowed: a column time_s, time_ms or 'time [s]'; it has {known}"
+            f"{path}: has no times; allowed: a column time_s, time_ms or 'time [s]' of numbers; its numbers "
+            f"are {known}" + (f", its words {others}" if how.words else "")
         )
     if len(times) == 1:
         (place,) = times

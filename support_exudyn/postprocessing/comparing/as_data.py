@@ -48,7 +48,8 @@ def _pair(pair: ComparedPair) -> dict[str, Any]:
             for contact, one_contact in pair.impacts.items()
         },
         "numbers": {name: {**one._asdict(), "times": one.times} for name, one in pair.numbers.items()},
-        "left_out": list(pair.left_out),
+        "left_out": list(pair.common.lacking),
+        "not_alike": dict(pair.common.not_alike),
         "channels": {name: _channel(one) for name, one in pair.channels.items()},
     }
 

@@ -59,9 +59,10 @@ def on_common_times(
         (time >= start - CLEARANCE) & (time <= end + CLEARANCE) for time in (reference_time, other_time)
     )
     if not (mine.any() or its.any()):
+        between = "" if math.isinf(after) and math.isinf(until) else f" between {after:g} and {until:g} s"
         raise InputError(
-            f"times {_said(reference_time)} and {_said(other_time)}: none lies between {after:g} and {until:g} "
-            "s where both curves are; allowed: curves that overlap there"
+            f"times {_said(reference_time)} and {_said(other_time)}: none lies{between} where both curves are; "
+            "allowed: curves that overlap there"
         )
     if its.any() and (not mine.any() or its.sum() < mine.sum()):
         at, values = other_time[its], other[its]

@@ -28,6 +28,7 @@ T = TypeVar("T")
 Values = npt.NDArray[np.float64]
 JUDGED = ("mean", "rms", "spread", "quantile_95")  # statistics that are in the unit of the channel
 LARGEST = "largest difference"
+GAPS = "values that are missing"
 MISSED = 2.0  # times the distance from every second record: what lies between all of them
 FEWEST = 2  # times that make a curve
 CONFIDENCE = 0.95  # of all intervals of the statistics of two files together
@@ -110,14 +111,22 @@ class ComparedChannel:
         return bool(np.array_equal(self.common.reference, self.common.other, equal_nan=True))
 
     @property
+    def gaps(self) -> int:
+        """At how many times the other curve is not known and the reference is."""
+        return int(np.count_nonzero(np.isfinite(self.common.reference) & ~np.isfinite(self.common.other)))
+
+    @property
     def judged(self) -> tuple[JudgedDifference, ...]:
         """What is judged: the largest difference before the parting, and statistics after it.
 
-        Curves that are the same to the bit have the same errors, whatever these are.
+        Curves that are the same to the bit have the same errors, whatever these are. What the other curve lacks
+        of the reference is nothing that can be judged.
         """
         if self.is_same:
             return (JudgedDifference(LARGEST, 0.0, 0.0, self.allowed),)
         error = self.largest.error if math.isfinite(self.largest.error) else self._interpolation
+        if self.gaps:
+            return (JudgedDifference(GAPS, math.nan, 0.0, self.allowed),)
         found = [JudgedDifference(LARGEST, abs(self.largest.value), error, self.allowed)] if self.before else []
         for name in JUDGED:
             if (one := self.statistics.get(name)) is not None:

@@ -18,15 +18,17 @@ from support_exudyn.postprocessing.comparing.compared_channel import (
 )
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile, compared_file, of_run
 from support_exudyn.postprocessing.comparing.found_shift import FoundShift, found_shift
-from support_exudyn.postprocessing.comparing.matched_channels import common_channels
+from support_exudyn.postprocessing.comparing.matched_channels import (
+    CommonChannels,
+    check_named,
+    common_channels,
+)
 from support_exudyn.postprocessing.comparing.matched_impacts import MatchedImpacts, match_impacts
 from support_exudyn.postprocessing.comparing.own_runs import same_to_the_bit
 from support_exudyn.postprocessing.comparing.pair_parting import NEVER, impacts_of, pair_parting
 from support_exudyn.postprocessing.comparing.parting import Parting
-from support_exudyn.postprocessing.comparing.si_units import si_unit
 from support_exudyn.postprocessing.comparing.tolerances import (
     Tolerance,
-    check_patterns,
     of_channel,
     read_tolerances,
 )
@@ -47,8 +49,7 @@ class ComparedPair:
     impacts: of contacts that both know.
     shift: the shift in time that was found, which `other` has been given; None: none was asked for.
     same: how many channels there are, if both are runs and all records are the same to the bit; else 0.
-    left_out: names of channels of the reference that the other file has not. after, until: what is compared,
-    [s].
+    common: which channels are compared, and which are not. after, until: what is compared, [s].
     """
 
     reference: ComparedFile
@@ -58,7 +59,7 @@ class ComparedPair:
     impacts: Mapping[str, MatchedImpacts]
     shift: FoundShift | None
     same: int
-    left_out: tuple[str, ...]
+    common: CommonChannels
     after: float
     until: float
 
@@ -127,10 +128,10 @@ def compare_files(
     tolerances = [*asked, *tolerances_of(said)]
     first, *rest = files
     chosen = [common_channels(first, other, channels) for other in rest]
-    check_patterns(tolerances, list(dict.fromkeys(name for names, _ in chosen for name in names)))
+    check_named(tolerances, chosen)
     pairs = tuple(
-        _pair(first, other, *names, (after, until), said, tolerances, find_shift)
-        for other, names in zip(rest, chosen, strict=True)
+        _pair(first, other, common, (after, until), said, tolerances, find_shift)
+        for other, common in zip(rest, chosen, strict=True)
     )
     return FilesCompared(first, pairs, after, until)
 
@@ -174,15 +175,14 @@ def _name(path: Path | Result, number: int, taken: Sequence[str], paths: Sequenc
 def _pair(
     reference: ComparedFile,
     other: ComparedFile,
-    names: Sequence[str],
-    left_out: tuple[str, ...],
+    common: CommonChannels,
     ends: tuple[float, float],
     said: CompareFile,
     tolerances: Sequence[Tolerance],
     find_shift: bool,
 ) -> ComparedPair:
     """Compare two files."""
-    units = {name: _unit(reference, other, name) for name in names}
+    units, names = common.units, list(common.units)
     shift = found_shift(reference, other, units) if find_shift else None
     if shift is not None:
         other = other.shifted(-shift.found.shift)
@@ -213,24 +213,4 @@ def _pair(
             impacts,  # type: ignore[arg-type]
         )
     matched = {name: match_impacts(onsets[0][name], onsets[1][name]) for name in contacts}
-    return ComparedPair(reference, other, channels, parting, matched, shift, same, left_out, *ends)
-
-
-def _unit(reference: ComparedFile, other: ComparedFile, channel: str) -> str:
-    """The unit in which a channel is told: that of a run, else the SI unit of what the files name.
-
-    Raises InputError if none names one.
-    """
-    for file in (reference, other):
-        if file.run is not None:
-            return file.run.unit(file.column(channel).column)
-    for file in (reference, other):
-        if (found := file.unit(channel)) is not None:
-            return si_unit(found)
-    column = reference.column(channel).column
-    raise InputError(
-        f"{reference.path}, {other.path}: {channel} has a unit in neither; allowed: one in the title of the "
-        "column, "
-        f'such as \'{column} [mm]\', or in compare.toml, [files."{reference.path.name}".units] "{column}" = '
-        '"mm"'
-    )
+    return ComparedPair(reference, other, channels, parting, matched, shift, same, common, *ends)

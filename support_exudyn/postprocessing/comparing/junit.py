@@ -20,7 +20,7 @@ def junit_xml(found: FilesCompared) -> str:
     whole = ElementTree.Element("testsuites", name=NAME)
     for pair in found.pairs:
         whole.append(_suite(pair))
-    for name in ("tests", "failures"):
+    for name in ("tests", "failures", "skipped"):
         whole.set(name, str(sum(int(suite.get(name, "0")) for suite in whole)))
     ElementTree.indent(whole)
     return ElementTree.tostring(whole, encoding="unicode", xml_declaration=False)
@@ -36,14 +36,21 @@ def write_junit(found: FilesCompared, path: Path) -> None:
 def _suite(pair: ComparedPair) -> ElementTree.Element:
     cases = [_case(pair, one) for one in pair.channels.values()]
     failures = sum(case.find("failure") is not None for case in cases)
+    skipped = [_left_out(pair, name, why) for name, why in pair.common.not_alike.items()]
     suite = ElementTree.Element(
-        "testsuite", name=cleaned(f"{pair.other.name} less {pair.reference.name}"), tests=str(len(cases)),
-        failures=str(failures), errors="0", skipped="0",
+        "testsuite", name=cleaned(f"{pair.other.name} less {pair.reference.name}"),
+        tests=str(len(cases) + len(skipped)), failures=str(failures), errors="0", skipped=str(len(skipped)),
     )  # fmt: skip
-    suite.extend(cases)
+    suite.extend([*cases, *skipped])
     if notes := "\n".join(sentences(pair)):
         ElementTree.SubElement(suite, "system-out").text = cleaned(notes)
     return suite
+
+
+def _left_out(pair: ComparedPair, name: str, why: str) -> ElementTree.Element:
+    case = ElementTree.Element("testcase", classname=cleaned(pair.other.name), name=cleaned(name))
+    ElementTree.SubElement(case, "skipped", message=cleaned(why))
+    return case
 
 
 def _case(pair: ComparedPair, one: ComparedChannel) -> ElementTree.Element:

@@ -146,6 +146,10 @@ class _Course:
     def _alone(self, onset: Onset) -> str:
         if onset.speed < LIGHT * self.fastest:
             return ""
+        if self.resolution > 0.0:
+            return (
+                f"{self.contact}: one shows an impact that the other does not, read to {self.resolution:.2g} s"
+            )
         return f"{self.contact}: one has an impact that the other lacks"
 
     def _merged(self, onsets: Sequence[Onset]) -> set[Onset]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from support_exudyn.postprocessing.comparing.compared_channel import CONFIDENCE,
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair
 from support_exudyn.postprocessing.comparing.pair_parting import impacts_of
 from support_exudyn.postprocessing.comparing.told import share
+from support_exudyn.postprocessing.figures.selection import CLEARANCE
 from support_exudyn.postprocessing.figures.units import said
 
 FEW = 6  # names that are told of many
@@ -25,11 +26,19 @@ def sentences(pair: ComparedPair) -> Iterator[str]:
     yield from _parting(pair)
     yield from _numbers(pair)
     yield from _times(pair)
+    yield from _covered(pair)
+    yield from _not_known(pair)
     for one in pair.channels.values():
         yield from (f"{one.name}: {reason}" for reason in one.not_told)
-    if pair.left_out:
-        more = f" and {len(pair.left_out) - 6} more" if len(pair.left_out) > 6 else ""
-        yield f"{pair.other.name} has no {', '.join(pair.left_out[:6])}{more}"
+    if lacking := pair.common.lacking:
+        yield f"{pair.other.name} has no {_some(lacking)}"
+    if reasons := pair.common.not_alike:
+        yield f"left out: {_some(list(reasons))}; {next(iter(reasons.values()))}"
+
+
+def _some(names: Sequence[str]) -> str:
+    more = f" and {len(names) - FEW} more" if len(names) > FEW else ""
+    return f"{', '.join(names[:FEW])}{more}"
 
 
 def _files(pair: ComparedPair) -> Iterator[str]:
@@ -130,3 +139,29 @@ def _interpolation(one: ComparedChannel) -> float:
         return -1.0
     size = extent(one.common.reference)
     return float(np.nanmax(one.common.interpolation_error)) / size if size > 0.0 else math.inf
+
+
+def _covered(pair: ComparedPair) -> Iterator[str]:
+    """Which times of the reference the other file lacks, if that is more than the time between two records."""
+    worst, most = "", 0.0
+    for name, one in pair.channels.items():
+        time, common = pair.reference.time(name), one.common.time
+        start, end = max(float(time[0]), pair.after), min(float(time[-1]), pair.until)
+        gap = max(float(common[0]) - start, end - float(common[-1]))
+        step = float(np.diff(common).max()) if common.size > 1 else 0.0
+        if gap > max(most, CLEARANCE + 1.5 * step):
+            most = gap
+            worst = (
+                f"compared are {common[0]:.6g} to {common[-1]:.6g} s of {start:.6g} to {end:.6g} s of "
+                f"{pair.reference.name} ({name}), for {pair.other.name} has no more"
+            )
+    if worst:
+        yield worst
+
+
+def _not_known(pair: ComparedPair) -> Iterator[str]:
+    """How many values are not there, and so are left out."""
+    for one in pair.channels.values():
+        for file, values in ((pair.reference, one.common.reference), (pair.other, one.common.other)):
+            if missing := int(np.count_nonzero(~np.isfinite(values))):
+                yield f"{one.name}: {file.name} has no value at {missing} of {values.size} times"

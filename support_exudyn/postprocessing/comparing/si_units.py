@@ -29,6 +29,7 @@ def si_unit(unit: str) -> str:
     return next((one for one in known if of_a_kind(unit, one)), unit)
 
 
+@cache
 def of_a_kind(one: str, other: str) -> bool:
     """Whether quantities in one unit can be given in another."""
     try:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
-from support_exudyn.postprocessing.comparing.compared_channel import LARGEST, ComparedChannel
+import numpy as np
+
+from support_exudyn.postprocessing.comparing.compared_channel import GAPS, LARGEST, ComparedChannel
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair
 from support_exudyn.postprocessing.comparing.verdict import WORST_FIRST, JudgedDifference, ToleranceVerdict
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable_change, said
@@ -12,6 +14,8 @@ from support_exudyn.simulation.estimate import Estimate
 
 Row = tuple[str, ...]
 DIGITS = 6  # of numbers without a known error
+MOST_DECIMALS = 9
+BALANCED = 1e-14  # of the largest value
 SHARE = 3  # of shares of a range
 NONE = "-"
 HEADER = (
@@ -63,8 +67,8 @@ def _row(one: ComparedChannel, judged: bool) -> Row:
     cells = (
         one.name,
         unit.name,
-        number(one.reference._replace(error=math.nan), unit.scale),
-        number(one.mean, unit.scale),
+        number(_rounded(one.reference._replace(error=math.nan), one), unit.scale),
+        number(_rounded(one.mean, one), unit.scale),
         number(signed, unit.scale),
         NONE if math.isnan(one.measures.largest_time) else f"{one.measures.largest_time:.6g}",
         share(one.measures.rms_of_range),
@@ -72,6 +76,13 @@ def _row(one: ComparedChannel, judged: bool) -> Row:
         beside(one),
     )
     return (*cells, verdict_words(one)) if judged else cells
+
+
+def _rounded(mean: Estimate, one: ComparedChannel) -> Estimate:
+    """A mean; 0 if it is what rounding leaves of values that balance."""
+    largest = np.fmax(*(np.abs(curve).max(initial=0.0, where=np.isfinite(curve)) for curve in one.common[1:3]))
+    balanced = math.isnan(mean.error) and abs(mean.value) < BALANCED * largest
+    return mean._replace(value=0.0) if balanced else mean
 
 
 def shown_unit(one: ComparedChannel) -> DisplayUnit:
@@ -90,8 +101,9 @@ def number(found: Estimate, scale: float) -> str:
         return f"{value:.{DIGITS}g}"
     if not math.isfinite(error) or error <= 0.0:
         return f"{value:.{DIGITS}g} ± {'not known' if error else '0'}"
-    digits = min(max(0, 1 - math.floor(math.log10(error))), 9)
-    return f"{value:.{digits}f} ± {error:.1g}"
+    digits = max(0, 1 - math.floor(math.log10(error)))
+    shown = f"{value:.{digits}f}" if digits <= MOST_DECIMALS else f"{value:.{DIGITS}g}"
+    return f"{shown} ± {error:.1g}"
 
 
 def share(value: float) -> str:
@@ -106,7 +118,10 @@ def beside(one: ComparedChannel) -> str:
     said_so = str(one.beside_errors)
     if len(one.with_errors) == 2:
         return said_so
-    return said_so.replace("both errors", f"the error of {one.with_errors[0]}")
+    of = f"the error of {one.with_errors[0]}"
+    if one.beside_errors.within is False and math.isfinite(one.beside_errors.times):
+        return f"{said_so} {of}"
+    return said_so.replace("both errors", of)
 
 
 def verdict_words(one: ComparedChannel) -> str:
@@ -138,8 +153,16 @@ def fault(one: ComparedChannel) -> str:
 def _fault(one: ComparedChannel, judged: JudgedDifference) -> str:
     assert one.tolerance is not None
     allowed = said(judged.allowed, one.unit, 4)
-    if one.tolerance.is_relative:
+    if one.tolerance.is_relative and judged.allowed == 0.0:
+        allowed = f"{allowed}, for the reference is constant (give an amount with its unit)"
+    elif one.tolerance.is_relative:
         allowed = f"{allowed} ({one.tolerance.text} of the reference's range)"
+    if judged.what == GAPS:
+        return (
+            f"{one.name}: has no value at {one.gaps} of {one.common.time.size} times at which the reference is "
+            "known: not decided. A part without gaps can be judged (--after, --until), or the file with gaps "
+            "be the reference."
+        )
     what = judged.what if judged.what == LARGEST else f"{judged.what.replace('_', ' ')} after the parting"
     at = f" at {one.measures.largest_time:.6g} s" if judged.what == LARGEST else ""
     if judged.what == LARGEST and math.isfinite(one.largest_of_reference):

@@ -6,13 +6,12 @@ import math
 import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 
 import numpy as np
 
 from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.series.units import converted
-from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.postprocessing.figures.selection import is_called, matching
 from user_forces.values.value import InputError, short
 
 WRITTEN = re.compile(r"\s*([+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
@@ -78,7 +77,7 @@ def read_tolerances(text: str) -> list[Tolerance]:
 
 def of_channel(tolerances: Sequence[Tolerance], channel: str) -> Tolerance | None:
     """The first tolerance whose pattern matches a channel; None if none does."""
-    return next((one for one in tolerances if fnmatchcase(channel, one.pattern)), None)
+    return next((one for one in tolerances if is_called(channel, one.pattern)), None)
 
 
 def check_patterns(tolerances: Sequence[Tolerance], channels: Collection[str]) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import Literal, NamedTuple
 
 ToleranceVerdict = Literal["within", "not within", "not decided", "told"]
+ROUNDING = 1e-9  # share of what is allowed: 1.1 - 1.0 is 0.1, in whatever digits
 WORST_FIRST: tuple[ToleranceVerdict, ...] = ("not within", "not decided", "within", "told")
 
 
@@ -34,7 +35,7 @@ class JudgedDifference(NamedTuple):
             return "not decided"
         if self.error > self.allowed and self.value - self.error <= self.allowed:
             return "not decided"
-        return "within" if self.value <= self.allowed else "not within"
+        return "within" if self.value <= self.allowed * (1.0 + ROUNDING) else "not within"
 
 
 def worst(verdicts: Iterable[ToleranceVerdict]) -> ToleranceVerdict:

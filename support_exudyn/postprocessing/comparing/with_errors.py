@@ -64,7 +64,9 @@ class BesideErrors(NamedTuple):
             return UNKNOWN
         if self.within:
             return "within both errors"
-        return f"larger: {self.times:.2g} times" if math.isfinite(self.times) else "larger, and no errors"
+        if math.isinf(self.times):
+            return "larger, and no errors"
+        return f"larger: {float(f'{self.times:.2g}'):.15g} times"  # 310, and not 3.1e+02
 
 
 def beside_errors(first: float, second: float, first_error: float, second_error: float) -> BesideErrors:

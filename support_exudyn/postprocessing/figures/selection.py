@@ -16,6 +16,11 @@ CLEARANCE = 1e-9  # [s], of times that were computed as sums of steps
 FEWEST = 2  # records that make a line
 
 
+def is_called(name: str, pattern: str) -> bool:
+    """Whether a name is a name or fits a pattern as in a shell; `F[1]`, which is both, is itself, too."""
+    return name == pattern or fnmatchcase(name, pattern)
+
+
 def matching(names: Collection[str], patterns: Sequence[str], kind: str = "channel") -> list[str]:
     """The names that any of the patterns matches, in the order of the patterns; time is not among them.
 
@@ -28,7 +33,7 @@ def matching(names: Collection[str], patterns: Sequence[str], kind: str = "chann
     """
     found: list[str] = []
     for pattern in patterns:
-        matched = [name for name in names if name != "time" and fnmatchcase(name, pattern)]
+        matched = [name for name in names if name != "time" and is_called(name, pattern)]
         if not matched:
             near = get_close_matches(pattern, names, 4, 0.4) or sorted(names)[:4]
             raise InputError(

@@ -106,4 +106,5 @@ def said_beside(value: float, unit: str, largest: float) -> str:
 def said(value: float, unit: str, digits: int = 3) -> str:
     """A quantity in words, in the unit in which it is read best: "0.26 ms" becomes "260 µs"."""
     shown = readable(unit, abs(value))
-    return f"{shown.scale * value:.{digits}g} {shown.name}"
+    number = f"{shown.scale * value:.{digits}g}"
+    return number if shown.name == "1" else f"{number} {shown.name}"

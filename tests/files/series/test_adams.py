@@ -78,7 +78,7 @@ def test_of_several_analyses_one_is_taken_and_told(tmp_path: Path) -> None:
     path = written(tmp_path, start + one + other + "</Results>")
     found = read_series(path)
     assert found.series["P.X"].values[-1] == 13.0
-    assert found.notes == ("Of 2 analyses the first is taken, A; others are B.",)
+    assert found.notes == ("Of 2 analyses the first is taken, A; others are B (analysis = of compare.toml).",)
     assert read_series(path, analysis="B").series["P.X"].values[-1] == 99.0
     with pytest.raises(InputError, match="has no analysis 'C'; allowed: one of its 2: 'A', 'B'"):
         read_series(path, analysis="C")

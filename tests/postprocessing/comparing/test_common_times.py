@@ -57,7 +57,7 @@ def test_what_is_not_known_stays_so() -> None:
 
 
 def test_curves_that_do_not_overlap_are_refused() -> None:
-    with pytest.raises(InputError, match="none lies between"):
+    with pytest.raises(InputError, match="s: none lies where both"):
         on_common_times(FINE, FINE, FINE + 5.0, FINE)
     with pytest.raises(InputError, match="none lies between 2 and 3 s"):
         on_common_times(FINE, FINE, FINE, FINE, 2.0, 3.0)

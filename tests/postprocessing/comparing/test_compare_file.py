@@ -170,7 +170,7 @@ def test_a_column_without_unit_is_refused(files: tuple[Path, Path], tmp_path: Pa
 def test_units_that_neither_file_names_are_refused(tmp_path: Path) -> None:
     one, other = (written(tmp_path, "time_s,a\n0,1\n1,2\n", f"{n}.csv") for n in "xy")
     with pytest.raises(
-        InputError, match=r"a has a unit in neither; allowed: .*'a \[mm\]'.*units\] \"a\" = \"mm\""
+        InputError, match=r"a: has a unit in neither; allowed: .*'a \[mm\]'.*units\] \"a\" = \"mm\""
     ):
         compare_files(one, other)
     plain = written(tmp_path, '[units]\na = "1"\n')

@@ -162,4 +162,6 @@ def test_times_are_compared_to_their_resolution() -> None:
     assert parting_of_impacts({"pin": first}, {"pin": second}, resolution=0.03).time == math.inf
     double = tuple(sorted((*first, first[4]._replace(time=first[4].time + 0.005))))
     assert parting_of_impacts({"pin": double}, {"pin": first}, resolution=0.003).time == math.inf
-    assert parting_of_impacts({"pin": double}, {"pin": first}).time < math.inf
+    assert parting_of_impacts({"pin": double}, {"pin": first}).because.endswith("that the other lacks")
+    told = parting_of_impacts({"pin": double}, {"pin": first}, resolution=0.0024).because
+    assert told == "pin: one shows an impact that the other does not, read to 0.0024 s"
