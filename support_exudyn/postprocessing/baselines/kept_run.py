@@ -17,6 +17,7 @@ from support_exudyn.simulation.provenance import provenance
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.key import program
 from support_exudyn.sweeps.own_sources import own_sources
+from user_forces.values.value import InputError
 
 RECORDS = 100  # of every curve that are kept
 TIME = "time"
@@ -67,6 +68,11 @@ def kept_run(result: Result) -> KeptRun:
 
     Raises InputError if the result has nothing to estimate errors by.
     """
+    if result.coarser is None:
+        raise InputError(
+            "the run has no numerical errors, so that no change can be told from them; allowed: a run with an "
+            "accuracy, or made with errors=True"
+        )
     impacts, horizon = kept_impacts(result)
     rows = np.unique(np.linspace(0, result.time.size - 1, RECORDS).round().astype(np.intp))
     return KeptRun(
