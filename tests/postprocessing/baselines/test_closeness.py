@@ -70,8 +70,8 @@ def test_an_error_larger_than_the_tolerance_decides_nothing() -> None:
     one = only(closeness(Estimate(1.0, 0.5, "N"), 1.1, 0.2))
     assert (one.verdict, one.is_close) == ("not decided", False)
     assert str(one) == (
-        "it: 1 N, where the reference is 1.1 N: it cannot be told whether they are close, for the numerical error "
-        "is 0.5 N; allowed: 0.22 N (20 % of the value of the reference); a higher accuracy may tell"
+        "it: 1 N, where the reference is 1.1 N: it cannot be told whether they are close, for the numerical "
+        "error is 0.5 N; allowed: 0.22 N (20 % of the value of the reference); a higher accuracy may tell"
     )
     assert only(closeness(Estimate(9.0, 0.5, "N"), 1.1, 0.2)).verdict == "not within"
 
