@@ -345,8 +345,13 @@ def test_the_command_writes_files_that_both_programs_take(tmp_path: Path) -> Non
     assert read_dataset((tmp_path / "rise.adm").read_text()) == READ
     assert read_scenario(tmp_path / "rise.toml") == RISE
     assert "NOT RUN" in (tmp_path / "rise.adm").read_text()
-    assert main(["adams", str(tmp_path / "rise.toml"), "--out", str(tmp_path / "again")]) == 0
-    assert (tmp_path / "again" / "rise.adm").read_text() == (tmp_path / "rise.adm").read_text()
+    ours = tmp_path / "ours" / "rise.toml"
+    ours.parent.mkdir()
+    text = f"# ours\n{(tmp_path / 'rise.toml').read_text()}"
+    ours.write_text(text)
+    assert main(["adams", str(ours), "--out", str(ours.parent)]) == 0
+    assert (ours.parent / "rise.adm").read_text() == (tmp_path / "rise.adm").read_text()
+    assert ours.read_text() == text
 
 
 LOAD = AppliedForce(body="canopy", point=(1.0, 2.0), full_force=(0.0, -1e3))
