@@ -1,7 +1,7 @@
 """`python -m studies adams`: the paper's rise, or a scenario of yours, written for ADAMS.
 
-Three files: the dataset and the commands for ADAMS/Solver, and the mapping by which `compare` finds our channels
-in the results. The paper's rise is written as a scenario, too; one of yours stays as it is.
+Three files: the dataset and the commands for ADAMS/Solver, and the mapping by which `compare` finds our
+channels in the results. The paper's rise is written as a scenario, too; one of yours stays as it is.
 """
 
 from collections.abc import Mapping, Sequence

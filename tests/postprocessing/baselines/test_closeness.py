@@ -114,6 +114,8 @@ def test_the_figure_shows_both_curves_and_the_difference() -> None:
     assert [line.get_label() for line in above.lines] == ["reference", "result"]
     assert np.asarray(below.lines[0].get_ydata()) == pytest.approx(0.1)
     assert below.get_ylabel() == "difference [mm]"
+    texts = " ".join(text.get_text() for text in difference_figure(one._replace(verdict="not decided")).texts)
+    assert "where the numerical error is largest" in texts
 
 
 def test_times_may_be_others_and_what_is_not_known_is_left_out() -> None:
