@@ -44,9 +44,10 @@ def _reasons(scenario: Scenario) -> Iterator[str]:
     for kind, items in others.items():
         for name in items:
             yield f"{kind}.{name}: allowed: machines of bodies, pins and columns"
-    for drive in scenario.drives_in_use:
+    for name in linkage.actuators:
+        drive = scenario.drive_of(name)
         if not isinstance(drive, (CubicStep, Held)):
-            yield f"drive = {type(drive).__name__}: allowed: CubicStep, the STEP function, or Held"
+            yield f"drives.{name} = {type(drive).__name__}: allowed: CubicStep, the STEP function, or Held"
     for name, body in linkage.bodies.items():
         if any(body.velocity) or body.spin:
             yield f"bodies.{name}: moves at the start; allowed: machines that start at rest"

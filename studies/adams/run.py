@@ -1,7 +1,7 @@
 """`python -m studies adams`: the paper's rise, or a scenario of yours, written for ADAMS.
 
-Four files: the dataset and the commands for ADAMS/Solver, our scenario, and the mapping by which `compare`
-finds our channels in the results.
+Three files: the dataset and the commands for ADAMS/Solver, and the mapping by which `compare` finds our
+channels in the results. The paper's rise is written as a scenario, too; one of yours stays as it is.
 """
 
 from collections.abc import Mapping, Sequence
@@ -41,7 +41,7 @@ def mapping_text(columns: Mapping[str, str], results: str) -> str:
 
 
 def write(scenario: Scenario, name: str, out: Path) -> list[Path]:
-    """Write the four files of a scenario into a folder; returns their paths.
+    """Write the files for ADAMS and the mapping into a folder; returns their paths.
 
     Raises InputError with a line for everything that there are no statements for; OSError if the folder cannot
     be written to.
@@ -55,7 +55,7 @@ def write(scenario: Scenario, name: str, out: Path) -> list[Path]:
     for file, text in texts.items():
         with whole_file(out / file) as temporary:
             temporary.write_text(text, encoding="ascii", newline="\n")
-    return [*(out / file for file in texts), save_scenario(scenario, out / f"{name}.toml")]
+    return [out / file for file in texts]
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -71,7 +71,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     def work(out: Path) -> None:
         scenario = paper_rise() if given.scenario is None else read_scenario(given.scenario)
         name = PAPER if given.scenario is None else _name(given.scenario)
-        for path in write(scenario, name, out):
+        written = write(scenario, name, out)
+        if given.scenario is None:
+            written.append(save_scenario(scenario, out / f"{name}.toml"))
+        for path in written:
             say(str(path))
         say("not run in ADAMS here; see studies/adams/README.md")
 

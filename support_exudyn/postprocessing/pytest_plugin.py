@@ -106,6 +106,8 @@ def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPa
 
         from support_exudyn.files.scenarios.scenario_file import read_scenario_file
         from support_exudyn.postprocessing.baselines.cached_run import RunCache
+        from support_exudyn.scenario.scenario import Scenario
+        from user_forces.values.value import InputError, short
 
         nonlocal cache
         if cache is None:
@@ -113,6 +115,8 @@ def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPa
         if isinstance(scenario, (str, Path)):
             file = read_scenario_file(scenario)
             scenario, errors = file.scenario, errors or file.errors
+        elif not isinstance(scenario, Scenario):
+            raise InputError(f"{short(scenario)}: cannot be run; allowed: a Scenario, or the path of its file")
         return cache.run(scenario if accuracy is None else replace(scenario, accuracy=accuracy), errors)
 
     return run

@@ -2,16 +2,14 @@
 
 import hashlib
 import json
-import sys
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
-from support_exudyn.files.own_modules import OURS, classes_in
+from support_exudyn.files.own_modules import OURS
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.provenance import versions
-from user_forces.values.value import Value
+from support_exudyn.sweeps.own_sources import own_sources
 
 MAKES_NO_NUMBERS = ("matplotlib", "meshio", "h5py", "pydantic")  # a run's numbers do not depend on these
 LOOKS = ("postprocessing", "commands", "sweeps")  # rooms of ours that compute no number of a run
@@ -34,21 +32,8 @@ def key(scenario: Scenario, errors: bool = False) -> str:
     errors: whether it is made with estimated errors, see `simulate`.
     """
     data = scenario.plain
-    text = json.dumps([data, errors, program(), _own(data)], sort_keys=True, separators=(",", ":"))
+    text = json.dumps([data, errors, program(), own_sources(data)], sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
-
-
-def _own(data: Any) -> dict[str, str]:
-    """Digests of the modules of one's own whose classes these data are of, by name."""
-    modules = {Value.of_name(kind).__module__ for kind in set(classes_in(data))}
-    return {name: _source(name) for name in modules if name.partition(".")[0] not in OURS}
-
-
-@cache
-def _source(module: str) -> str:
-    """Digest of a module's file; empty if it has none, such as what is typed into a console."""
-    path = getattr(sys.modules.get(module), "__file__", None)
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:LENGTH] if path else ""
 
 
 def _sources() -> str:

@@ -31,7 +31,7 @@ FAST = SLOW.replace("= 60", "= 61")
 
 @pytest.fixture
 def scenes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Two scenarios, a machine and a sweep."""
+    """Two scenarios, and one of each of the other files."""
     monkeypatch.chdir(tmp_path)
     place = tmp_path / "scenes"
     place.mkdir()
@@ -39,6 +39,8 @@ def scenes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (place / "fast.toml").write_text(FAST, "utf-8")
     (place / "machine.toml").write_text('kind = "linkage"\n', "utf-8")
     (place / "sizes.toml").write_text('scenario = "slow.toml"\n', "utf-8")
+    (place / "compare.toml").write_text('tolerances = { "tip.*" = "1 mm" }\n', "utf-8")
+    (place / "gauges.toml").write_text('[instruments."canopy.tilt"]\ntype = "Inclinometer"\n', "utf-8")
     return place
 
 
@@ -206,3 +208,4 @@ def test_a_damaged_baseline_ends_with_2(scenes: Path, capsys: pytest.CaptureFixt
         code, said = called(capsys, *words)
         assert code == 2
         assert "slow.json: is no baseline, damaged, or changed by hand" in said.err
+        assert "take it from version control" in said.err

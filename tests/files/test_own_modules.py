@@ -11,7 +11,8 @@ import pytest
 
 from support_exudyn import ClearancePin
 from support_exudyn.files.own_modules import import_modules_of, modules_of
-from support_exudyn.sweeps.key import _source, key
+from support_exudyn.sweeps.key import key
+from support_exudyn.sweeps.own_sources import _source
 from tests.cases.run_cases import loose_support
 from user_forces import InputError, PinInBore
 from user_forces.values.value import Value, kinds_of

@@ -394,6 +394,8 @@ def test_all_mistakes_are_told_at_once() -> None:
         (b"a = 1,5 # mm\n", r"line 1: 'a = 1,5 # mm': .*; allowed: decimals after a point, as in 1\.5"),
         (b'kind = "slider_crank"\n', r"is the file of a machine; allowed: a scenario"),
         (b'scenario = "b.toml"\n', r"is the file of a sweep; allowed: a scenario"),
+        (b"[instruments]\n", r"is a file of instruments; allowed: a scenario; or `measure RUN` with it"),
+        (b"[files.a]\n", r"is the file of a comparison; allowed: a scenario"),
         (b"a = " + b"[" * 5000, "is nested too deep"),
     ],
 )

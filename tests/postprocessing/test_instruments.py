@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,9 +13,10 @@ import pytest
 from support_exudyn import HydraulicCylinder, OilColumn, Result, Scenario, bore_area, reference_support
 from support_exudyn.__main__ import main
 from support_exudyn.files.machines.read import machine
+from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
-from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge
+from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge, column_of
 from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer
 from support_exudyn.postprocessing.instruments.instrument import Instrument
 from support_exudyn.postprocessing.instruments.low_pass import LowPass
@@ -173,6 +175,11 @@ def test_what_is_missing_is_asked_for(gauge: Instrument, said: str) -> None:
     assert str(told.value).startswith("one: ")
 
 
+def test_in_space_one_of_a_pair_may_be_meant() -> None:
+    with pytest.raises(InputError, match="did you mean 'front_column_left' or 'front_column'"):
+        column_of(replace(REST, dimensions=3), "front_column_lef")
+
+
 def test_extension_is_measured_from_the_start_or_from_a_length() -> None:
     start = REST.linkage.actuators["front_column"].start_length
     run = synthetic.result(REST, TIME, {"front_column.length": (start + TIME, "m")})
@@ -220,7 +227,15 @@ def test_samples_are_taken_at_their_rates_and_told_by_the_clock(tmp_path: Path) 
     np.testing.assert_allclose(series["slow"].time, found["fast"].time)
     again = converted(series["slow"], "Pa")
     np.testing.assert_array_equal(np.isnan(again), np.arange(17) % 4 != 0)
-    np.testing.assert_allclose(again[::4], found["slow"].values, rtol=1e-9)
+    np.testing.assert_allclose(again[::4], found["slow"].values, rtol=0.0, atol=0.1)
+
+
+def test_what_rounding_leaves_of_nothing_is_written_as_nothing(tmp_path: Path) -> None:
+    values = np.array([0.0, -2.2e-16, 4.4e-16, -1e-13, 1e-7, 0.12345678912])
+    path = write_measured({"a": NamedSeries("a", "m", TIME[:6], values)}, tmp_path / "measured.csv")
+    assert [line.partition(",")[2] for line in path.read_text("utf-8").splitlines()] == [
+        "a_mm", "0", "0", "0", "0", "0.0001", "123.4567891",
+    ]  # fmt: skip
 
 
 # --- what mines measure, the file, the command ---

@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 
 from studies.__main__ import main
 from studies.adams.dataset import adams_dataset, solver_commands
-from studies.adams.run import paper_rise
+from studies.adams.run import paper_rise, write
 from studies.adams.statements import number, numbers
 from studies.common.paper_machine import ideal_rise, oil_columns
 from support_exudyn import (
@@ -29,8 +29,7 @@ from support_exudyn import (
     read_scenario,
     simulate,
 )
-from support_exudyn.files.series.read import read_series
-from support_exudyn.files.series.units import converted
+from support_exudyn.__main__ import main as support_exudyn_main
 from support_exudyn.model.linkage import GROUND
 from tests.cases.adams_model import Dataset, Motion, PlanarModel, evaluated, read_dataset
 from user_forces import Frictionless, Impact
@@ -294,26 +293,47 @@ def test_every_result_has_its_unit_and_is_a_channel_of_ours() -> None:
     assert asked == len(dataset.columns)
 
 
-def test_results_as_adams_writes_them_are_read_by_the_names_of_the_mapping(tmp_path: Path) -> None:
-    dataset, units = adams_dataset(RISE, "model"), {"length": "meter", "force": "newton", "angle": "radian"}
-    entities, count = ['<Entity name="time"><Component name="TIME" unitsValue="sec" id="1"/></Entity>'], 1
-    for request in READ.of("REQUEST").values():
-        named = zip(request.words("CNAMES"), request.words("CUNITS"), strict=True)
-        components = ""
-        for name, unit in ((name, unit) for name, unit in named if name):
-            count += 1
-            components += f'<Component name="{name}" unitsValue="{units[unit]}" id="{count}"/>'
-        entities.append(f'<Entity name="{request.arguments["RESULTS_NAME"]}">{components}</Entity>')
-    steps = "".join(f'<Step type="dynamic">{" ".join([str(t)] * count)}</Step>' for t in range(3))
-    path = tmp_path / "model.res"
+def res_of(run: Result, columns: dict[str, str], data: Dataset, factor: float) -> str:
+    """A run as ADAMS writes it, by the names and kinds of unit that the requests give, in mm and kN.
+
+    factor: of all forces.
+    """
+    channels = {column: run[channel] for channel, column in columns.items()}
+    units = {"length": ("mm", 1e3), "force": ("knewton", 1e-3 * factor), "angle": ("deg", 180.0 / math.pi)}
+    entities, values = (
+        ['<Entity name="time"><Component name="TIME" unitsValue="ms" id="1"/></Entity>'],
+        [1e3 * run.time],
+    )
+    for request in data.of("REQUEST").values():
+        name, components = request.arguments["RESULTS_NAME"], ""
+        for component, kind in zip(request.words("CNAMES"), request.words("CUNITS"), strict=True):
+            if component:
+                unit, scale = units[kind]
+                values.append(scale * channels[f"{name}.{component}"])
+                components += f'<Component name="{component}" unitsValue="{unit}" id="{len(values)}"/>'
+        entities.append(f'<Entity name="{name}">{components}</Entity>')
+    steps = "".join(
+        f'<Step type="dynamic">{" ".join(map(repr, row.tolist()))}</Step>' for row in np.array(values).T
+    )
     inside = f"<StepMap>{''.join(entities)}</StepMap><Data>{steps}</Data>"
-    path.write_text(f'<Results><Analysis name="a">{inside}</Analysis></Results>')
-    series = read_series(path).series
-    assert set(series) == set(dataset.columns.values())
-    for channel, column in dataset.columns.items():
-        np.testing.assert_array_equal(
-            converted(series[column], RISE.channel_definitions[channel].unit), [0, 1, 2]
-        )
+    return f'<Results><Analysis name="a">{inside}</Analysis></Results>'
+
+
+@pytest.mark.parametrize(("factor", "code"), [(1.0, 0), (1.05, 1)])
+def test_results_as_adams_writes_them_are_compared_by_the_mapping(
+    factor: float, code: int, run: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write(MOVING, "rise", tmp_path)
+    run.save(tmp_path / "rise.h5")
+    columns = dict(adams_dataset(MOVING, "rise").columns)
+    (tmp_path / "rise.res").write_text(res_of(run, columns, data_of(MOVING), factor), "utf-8")
+    files = [str(tmp_path / "rise.h5"), str(tmp_path / "rise.res")]
+    words = ["--map", str(tmp_path / "compare.toml"), "--tolerance", "*=1%", "--json"]
+    with pytest.raises(SystemExit) as ended:
+        raise SystemExit(support_exudyn_main(["compare", *files, *words]) or 0)
+    assert ended.value.code == code
+    told = capsys.readouterr().out
+    assert all(f'"{channel}"' in told for channel in columns)
 
 
 # --- the command, and what is refused ---
@@ -325,8 +345,13 @@ def test_the_command_writes_files_that_both_programs_take(tmp_path: Path) -> Non
     assert read_dataset((tmp_path / "rise.adm").read_text()) == READ
     assert read_scenario(tmp_path / "rise.toml") == RISE
     assert "NOT RUN" in (tmp_path / "rise.adm").read_text()
-    assert main(["adams", str(tmp_path / "rise.toml"), "--out", str(tmp_path / "again")]) == 0
-    assert (tmp_path / "again" / "rise.adm").read_text() == (tmp_path / "rise.adm").read_text()
+    ours = tmp_path / "ours" / "rise.toml"
+    ours.parent.mkdir()
+    text = f"# ours\n{(tmp_path / 'rise.toml').read_text()}"
+    ours.write_text(text)
+    assert main(["adams", str(ours), "--out", str(ours.parent)]) == 0
+    assert (ours.parent / "rise.adm").read_text() == (tmp_path / "rise.adm").read_text()
+    assert ours.read_text() == text
 
 
 LOAD = AppliedForce(body="canopy", point=(1.0, 2.0), full_force=(0.0, -1e3))
@@ -340,7 +365,7 @@ LOOSE = RISE.pins[PIN]
         (replace(RISE, loads={"weight": LOAD}), "loads.weight: allowed: none"),
         (replace(RISE, start="settled"), "start = 'settled'"),
         (replace(RISE, dimensions=3), "dimensions = 3: allowed: 2"),
-        (replace(RISE, drive=Steady(rate=0.01)), "drive = Steady: allowed: CubicStep"),
+        (replace(RISE, drive=Steady(rate=0.01)), "drives.front_column = Steady: allowed: CubicStep"),
         (Scenario(machine=ravn_slider_crank(), duration=1.0), "cranks.crank: allowed"),
         (
             replace(RISE, pins={PIN: ClearancePin.simple(clearance=1e-3, bore_radius=0.06, stiffness="paper")}),

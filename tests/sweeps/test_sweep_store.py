@@ -23,6 +23,7 @@ from support_exudyn.model.drives.drive import CubicStep
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import FORMAT
 from support_exudyn.sweeps import key as keys
+from support_exudyn.sweeps import own_sources
 from support_exudyn.sweeps.key import LENGTH
 from support_exudyn.sweeps.plan import Plan, Record
 from support_exudyn.sweeps.store import Store, StoredNumber, StoredRun
@@ -127,10 +128,54 @@ def test_a_key_depends_on_the_source_of_laws_of_ones_own(
     with_clearance = replace(usual, pins={"rear_base": replace(pin, contact=replace(pin.contact, normal=own))})
     before = keys.key(with_clearance), keys.key(usual)
     law.write_text(text + "# changed\n", encoding="utf-8")
-    keys._source.cache_clear()  # as in a new process
+    own_sources._source.cache_clear()  # as in a new process
     after = keys.key(with_clearance), keys.key(usual)
     assert after[0] != before[0]
     assert after[1] == before[1]
+
+
+PACK = {
+    "packed_laws/__init__.py": "",
+    "packed_laws/law.py": "from user_forces import Flores, value\n"
+    "from .near import NEAR\nfrom . import beside\nimport far_from_it.inner as inner\nimport numpy\n"
+    "@value\nclass PackedLaw(Flores):\n    pass\n",
+    "packed_laws/near.py": "NEAR = 1\n",
+    "packed_laws/beside.py": "def late():\n    import once_more\n    return once_more\n",
+    "packed_laws/strange.py": "",
+    "far_from_it/__init__.py": "",
+    "far_from_it/inner.py": "import packed_laws.law\n",  # in a circle
+    "once_more.py": "",
+    "stranger.py": "",
+}
+NEEDED = PACK.keys() - {"packed_laws/strange.py", "stranger.py"}
+
+
+def test_a_key_depends_on_what_a_law_of_ones_own_imports(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for file, text in PACK.items():
+        (tmp_path / file).parent.mkdir(exist_ok=True)
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    law = import_module("packed_laws.law").PackedLaw(stiffness=1e10, restitution=0.9).to_data()
+    for name in ("packed_laws.strange", "stranger"):
+        import_module(name)
+    import_module("packed_laws.beside").late()
+
+    def found() -> dict[str, str]:
+        own_sources._source.cache_clear()
+        return own_sources.own_sources(law)
+
+    whole = found()
+    assert whole.keys() == {"packed_laws.law"}
+    for file, text in PACK.items():
+        (tmp_path / file).write_text(f"{text}# changed\n", encoding="utf-8")
+        assert (found() != whole) == (file in NEEDED), file
+        (tmp_path / file).write_text("no Python (\n", encoding="utf-8")
+        assert (found() != whole) == (file in NEEDED), file
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    assert found() == whole
+    own_sources._source.cache_clear()
 
 
 def test_the_same_text_of_a_machine_is_one_machine_and_another_text_another(tmp_path: Path) -> None:

@@ -35,6 +35,11 @@ from user_forces.values.value import InputError, Value, value
 OTHER_FILES = {  # by a key that they have
     "kind": "is the file of a machine; allowed: a scenario, which names it, `machine = FILE`; or `check` it",
     "scenario": "is the file of a sweep; allowed: a scenario; or `sweep` it",
+    "instruments": "is a file of instruments; allowed: a scenario; or `measure RUN` with it",
+    **dict.fromkeys(
+        ("files", "units", "tolerances", "bands_Hz"),
+        "is the file of a comparison; allowed: a scenario; or `compare` with it as --map",
+    ),
 }
 
 

@@ -28,7 +28,9 @@ DIGITS, OF_ERRORS = (
     3,
 )  # of values and of errors that are written; rounding is counted in errors from 1e-10 on
 DAMAGES = (LookupError, AttributeError, TypeError, ValueError, RecursionError, OverflowError)
-MEND = "allowed: a file as `baseline make` writes it; remove it, and make it again"
+MEND = (
+    "allowed: a file as `baseline make` writes it; take it from version control, or remove it and make it again"
+)
 
 
 def write_baseline(kept: KeptRun, path: Path) -> None:

@@ -17,11 +17,13 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.baselines.kept_impacts import kept_impacts
 from support_exudyn.postprocessing.baselines.safe_errors import safe_errors
 from support_exudyn.postprocessing.comparing.common_times import on_common_times
+from support_exudyn.postprocessing.comparing.compared_file import is_own
 from support_exudyn.postprocessing.comparing.tolerances import Tolerance, tolerance
 from support_exudyn.postprocessing.comparing.verdict import ToleranceVerdict
 from support_exudyn.postprocessing.figures.selection import CLEARANCE, matching
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
+from user_forces.values.names import meant
 from user_forces.values.value import InputError, short
 
 Number = Estimate | float
@@ -39,7 +41,8 @@ class Closeness(NamedTuple):
 
     name: of it. unit: of all. time: [s], (n,); of a number empty. values, reference, allowed: (n,), of a number
     (1,). allowed: by how much they may differ. verdict: within, not within, or not decided. where: the record
-    that is farthest beyond what is allowed. rule: the tolerance in words.
+    that is farthest beyond what is allowed. rule: the tolerance in words. error: of the difference there if it
+    is not decided, NaN: not known.
     """
 
     name: str
@@ -51,6 +54,7 @@ class Closeness(NamedTuple):
     verdict: ToleranceVerdict
     where: int
     rule: str
+    error: float = 0.0
 
     @property
     def is_close(self) -> bool:
@@ -70,11 +74,18 @@ class Closeness(NamedTuple):
         """The worst number in a line: where, what it is, what it should be."""
         now, was, allowed = (float(one[self.where]) for one in (self.values, self.reference, self.allowed))
         at = f" at t = {self.time[self.where]:.6g} s" if self.time.size else ""
-        limit = f"{allowed:.3g} {self.unit} ({self.rule})"
-        said = f"{self.name}: {now:.9g} {self.unit}{at}, where the reference is {was:.9g} {self.unit}: "
+        said = f"{self.name}: {self._said(now, 9)}{at}, where the reference is {self._said(was, 9)}: "
+        limit = f"allowed: {self._said(allowed, 3)} ({self.rule})"
         if self.verdict == "not decided":
-            return f"{said}not decided, the numerical error is larger than what is allowed: {limit}"
-        return f"{said}they differ by {abs(now - was):.3g} {self.unit}; allowed: {limit}"
+            known = self._said(self.error, 3) if math.isfinite(self.error) else "not known"
+            return (
+                f"{said}it cannot be told whether they are close, for the numerical error is {known}; {limit}; "
+                "a higher accuracy may tell"
+            )
+        return f"{said}they differ by {self._said(abs(now - was), 3)}; {limit}"
+
+    def _said(self, value: float, digits: int) -> str:
+        return f"{value:.{digits}g} {self.unit}".rstrip()
 
 
 class _Side(NamedTuple):
@@ -112,7 +123,7 @@ def closeness(
     """
     if isinstance(reference, (str, PathLike)):
         path = Path(reference)
-        reference = Result.load(path) if path.suffix.lower() == ".h5" else read_series(path)
+        reference = Result.load(path) if is_own(path) else read_series(path)
     end = until
     if allowed is None:
         runs = [one for one in (result, reference) if isinstance(one, Result) and one.coarser is not None]
@@ -159,7 +170,10 @@ def _pairs(
     known = [name for name in others if name in result.channels or name in numbers_of]
     if isinstance(reference, Mapping) and len(known) < len(others):
         missing = next(name for name in others if name not in known)
-        raise InputError(f"{missing}: the result has no such channel or number with an error")
+        known = [*result.channels, *numbers_of]
+        raise InputError(
+            f"{missing}: the result has no such channel or number with an error; {meant(missing, known)}"
+        )
     names = [name for name in (matching(known, channels) if channels else known) if name != TIME]
     if not names:
         raise InputError(
@@ -241,8 +255,16 @@ def _compared(
     else:
         extent = float(np.nanmax(reference) - np.nanmin(reference)) if time.size else abs(float(reference[0]))
         allowed = np.full(values.size, rule.in_si(name, unit, extent))
-        errors, words = np.nan_to_num(errors) + more, rule.text
+        errors, words = np.nan_to_num(errors) + more, _in_words(rule, bool(time.size))
     return _judged(Closeness(name, unit, time, values, reference, allowed, "within", 0, words), errors)
+
+
+def _in_words(rule: Tolerance, of_curve: bool) -> str:
+    return (
+        f"{rule.text} of the {'range' if of_curve else 'value'} of the reference"
+        if rule.is_relative
+        else rule.text
+    )
 
 
 def _judged(one: Closeness, errors: Series) -> Closeness:
@@ -260,7 +282,10 @@ def _judged(one: Closeness, errors: Series) -> Closeness:
         excess = np.where(beyond, off - one.allowed, -math.inf)
         return one._replace(verdict="not within", where=int(excess.argmax()))
     if undecided.any():
-        return one._replace(verdict="not decided", where=int(np.where(undecided, errors, -1.0).argmax()))
+        where = int(np.where(undecided, errors, -1.0).argmax())
+        return one._replace(
+            verdict="not decided", where=where, error=math.nan if unknown[where] else float(errors[where])
+        )
     return one._replace(where=int((off - one.allowed).argmax()))
 
 

@@ -23,8 +23,11 @@ def difference_figure(one: Closeness) -> Figure:
     off = one.values - one.reference
     largest = float(np.nanmax(np.abs(off), initial=0.0)) if np.isfinite(off).any() else 0.0
     shown, apart = readable(one.unit, size), readable_change(one.unit, size, largest)
+    word, dotted = "farthest", "the difference is farthest beyond it"
+    if one.verdict == "not decided":
+        word, dotted = "not decided", "the numerical error is largest"
     with style.look():
-        drawing = style.begin(WIDTH_MM, HEIGHT_MM, f"{one.name}: farthest at {one.time[one.where]:.6g} s")
+        drawing = style.begin(WIDTH_MM, HEIGHT_MM, f"{one.name}: {word} at {one.time[one.where]:.6g} s")
         above, below = drawing.subplots(2, 1, sharex=True)
         time = seconds.scale * one.time
         for values, name, (colour, dashes) in zip(
@@ -40,9 +43,7 @@ def difference_figure(one: Closeness) -> Figure:
         below.axvline(time[one.where], color=style.CONTACT, lw=0.8, ls=":")
         below.set_ylabel(f"difference [{apart.name}]")
         below.set_xlabel(f"time [{seconds.name}]")
-        style.caption(
-            drawing, f"Shaded: allowed, {one.rule}. Dotted: where the difference is farthest beyond it."
-        )
+        style.caption(drawing, f"Shaded: allowed, {one.rule}. Dotted: where {dotted}.")
     return drawing
 
 

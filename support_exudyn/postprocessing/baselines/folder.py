@@ -54,7 +54,7 @@ class Looked:
 class BaselineFolder:
     """A folder of scenarios, `*.toml`, whose baselines are in the folder `baseline` in it, `NAME.json`.
 
-    Files of machines and sweeps, which lie there as well, are not run.
+    Files of machines, sweeps, instruments and comparisons, which may lie there as well, are not run.
 
     Arguments:
         path: of the folder.
@@ -141,8 +141,9 @@ def write_with_history(looked: Looked, path: Path, reason: str = "") -> None:
 
 
 def _is_scenario(path: Path) -> bool:
-    """Whether a file is that of a scenario, and not of a machine or a sweep."""
-    return not OTHER_FILES.keys() & load_toml(path).keys()
+    """Whether a file is that of a scenario, or nothing that this program reads, which is then refused."""
+    table = load_toml(path)
+    return "machine" in table or not OTHER_FILES.keys() & table.keys()
 
 
 def _part(progress: Progress, n: int, runs: int, share: float) -> None:

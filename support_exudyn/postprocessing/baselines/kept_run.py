@@ -16,6 +16,8 @@ from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.provenance import provenance
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.key import program
+from support_exudyn.sweeps.own_sources import own_sources
+from user_forces.values.value import InputError
 
 RECORDS = 100  # of every curve that are kept
 TIME = "time"
@@ -41,7 +43,7 @@ class KeptRun:
     time: of the records that are kept (n,) [s]. curves: at these, by channel.
     impacts: the first of every clearance pin.
     horizon: up to when single impacts and curves are determined [s], see `kept_impacts`.
-    provenance: versions, platform, time, and a digest of our own sources.
+    provenance: versions, platform, time, digests of our own sources and of the user's modules.
     history: what was said when the baseline was changed: date and reason.
     """
 
@@ -66,11 +68,16 @@ def kept_run(result: Result) -> KeptRun:
 
     Raises InputError if the result has nothing to estimate errors by.
     """
+    if result.coarser is None:
+        raise InputError(
+            "the run has no numerical errors, so that no change can be told from them; allowed: a run with an "
+            "accuracy, or made with errors=True"
+        )
     impacts, horizon = kept_impacts(result)
     rows = np.unique(np.linspace(0, result.time.size - 1, RECORDS).round().astype(np.intp))
     return KeptRun(
         numbers=_numbers(result, horizon),
-        provenance={**result.provenance, SOURCES: program()[SOURCES]},
+        provenance={**result.provenance, SOURCES: program()[SOURCES], **_own(result)},
         time=result.time[rows],
         curves=_curves(result, rows),
         impacts=impacts,
@@ -81,6 +88,11 @@ def kept_run(result: Result) -> KeptRun:
 def kept_numbers(numbers: Mapping[str, Estimate]) -> KeptRun:
     """Numbers of one's own with their errors, kept as those of a run are."""
     return KeptRun(numbers=dict(numbers), provenance={**provenance(), SOURCES: program()[SOURCES]})
+
+
+def _own(result: Result) -> dict[str, str]:
+    """Digests of one's own modules with laws and machines."""
+    return {f"module {name}": digest for name, digest in own_sources(result.scenario.plain).items()}
 
 
 def _numbers(result: Result, horizon: float) -> dict[str, Estimate]:

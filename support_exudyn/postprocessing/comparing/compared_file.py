@@ -110,7 +110,7 @@ class ComparedFile:
         return replace(self, mapped=replace(self.mapped, shift=self.mapped.shift + seconds))
 
 
-def _is_own(path: Path) -> bool:
+def is_own(path: Path) -> bool:
     """Whether a file is a run of this program, or is called as one and not there."""
     if not path.is_file():
         return path.suffix.lower() == ENDING
@@ -137,7 +137,7 @@ def compared_file(
     Raises InputError if it cannot be read, or lacks a column that `mapped` names; OSError if it is not there.
     """
     name = name or path.name
-    if _is_own(path):
+    if is_own(path):
         return _mapped(of_run(Result.load(path), path, name), mapped)
     found = _series_of(path, mapped, channels, progress)
     return _mapped(ComparedFile(name, path, found.kind, None, found.series, AS_IT_IS, found.notes), mapped)

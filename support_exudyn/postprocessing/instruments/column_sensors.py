@@ -138,5 +138,5 @@ def column_of(scenario: Scenario, name: str) -> tuple[str, float]:
     if scenario.dimensions == 3 and name in scenario.space.actuators:
         one = scenario.space.actuators[name]
         return one.actuator, one.share
-    known = list(scenario.linkage.actuators)
+    known = [*scenario.linkage.actuators, *(scenario.space.actuators if scenario.dimensions == 3 else ())]
     raise InputError(f"column = {name!r}: the machine has no such actuator; {meant(name, known)}")

@@ -16,6 +16,7 @@ from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.postprocessing.baselines.closeness import Closeness, closeness
 from support_exudyn.postprocessing.baselines.difference_figure import difference_figure
 from support_exudyn.postprocessing.baselines.in_tests import said_apart
+from support_exudyn.postprocessing.export.tables import to_hdf5
 from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
 from support_exudyn.simulation.estimate import Estimate
 from tests.postprocessing.baselines.scenes import rocker
@@ -68,12 +69,21 @@ def test_units_of_numbers_are_converted() -> None:
 def test_an_error_larger_than_the_tolerance_decides_nothing() -> None:
     one = only(closeness(Estimate(1.0, 0.5, "N"), 1.1, 0.2))
     assert (one.verdict, one.is_close) == ("not decided", False)
-    assert "not decided, the numerical error is larger" in str(one)
+    assert str(one) == (
+        "it: 1 N, where the reference is 1.1 N: it cannot be told whether they are close, for the numerical "
+        "error is 0.5 N; allowed: 0.22 N (20 % of the value of the reference); a higher accuracy may tell"
+    )
     assert only(closeness(Estimate(9.0, 0.5, "N"), 1.1, 0.2)).verdict == "not within"
 
 
 def test_unknown_errors_allow_nothing() -> None:
-    assert only(closeness(Estimate(1.0, math.inf, "N"), Estimate(1.0, 0.1, "N"))).verdict == "not decided"
+    one = only(closeness(Estimate(1.0, math.inf, "N"), Estimate(1.0, 0.1, "N")))
+    assert one.verdict == "not decided"
+    assert "the numerical error is not known" in str(one)
+    assert str(only(closeness(1e-9, 0.0, 0.01))) == (
+        "it: 1e-09, where the reference is 0: they differ by 1e-09; allowed: 0 (1 % of the value of the "
+        "reference)"
+    )
     with pytest.raises(InputError, match="no numerical error is known"):
         closeness(1.0, 1.0)
 
@@ -90,7 +100,7 @@ def test_a_share_of_a_curve_is_of_its_range_and_the_worst_time_is_told(tmp_path:
     assert not one.is_close
     assert one.time[one.where] == pytest.approx(0.3)
     assert "at t = 0.3 s" in str(one)
-    assert "they differ by 0.05 mm; allowed: 0.04 mm (2 %)" in str(one)
+    assert "they differ by 0.05 mm; allowed: 0.04 mm (2 % of the range of the reference)" in str(one)
     assert only(closeness(curve(result), curve(reference), "3 %")).is_close
     assert only(closeness(curve(result), curve(1e-3 * reference, "m"), "51 um")).is_close
     said = said_apart(found, tmp_path)
@@ -104,6 +114,8 @@ def test_the_figure_shows_both_curves_and_the_difference() -> None:
     assert [line.get_label() for line in above.lines] == ["reference", "result"]
     assert np.asarray(below.lines[0].get_ydata()) == pytest.approx(0.1)
     assert below.get_ylabel() == "difference [mm]"
+    texts = " ".join(text.get_text() for text in difference_figure(one._replace(verdict="not decided")).texts)
+    assert "where the numerical error is largest" in texts
 
 
 def test_times_may_be_others_and_what_is_not_known_is_left_out() -> None:
@@ -155,6 +167,8 @@ def test_a_run_beside_files(run: Result, assert_close: AssertClose, tmp_path: Pa
     assert_close(run, tmp_path / "measured.csv", "0.001 mm")
     with pytest.raises(AssertionError, match=r"middle\.x: "):
         assert_close(run, tmp_path / "measured.csv", "1e-6 mm")
+    (channels,) = to_hdf5(run, tmp_path / "channels.h5")
+    assert_close(run, channels, 1e-6, channels=["middle.*"])  # channels alone, also called .h5
 
 
 def test_chaos_is_compared_up_to_where_it_is_determined() -> None:
@@ -172,6 +186,8 @@ def test_what_is_no_tolerance_is_refused(bad: object, run: Result) -> None:
 
 @pytest.mark.parametrize("bad", [None, "no_file.csv", {}, 1.0, [1.0]])
 def test_what_is_no_reference_is_refused(bad: object, run: Result) -> None:
+    with pytest.raises(InputError, match=r"no such channel or number .*; did you mean 'pin\.B\.force'"):
+        closeness(run, {"pin.B.forc": 1.0}, 0.1)
     with pytest.raises((InputError, FileNotFoundError), match="allowed:"):
         closeness(run, bad, 0.1)  # type: ignore[arg-type]
     with pytest.raises(InputError, match="allowed:"):

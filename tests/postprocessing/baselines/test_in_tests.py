@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -66,3 +67,11 @@ def test_a_name_is_used_once_and_only_numbers_with_errors_are_kept(tmp_path: Pat
     for item in (1.0, {"a": 1.0}, None, "text"):
         with pytest.raises(InputError, match="cannot be a baseline; allowed:"):
             compared(item, tmp_path, name="other")
+
+
+def test_a_run_without_errors_is_no_baseline(simulate_cached: SimulateCached, tmp_path: Path) -> None:
+    plain = simulate_cached(replace(rocker(0.002), accuracy=None))
+    with pytest.raises(InputError, match=r"has no numerical errors, .*; allowed: a run with an accuracy"):
+        compared(plain, tmp_path)
+    with pytest.raises(InputError, match=r"3: cannot be run; allowed: a Scenario"):
+        simulate_cached(3)  # type: ignore[arg-type]
