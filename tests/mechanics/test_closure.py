@@ -140,8 +140,9 @@ def test_a_loop_that_does_not_close_is_named_with_its_gap(seed: int, pairs: int)
         bodies, pins = loop[0:-1:2], [name.removeprefix("pin ") for name in loop[1::2]]
         around = {body: (pins[n - 1], pins[n]) for n, body in enumerate(bodies)}
         lengths = sorted(sides(lengthened(exact, {names[2]: one}, far), around).values())
-        # points are drawn 10 mm off, which turns a bar of 20 m: of 360 chains measured up to 1.9 %
-        assert 1e3 * (lengths[-1] - sum(lengths[:-1])) == pytest.approx(float(gap[1]), rel=3e-2)
+        least = 1e3 * (lengths[-1] - sum(lengths[:-1]))
+        # three digits are told; the search for the least may end before it: of 360 chains measured 1.9 % above
+        assert least * (1.0 - 6e-3) < float(gap[1]) < 1.03 * least
 
 
 @settings(max_examples=often(12), deadline=None)

@@ -41,7 +41,7 @@ class Looked:
 
     @property
     def state(self) -> str:
-        """In a word: same, changed, new, gone, or failed."""
+        """What became of it, in a word: same, changed, new, gone, or failed."""
         if self.failed:
             return "failed"
         if self.was is None:
@@ -79,7 +79,7 @@ class BaselineFolder:
 
     @property
     def names(self) -> list[str]:
-        """Of scenarios, and of baselines without one."""
+        """The names of all scenarios, and of baselines without one."""
         return sorted({*self.scenarios, *self.baselines})
 
     def check_names(self, names: Sequence[str]) -> None:

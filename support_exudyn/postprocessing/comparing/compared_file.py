@@ -106,7 +106,7 @@ class ComparedFile:
         return replace(self, run=run, series=_series(run))
 
     def shifted(self, seconds: float) -> ComparedFile:
-        """The same with a time added to all of its times [s]."""
+        """The same file with a time [s] added to all of its times."""
         return replace(self, mapped=replace(self.mapped, shift=self.mapped.shift + seconds))
 
 

@@ -38,7 +38,7 @@ def statistics_rows(pair: ComparedPair) -> list[Row]:
 
 
 def brief_statistics_rows(pair: ComparedPair) -> list[Row]:
-    """The same of the means, and of what is not equal."""
+    """Rows of the means alone, and of the statistics that are not equal."""
     return [
         _statistic(name, one.unit, found)
         for name, one in pair.channels.items()

@@ -24,7 +24,7 @@ WINDOW, MOST_SMOOTHED = 4.0, 0.1  # half width of a window in widths; of the ove
 
 
 class TimeShift(NamedTuple):
-    """By how much another curve lags behind a reference.
+    """The time by which another curve lags behind a reference, and how sure it is.
 
     shift: [s]; the other curve at t + shift is like the reference at t. Its times less the shift lay it on the
         reference.
