@@ -68,6 +68,10 @@ if TYPE_CHECKING:
         RampedOpening,
         SuddenOpening,
     )
+    from support_exudyn.model.hydraulics.lines import Line, PumpStation
+    from support_exudyn.model.hydraulics.motion import EndStops, SealFriction, SecondStage
+    from support_exudyn.model.hydraulics.oil import TrappedAir
+    from support_exudyn.model.hydraulics.valves import CheckValve, Poppet, YieldValve
     from support_exudyn.model.linkage import (
         Body,
         Crank,
@@ -115,6 +119,7 @@ __all__ = [
     "Body",
     "BushingPin",
     "Channel",
+    "CheckValve",
     "ClearanceGuide",
     "ClearancePin",
     "ClosedInlet",
@@ -122,6 +127,7 @@ __all__ = [
     "CubicStep",
     "CylinderAndRod",
     "Drive",
+    "EndStops",
     "Estimate",
     "Failure",
     "FallingBlock",
@@ -141,6 +147,7 @@ __all__ = [
     "InputError",
     "JournalBearing",
     "JournalContact",
+    "Line",
     "LinearActuator",
     "Linkage",
     "Load",
@@ -157,6 +164,8 @@ __all__ = [
     "Pin",
     "PinPlace",
     "PlanarLinkage",
+    "Poppet",
+    "PumpStation",
     "RampedOpening",
     "Reciprocating",
     "Recommendation",
@@ -165,6 +174,8 @@ __all__ = [
     "Roof",
     "RunsSideBySide",
     "Scenario",
+    "SealFriction",
+    "SecondStage",
     "SimulationError",
     "Slide",
     "SliderCrank",
@@ -177,10 +188,12 @@ __all__ = [
     "TableDrive",
     "TorsionSpring",
     "TracePoint",
+    "TrappedAir",
     "TurnedBody",
     "TwoLegShield",
     "UniformSpeed",
     "Width",
+    "YieldValve",
     "bore_area",
     "channels",
     "compare",
@@ -231,6 +244,10 @@ _PLACES = {
         "RampedOpening",
         "SuddenOpening",
     ),
+    ".model.hydraulics.lines": ("Line", "PumpStation"),
+    ".model.hydraulics.motion": ("EndStops", "SealFriction", "SecondStage"),
+    ".model.hydraulics.oil": ("TrappedAir",),
+    ".model.hydraulics.valves": ("CheckValve", "Poppet", "YieldValve"),
     ".model.linkage": (
         "Body",
         "Crank",

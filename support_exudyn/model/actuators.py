@@ -5,30 +5,14 @@ from __future__ import annotations
 import math
 from abc import ABC
 from dataclasses import field, replace
-from typing import TypeVar
 
-import numpy as np
-import numpy.typing as npt
-
+from support_exudyn.model.actuator_model import ActuatorModel as ActuatorModel
+from support_exudyn.model.actuator_model import Quantity as Quantity
+from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, Slide, pinned
 from support_exudyn.model.plane_geometry import direction
 from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Pascals, Seconds, SquareMetres
 from user_forces.values.value import InputError, NonNegative, Positive, Value, Vector2, value
-
-Quantity = TypeVar("Quantity", float, npt.NDArray[np.float64])  # one, or one for every instant
-
-
-class ActuatorModel(Value, ABC):
-    """How a driven actuator holds its length."""
-
-    def check_extension(self, lowest: float, name: str) -> None:
-        """Raise InputError if the actuator cannot be drawn in so far [m]; by default any can."""
-        del lowest, name
-
-    @property
-    def oil(self) -> OilColumn | None:
-        """The oil that holds its length; None if nothing gives."""
-        return None
 
 
 @value
@@ -37,7 +21,7 @@ class RigidActuator(ActuatorModel):
 
 
 @value
-class OilColumn(ActuatorModel):
+class OilColumn(HydraulicLeg):
     """A massless linear actuator whose column of oil is compressible; the drive lets oil into it.
 
         F = k u + d du/dt,   k = B A / (h + extension),   d = k T
@@ -67,11 +51,6 @@ class OilColumn(ActuatorModel):
     def stiffness_slope(self, extension: Quantity) -> Quantity:
         """Derivative of k by the extension [N/m^2]."""
         return -self.stiffness(extension) / (self.oil_length + extension)
-
-    @property
-    def oil(self) -> OilColumn:
-        """The actuator is oil itself."""
-        return self
 
     def check_extension(self, lowest: float, name: str) -> None:
         """Raise InputError if no oil would be left under the piston."""
@@ -108,9 +87,9 @@ class CylinderAndRod(ActuatorModel):
     drive: RigidActuator | OilColumn = field(default_factory=RigidActuator)
 
     @property
-    def oil(self) -> OilColumn | None:
+    def hydraulic(self) -> HydraulicLeg | None:
         """The oil of the actuator's drive; None if that is rigid."""
-        return self.drive.oil
+        return self.drive.hydraulic
 
     def check_extension(self, lowest: float, name: str) -> None:
         """Raise InputError if its drive cannot be drawn in so far [m]."""

@@ -21,7 +21,9 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field, model_validator
 
-from support_exudyn.model.actuators import ActuatorModel, Quantity
+from support_exudyn.model.actuator_model import Quantity
+from support_exudyn.model.hydraulics.leg import HydraulicLeg
+from support_exudyn.model.hydraulics.valves import CheckValve, YieldValve
 from user_forces.values.units import (
     CubicMetres,
     CubicMetresPerSecond,
@@ -166,7 +168,7 @@ class RampedOpening(Inlet):
 
 
 @value
-class HydraulicCylinder(ActuatorModel):
+class HydraulicCylinder(HydraulicLeg):
     """A massless actuator that is a hydraulic cylinder: it moves by the oil that its valve lets in.
 
     No drive moves it. Until the valve opens, the oil in both chambers carries the static load of the start
@@ -190,6 +192,10 @@ class HydraulicCylinder(ActuatorModel):
         rod_side_hose_volume: between valve and rod side, all together [m^3], > 0, 1 litre by default.
         damping: viscous, of the seals, all together [N s/m], >= 0, 0 by default.
         inlet: how the valve opens over time; closed by default.
+        check_valve: holds the oil of the piston side; None: where it has more pressure than the pump, oil flows
+            back.
+        rod_relief: lets oil out of the rod side above a pressure; None: nothing does.
+        The others are those of `HydraulicLeg`.
     """
 
     bore_area: SquareMetres[Positive]
@@ -205,6 +211,8 @@ class HydraulicCylinder(ActuatorModel):
     rod_side_hose_volume: CubicMetres[Positive] = 1e-3
     damping: NewtonSecondsPerMetre[NonNegative] = 0.0
     inlet: Inlet = field(default_factory=ClosedInlet)
+    check_valve: CheckValve | None = None
+    rod_relief: YieldValve | None = None
 
     def check_length(self, length: float, name: str) -> None:
         """Raise InputError if the cylinder does not fit into an actuator of this length [m] at the start."""

@@ -26,6 +26,8 @@ from support_exudyn.model.actuators import (
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.guides import Guide
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
+from support_exudyn.model.hydraulics.leg import HydraulicLeg
+from support_exudyn.model.hydraulics.lines import PumpStation
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.machine import Machine
@@ -51,6 +53,8 @@ class ScenarioData(Value, ABC):
         guides: for each guide of the machine that is not ideal (or to say so), what it is, by name; those with
             clearance in the plane.
         actuators: for each actuator that is not rigid and massless (or to say so), what it is, by name.
+        pump: that all `HydraulicCylinder`s share; None: each has its own, which gives what is asked for at its
+            `system_pressure`.
         parts: for each part that is not fixed to its body (or to say so), what it is, by name.
         drive: how all driven parts move: actuators extend [m], cranks turn [rad]. Into an oil column it lets
             oil. A `HydraulicCylinder` follows none, it has an inlet of its own.
@@ -90,6 +94,7 @@ class ScenarioData(Value, ABC):
     pins: Mapping[str, Pin] = field(default_factory=dict)
     guides: Mapping[str, Guide] = field(default_factory=dict)
     actuators: Mapping[str, ActuatorModel] = field(default_factory=dict)
+    pump: PumpStation | None = None
     parts: Mapping[str, PartModel] = field(default_factory=dict)
     drive: Drive = field(default_factory=Held)
     drives: Mapping[str, Drive] = field(default_factory=dict)
@@ -194,7 +199,7 @@ class ScenarioData(Value, ABC):
         if self.dimensions == 3 and name in self.space.actuators:  # one of a pair
             whole = self.space.actuators[name].actuator
         actuators = self.linkage.actuators
-        if whole in self.cylinders or (whole in actuators and not actuators[whole].driven):
+        if whole in self.valved or (whole in actuators and not actuators[whole].driven):
             return Held()
         said = self.drives.get(name, self.drives.get(whole))
         if said is not None:
@@ -232,7 +237,7 @@ class ScenarioData(Value, ABC):
     def driven(self) -> tuple[str, ...]:
         """Names of all parts that follow a drive: actuators, then cranks."""
         if self.dimensions == 2:
-            return tuple(name for name in self.linkage.driven if name not in self.cylinders)
+            return tuple(name for name in self.linkage.driven if name not in self.valved)
         actuators = self.space.actuators.items()
         return tuple(name for name, actuator in actuators if self.linkage.actuators[actuator.actuator].driven)
 
@@ -249,7 +254,7 @@ class ScenarioData(Value, ABC):
     def breaks(self) -> tuple[float, ...]:
         """Breaks of all drives in use, of loads and of valves [s], sorted."""
         of_drives = {t for drive in self.drives_in_use for t in drive.breaks}
-        of_valves = (cylinder.inlet.breaks for cylinder in self.cylinders.values())
+        of_valves = (cylinder.inlet.breaks for cylinder in self.valved.values())
         return tuple(sorted(of_drives.union(*(load.breaks for load in self.acting_loads.values()), *of_valves)))
 
     @cached_property
@@ -291,21 +296,43 @@ class ScenarioData(Value, ABC):
         ideal = {name: pin for name, pin in self.pins.items() if isinstance(pin, IdealPin)}
         return {name: pin for name, pin in ideal.items() if pin.friction is not None}
 
+    @cached_property
+    def hydraulics(self) -> dict[str, HydraulicLeg]:
+        """All actuators, and jacks, that oil holds, by name."""
+        jacks = {self.machine.jacks[name]: part.jack for name, part in self.own_bodies.items()}
+        found = {name: one.hydraulic for name, one in {**self.actuators, **jacks}.items()}
+        return {name: one for name, one in found.items() if isinstance(one, HydraulicLeg)}
+
+    @cached_property
+    def legs(self) -> dict[str, HydraulicLeg]:
+        """Those whose oil is counted, for they have elements or share a pump, by name."""
+        shared = self.pump is not None
+        return {
+            name: one
+            for name, one in self.hydraulics.items()
+            if one.elements or (shared and isinstance(one, HydraulicCylinder))
+        }
+
     @property
     def oil_columns(self) -> dict[str, OilColumn]:
-        """The actuators that give, and jacks that do, by name."""
-        jacks = {self.machine.jacks[name]: part.jack for name, part in self.own_bodies.items()}
-        return {name: oil for name, actuator in {**self.actuators, **jacks}.items() if (oil := actuator.oil)}
+        """Those that are plain columns of oil, by name."""
+        plain = {name: one for name, one in self.hydraulics.items() if name not in self.legs}
+        return {name: one for name, one in plain.items() if isinstance(one, OilColumn)}
 
     @property
     def cylinders(self) -> dict[str, HydraulicCylinder]:
-        """The actuators that are hydraulic cylinders, by name."""
+        """Those that are plain hydraulic cylinders, by name."""
+        return {name: one for name, one in self.valved.items() if name not in self.legs}
+
+    @property
+    def valved(self) -> dict[str, HydraulicCylinder]:
+        """All actuators that are hydraulic cylinders, by name; they follow no drive."""
         return {name: one for name, one in self.actuators.items() if isinstance(one, HydraulicCylinder)}
 
     @property
     def compliant_actuators(self) -> tuple[str, ...]:
-        """Names of the actuators whose length no constraint holds: those of oil and cylinders."""
-        return *self.oil_columns, *self.cylinders
+        """Names of the actuators whose length no constraint holds: those on oil."""
+        return *self.oil_columns, *self.cylinders, *self.legs
 
     @property
     def own_bodies(self) -> dict[str, OwnBody]:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 from support_exudyn.mechanics.channels import ALL_CHANNELS, check_patterns
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
+from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.spatial_linkage import SpatialLinkage
@@ -113,6 +114,8 @@ def _check_actuators(scenario: ScenarioData, linkage: Linkage) -> None:
             )
         for one in scenario.space.parts_of_actuator(name) if scenario.dimensions == 3 else (name,):
             actuator.check_extension(scenario.drive_of(one).span(scenario.duration)[0], one)
+        if isinstance(actuator, HydraulicLeg):
+            actuator.check_elements(name)
         if isinstance(actuator, HydraulicCylinder):
             actuator.check_length(linkage.actuators[name].start_length, name)
             if name in scenario.drives:
@@ -120,7 +123,7 @@ def _check_actuators(scenario: ScenarioData, linkage: Linkage) -> None:
                     f"drives.{name}: is a HydraulicCylinder, which follows no drive; allowed: none, but "
                     f"actuators.{name}.inlet"
                 )
-    if scenario.cylinders and not scenario.driven and scenario.drive != Held():
+    if scenario.valved and not scenario.driven and scenario.drive != Held():
         raise ValueError(
             f"drive = {type(scenario.drive).__name__}: nothing follows it, for all actuators are "
             "HydraulicCylinder, which move by their inlet; allowed: Held()"

@@ -1,0 +1,26 @@
+"""What every model of a linear actuator answers."""
+
+from __future__ import annotations
+
+from abc import ABC
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from user_forces.values.value import Value
+
+Quantity = TypeVar("Quantity", float, npt.NDArray[np.float64])  # one, or one for every instant
+
+
+class ActuatorModel(Value, ABC):
+    """How a driven actuator holds its length."""
+
+    def check_extension(self, lowest: float, name: str) -> None:
+        """Raise InputError if the actuator cannot be drawn in so far [m]; by default any can."""
+        del lowest, name
+
+    @property
+    def hydraulic(self) -> ActuatorModel | None:
+        """What holds its length by oil; None if nothing gives."""
+        return None

@@ -1,0 +1,1 @@
+"""What a hydraulic leg can have besides its oil: valves, lines, stops, seals, a second stage; and the pump."""
