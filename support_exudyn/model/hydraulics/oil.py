@@ -1,6 +1,6 @@
 """What makes oil other than a linear spring: trapped air."""
 
-from user_forces.values.units import CubicMetres, Pascals
+from user_forces.values.units import CubicMetres
 from user_forces.values.value import Positive, Value, value
 
 ATMOSPHERE = 101325.0  # [Pa]; pressures of the program are those above it
