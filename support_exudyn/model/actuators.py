@@ -87,7 +87,7 @@ class CylinderAndRod(ActuatorModel):
     drive: RigidActuator | OilColumn = field(default_factory=RigidActuator)
 
     @property
-    def hydraulic(self) -> HydraulicLeg | None:
+    def hydraulic(self) -> ActuatorModel | None:
         """The oil of the actuator's drive; None if that is rigid."""
         return self.drive.hydraulic
 
