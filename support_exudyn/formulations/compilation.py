@@ -122,12 +122,16 @@ def _kept(function: Function) -> Function:
     return dispatcher  # type: ignore[no-any-return]
 
 
-def _source_stamp() -> tuple[str, int]:
-    """What identifies the compiled code: a hash of all files that it comes from, and their length."""
+def source_files() -> list[Path]:
+    """The files that compiled code comes from."""
     here = Path(__file__).parent
     files = sorted(file for folder in COMPILED for file in (here / folder).rglob("*.py"))
-    files += [Path(__file__), *(Path(str(module.__file__)) for module in CONSTANTS_OF)]
-    text = b"".join(file.read_bytes() for file in files)
+    return [*files, Path(__file__), *(Path(str(module.__file__)) for module in CONSTANTS_OF)]
+
+
+def _source_stamp() -> tuple[str, int]:
+    """What identifies the compiled code: a hash of all files that it comes from, and their length."""
+    text = b"".join(file.read_bytes() for file in source_files())
     return hashlib.sha256(text).hexdigest(), len(text)
 
 
