@@ -123,6 +123,10 @@ def _check_actuators(scenario: ScenarioData, linkage: Linkage) -> None:
                     f"drives.{name}: is a HydraulicCylinder, which follows no drive; allowed: none, but "
                     f"actuators.{name}.inlet"
                 )
+    if scenario.pump is not None and not scenario.valved:
+        raise ValueError(
+            "pump = PumpStation: no actuator is a HydraulicCylinder, which alone draws from it; allowed: None"
+        )
     if scenario.valved and not scenario.driven and scenario.drive != Held():
         raise ValueError(
             f"drive = {type(scenario.drive).__name__}: nothing follows it, for all actuators are "

@@ -249,7 +249,7 @@ def test_rods_have_the_mass_that_they_have_on_the_canopy() -> None:
 
 def test_columns_take_the_drive_they_are_given() -> None:
     oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1e9)
-    assert all(column.drive == oil and column.oil == oil for column in cylinders_and_rods(oil).values())
+    assert all(column.drive == oil and column.hydraulic == oil for column in cylinders_and_rods(oil).values())
 
 
 def test_columns_are_read_from_a_file(tmp_path: Path) -> None:

@@ -207,7 +207,7 @@ def test_a_canopy_on_actuators_driven_apart_rolls_as_far_as_its_oil_lets_it() ->
         np.testing.assert_allclose(result[body], 0.0, atol=1e-9)  # Newton's tolerance
     # both actuators of a pair have the same length; the oil of the left is compressed by so much more
     for name in ("front_column", "rear_column"):
-        oil = actuators[name].oil
+        oil = actuators[name].hydraulic
         assert oil is not None
         left, right = result[f"{name}_left.force"][-1], result[f"{name}_right.force"][-1]
         each = 0.5 * plane[f"{name}.force"][-1]

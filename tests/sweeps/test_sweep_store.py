@@ -69,7 +69,7 @@ def test_a_key_depends_on_every_input_and_on_how_it_is_run(tmp_path: Path) -> No
     longer = replace(one, solver=replace(one.solver, impact_steps=2 * one.solver.impact_steps))
     heavier = replace(one, machine=replace(reference_support(), start_hinge_height=2.0))
     assert fields.keys() - CHANGES.keys() <= {
-        "type", "machine", "solver", "guides", "actuators", "parts", "drives", "loads"
+        "type", "machine", "solver", "guides", "actuators", "pump", "parts", "drives", "loads"
     }  # fmt: skip
     others = [replace(one, **{name: item}) for name, item in CHANGES.items()]
     found = [keys.key(one), keys.key(one, errors=True), *map(keys.key, [longer, heavier, *others])]
