@@ -1,0 +1,130 @@
+"""A roof force beside the plane of symmetry: what the linkage carries by torsion, and what the legs alone do.
+
+Rigid bodies in space, ideal bearings, spherical ends of cylinders. A roof force Q at z = e turns the canopy over
+by Q e. Two limits are told, between which a support with its elastic parts and its play lies:
+
+- all legs push alike, each at its share of the force in the plane, as yield valves hold them: the joint of the
+  canopy passes the whole moment on, and the linkage is twisted by it;
+- the linkage passes no roll on, as loose pins do not: cylinders alone carry it, the ones nearer to the force
+  more, until one of them yields. The largest Q is found by linear programming.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import linprog
+
+from support_exudyn.machines.check.statics import GRAVITY, Array
+from support_exudyn.machines.strength.roof_forces import Limits, RoofForce
+from support_exudyn.mechanics.space.constraints import Constraint, all_rows, matrix
+from support_exudyn.mechanics.space.kinetics import weight
+from support_exudyn.mechanics.space.motion import COORDINATES, motion_of
+from support_exudyn.mechanics.space.reactions import reactions
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.spatial_linkage import SpatialLinkage
+from user_forces.values.value import InputError
+
+UNBALANCED = 1e-7  # of the roof force: what may be left of it for rounding
+
+
+@dataclass(frozen=True)
+class Twist:
+    """What a linkage carries while all legs push alike.
+
+    Arguments:
+        moment: Q e, which turns the canopy over about x [N m].
+        bearings: force across and along each bearing, by name, (3,) [N], of the first body on the second.
+        moments: roll, yaw and pitch moments of each bearing, by name, (3,) about x, y, z [N m].
+    """
+
+    moment: float
+    bearings: dict[str, Array]
+    moments: dict[str, Array]
+
+
+class SpatialStatics:
+    """Equilibrium in space of one posture.
+
+    linkage: the machine in space, laid out there. canopy: the body that carries the roof. height: y of the roof
+    on it [m].
+    """
+
+    def __init__(self, linkage: SpatialLinkage, canopy: str, height: float) -> None:
+        self.linkage, self.canopy, self.height = linkage, canopy, height
+        still = np.zeros(COORDINATES * len(linkage.bodies))
+        self.motion = motion_of(linkage, still, still)
+        self.weight = weight(linkage, (*GRAVITY, 0.0))
+
+    def roof(self, x: float, z: float) -> Array:
+        """What a vertical roof force of 1 N at x, z does to all coordinates (6 bodies,)."""
+        i = 6 * list(self.linkage.bodies).index(self.canopy)
+        arm = np.array([x, self.height, z]) - np.array(self.linkage.bodies[self.canopy].centre)
+        down = np.array([0.0, -1.0, 0.0])
+        found = np.zeros(self.weight.size)
+        found[i : i + 3], found[i + 3 : i + 6] = down, np.cross(arm, down)
+        return found
+
+    def twist(self, roof: RoofForce, aside: float, pushes: Mapping[str, float]) -> Twist:
+        """What bearings carry under a roof force at z = aside [m] while cylinders push as in the plane [N].
+
+        Where rigid bearings leave open how they share a load, it is that of the least sum of squares.
+        """
+        one = self.linkage.actuators
+        driven = [Constraint(name, "actuator") for name in one]
+        forces = np.array([part.share * pushes[part.actuator] for part in one.values()])
+        given = self.weight + roof.force * self.roof(roof.x, aside)
+        given = given + matrix(self.motion, driven)[0].T @ forces
+        rows = all_rows(self.linkage, (), ())
+        left = -given.reshape(1, -1, 6)
+        found: Array = reactions(self.motion, rows, left)[0]
+        rest = float(np.abs(matrix(self.motion, rows)[0].T @ found + given).max())
+        if rest > UNBALANCED * max(roof.force, float(np.abs(self.weight).max())):
+            raise InputError(
+                f"machine in space: {rest:.3g} N of the roof force {roof.force:.6g} N are not balanced; "
+                "allowed: pushes of its cylinders that hold it"
+            )
+        return Twist(roof.force * aside, *_by_bearing(self, rows, found))
+
+    def legs_alone(self, x: float, aside: float, limits: Mapping[str, Limits]) -> float:
+        """The largest roof force [N] at x, z [m] with no roll passed on by the canopy's joints; 0 if none.
+
+        limits: of the actuators of the plane; a part of one has its share of them.
+        """
+        rows = [
+            row
+            for row in all_rows(self.linkage, (), list(self.linkage.actuators))
+            if not (row.kind == "tilt_1" and self._holds_canopy(row.name))
+        ]
+        size = max(1.0, *(abs(bound) for limit in limits.values() for bound in limit))
+        balance = np.column_stack([matrix(self.motion, rows)[0].T, self.roof(x, aside)])
+        bounds: list[tuple[float | None, float | None]] = []
+        for row in rows:
+            if row.kind == "actuator":
+                part = self.linkage.actuators[row.name]
+                low, high = (part.share * bound / size for bound in limits[part.actuator])
+                bounds.append((low, high))
+            else:
+                bounds.append((None, None))
+        cost = np.zeros(balance.shape[1])
+        cost[-1] = -1.0
+        found = linprog(cost, A_eq=balance, b_eq=-self.weight / size, bounds=[*bounds, (0.0, None)])
+        return float(found.x[-1]) * size if found.success else 0.0
+
+    def _holds_canopy(self, bearing: str) -> bool:
+        one = self.linkage.bearings[bearing]
+        return self.canopy in (one.first, one.second) and GROUND not in (one.first, one.second)
+
+
+def _by_bearing(
+    space: SpatialStatics, rows: list[Constraint], found: Array
+) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Forces and moments of the bearings in the ground's axes; machines of a plane have axes along z."""
+    place = {"across_1": 0, "across_2": 1, "along": 2, "tilt_1": 0, "tilt_2": 1}
+    forces = {name: np.zeros(3) for name in space.linkage.bearings}
+    moments = {name: np.zeros(3) for name in space.linkage.bearings}
+    for row, load in zip(rows, found.tolist(), strict=True):
+        (moments if row.kind.startswith("tilt") else forces)[row.name][place[row.kind]] = load
+    return forces, moments
