@@ -20,8 +20,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "machine",
         metavar="MACHINE",
-        help="machine data file with a section [strength], a path that ends in .toml; or the file of a scenario "
-        f"with such a machine; or a machine that comes with the package: {', '.join(SHIPPED)}",
+        help="machine data file with a section [strength], a path that ends in .toml; or the file of a "
+        f"scenario with such a machine; or a machine that comes with the package: {', '.join(SHIPPED)}",
     )
     parser.add_argument(
         "--figure",

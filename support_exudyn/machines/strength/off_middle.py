@@ -1,7 +1,7 @@
 """A roof force beside the plane of symmetry: what the linkage carries by torsion, and what the legs alone do.
 
-Rigid bodies in space, ideal bearings, spherical ends of cylinders. A roof force Q at z = e turns the canopy over
-by Q e. Two limits are told, between which a support with its elastic parts and its play lies:
+Rigid bodies in space, ideal bearings, spherical ends of cylinders. A roof force Q at z = e turns the canopy
+over by Q e. Two limits are told, between which a support with its elastic parts and its play lies:
 
 - all legs push alike, each at its share of the force in the plane, as yield valves hold them: the joint of the
   canopy passes the whole moment on, and the linkage is twisted by it;
@@ -111,7 +111,7 @@ class SpatialStatics:
         cost = np.zeros(balance.shape[1])
         cost[-1] = -1.0
         found = linprog(cost, A_eq=balance, b_eq=-self.weight / size, bounds=[*bounds, (0.0, None)])
-        return float(found.x[-1]) * size if found.success else 0.0
+        return 0.0 if found.x is None else float(found.x[-1]) * size
 
     def _holds_canopy(self, bearing: str) -> bool:
         one = self.linkage.bearings[bearing]

@@ -12,6 +12,7 @@ from support_exudyn.machines.strength.results import OffMiddle, PinLoad, StandRe
 from support_exudyn.machines.strength.roof_forces import RoofForce
 from support_exudyn.machines.strength.stand import FACTORS, FRICTION
 
+Row = tuple[str, ...]
 WIDTH = 100  # letters of a line
 ROWS = 5  # postures that are told
 OVER = 1.2  # EN 1804-1, 4.3.1: times the rated force, at most
@@ -40,7 +41,7 @@ def page(report: StandReport) -> Iterator[str]:
 
 def _cylinders(report: StandReport) -> Iterator[str]:
     yield "1 legs and rams [plain: pressure times area]"
-    rows: list[tuple[str, ...]] = [
+    rows: list[Row] = [
         ("", "number", "bore mm", "set MPa", "yield MPa", "set kN", "yield kN", "x 1.2 kN", "pull kN")
     ]
     for name, one in report.cylinders.items():
@@ -67,7 +68,7 @@ def _support(report: StandReport) -> Iterator[str]:
     yield f"2 support force, legs alike at setting or yield{free} [plain: virtual work, less weight]"
     last = ("ram pulls kN", "ram pushes kN") if rams else ()
     rubs = tuple(f"mu {mu:+g} kN" for mu in report.forces[0].rubbed)
-    rows: list[tuple[str, ...]] = [("roof mm", "set kN", "yield kN", "place mm", "place %", *rubs, *last)]
+    rows: list[Row] = [("roof mm", "set kN", "yield kN", "place mm", "place %", *rubs, *last)]
     for one in _some(report.forces):
         ends = (_force(one.pull), _force(one.push)) if rams else ()
         rows.append(
@@ -95,17 +96,15 @@ def _support(report: StandReport) -> Iterator[str]:
     most = max(found)
     yield (
         f"  rule EN 1804-1, 4.3.1 (as the roof converges, at most {OVER:g} of the rated force): "
-        f"{most / rated:.3f} of {_kn(rated)} kN{'' if said else ' (assumed)'}: {_met(most <= OVER * rated)} on a "
-        "slow roof; what valves add at its speed only a run tells"
+        f"{most / rated:.3f} of {_kn(rated)} kN{'' if said else ' (assumed)'}: {_met(most <= OVER * rated)} on "
+        "a slow roof; what valves add at its speed only a run tells"
     )
 
 
 def _over(report: StandReport) -> Iterator[str]:
     yield "3 resistance over the canopy, kN: the largest force that opens no valve and lifts no leg [plain]"
     shares = (0.0, 0.25, 0.5, 0.75, 1.0)
-    rows: list[tuple[str, ...]] = [
-        ("roof mm", *("rear end", "1/4", "middle", "3/4", "front end", "largest", "at mm"))
-    ]
+    rows: list[Row] = [("roof mm", *("rear end", "1/4", "middle", "3/4", "front end", "largest", "at mm"))]
     for one in _some(report.forces, 3):
         places = [one.over[round(share * (len(one.over) - 1))] for share in shares]
         most = one.largest
@@ -116,7 +115,7 @@ def _over(report: StandReport) -> Iterator[str]:
 
 def _pins(report: StandReport) -> Iterator[str]:
     yield "4 pins at yield and 1.2 x yield, largest over the height, kN [rule EN 1804-1, 4.3.2: no part fails]"
-    rows: list[tuple[str, ...]] = [
+    rows: list[Row] = [
         ("", "alike", "x 1.2", "any", "x 1.2", "rubs", "x 1.2", "bearing", "shear", "bending", "rubs")
     ]
     for name, one in report.pins.items():
@@ -139,9 +138,7 @@ def _pins(report: StandReport) -> Iterator[str]:
 def _buckled(report: StandReport) -> Iterator[str]:
     yield "5 buckling of one cylinder at its longest, ends pinned [plain: Euler of its stages; Johnson]"
     if report.buckling:
-        rows: list[tuple[str, ...]] = [
-            ("", "length mm", "yield kN", "Euler kN", "Johnson kN", "safety", "at 1.2 x yield")
-        ]
+        rows: list[Row] = [("", "length mm", "yield kN", "Euler kN", "Johnson kN", "safety", "at 1.2 x yield")]
         for name, one in report.buckling.items():
             least = one.euler if one.johnson is None else min(one.euler, one.johnson)
             rows.append(
@@ -169,8 +166,9 @@ def _aside(report: StandReport) -> Iterator[str]:
         f"6 in space: roof force {_mm(found[0].aside)} mm beside the middle, a quarter of the width, assumed "
         "[plain]"
     )
-    rows: list[tuple[str, ...]] = [("roof mm", "middle kN", "legs alone kN", "share", "torsion kN m", "pin", "middle", "aside",
-             "moment")]  # fmt: skip
+    rows: list[Row] = [
+        ("roof mm", "middle kN", "legs alone kN", "share", "torsion kN m", "pin", "middle", "aside", "moment")
+    ]
     for one in found:
         worst = max(one.pins, key=lambda name: one.pins[name])
         rows.append(_aside_row(one, worst))

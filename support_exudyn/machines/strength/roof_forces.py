@@ -58,7 +58,7 @@ class Contact:
 
 
 def contact_of(linkage: Linkage, canopy: str) -> Contact:
-    """Where the roof lies: from rearmost to foremost joint or traced point of the canopy, as high as the highest.
+    """Where the roof lies: from the rearmost to the foremost joint or traced point of the canopy, and how high.
 
     Raises InputError if there is no such body, or if it has not two places that lie apart.
     """
