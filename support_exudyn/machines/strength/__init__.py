@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 from user_forces.values.places import offered
 
 if TYPE_CHECKING:
-    from support_exudyn.machines.strength.stand import StandReport, stand
+    from support_exudyn.machines.strength.assessment import StandReport, stand
 
 __all__ = ["StandReport", "stand"]
 
-__getattr__, __dir__ = offered(__name__, {".stand": ("StandReport", "stand")})
+__getattr__, __dir__ = offered(__name__, {".assessment": ("StandReport", "stand")})

@@ -50,9 +50,9 @@ def numbers(report: StandReport) -> dict[str, Any]:
                 "middle_N": one.nominal,
                 "legs_alone_N": one.legs_alone,
                 "torsion_N_m": one.moment,
-                "pins_N": dict(one.pins),
+                "pins_with_least_moments_N": dict(one.pins),
                 "pins_in_the_middle_N": dict(one.centred),
-                "moments_N_m": dict(one.tilts),
+                "moments_with_least_forces_N_m": dict(one.tilts),
             }
             for one in aside
         ],

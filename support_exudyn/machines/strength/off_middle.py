@@ -4,7 +4,9 @@ Rigid bodies in space, ideal bearings, spherical ends of cylinders. A roof force
 over by Q e. Two limits are told, between which a support with its elastic parts and its play lies:
 
 - all legs push alike, each at its share of the force in the plane, as yield valves hold them: the joint of the
-  canopy passes the whole moment on, and the linkage is twisted by it;
+  canopy passes the whole moment on, and the linkage is twisted by it. Rigid parts leave open how links share
+  it: told is what comes with the least moments in bearings (a pair of links carries it by forces that differ),
+  and what comes with the least forces (wide links carry it by moments). Neither depends on a unit of length;
 - the linkage passes no roll on, as loose pins do not: cylinders alone carry it, the ones nearer to the force
   more, until one of them yields. The largest Q is found by linear programming.
 """
@@ -13,17 +15,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
+from scipy.linalg import null_space
 from scipy.optimize import linprog
 
 from support_exudyn.machines.check.statics import GRAVITY, Array
 from support_exudyn.machines.strength.roof_forces import Limits, RoofForce
-from support_exudyn.mechanics.space.constraints import Constraint, all_rows, matrix
+from support_exudyn.mechanics.space.constraints import SAME, Constraint, all_rows, matrix
 from support_exudyn.mechanics.space.kinetics import weight
 from support_exudyn.mechanics.space.motion import COORDINATES, motion_of
-from support_exudyn.mechanics.space.reactions import reactions
-from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from user_forces.values.value import InputError
 
@@ -32,15 +34,13 @@ UNBALANCED = 1e-7  # of the roof force: what may be left of it for rounding
 
 @dataclass(frozen=True)
 class Twist:
-    """What a linkage carries while all legs push alike.
+    """What bearings carry while all legs push alike, of the first body on the second.
 
     Arguments:
-        moment: Q e, which turns the canopy over about x [N m].
-        bearings: force across and along each bearing, by name, (3,) [N], of the first body on the second.
-        moments: roll, yaw and pitch moments of each bearing, by name, (3,) about x, y, z [N m].
+        bearings: force of each bearing, by name, (3,) [N].
+        moments: moment of each bearing, by name, (3,) about x, y, z [N m].
     """
 
-    moment: float
     bearings: dict[str, Array]
     moments: dict[str, Array]
 
@@ -67,10 +67,15 @@ class SpatialStatics:
         found[i : i + 3], found[i + 3 : i + 6] = down, np.cross(arm, down)
         return found
 
-    def twist(self, roof: RoofForce, aside: float, pushes: Mapping[str, float]) -> Twist:
+    def twist(
+        self, roof: RoofForce, aside: float, pushes: Mapping[str, float], least: Literal["forces", "moments"]
+    ) -> Twist:
         """What bearings carry under a roof force at z = aside [m] while cylinders push as in the plane [N].
 
-        Where rigid bearings leave open how they share a load, it is that of the least sum of squares.
+        least: of which the sum of squares is the least where rigid bearings leave open how they share a load;
+        where that leaves something open, the sum of the others is.
+
+        Raises InputError if the cylinders do not hold the roof force.
         """
         one = self.linkage.actuators
         driven = [Constraint(name, "actuator") for name in one]
@@ -78,15 +83,21 @@ class SpatialStatics:
         given = self.weight + roof.force * self.roof(roof.x, aside)
         given = given + matrix(self.motion, driven)[0].T @ forces
         rows = all_rows(self.linkage, (), ())
-        left = -given.reshape(1, -1, 6)
-        found: Array = reactions(self.motion, rows, left)[0]
-        rest = float(np.abs(matrix(self.motion, rows)[0].T @ found + given).max())
+        c = matrix(self.motion, rows)[0].T
+        found = np.linalg.lstsq(c, -given, rcond=None)[0]
+        open_ways = null_space(c, rcond=SAME)  # loads that bearings put on each other
+        moments = np.array([row.kind.startswith("tilt") for row in rows])
+        for kept in (moments, ~moments) if least == "moments" else (~moments, moments):
+            change = open_ways[kept]
+            found = found - open_ways @ np.linalg.lstsq(change, found[kept], rcond=SAME)[0]
+            open_ways = open_ways @ null_space(change, rcond=SAME)
+        rest = float(np.abs(c @ found + given).max())
         if rest > UNBALANCED * max(roof.force, float(np.abs(self.weight).max())):
             raise InputError(
                 f"machine in space: {rest:.3g} N of the roof force {roof.force:.6g} N are not balanced; "
                 "allowed: pushes of its cylinders that hold it"
             )
-        return Twist(roof.force * aside, *_by_bearing(self, rows, found))
+        return Twist(*_by_bearing(self, rows, found))
 
     def legs_alone(self, x: float, aside: float, limits: Mapping[str, Limits]) -> float:
         """The largest roof force [N] at x, z [m] with no roll passed on by the canopy's joints; 0 if none.
@@ -96,7 +107,7 @@ class SpatialStatics:
         rows = [
             row
             for row in all_rows(self.linkage, (), list(self.linkage.actuators))
-            if not (row.kind == "tilt_1" and self._holds_canopy(row.name))
+            if not (row.kind == "tilt_1" and self._on_canopy(row.name))
         ]
         size = max(1.0, *(abs(bound) for limit in limits.values() for bound in limit))
         balance = np.column_stack([matrix(self.motion, rows)[0].T, self.roof(x, aside)])
@@ -113,9 +124,9 @@ class SpatialStatics:
         found = linprog(cost, A_eq=balance, b_eq=-self.weight / size, bounds=[*bounds, (0.0, None)])
         return 0.0 if found.x is None else float(found.x[-1]) * size
 
-    def _holds_canopy(self, bearing: str) -> bool:
+    def _on_canopy(self, bearing: str) -> bool:
         one = self.linkage.bearings[bearing]
-        return self.canopy in (one.first, one.second) and GROUND not in (one.first, one.second)
+        return self.canopy in (one.first, one.second)
 
 
 def _by_bearing(

@@ -8,9 +8,9 @@ from collections.abc import Iterator, Sequence
 
 from support_exudyn.machines.check.shield import RULE
 from support_exudyn.machines.check.shield_stroke import WANDER
+from support_exudyn.machines.strength.assessment import FACTORS, FRICTION
 from support_exudyn.machines.strength.results import OffMiddle, PinLoad, StandReport, SupportForce
 from support_exudyn.machines.strength.roof_forces import RoofForce
-from support_exudyn.machines.strength.stand import FACTORS, FRICTION
 
 Row = tuple[str, ...]
 WIDTH = 100  # letters of a line
@@ -167,14 +167,25 @@ def _aside(report: StandReport) -> Iterator[str]:
         "[plain]"
     )
     rows: list[Row] = [
-        ("roof mm", "middle kN", "legs alone kN", "share", "torsion kN m", "pin", "middle", "aside", "moment")
+        (
+            "roof mm",
+            "middle kN",
+            "legs alone kN",
+            "share",
+            "torsion",
+            "pin",
+            "middle",
+            "by forces",
+            "by moments",
+        )
     ]
     for one in found:
-        worst = max(one.pins, key=lambda name: one.pins[name])
+        worst = max(one.pins, key=lambda name: one.pins[name] - one.centred[name])
         rows.append(_aside_row(one, worst))
     yield from _table(rows)
-    yield "  legs alone: no roll through the linkage, until one yields; torsion: legs alike, all through it"
-    yield "  then the largest force in one bearing of a pin [kN] and moment across the axis of any [kN m]"
+    yield "  legs alone: no roll through the linkage, until one yields; torsion [kN m]: all of it, legs alike;"
+    yield "  rigid links leave its share open: the force in one bearing that grows most [kN], with the least"
+    yield "  moments, or the largest moment in a bearing of a link [kN m], with the least forces"
 
 
 def _aside_row(one: OffMiddle, worst: str) -> tuple[str, ...]:
@@ -187,7 +198,7 @@ def _aside_row(one: OffMiddle, worst: str) -> tuple[str, ...]:
         worst,
         _kn(one.centred[worst]),
         _kn(one.pins[worst]),
-        _kn(max(one.tilts.values())),
+        _kn(max((one.tilts[pin] for pin in one.links), default=math.nan)),
     )
 
 

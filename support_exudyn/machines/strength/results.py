@@ -79,8 +79,10 @@ class OffMiddle:
     Arguments:
         height: of the roof [m]. aside: e [m]. nominal: the roof force in the middle [N].
         moment: Q e that the linkage carries while all legs push alike [N m].
-        pins: largest force in one bearing of a pin of the plane then, by pin [N]; centred: the same with e = 0.
-        tilts: largest moment about x and y in one bearing of a pin, by pin [N m].
+        pins: largest force in one bearing of a pin of the plane then, by pin, with the least moments [N].
+        centred: the same with e = 0.
+        tilts: largest moment in one bearing of a pin, by pin, with the least forces [N m].
+        links: pins that are not on the canopy.
         legs_alone: largest roof force that legs alone carry at e, no roll passed on [N].
     """
 
@@ -91,6 +93,7 @@ class OffMiddle:
     pins: Mapping[str, float]
     centred: Mapping[str, float]
     tilts: Mapping[str, float]
+    links: Sequence[str]
     legs_alone: float
 
 

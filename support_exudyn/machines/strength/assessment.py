@@ -245,7 +245,8 @@ def _one_off_middle(
         return None
     space = SpatialStatics(data.machine.in_space(linkage), strength.canopy, flat.contact.height)
     pushing = flat.pushes(roof)
-    twisted, centred = (space.twist(roof, z, pushing) for z in (aside, 0.0))
+    twisted, centred = (space.twist(roof, z, pushing, "moments") for z in (aside, 0.0))
+    bent = space.twist(roof, aside, pushing, "forces")
 
     def largest(vectors: Mapping[str, np.ndarray]) -> dict[str, float]:
         return {
@@ -257,10 +258,11 @@ def _one_off_middle(
         height=flat.contact.height,
         aside=aside,
         nominal=roof.force,
-        moment=twisted.moment,
+        moment=roof.force * aside,
         pins=largest(twisted.bearings),
         centred=largest(centred.bearings),
-        tilts=largest(twisted.moments),
+        tilts=largest(bent.moments),
+        links=[name for name, pin in linkage.pins.items() if strength.canopy not in (pin.first, pin.second)],
         legs_alone=space.legs_alone(roof.x, aside, limits(strength.cylinders, legs)),
     )
 
