@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from support_exudyn.machines.strength.strength_data import CylinderStrength, Stage
+from support_exudyn.machines.strength.strength_data import CylinderStage, CylinderStrength
 from user_forces.expressions.roots import bracketed_root
 from user_forces.values.value import InputError
 
@@ -54,7 +54,7 @@ def johnson_load(euler: float, squash: float) -> float:
     return euler if euler <= 0.5 * squash else squash * (1.0 - squash / (4.0 * euler))
 
 
-def seen_stages(cylinder: CylinderStrength, length: float) -> list[tuple[float, Stage]]:
+def seen_stages(cylinder: CylinderStrength, length: float) -> list[tuple[float, CylinderStage]]:
     """Lengths [m] of the stages that are seen when a cylinder is so long [m], with the stages, foot first.
 
     The first stage is seen whole. The thicker moves out first, as its larger area does at a lower pressure.

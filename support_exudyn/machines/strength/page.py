@@ -184,8 +184,8 @@ def _aside(report: StandReport) -> Iterator[str]:
         rows.append(_aside_row(one, worst))
     yield from _table(rows)
     yield "  legs alone: no roll through the linkage, until one yields; torsion [kN m]: all of it, legs alike;"
-    yield "  rigid links leave its share open: the force in one bearing that grows most [kN], with the least"
-    yield "  moments, or the largest moment in a bearing of a link [kN m], with the least forces"
+    yield "  rigid links leave its share open. By forces: in the bearing where they grow most [kN], least"
+    yield "  moments; by moments: the largest in a bearing of a link [kN m], least forces"
 
 
 def _aside_row(one: OffMiddle, worst: str) -> tuple[str, ...]:

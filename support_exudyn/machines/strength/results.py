@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from support_exudyn.machines.strength.pins import PinStresses
-from support_exudyn.machines.strength.roof_forces import Contact, RoofForce
+from support_exudyn.machines.strength.roof_forces import RoofContact, RoofForce
 from support_exudyn.machines.strength.strength_data import CylinderStrength
 from support_exudyn.machines.strength.tipping import Tipping
 
@@ -27,7 +27,7 @@ class SupportForce:
     """
 
     stroke: float
-    contact: Contact
+    contact: RoofContact
     setting: RoofForce | None
     yielding: RoofForce | None
     rubbed: Mapping[float, RoofForce | None]

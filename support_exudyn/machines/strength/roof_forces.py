@@ -46,7 +46,7 @@ class RoofForce(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Contact:
+class RoofContact:
     """Where the roof lies on the canopy.
 
     rear, front: x of its ends [m]. height: y of it [m].
@@ -57,7 +57,7 @@ class Contact:
     height: float
 
 
-def contact_of(linkage: Linkage, canopy: str) -> Contact:
+def contact_of(linkage: Linkage, canopy: str) -> RoofContact:
     """Where the roof lies: from the rearmost to the foremost joint or traced point of the canopy, and how high.
 
     Raises InputError if there is no such body, or if it has not two places that lie apart.
@@ -77,7 +77,7 @@ def contact_of(linkage: Linkage, canopy: str) -> Contact:
             f"bodies.{canopy}: its joints and traced points lie at one x, so nothing tells where the roof lies"
             "; allowed: two that lie apart, such as a traced point at its tip"
         )
-    return Contact(min(xs), max(xs), max(y for _, y in places))
+    return RoofContact(min(xs), max(xs), max(y for _, y in places))
 
 
 class RoofStatics:

@@ -20,7 +20,7 @@ Count = Annotated[Whole, Field(ge=1, le=100)]
 
 
 @value
-class Stage(Value):
+class CylinderStage(Value):
     """A stage of a cylinder: a tube, or a solid rod.
 
     Arguments:
@@ -35,7 +35,7 @@ class Stage(Value):
     inner_diameter: Metres[NonNegative] = 0.0
 
     @model_validator(mode="after")
-    def _has_a_wall(self) -> Stage:
+    def _has_a_wall(self) -> CylinderStage:
         if self.inner_diameter >= self.outer_diameter:
             raise ValueError(
                 f"inner_diameter = {self.inner_diameter:.10g} m: allowed: below outer_diameter = "
@@ -75,7 +75,7 @@ class CylinderStrength(Value):
     setting_pressure: Pascals[Positive] | None = None
     count: Count = 2
     rod: Metres[Positive] | None = None
-    stages: tuple[Stage, ...] = ()
+    stages: tuple[CylinderStage, ...] = ()
     yield_stress: Pascals[Positive] | None = None
     elastic_modulus: Pascals[Positive] = 2.06e11
 

@@ -17,7 +17,7 @@ from support_exudyn.machines.strength.buckling import (
     johnson_load,
     seen_stages,
 )
-from support_exudyn.machines.strength.strength_data import CylinderStrength, Stage
+from support_exudyn.machines.strength.strength_data import CylinderStage, CylinderStrength
 from user_forces import InputError
 
 segments = st.lists(st.tuples(st.floats(0.05, 3.0), st.floats(1e4, 1e8)), min_size=1, max_size=4)
@@ -98,7 +98,7 @@ def test_johnson_meets_euler_where_half_the_section_yields() -> None:
     assert johnson_load(1e3, squash) == 1e3  # slender
     assert johnson_load(1e15, squash) == pytest.approx(squash)  # stocky
     # of a uniform column: sigma_y (1 - sigma_y (l/r)^2 / (4 pi^2 E))
-    stage = Stage(outer_diameter=0.1, length=1.0)
+    stage = CylinderStage(outer_diameter=0.1, length=1.0)
     rod = CylinderStrength(bore=0.2, yield_pressure=1e6, stages=(stage,) * 2, yield_stress=4e8)
     euler, johnson = buckling_loads(rod, 1.5)
     slenderness = 1.5 / (0.1 / 4.0)
@@ -110,7 +110,7 @@ def test_johnson_meets_euler_where_half_the_section_yields() -> None:
 
 def test_stages_come_out_from_the_thickest_on() -> None:
     thick, middle, thin = (
-        Stage(outer_diameter=size, inner_diameter=0.5 * size, length=length)
+        CylinderStage(outer_diameter=size, inner_diameter=0.5 * size, length=length)
         for size, length in ((0.4, 1.0), (0.3, 0.8), (0.2, 0.7))
     )
     leg = CylinderStrength(bore=0.35, yield_pressure=4e7, stages=(thick, middle, thin))

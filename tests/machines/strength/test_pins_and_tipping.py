@@ -14,9 +14,9 @@ from support_exudyn.files.machines import shipped
 from support_exudyn.machines.strength.pins import pin_data, stresses, without_data
 from support_exudyn.machines.strength.strength_data import (
     BaseFrame,
+    CylinderStage,
     CylinderStrength,
     PinStrength,
-    Stage,
     StrengthData,
 )
 from support_exudyn.machines.strength.tipping import tipping_of
@@ -117,7 +117,7 @@ def test_a_floor_above_the_centre_is_refused() -> None:
 
 def test_values_that_cannot_be_are_refused() -> None:
     with pytest.raises(InputError, match=r"inner_diameter = 0\.2 m: allowed: below outer_diameter = 0\.1 m"):
-        Stage(outer_diameter=0.1, inner_diameter=0.2, length=1.0)
+        CylinderStage(outer_diameter=0.1, inner_diameter=0.2, length=1.0)
     with pytest.raises(InputError, match=r"rod = 0\.3 m: allowed: below bore = 0\.2 m"):
         CylinderStrength(bore=0.2, rod=0.3, yield_pressure=1e6)
     with pytest.raises(InputError, match="setting_pressure = 2000000 Pa: allowed: at most yield_pressure"):

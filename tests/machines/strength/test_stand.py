@@ -6,6 +6,7 @@ import dataclasses
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from support_exudyn.machines.strength.strength_data import CylinderStrength, Str
 from support_exudyn.model.loads.spring_damper import SpringDamper
 from tests.machines.strength.test_roof_forces import beam
 from tests.metamorphic.scaling import Scale
+from tests.pages import ROOT, listings
 from user_forces import InputError
 
 SHIELDS = ("reference", "zf18000", "two_leg_shield")
@@ -251,6 +253,21 @@ yield_pressure_MPa = 40
     assert data.sourced["strength.cylinders.front_column.yield_pressure_MPa"].low == 36
     with pytest.raises(InputError, match=r"strength\.cylinders\.front_column\.bore_mm"):
         load_machine(written(tmp_path, "bore_mm = 200", "bore_mm = -200", text=OURS + section))
+
+
+def test_the_section_of_the_page_is_read(tmp_path: Any) -> None:
+    (shown,) = (
+        one for one in listings(ROOT / "support_exudyn/machines/strength/standing.md") if one.kind == "toml"
+    )
+    text = (resources.files("support_exudyn.files.machines") / "two_leg_shield.toml").read_text("utf-8")
+    path = tmp_path / "ours.toml"
+    path.write_text(text.partition("[strength]")[0] + shown.text, encoding="utf-8")
+    found = load_machine(path).strength
+    assert found is not None
+    own = shipped("two_leg_shield").strength
+    assert own is not None
+    assert found.cylinders["leg"] == own.cylinders["leg"]
+    assert found.base == own.base
 
 
 # --- faults that a check like this has to see ---
