@@ -43,6 +43,8 @@ def stand(data: MachineData) -> StandReport:
     statics = {mu: _statics(told, strength, mu) for mu in (0.0, -FRICTION, FRICTION)}
     linkage = data.machine.linkage()
     legs = legs_of(linkage)
+    for every in statics.values():
+        _check_held(every, limits(strength.cylinders, legs))
     buckling, unbuckled = _buckling(told, strength.cylinders)
     rated = strength.rated_force
     tips = [one.linkage.points["tip"].point[0] for one in fine if "tip" in one.linkage.points]
@@ -115,6 +117,19 @@ def _check_names(where: str, named: Mapping[str, object], known: Mapping[str, ob
             raise InputError(f"{where}.{name}: there is none; allowed: {', '.join(known) or 'none'}")
 
 
+def _check_held(statics: Sequence[RoofStatics], within: Mapping[str, Limits]) -> None:
+    """Raise InputError if there is a posture in which cylinders at their yield force hold no roof force at all."""
+    for one in statics:
+        if not one.corners(within):
+            weight = ", ".join(f"{name} {part[0]:.6g} N" for name, part in one.actuators.items())
+            said = ", ".join(f"{name} {low:.6g} to {high:.6g} N" for name, (low, high) in within.items())
+            raise InputError(
+                f"strength.cylinders: at yield they push {said}, and hold the weight alone in no way with the "
+                f"roof {one.contact.height:.4g} m high and friction {one.friction:g}; allowed: pushes that do; "
+                f"without a roof the weight asks for {weight}"
+            )
+
+
 def _height(posture: UsedPosture, strength: StrengthData) -> float:
     return RoofStatics(posture.linkage, strength.canopy).contact.height
 
@@ -139,7 +154,7 @@ def limits(
 ) -> dict[str, Limits]:
     """What all actuators can do at a factor times yield: a leg pushes only, a ram pulls too."""
     return {
-        name: Limits(0.0 if name in legs else -factor * one.pull, factor * one.push)
+        name: Limits(0.0 if name in legs else 0.0 - factor * one.pull, factor * one.push)
         for name, one in cylinders.items()
     }
 

@@ -227,6 +227,9 @@ def test_what_cannot_be_told_is_refused() -> None:
     }
     with pytest.raises(InputError, match=r"strength\.cylinders\.front_column\.stages: together 1\.3 m long"):
         stand(replace(data, strength=replace(data.strength, cylinders=short)))
+    weak = {name: replace(one, yield_pressure=1e3, setting_pressure=None) for name, one in some.items()}
+    with pytest.raises(InputError, match=r"hold the weight alone in no way with the roof 1\.95 m high"):
+        stand(replace(data, strength=replace(data.strength, cylinders=weak)))
     spring = SpringDamper(body="canopy", point=(1.0, 0.0), other_point=(1.0, 1.0), stiffness=1.0)
     leg = CylinderStrength(bore=0.2, yield_pressure=30e6)
     sprung = PlanarLinkage(drawing=beam(4.0, 2.0, 10.0), acting={"spring": spring})
@@ -256,9 +259,8 @@ yield_pressure_MPa = 40
 
 
 def test_the_section_of_the_page_is_read(tmp_path: Any) -> None:
-    (shown,) = (
-        one for one in listings(ROOT / "support_exudyn/machines/strength/standing.md") if one.kind == "toml"
-    )
+    page_of_it = ROOT / "support_exudyn" / "machines" / "strength" / "standing.md"
+    (shown,) = (one for one in listings(page_of_it) if one.kind == "toml")
     text = (resources.files("support_exudyn.files.machines") / "two_leg_shield.toml").read_text("utf-8")
     path = tmp_path / "ours.toml"
     path.write_text(text.partition("[strength]")[0] + shown.text, encoding="utf-8")
