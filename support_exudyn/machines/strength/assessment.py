@@ -118,7 +118,7 @@ def _check_names(where: str, named: Mapping[str, object], known: Mapping[str, ob
 
 
 def _check_held(statics: Sequence[RoofStatics], within: Mapping[str, Limits]) -> None:
-    """Raise InputError if there is a posture in which cylinders at their yield force hold no roof force at all."""
+    """Raise InputError if in some posture cylinders at their yield force hold no roof force at all."""
     for one in statics:
         if not one.corners(within):
             weight = ", ".join(f"{name} {part[0]:.6g} N" for name, part in one.actuators.items())
