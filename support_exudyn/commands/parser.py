@@ -21,6 +21,8 @@ from user_forces.values.texts import InputError, short
 NAMES = {  # of commands, each with a line of what it does
     "init": "write a commented set of files to start from: machine, scenarios, sweep",
     "check": "draw a machine and tell its mobility, closure, dead centres, static forces, and what looks wrong",
+    "stand": "what a support must stand, on one page: support force over the height, pins and legs at yield, "
+    "buckling, eccentric load, tipping",
     "channels": "all channels of a scenario or a machine before a run: names, units, meanings",
     "run": "simulate a scenario's file and save the run",
     "sweep": "run a scenario with fields of it varied, into a store that can be continued",

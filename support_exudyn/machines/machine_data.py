@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from support_exudyn.machines.strength.strength_data import StrengthData
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.machine import Machine
 from user_forces.values.names import Named, no_attribute
@@ -21,7 +22,8 @@ class MachineData:
     not said.
     sources: where the data come from, by what they are of. kind: as the file says. assumed: what was assumed
     because the file does not say it, in sentences. sourced: numbers of the file that say their range or their
-    source, by their dotted keys, such as "parts.shield.1.mass_kg", in the units of these.
+    source, by their dotted keys, such as "parts.shield.1.mass_kg", in the units of these. strength: bores,
+    pressures, stages, eyes and base, for what it must stand; None if the file does not say them.
     """
 
     machine: Machine
@@ -34,6 +36,7 @@ class MachineData:
     kind: str = ""
     assumed: tuple[str, ...] = ()
     sourced: Mapping[str, SourcedNumber] = field(default_factory=dict)
+    strength: StrengthData | None = None
 
     def __post_init__(self) -> None:
         """Let what is asked for by a wrong name be told with those that look like it."""

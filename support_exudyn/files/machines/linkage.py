@@ -26,6 +26,7 @@ from support_exudyn.files.toml.shapes import Names
 from support_exudyn.machines.check.statics import mobility
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage
+from support_exudyn.machines.strength.strength_data import StrengthData
 from support_exudyn.mechanics.closure import assembled
 from support_exudyn.mechanics.start_rates import set_moving
 from support_exudyn.model.actuators import CylinderAndRod
@@ -83,6 +84,7 @@ class LinkageFile(Value):
         stroke: by how much its actuators extend from the start on, in use [m], > 0.
         bore_radius: radii of the bores of pins, for pins with clearance [m], > 0.
         width: across the plane [m]: the lengths of pins.
+        strength: bores, pressures, stages, eyes and base, for `stand`.
     """
 
     kind: Literal["linkage"]
@@ -106,6 +108,7 @@ class LinkageFile(Value):
     width: Metres[Annotated[Mapping[str, Mapping[str, Positive]], Names(PIN_WIDTH)]] = field(
         default_factory=dict
     )
+    strength: StrengthData | None = None
 
     def data(self) -> MachineData:
         """The machine. Raises InputError if it cannot be built."""
@@ -149,6 +152,7 @@ class LinkageFile(Value):
             sources=self.sources,
             kind=self.kind,
             assumed=tuple(body.assumed for body in bodies.values() if body.assumed),
+            strength=self.strength,
         )
 
     def _traced(self, name: str, places: DrawnPoints) -> TracePoint:

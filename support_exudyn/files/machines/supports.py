@@ -16,6 +16,7 @@ from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.shield_layout import BODIES, FRAME, PINS, RODS, TAIL
+from support_exudyn.machines.strength.strength_data import StrengthData
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.linkage import GROUND, Part, bar
 from support_exudyn.model.to_space import Width
@@ -99,6 +100,7 @@ class SupportFile(Value, ABC):
         bore_radius: radii of the bores of pins, for pins with clearance [m], > 0.
         columns: masses of columns, for scenarios that model them as two bodies.
         width: lateral dimensions, for the spatial model [m].
+        strength: bores, pressures, stages, eyes and base, for `stand`.
     """
 
     kind: str
@@ -112,6 +114,7 @@ class SupportFile(Value, ABC):
     bore_radius: Metres[Annotated[Mapping[str, Positive], Names(BORES)]] = field(default_factory=dict)
     columns: Mapping[str, ColumnData] = field(default_factory=dict)
     width: Mapping[str, Mapping[str, NonNegative]] | None = None
+    strength: StrengthData | None = None
 
     @classmethod
     @abstractmethod
@@ -136,6 +139,7 @@ class SupportFile(Value, ABC):
             sources=self.sources,
             kind=self.kind,
             assumed=tuple(self._assumed()),
+            strength=self.strength,
         )
 
     def _width(self) -> Width | None:

@@ -1,0 +1,298 @@
+"""What a support must stand: its support force, its pins, legs and joints at yield, buckling, tipping."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from support_exudyn.machines.check.shield import FINE
+from support_exudyn.machines.four_bar_shield import FourBarShield
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.machines.strength.buckling import buckling_loads
+from support_exudyn.machines.strength.off_middle import SpatialStatics
+from support_exudyn.machines.strength.pins import pin_data, stresses, without_data
+from support_exudyn.machines.strength.results import Buckling, OffMiddle, PinLoad, StandReport, SupportForce
+from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, RoofStatics
+from support_exudyn.machines.strength.strength_data import CylinderStrength, StrengthData
+from support_exudyn.machines.strength.tipping import tipping_of
+from support_exudyn.machines.strength.used_postures import UsedPosture, legs_of, used_postures
+from support_exudyn.model.linkage import Linkage
+from user_forces.values.value import InputError
+
+__all__ = ["FACTORS", "FRICTION", "StandReport", "stand"]
+
+FACTORS = (1.0, 1.2)  # on the yield forces; the second of EN 1804-1, 4.3.2
+FRICTION = 0.2  # of the roof on the canopy, assumed
+ASIDE = 0.25  # of the canopy's width: how far beside the middle a roof force is looked at, assumed
+EVERY = 5  # of the FINE postures: those in which forces are told
+PLACES = 81  # on the canopy, for the curve of the force over it
+
+
+def stand(data: MachineData) -> StandReport:
+    """What a machine must stand, by its data on strength.
+
+    Raises InputError where these are missing, or its forces cannot be told by statics in the plane.
+    """
+    strength = checked(data)
+    fine = used_postures(data, FINE)
+    if fine[0].linkage is not fine[-1].linkage and _height(fine[-1], strength) < _height(fine[0], strength):
+        fine = fine[::-1]
+    told = fine[::EVERY]
+    statics = {mu: _statics(told, strength, mu) for mu in (0.0, -FRICTION, FRICTION)}
+    linkage = data.machine.linkage()
+    legs = legs_of(linkage)
+    for every in statics.values():
+        _check_held(every, limits(strength.cylinders, legs))
+    buckling, unbuckled = _buckling(told, strength.cylinders)
+    rated = strength.rated_force
+    tips = [one.linkage.points["tip"].point[0] for one in fine if "tip" in one.linkage.points]
+    four_bar = isinstance(data.machine, FourBarShield) and tips
+    return StandReport(
+        name=data.name,
+        kind=data.kind,
+        cylinders=strength.cylinders,
+        legs=legs,
+        forces=[
+            _support_force(
+                one.stroke, {mu: every[n] for mu, every in statics.items()}, strength.cylinders, legs
+            )
+            for n, one in enumerate(told)
+        ],
+        rated=(rated or math.fsum(strength.cylinders[name].push for name in legs), rated is not None),
+        pins={name: _pin_load(data, name, statics, legs) for name in linkage.pins},
+        unknown_pins=without_data(data, linkage.pins),
+        buckling=buckling,
+        unbuckled=unbuckled,
+        off_middle=_off_middle(data, strength, [told[0], told[len(told) // 2], told[-1]], legs),
+        tipping=None if strength.base is None else [tipping_of(one.linkage, strength.base) for one in told],
+        wander=max(tips) - min(tips) if four_bar else None,
+        assumed=list(_assumed(data, strength)),
+        sources=[
+            f"{name}: {' '.join(said.split())}" for name, said in data.sources.items() if name == "strength"
+        ],
+    )
+
+
+def checked(data: MachineData) -> StrengthData:
+    """The strength data of a machine.
+
+    Raises InputError unless they are there and fit to the machine.
+    """
+    linkage = data.machine.linkage()
+    if not linkage.actuators:
+        raise InputError("machine: it has no actuators that could carry a roof; allowed: legs or columns")
+    if data.strength is None:
+        raise InputError(
+            "strength: missing; bores and yield pressures tell what the legs stand; allowed: a table "
+            "[strength.cylinders.NAME] with bore_mm and yield_pressure_MPa for each of "
+            f"{', '.join(linkage.actuators)}"
+        )
+    strength = data.strength
+    _check_names("strength.cylinders", strength.cylinders, linkage.actuators)
+    _check_names("strength.pins", strength.pins, linkage.pins)
+    missing = [name for name in linkage.actuators if name not in strength.cylinders]
+    if missing:
+        raise InputError(f"strength.cylinders.{missing[0]}: missing; allowed: bore_mm and yield_pressure_MPa")
+    if linkage.cranks or len(linkage.actuators) > 2:
+        raise InputError(
+            f"machine: {len(linkage.actuators)} actuators and {len(linkage.cranks)} cranks hold it; allowed: "
+            "one or two actuators and no crank, which a roof force and its place determine"
+        )
+    if data.machine.loads:
+        raise InputError(
+            f"machine: {', '.join(data.machine.loads)} act on it besides weight and roof; allowed: none"
+        )
+    if not legs_of(linkage):
+        raise InputError(
+            "actuators: none has its foot on the ground; allowed: a leg or column between ground and canopy"
+        )
+    return strength
+
+
+def _check_names(where: str, named: Mapping[str, object], known: Mapping[str, object]) -> None:
+    for name in named:
+        if name not in known:
+            raise InputError(f"{where}.{name}: there is none; allowed: {', '.join(known) or 'none'}")
+
+
+def _check_held(statics: Sequence[RoofStatics], within: Mapping[str, Limits]) -> None:
+    """Raise InputError if in some posture cylinders at their yield force hold no roof force at all."""
+    for one in statics:
+        if not one.corners(within):
+            weight = ", ".join(f"{name} {part[0]:.6g} N" for name, part in one.actuators.items())
+            said = ", ".join(f"{name} {low:.6g} to {high:.6g} N" for name, (low, high) in within.items())
+            raise InputError(
+                f"strength.cylinders: at yield they push {said}, and hold the weight alone in no way with the "
+                f"roof {one.contact.height:.4g} m high and friction {one.friction:g}; allowed: pushes that do; "
+                f"without a roof the weight asks for {weight}"
+            )
+
+
+def _height(posture: UsedPosture, strength: StrengthData) -> float:
+    return RoofStatics(posture.linkage, strength.canopy).contact.height
+
+
+def _statics(told: Sequence[UsedPosture], strength: StrengthData, friction: float) -> list[RoofStatics]:
+    return [RoofStatics(one.linkage, strength.canopy, friction) for one in told]
+
+
+def pushes(
+    cylinders: Mapping[str, CylinderStrength], legs: Sequence[str], factor: float = 1.0, rams: float = 0.0
+) -> dict[str, float]:
+    """Pushes of all actuators [N]: legs at a factor times yield, rams at a share of their push or pull."""
+    found = {}
+    for name, one in cylinders.items():
+        ram = rams * (one.push if rams > 0.0 else one.pull)
+        found[name] = factor * (one.push if name in legs else ram)
+    return found
+
+
+def limits(
+    cylinders: Mapping[str, CylinderStrength], legs: Sequence[str], factor: float = 1.0
+) -> dict[str, Limits]:
+    """What all actuators can do at a factor times yield: a leg pushes only, a ram pulls too."""
+    return {
+        name: Limits(0.0 if name in legs else 0.0 - factor * one.pull, factor * one.push)
+        for name, one in cylinders.items()
+    }
+
+
+def _support_force(
+    stroke: float,
+    statics: Mapping[float, RoofStatics],
+    cylinders: Mapping[str, CylinderStrength],
+    legs: Sequence[str],
+) -> SupportForce:
+    smooth = statics[0.0]
+    at_yield, within = pushes(cylinders, legs), limits(cylinders, legs)
+    setting = {
+        name: (one.setting_pressure or 0.0) * one.area * (name in legs) for name, one in cylinders.items()
+    }
+    rams = len(legs) < len(cylinders)
+    contact = smooth.contact
+    known = all(cylinders[name].setting_pressure is not None for name in legs)
+    return SupportForce(
+        stroke=stroke,
+        contact=contact,
+        setting=smooth.balancing(setting) if known else None,
+        yielding=smooth.balancing(at_yield),
+        rubbed={mu: one.balancing(at_yield) for mu, one in statics.items() if mu != 0.0},
+        pull=smooth.balancing(pushes(cylinders, legs, rams=-1.0)) if rams else None,
+        push=smooth.balancing(pushes(cylinders, legs, rams=1.0)) if rams else None,
+        over=[
+            (x, smooth.largest_at(x, within)) for x in np.linspace(contact.rear, contact.front, PLACES).tolist()
+        ],
+        largest=max(smooth.corners(within), key=lambda roof: roof.force, default=RoofForce(0.0, contact.rear)),
+    )
+
+
+def _pin_load(
+    data: MachineData, pin: str, statics: Mapping[float, Sequence[RoofStatics]], legs: Sequence[str]
+) -> PinLoad:
+    assert data.strength is not None
+    cylinders = data.strength.cylinders
+
+    def worst(frictions: Sequence[float], factor: float) -> float:
+        within = limits(cylinders, legs, factor)
+        return max(
+            float(np.hypot(*one.pins(corner)[pin]))
+            for mu in frictions
+            for one in statics[mu]
+            for corner in one.corners(within)
+        )
+
+    def nominal(factor: float) -> float:
+        found = [(one, one.balancing(pushes(cylinders, legs, factor))) for one in statics[0.0]]
+        return max((float(np.hypot(*one.pins(roof)[pin])) for one, roof in found if roof), default=math.nan)
+
+    known = pin_data(data, pin)
+    smooth = {factor: worst([0.0], factor) for factor in FACTORS}
+    rubbed = {factor: worst(list(statics), factor) for factor in FACTORS}
+    told = None
+    if known is not None:
+        eyes, diameter, _ = known
+        told = stresses(eyes, diameter, smooth[FACTORS[1]]), stresses(eyes, diameter, rubbed[FACTORS[1]])
+    return PinLoad(
+        {factor: nominal(factor) for factor in FACTORS}, smooth, rubbed, told, known is not None and known[2]
+    )
+
+
+def _buckling(
+    told: Sequence[UsedPosture], cylinders: Mapping[str, CylinderStrength]
+) -> tuple[dict[str, Buckling], dict[str, str]]:
+    found, untold = {}, {}
+    for name, one in cylinders.items():
+        if not one.stages:
+            untold[name] = "its stages are not known"
+            continue
+        length = max(posture.linkage.actuators[name].start_length for posture in told)
+        try:
+            euler, johnson = buckling_loads(one, length)
+        except InputError as error:
+            raise InputError(f"strength.cylinders.{name}.{error}") from None
+        found[name] = Buckling(length, one.push / one.count, euler, johnson)
+    return found, untold
+
+
+def _off_middle(
+    data: MachineData, strength: StrengthData, told: Sequence[UsedPosture], legs: Sequence[str]
+) -> list[OffMiddle] | str:
+    width = data.machine.widths()
+    spread = width.spreads.get(strength.canopy) if width else None
+    if not spread:
+        return "no lateral dimensions of the canopy are known"
+    aside = ASIDE * math.sqrt(12.0) * spread
+    return [
+        one
+        for posture in told
+        if (one := _one_off_middle(data, strength, posture.linkage, legs, aside)) is not None
+    ] or "no roof force balances the legs"
+
+
+def _one_off_middle(
+    data: MachineData, strength: StrengthData, linkage: Linkage, legs: Sequence[str], aside: float
+) -> OffMiddle | None:
+    flat = RoofStatics(linkage, strength.canopy)
+    roof = flat.balancing(pushes(strength.cylinders, legs))
+    if roof is None or roof.force <= 0.0:
+        return None
+    space = SpatialStatics(data.machine.in_space(linkage), strength.canopy, flat.contact.height)
+    pushing = flat.pushes(roof)
+    twisted, centred = (space.twist(roof, z, pushing, "moments") for z in (aside, 0.0))
+    bent = space.twist(roof, aside, pushing, "forces")
+
+    def largest(vectors: Mapping[str, np.ndarray]) -> dict[str, float]:
+        return {
+            pin: max(float(np.linalg.norm(vectors[name])) for name in space.linkage.parts_of_pin(pin))
+            for pin in linkage.pins
+        }
+
+    return OffMiddle(
+        height=flat.contact.height,
+        aside=aside,
+        nominal=roof.force,
+        moment=roof.force * aside,
+        pins=largest(twisted.bearings),
+        centred=largest(centred.bearings),
+        tilts=largest(bent.moments),
+        links=[name for name, pin in linkage.pins.items() if strength.canopy not in (pin.first, pin.second)],
+        legs_alone=space.legs_alone(roof.x, aside, limits(strength.cylinders, legs)),
+    )
+
+
+def _assumed(data: MachineData, strength: StrengthData) -> Iterator[str]:
+    """What was assumed because nothing says it."""
+    yield (
+        "the roof lies between rearmost and foremost joint or traced point of the canopy, as high as the "
+        f"highest; rough: friction {FRICTION:g} either way"
+    )
+    yield "pins and cylinders without play and friction; legs only push, as rams without a rod do"
+    eyes = [
+        name for name in data.machine.linkage().pins if (known := pin_data(data, name)) is not None and known[2]
+    ]
+    if eyes:
+        yield f"eyes of {', '.join(eyes)}: one of half the pin's length between two of a quarter"
+    if strength.rated_force is None:
+        yield "rated force: pushes of all legs at their yield pressure, added up"

@@ -1,0 +1,141 @@
+"""A roof force beside the plane of symmetry: what the linkage carries by torsion, and what the legs alone do.
+
+Rigid bodies in space, ideal bearings, spherical ends of cylinders. A roof force Q at z = e turns the canopy
+over by Q e. Two limits are told, between which a support with its elastic parts and its play lies:
+
+- all legs push alike, each at its share of the force in the plane, as yield valves hold them: the joint of the
+  canopy passes the whole moment on, and the linkage is twisted by it. Rigid parts leave open how links share
+  it: told is what comes with the least moments in bearings (a pair of links carries it by forces that differ),
+  and what comes with the least forces (wide links carry it by moments). Neither depends on a unit of length;
+- the linkage passes no roll on, as loose pins do not: cylinders alone carry it, the ones nearer to the force
+  more, until one of them yields. The largest Q is found by linear programming.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from scipy.linalg import null_space
+from scipy.optimize import linprog
+
+from support_exudyn.machines.check.statics import GRAVITY, Array
+from support_exudyn.machines.strength.roof_forces import Limits, RoofForce
+from support_exudyn.mechanics.space.constraints import SAME, Constraint, all_rows, matrix
+from support_exudyn.mechanics.space.kinetics import weight
+from support_exudyn.mechanics.space.motion import COORDINATES, motion_of
+from support_exudyn.model.spatial_linkage import SpatialLinkage
+from user_forces.values.value import InputError
+
+UNBALANCED = 1e-7  # of the roof force: what may be left of it for rounding
+
+
+@dataclass(frozen=True)
+class Twist:
+    """What bearings carry while all legs push alike, of the first body on the second.
+
+    Arguments:
+        bearings: force of each bearing, by name, (3,) [N].
+        moments: moment of each bearing, by name, (3,) about x, y, z [N m].
+    """
+
+    bearings: dict[str, Array]
+    moments: dict[str, Array]
+
+
+class SpatialStatics:
+    """Equilibrium in space of one posture.
+
+    linkage: the machine in space, laid out there. canopy: the body that carries the roof. height: y of the roof
+    on it [m].
+    """
+
+    def __init__(self, linkage: SpatialLinkage, canopy: str, height: float) -> None:
+        self.linkage, self.canopy, self.height = linkage, canopy, height
+        still = np.zeros(COORDINATES * len(linkage.bodies))
+        self.motion = motion_of(linkage, still, still)
+        self.weight = weight(linkage, (*GRAVITY, 0.0))
+
+    def roof(self, x: float, z: float) -> Array:
+        """What a vertical roof force of 1 N at x, z does to all coordinates (6 bodies,)."""
+        i = 6 * list(self.linkage.bodies).index(self.canopy)
+        arm = np.array([x, self.height, z]) - np.array(self.linkage.bodies[self.canopy].centre)
+        down = np.array([0.0, -1.0, 0.0])
+        found = np.zeros(self.weight.size)
+        found[i : i + 3], found[i + 3 : i + 6] = down, np.cross(arm, down)
+        return found
+
+    def twist(
+        self, roof: RoofForce, aside: float, pushes: Mapping[str, float], least: Literal["forces", "moments"]
+    ) -> Twist:
+        """What bearings carry under a roof force at z = aside [m] while cylinders push as in the plane [N].
+
+        least: of which the sum of squares is the least where rigid bearings leave open how they share a load;
+        where that leaves something open, the sum of the others is.
+
+        Raises InputError if the cylinders do not hold the roof force.
+        """
+        one = self.linkage.actuators
+        driven = [Constraint(name, "actuator") for name in one]
+        forces = np.array([part.share * pushes[part.actuator] for part in one.values()])
+        given = self.weight + roof.force * self.roof(roof.x, aside)
+        given = given + matrix(self.motion, driven)[0].T @ forces
+        rows = all_rows(self.linkage, (), ())
+        c = matrix(self.motion, rows)[0].T
+        found = np.linalg.lstsq(c, -given, rcond=None)[0]
+        open_ways = null_space(c, rcond=SAME)  # loads that bearings put on each other
+        moments = np.array([row.kind.startswith("tilt") for row in rows])
+        for kept in (moments, ~moments) if least == "moments" else (~moments, moments):
+            change = open_ways[kept]
+            found = found - open_ways @ np.linalg.lstsq(change, found[kept], rcond=SAME)[0]
+            open_ways = open_ways @ null_space(change, rcond=SAME)
+        rest = float(np.abs(c @ found + given).max())
+        if rest > UNBALANCED * max(roof.force, float(np.abs(self.weight).max())):
+            raise InputError(
+                f"machine in space: {rest:.3g} N of the roof force {roof.force:.6g} N are not balanced; "
+                "allowed: pushes of its cylinders that hold it"
+            )
+        return Twist(*_by_bearing(self, rows, found))
+
+    def legs_alone(self, x: float, aside: float, limits: Mapping[str, Limits]) -> float:
+        """The largest roof force [N] at x, z [m] with no roll passed on by the canopy's joints; 0 if none.
+
+        limits: of the actuators of the plane; a part of one has its share of them.
+        """
+        rows = [
+            row
+            for row in all_rows(self.linkage, (), list(self.linkage.actuators))
+            if not (row.kind == "tilt_1" and self._on_canopy(row.name))
+        ]
+        size = max(1.0, *(abs(bound) for limit in limits.values() for bound in limit))
+        balance = np.column_stack([matrix(self.motion, rows)[0].T, self.roof(x, aside)])
+        bounds: list[tuple[float | None, float | None]] = []
+        for row in rows:
+            if row.kind == "actuator":
+                part = self.linkage.actuators[row.name]
+                low, high = (part.share * bound / size for bound in limits[part.actuator])
+                bounds.append((low, high))
+            else:
+                bounds.append((None, None))
+        cost = np.zeros(balance.shape[1])
+        cost[-1] = -1.0
+        found = linprog(cost, A_eq=balance, b_eq=-self.weight / size, bounds=[*bounds, (0.0, None)])
+        return 0.0 if found.x is None else float(found.x[-1]) * size
+
+    def _on_canopy(self, bearing: str) -> bool:
+        one = self.linkage.bearings[bearing]
+        return self.canopy in (one.first, one.second)
+
+
+def _by_bearing(
+    space: SpatialStatics, rows: list[Constraint], found: Array
+) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Forces and moments of the bearings in the ground's axes; machines of a plane have axes along z."""
+    place = {"across_1": 0, "across_2": 1, "along": 2, "tilt_1": 0, "tilt_2": 1}
+    forces = {name: np.zeros(3) for name in space.linkage.bearings}
+    moments = {name: np.zeros(3) for name in space.linkage.bearings}
+    for row, load in zip(rows, found.tolist(), strict=True):
+        (moments if row.kind.startswith("tilt") else forces)[row.name][place[row.kind]] = load
+    return forces, moments

@@ -1,0 +1,302 @@
+"""What a support must stand, as a whole: shipped supports, other units, refusals, the page."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from importlib import resources
+from typing import Any
+
+import numpy as np
+import pytest
+
+from support_exudyn.files.machines import load_machine, shipped
+from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.machines.planar_linkage import PlanarLinkage
+from support_exudyn.machines.strength import StandReport, stand
+from support_exudyn.machines.strength.numbers import numbers
+from support_exudyn.machines.strength.page import page
+from support_exudyn.machines.strength.pins import stresses
+from support_exudyn.machines.strength.strength_data import CylinderStrength, StrengthData
+from support_exudyn.model.loads.spring_damper import SpringDamper
+from tests.machines.strength.test_roof_forces import beam
+from tests.metamorphic.scaling import Scale
+from tests.pages import ROOT, listings
+from user_forces import InputError
+
+SHIELDS = ("reference", "zf18000", "two_leg_shield")
+REPORTS: dict[str, StandReport] = {}
+
+
+def report(name: str) -> StandReport:
+    if name not in REPORTS:
+        REPORTS[name] = stand(shipped(name))
+    return REPORTS[name]
+
+
+# --- shipped supports ---
+
+
+@pytest.mark.parametrize("name", SHIELDS)
+def test_the_page_is_one_page(name: str) -> None:
+    lines = list(page(report(name)))
+    assert len(lines) <= 60
+    assert max(map(len, lines)) <= 100
+    text = "\n".join(lines)
+    for section in range(1, 9):
+        assert f"\n{section} " in text
+    for said in ("EN 1804-1, 4.3.1", "EN 1804-1, 4.3.2", "MT/T 556-1996", "assumed: ", "source: strength: "):
+        assert said in text
+    assert "nan" not in text
+    assert "inf" not in text
+
+
+@pytest.mark.parametrize("name", SHIELDS)
+def test_the_wander_is_that_of_the_check(name: str) -> None:
+    from support_exudyn.machines.check import check_machine
+
+    assert report(name).wander == pytest.approx(check_machine(shipped(name)).numbers["tip_wander_m"], abs=1e-9)
+
+
+def test_four_columns_hold_together_what_each_row_pushes() -> None:
+    """The links carry little of a vertical force, as long as the roof does not rub."""
+    found = report("zf18000")
+    for one in found.forces:
+        assert one.yielding is not None
+        assert one.setting is not None
+        assert one.yielding.force == pytest.approx(18e6, rel=0.02)
+        assert one.setting.force < one.yielding.force
+        # the peak over the canopy is where all columns yield
+        assert one.largest.force == pytest.approx(one.yielding.force, rel=1e-9)
+        assert one.largest.x == pytest.approx(one.yielding.x, rel=1e-9)
+        assert max(force for _, force in one.over) <= one.largest.force
+        assert (one.pull, one.push) == (None, None)
+
+
+def test_the_ram_of_a_two_leg_shield_shifts_its_force() -> None:
+    for one in report("two_leg_shield").forces:
+        assert one.yielding is not None
+        assert one.pull is not None
+        assert one.push is not None
+        assert one.pull.x < one.yielding.x < one.push.x
+        assert one.largest.force >= one.yielding.force
+
+
+def test_pins_are_judged_at_one_and_at_one_point_two_times_yield() -> None:
+    for pin in report("two_leg_shield").pins.values():
+        for loads in (pin.nominal, pin.worst, pin.rubbed):
+            # weight is not multiplied
+            assert 1.15 * loads[1.0] < loads[1.2] < 1.25 * loads[1.0]
+        assert pin.nominal[1.2] <= pin.worst[1.2] <= pin.rubbed[1.2]
+        assert pin.stresses is not None
+        assert pin.stresses[0].force == pin.worst[1.2]
+        assert pin.stresses[1].force == pin.rubbed[1.2]
+
+
+def test_rules_are_told_where_they_are_broken() -> None:
+    text = "\n".join(page(report("two_leg_shield")))
+    assert "4.3.2, friction 0.2: NOT met by rear_base (bending)" in text
+    assert "4.3.2, roof without friction: met" in text
+    data = shipped("zf18000")
+    assert data.strength is not None
+    assert data.strength.base is not None
+    weak = replace(data.strength, rated_force=14e6, base=replace(data.strength.base, width=0.9))
+    text = "\n".join(page(stand(replace(data, strength=weak))))
+    assert "1.287 of 14000 kN: NOT met on a slow roof" in text.replace("\n    ", " ")
+    assert "15 all round: NOT met" in text
+
+
+# --- in other units ---
+
+
+def test_in_other_units_all_is_the_same() -> None:
+    """Lengths times 2, times sqrt 2, as gravity stays: forces times M, stresses times M/4."""
+    scale = Scale(length=2.0, mass=3.0, time=math.sqrt(2.0))
+    data = shipped("reference")
+    assert data.strength is not None
+    made: Any = scale._value
+    other = replace(
+        data,
+        machine=made(data.machine),
+        bore_radii={name: 2.0 * radius for name, radius in data.bore_radii.items()},
+        stroke=2.0 * (data.stroke or 0.0),
+        strength=made(data.strength),
+    )
+    one, larger = (dict(leaves(numbers(found))) for found in (report("reference"), stand(other)))
+    assert one.keys() == larger.keys()
+    endings = {"N": 3.0, "m": 2.0, "Pa": 0.75, "N_m": 6.0, "kg": 3.0, "rad": 1.0}
+    told = 0
+    for key, number in one.items():
+        unit = next(
+            (ending for ending in ("N_m", "Pa", "N", "m", "kg", "rad") if f"_{ending}." in f"{key}."), ""
+        )
+        assert larger[key] == pytest.approx(endings.get(unit, 1.0) * number, rel=1e-6, abs=1e-6), key
+        told += bool(unit)
+    assert told > 500
+
+
+def leaves(data: Any, where: str = "") -> Iterator[tuple[str, float]]:
+    """Numbers of plain data, by their dotted keys."""
+    if isinstance(data, dict):
+        for key, item in data.items():
+            yield from leaves(item, f"{where}.{str(key).replace('.', '-')}")
+    elif isinstance(data, (list, tuple)):
+        for n, item in enumerate(data):
+            yield from leaves(item, f"{where}.{n}")
+    elif isinstance(data, (int, float)) and not isinstance(data, bool):
+        yield where, float(data)
+
+
+def test_twice_the_pressure_and_no_weight_is_twice_the_force() -> None:
+    data = shipped("reference")
+    assert data.strength is not None
+    double = {
+        name: replace(one, yield_pressure=2.0 * one.yield_pressure)
+        for name, one in data.strength.cylinders.items()
+    }
+    more = stand(replace(data, strength=replace(data.strength, cylinders=double)))
+    for one, other in zip(report("reference").forces, more.forces, strict=True):
+        assert one.yielding is not None
+        assert one.setting is not None
+        assert other.yielding is not None
+        weight = 2.0 * one.yielding.force - other.yielding.force  # what the legs carry besides
+        assert -0.15e6 < weight < 0.0
+    for name, buckled in more.buckling.items():
+        assert buckled.euler == report("reference").buckling[name].euler
+
+
+# --- any machine with a leg ---
+
+
+def test_a_beam_on_a_leg_stands_what_its_closed_form_says() -> None:
+    leg = CylinderStrength(bore=0.2, yield_pressure=30e6, count=1)
+    drawing = beam(4.0, 2.0, 1000.0)
+    data = MachineData(
+        PlanarLinkage(drawing=drawing), "beam", stroke=0.3, strength=StrengthData(cylinders={"leg": leg})
+    )
+    found = stand(data)
+    push = 30e6 * math.pi * 0.01
+    first = found.forces[0]
+    assert first.yielding is not None
+    assert first.yielding.force == pytest.approx((push * 2.0 - 9810.0 * 2.0) / 2.0)
+    assert first.setting is None
+    assert found.pins["hinge"].stresses is None
+    assert found.unknown_pins == ["hinge"]
+    assert found.wander is None
+    assert found.tipping is None
+    assert isinstance(found.off_middle, str)
+    assert len(found.forces) == 21
+    assert found.forces[-1].contact.height > found.forces[0].contact.height  # the beam has been lifted
+    text = "\n".join(page(found))
+    for said in (
+        "leg: not told, its stages are not known",
+        "7 standing free: not told, no base is described",
+        "6 eccentric load and torsion: not told",
+        "not told for want of bore or length: hinge",
+        "rated force: pushes of all legs",
+    ):
+        assert said in text
+    with pytest.raises(InputError, match=r"stroke = 4 m: the linkage locks before; allowed: up to 3\.2\d* m"):
+        stand(replace(data, stroke=4.0))
+
+
+def test_what_cannot_be_told_is_refused() -> None:
+    with pytest.raises(InputError, match=r"no actuators that could carry a roof"):
+        stand(shipped("watt_six_bar"))
+    with pytest.raises(InputError, match=r"strength: missing; .* for each of leg"):
+        stand(shipped("velenje_shield"))
+    data = shipped("reference")
+    assert data.strength is not None
+    some = data.strength.cylinders
+    for wrong, said in (
+        (
+            {"cylinders": {**some, "leg": some["front_column"]}},
+            r"strength\.cylinders\.leg: there is none",
+        ),
+        ({"cylinders": {"front_column": some["front_column"]}}, r"strength\.cylinders\.rear_column: missing"),
+        ({"pins": {"hinge": next(iter(data.strength.pins.values()))}}, r"strength\.pins\.hinge: there is none"),
+        ({"canopy": "roof"}, r"strength\.canopy = 'roof': no such body"),
+    ):
+        with pytest.raises(InputError, match=said):
+            stand(replace(data, strength=replace(data.strength, **wrong)))
+    short = {
+        name: replace(one, stages=(replace(one.stages[0], length=0.5), *one.stages[1:2]))
+        for name, one in some.items()
+    }
+    with pytest.raises(InputError, match=r"strength\.cylinders\.front_column\.stages: together 1\.3 m long"):
+        stand(replace(data, strength=replace(data.strength, cylinders=short)))
+    weak = {name: replace(one, yield_pressure=1e3, setting_pressure=None) for name, one in some.items()}
+    with pytest.raises(InputError, match=r"hold the weight alone in no way with the roof 1\.95 m high"):
+        stand(replace(data, strength=replace(data.strength, cylinders=weak)))
+    spring = SpringDamper(body="canopy", point=(1.0, 0.0), other_point=(1.0, 1.0), stiffness=1.0)
+    leg = CylinderStrength(bore=0.2, yield_pressure=30e6)
+    sprung = PlanarLinkage(drawing=beam(4.0, 2.0, 10.0), acting={"spring": spring})
+    with pytest.raises(InputError, match="spring act on it besides weight and roof"):
+        stand(MachineData(sprung, strength=StrengthData(cylinders={"leg": leg})))
+
+
+def test_a_file_without_the_section_is_as_before(tmp_path: Any) -> None:
+    from tests.machine_files import OURS, written
+
+    assert load_machine(written(tmp_path)).strength is None
+    section = """
+[strength.cylinders.front_column]
+bore_mm = 200
+yield_pressure_MPa = { value = 40, from = 36, to = 44 }
+
+[strength.cylinders.rear_column]
+bore_mm = 200
+yield_pressure_MPa = 40
+"""
+    data = load_machine(written(tmp_path, text=OURS + section))
+    assert data.strength is not None
+    assert data.strength.cylinders["front_column"].yield_pressure == 40e6
+    assert data.sourced["strength.cylinders.front_column.yield_pressure_MPa"].low == 36
+    with pytest.raises(InputError, match=r"strength\.cylinders\.front_column\.bore_mm"):
+        load_machine(written(tmp_path, "bore_mm = 200", "bore_mm = -200", text=OURS + section))
+
+
+def test_the_section_of_the_page_is_read(tmp_path: Any) -> None:
+    page_of_it = ROOT / "support_exudyn" / "machines" / "strength" / "standing.md"
+    (shown,) = (one for one in listings(page_of_it) if one.kind == "toml")
+    text = (resources.files("support_exudyn.files.machines") / "two_leg_shield.toml").read_text("utf-8")
+    path = tmp_path / "ours.toml"
+    path.write_text(text.partition("[strength]")[0] + shown.text, encoding="utf-8")
+    found = load_machine(path).strength
+    assert found is not None
+    own = shipped("two_leg_shield").strength
+    assert own is not None
+    assert found.cylinders["leg"] == own.cylinders["leg"]
+    assert found.base == own.base
+
+
+# --- faults that a check like this has to see ---
+
+
+def test_a_leg_that_stands_elsewhere_changes_the_place() -> None:
+    data = shipped("reference")
+    machine: Any = data.machine
+    moved = dataclasses.replace(
+        machine,
+        front_foot=tuple(np.add(machine.front_foot, (0.1, 0.0))),
+        front_head=tuple(np.add(machine.front_head, (0.1, 0.0))),
+    )
+    found = stand(replace(data, machine=moved))
+    for one, other in zip(report("reference").forces, found.forces, strict=True):
+        assert one.yielding is not None
+        assert other.yielding is not None
+        # half of the force has moved by 100 mm
+        assert other.yielding.x - one.yielding.x == pytest.approx(0.05, abs=0.004)
+
+
+def test_half_the_eye_is_twice_the_pressure() -> None:
+    data = shipped("reference")
+    assert data.strength is not None
+    eyes = data.strength.pins["rear_base"]
+    thin = replace(eyes, middle=0.5 * eyes.middle)
+    one, other = (stresses(part, 0.131, 1e6) for part in (eyes, thin))
+    assert other.bearing == pytest.approx(2.0 * one.bearing)
+    assert other.shear == one.shear
+    assert other.bending < one.bending
