@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from support_exudyn.formulations.contact_events import BEYOND, SHARE, DepthPath, first_rise
+from support_exudyn.formulations.hydraulics.leg import OPEN
 from support_exudyn.formulations.hydraulics.records import GAP_NAMES, HIGH_2, LOW, Matrix
 from support_exudyn.formulations.redundant.scene.leg_circuit import LegCircuit
 from support_exudyn.mechanics.trajectory import OilEvent
@@ -67,6 +68,9 @@ class LegEvents:
 
     def _one(self, n: int, k: int, t: float, h: float, end: tuple[float, float]) -> float | None:
         """The same for one gap, `end` being it and its rate at the end of the step."""
+        if OPEN in (self._gaps[n, k], end[0]):  # an inlet is opened just after a break, or closed just before
+            self._pending.append((n, k, t if end[0] == OPEN else t - h))
+            return None
         x = self._passes(n, k, h, end)
         if x is None:
             return None
