@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC
 from dataclasses import field, replace
+from typing import ClassVar
 
 from support_exudyn.model.actuator_model import ActuatorModel as ActuatorModel
 from support_exudyn.model.actuator_model import Quantity as Quantity
@@ -38,6 +39,8 @@ class OilColumn(HydraulicLeg):
         damping_time: T [s], >= 0; a mass on the actuator that vibrates at w rad/s is damped by T w / 2 of the
             critical damping.
     """
+
+    extensive: ClassVar[tuple[str, ...]] = ("bore_area",)
 
     bore_area: SquareMetres[Positive]
     oil_length: Metres[Positive]

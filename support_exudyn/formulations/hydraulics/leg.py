@@ -229,6 +229,7 @@ def let_out(legs: Records, n: int, y: Series, slope: Series, gaps: Series) -> No
         gaps[YIELD] = p - (leg.closes if leg.open != 0.0 else leg.opens)
         if leg.poppet >= 0:
             lift, rate = y[leg.poppet], y[leg.poppet + 1]
+            gaps[YIELD] = lift  # its seat gives a jolt; nothing happens where the spring gives way
             flow = leg.slope * max(0.0, lift)
             k, d = leg.poppet_rate * leg.poppet_rate, leg.poppet_decay
             if lift < 0.0:
