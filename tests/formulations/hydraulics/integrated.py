@@ -66,11 +66,10 @@ class Stand:
     # --- equations ---
 
     def pump_pressure(self, y: State) -> float:
-        """Of the oil between pump and legs, and by how much the line is full at the start."""
+        """Of the oil between pump and legs."""
         if self.pump is None:
             return math.nan
-        b, volume = self.pump.bulk_modulus, self.pump.line_volume
-        return self.pump.pressure + b * math.log1p(y["pump.w"] / (volume * math.exp(self.pump.pressure / b)))
+        return self.pump.pressure + self.pump.bulk_modulus / self.pump.line_volume * y["pump.w"]
 
     def switches(self, t: float, y: State, sides: Sides, after: bool) -> State:
         found: State = {}
@@ -100,7 +99,7 @@ class Stand:
         if self.pump is not None:
             share = (self.pump.pressure - pump) / self.pump.pressure_range if sides["pump.gives"] else 0.0
             q = self.pump.flow * (1.0 if sides["pump.gives all"] else share)
-            found["pump.in"] = q * math.exp(pump / self.pump.bulk_modulus)
+            found["pump.in"] = q
             found["pump.w"] = found["pump.in"] - drawn
         if self.block is not None:
             found["block.y"], found["block.v"] = y["block.v"], push / self.block.mass - self.gravity

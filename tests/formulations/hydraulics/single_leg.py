@@ -232,7 +232,10 @@ class Leg:
         found |= _stop_switches("", self.stops, outer, rate)
         if self.stage is not None:
             found |= _stop_switches("inner ", self.stage.stops, y["e"] - outer, y["v"] - rate)
+            lowest = NEVER if self.stops is None else self.stops.lowest
             found["into the tube"] = p["p"] - p["p2"]
+            found["at its bottom"] = lowest + self.stage.release - y["s"]
+            found["on its bottom"] = lowest - y["s"]
         if self.valve is not None and self.valve.check_valve is not None:
             opening = self.opening(t, after)
             found |= self._check_switches(p, *self.supplies(opening, pump_pressure))
@@ -274,9 +277,9 @@ class Leg:
             stage, inner_rate = self.stage, y["v"] - y["sr"]
             force = p["p2"] * stage.bore_area - rod * stage.rod_side_area
             force += _stop_force("inner ", stage.stops, y["e"] - y["s"], inner_rate, sides)
-            force -= stribeck(seal, inner_rate)
+            force -= stribeck(seal, inner_rate) + self.damping * inner_rate
             below = outer_force + _stop_force("", self.stops, y["s"], y["sr"], sides)
-            below -= stribeck(seal, y["sr"]) + stage.damping * y["sr"]
+            below -= stribeck(seal, y["sr"]) + (self.damping + stage.damping) * y["sr"]
             d["s"], d["sr"] = y["sr"], (below - force) / stage.tube_mass
             self._foot_valve(p, y, d, sides)
         d["e"], d["v"] = y["v"], (force - on_top) / self.mass - self.gravity
@@ -338,11 +341,13 @@ class Leg:
         return share * flow(before - p)
 
     def _foot_valve(self, p: State, y: State, d: State, sides: Sides) -> None:
-        stage = self.stage
-        q = orifice(p["p"] - p["p2"], stage.nominal_flow, stage.nominal_drop)
+        stage, share = self.stage, 1.0
         if not sides["into the tube"]:
-            q = 0.0
-        through = self.piston.mass(q, p["p"])
+            share = 0.0
+            if sides["at its bottom"]:
+                share = 1.0 if sides["on its bottom"] else 1.0 + (self.stops.lowest - y["s"]) / stage.release
+        q = share * orifice(p["p"] - p["p2"], stage.nominal_flow, stage.nominal_drop)
+        through = self.piston.mass(q, max(p["p"], p["p2"]))
         d["w"], d["w2"] = d["w"] - through, through
 
 
