@@ -79,3 +79,17 @@ LOG, LINEAR = range(2)  # laws of the oil
     CHECK,
     GAPS,
 ) = range(12)
+# what each is called, and begins where its gap becomes positive; a cavity is there while its gap is negative
+GAP_NAMES = (
+    "piston side filled",
+    "rod side filled",
+    "tube filled",
+    "line filled",
+    "yield valve open",
+    "rod relief open",
+    "lower stop met",
+    "upper stop met",
+    "lower stop of the tube met",
+    "upper stop of the tube met",
+    "check valve open",
+)
