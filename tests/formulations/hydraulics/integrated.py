@@ -20,7 +20,7 @@ LONGEST = 1e-3  # step [s]: so that no short opening is missed
 
 @dataclass
 class Trajectory:
-    """What came out at the times asked for, by names, and where switches changed: (time, name, to which side)."""
+    """What came out at the times asked for, by names, and the switches that changed: time, name, to which side."""
 
     time: np.ndarray
     values: dict[str, np.ndarray]
@@ -123,7 +123,8 @@ class Stand:
 
     def _piece(
         self, t: float, y: np.ndarray, sides: Sides, edges: tuple[float, float], rtol: float, method: Any,
-        records: np.ndarray, found: list[tuple[float, np.ndarray, Sides]], events: list[tuple[float, str, bool]],
+        records: np.ndarray, found: list[tuple[float, np.ndarray, Sides]],
+        events: list[tuple[float, str, bool]],
     ) -> tuple[float, np.ndarray, Sides]:  # fmt: skip
         """Integrate until the first switch, or the end."""
         begin, end = edges

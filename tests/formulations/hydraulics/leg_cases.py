@@ -12,8 +12,8 @@ from support_exudyn import (
     CubicStep,
     EndStops,
     HydraulicCylinder,
-    LinearActuator,
     Line,
+    LinearActuator,
     Linkage,
     Machine,
     OilColumn,
@@ -55,9 +55,7 @@ class Uprights(Machine):
                 for n, at in places.items()
             },
             actuators={
-                f"leg{n}": LinearActuator(
-                    foot=GROUND, head=f"mass{n}", foot_point=(at[0], 0.0), head_point=at
-                )
+                f"leg{n}": LinearActuator(foot=GROUND, head=f"mass{n}", foot_point=(at[0], 0.0), head_point=at)
                 for n, at in places.items()
             },
             slides={
@@ -83,6 +81,7 @@ CYLINDER = HydraulicCylinder(
 )
 YIELDING = YieldValve(opening_pressure=8e6, rated_flow=4e-3, rated_overpressure=1e6)
 WITH_HYSTERESIS = replace(YIELDING, closing_pressure=5e6)
+RELIEVING = replace(YIELDING, opening_pressure=6e6, closing_pressure=4e6)
 WITH_POPPET = replace(YIELDING, poppet=Poppet(mass=0.5, stiffness=2e6, damping=300.0))
 AIR = TrappedAir(volume=2e-3)
 LINE = Line(volume=4e-3, nominal_flow=5e-3, nominal_drop=2e6)
@@ -159,7 +158,7 @@ CASES: dict[str, Scenario] = {
     "cylinder, yield valve": on_cylinder(-0.6, yield_valve=YIELDING),
     "cylinder, hysteresis": on_cylinder(-0.6, yield_valve=WITH_HYSTERESIS),
     "cylinder, poppet": on_cylinder(-0.6, yield_valve=WITH_POPPET),
-    "cylinder, relief": on_cylinder(0.6, rod_relief=replace(YIELDING, opening_pressure=6e6, closing_pressure=4e6)),
+    "cylinder, relief": on_cylinder(0.6, rod_relief=RELIEVING),
     "cylinder, cavity": on_cylinder(0.4, vapour_pressure=VAPOUR),
     "cylinder, air": on_cylinder(0.4, trapped_air=AIR, vapour_pressure=VAPOUR),
     "cylinder, line": on_cylinder(-0.2, line=LINE, inlet=UP),
