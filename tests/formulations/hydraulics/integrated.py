@@ -20,7 +20,7 @@ LONGEST = 1e-3  # step [s]: so that no short opening is missed
 
 @dataclass
 class Trajectory:
-    """What came out at the times asked for, by names, and the switches that changed: time, name, to which side."""
+    """What came out at the times asked for, by names; the switches that changed: time, name, new side."""
 
     time: np.ndarray
     values: dict[str, np.ndarray]
