@@ -87,6 +87,7 @@ AIR = TrappedAir(volume=2e-3)
 LINE = Line(volume=4e-3, nominal_flow=5e-3, nominal_drop=2e6)
 SEALS = SealFriction(coulomb=1.5e4, static=2.5e4, stribeck_speed=0.05, transition_speed=0.02)
 STOPS = EndStops(lowest=-0.004, highest=0.003, stiffness=2e9, damping=0.4)
+WIDE = replace(STOPS, lowest=-0.4, highest=0.4)
 STAGE = SecondStage(
     bore_area=0.06,
     oil_length=0.4,
@@ -148,7 +149,7 @@ CASES: dict[str, Scenario] = {
     "column, drive": on_column(0.1, vapour_pressure=VAPOUR, drive=SUDDEN_LIFT),
     "column, seals": on_column(0.05, seal_friction=SEALS),
     "column, stops": on_column(0.5, end_stops=STOPS),
-    "column, two stages": on_column(-0.2, second_stage=STAGE),
+    "column, two stages": on_column(-0.2, second_stage=STAGE, end_stops=WIDE),
     "column, setting": on_column(0.0, setting_pressure=4e6),
     "column, everything": on_column(
         -0.6,

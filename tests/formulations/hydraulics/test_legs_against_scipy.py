@@ -10,8 +10,6 @@ import pytest
 from scipy.integrate import trapezoid
 
 from support_exudyn import Result, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.compiled import run as run_compiled
-from support_exudyn.formulations.contract import silent
 from support_exudyn.mechanics.trajectory import OilEvent
 from tests.formulations.hydraulics.integrated import Stand, Trajectory
 from tests.formulations.hydraulics.leg_cases import CASES, LENGTH
@@ -82,7 +80,7 @@ def test_motion_pressures_and_oil_are_those_of_scipy(name: str) -> None:
 @pytest.mark.parametrize("name", EVERY)
 def test_valves_and_cavities_open_and_close_when_scipy_says(name: str) -> None:
     wanted = reference(name)
-    happened = run_compiled(precise(CASES[name]), silent).oil_events
+    happened = simulate(precise(CASES[name])).oil_events
     for leg, events in happened.items():
         poppet = getattr(CASES[name].actuators[leg], "yield_valve", None)
         for what, (switch, _) in SWITCHES.items():
@@ -100,7 +98,7 @@ def stops(events: tuple[OilEvent, ...], what: str) -> list[float]:
 
 def test_stops_are_met_when_scipy_says() -> None:
     for name in ("column, stops", "cylinder, stops"):
-        happened = run_compiled(precise(CASES[name]), silent).oil_events["leg0"]
+        happened = simulate(precise(CASES[name])).oil_events["leg0"]
         theirs = reference(name).switched("leg0.gland")
         assert len(theirs) == 4
         np.testing.assert_allclose(stops(happened, "upper stop met"), theirs, rtol=0.0, atol=2e-9)
