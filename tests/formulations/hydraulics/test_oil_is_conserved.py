@@ -1,4 +1,4 @@
-"""Oil is conserved through valves, lines, stages, cavities and stops, and as much as pressures and lengths say."""
+"""Oil is conserved, and what is counted is what pressures and lengths say."""
 
 from __future__ import annotations
 
