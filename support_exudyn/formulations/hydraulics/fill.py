@@ -21,6 +21,7 @@ from support_exudyn.model.hydraulics.motion import EndStops
 from support_exudyn.model.hydraulics.oil import TrappedAir
 
 SMOOTH = 1e-3  # share of the nominal drop below which flow is laminar
+SMALLEST_STRAIN = 1e-5  # of the oil, by which errors of legs are weighed that nothing presses
 SMALLEST_SPEED = 1e-3  # [m/s], of the tube of two stages, by which errors are weighed
 
 
@@ -206,7 +207,7 @@ def weigh_states(legs: Legs, weights: Series, pressure: float, energy: float, pl
         energy: of losses [J]. play: of lengths [m].
     """
     for leg in legs.records:
-        size = max(pressure, float(leg["supply"]), float(leg["opens"]))
+        size = max(pressure, float(leg["supply"]), float(leg["opens"]), SMALLEST_STRAIN * float(leg["modulus"]))
         speed = max(math.sqrt(play * 10.0), SMALLEST_SPEED)
         for place in ("state", "rod", "line", "stage"):
             if leg[place] >= 0:
