@@ -56,7 +56,7 @@ class _Drawn:
 
 
 def drawn_leg(random: np.random.Generator, load: float, length: float) -> Leg:
-    """A leg that carries a load [N] on a length [m]: a column or a cylinder, and mostly that if it is pulled."""
+    """A leg that carries a load [N] on a length [m]: a column, or a cylinder, as most that are pulled."""
     of = _Drawn(random)
     cylinder = of.chance(0.9 if load < 0.0 else 0.5)
     load = max(LEAST, abs(load))

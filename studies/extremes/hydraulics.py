@@ -98,7 +98,7 @@ def machine_of(name: str) -> Machine:
 
 @cache
 def loads_of(name: str) -> dict[str, tuple[float, float]]:
-    """What every actuator of a machine carries at the start [N], negative if it is pulled, and its length [m]."""
+    """What every actuator of a machine carries at the start [N], < 0 if it is pulled, and its length [m]."""
     linkage = machine_of(name).linkage()
     loads = static_loads(linkage, (0.0, -9.81))
     return {leg: (load, linkage.actuators[leg].start_length) for leg, load in loads.items()}
