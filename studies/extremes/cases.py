@@ -6,10 +6,11 @@ from functools import partial
 
 import numpy as np
 
-from studies.extremes import scenes
+from studies.extremes import hydraulics, scenes
+from studies.extremes.drawn_legs import Leg, drawn_drive, drawn_leg, drawn_pump
 from studies.extremes.judge import Case
 from studies.extremes.ranges import SPANS, Point, drawn
-from support_exudyn import Held, Scenario
+from support_exudyn import Held, HydraulicCylinder, Scenario
 from support_exudyn.scenario.scenario_data import Accuracy
 
 SEED = 20261122
@@ -21,9 +22,11 @@ STEP_STIFFNESS, CLEARANCE_SPEED, FRICTION_STEP = (
 )
 MAPS = (STEP_STIFFNESS, CLEARANCE_SPEED, FRICTION_STEP)
 BOX = "box"
+HYDRAULICS = "hydraulics"
 RECORDS = 500  # of a stroke
 PACE = 0.5
 STROKE = 0.05  # [m]
+FORMULATIONS = ("compiled", "redundant")
 STARTS = ("concentric", "closed", "overlapping", "settled")
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 GRIDS = {STEP_STIFFNESS: 13, CLEARANCE_SPEED: 12, FRICTION_STEP: 13}  # lines and columns
@@ -44,8 +47,9 @@ RANDOM = {
     "roof": 40,
     "columns": 20,
     "space": 16,
+    HYDRAULICS: 1400,
 }
-DRAWN = 247  # by default, a seventh of these
+DRAWN = 447  # by default, a seventh of these
 
 
 def cases(number: int = DRAWN) -> list[Case]:
@@ -214,6 +218,24 @@ def _in_space(point: Point, i: int, random: np.random.Generator) -> Made:
     return {}, partial(scenes.in_space, point)
 
 
+def _on_legs(point: Point, i: int, random: np.random.Generator) -> Made:
+    """Machines by turns, each on columns, on cylinders and on both, and by turns in both formulations."""
+    name = [*hydraulics.MACHINES][i % len(hydraulics.MACHINES)]
+    legs: dict[str, Leg] = {
+        leg: drawn_leg(random, load, length) for leg, (load, length) in hydraulics.loads_of(name).items()
+    }
+    cylinders = [leg for leg in legs.values() if isinstance(leg, HydraulicCylinder)]
+    pumped = bool(cylinders) and random.uniform() < 0.4
+    pump = drawn_pump(random, cylinders[0].system_pressure) if pumped else None
+    drive = drawn_drive(random) if len(cylinders) < len(legs) else Held()
+    loose, formulation = random.uniform() < 0.4, FORMULATIONS[i // len(hydraulics.MACHINES) % 2]
+    roof = float(10.0 ** random.uniform(-1.0, 1.5)) if random.uniform() < 0.5 else 0.0
+    elements = "; ".join(f"{leg}: {', '.join(model.elements)}" for leg, model in legs.items())
+    more: dict[str, float | str] = {"machine": name, "elements": elements, "pump": str(pumped), "roof": roof}
+    make = partial(hydraulics.on_legs, point, name, legs, pump, drive, loose, roof, formulation)
+    return more | {"formulation": formulation}, make
+
+
 _KINDS: dict[str, Callable[[Point, int, np.random.Generator], Made]] = {
     "corners": _corner,
     BOX: _boxed,
@@ -230,4 +252,5 @@ _KINDS: dict[str, Callable[[Point, int, np.random.Generator], Made]] = {
     "roof": _under_roof,
     "columns": _heavy,
     "space": _in_space,
+    HYDRAULICS: _on_legs,
 }

@@ -18,6 +18,7 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
+from studies.extremes.hydraulics import oil_open
 from support_exudyn import Result, Scenario, SimulationError, SolverSettings, simulate
 from support_exudyn.formulations.limits import DEEPEST
 from support_exudyn.formulations.registry import formulation
@@ -36,6 +37,7 @@ BEFORE = "before the run: "
 # Its restitution then is that of the law within some thousandths (1.3e-3 at most in 500 random scenes).
 FREE, MORE = 0.02, 0.005
 PULL = 9.81  # [m/s^2]
+LEAK = 1e-10  # share of a leg's oil that may be open
 ALONE = 1e-9  # [s] by which contacts of two pins are apart at least
 TOLERANCE = 1e-8  # of an independent formulation
 # steps of a run that only checks: one of the redundant formulation takes some 0.1 ms, of others a tenth of that
@@ -83,6 +85,7 @@ class Judgement:
     other: float = math.nan
     energy: float = math.nan
     depth: float = math.nan
+    oil: float = math.nan
     restitution: float = math.nan
     met: bool = False
     wall_s: float = 0.0
@@ -127,6 +130,7 @@ def _judged(make: Callable[[], Scenario], run: Run) -> Judgement:
         error=result.worst_error,
         energy=_energy(result),
         depth=_deepest(result),
+        oil=oil_open(result),
         restitution=largest_restitution(result),
         met=result.met,
     )
@@ -150,6 +154,8 @@ def _compared(result: Result, found: Judgement) -> Judgement:
         faults.append(f"energy is open by {found.energy:.2g} of what was turned over")
     if found.depth > DEEPEST:
         faults.append(f"depth is {found.depth:.2g} of the bore's radius")
+    if found.oil > LEAK:
+        faults.append(f"{found.oil:.2g} of a leg's oil is lost or made")
     if found.restitution > 1.0 + MORE:
         faults.append(f"a free impact gives back {found.restitution:.4g} times what its law does")
     pair = _halved(result)
