@@ -17,9 +17,11 @@ from support_exudyn.mechanics.channels import (
     EvaluationContext,
 )
 from support_exudyn.mechanics.guide_channels import guide_channels
+from support_exudyn.mechanics.leg_channels import leg_channels
 from support_exudyn.mechanics.pin_channels import pin_channels
 from support_exudyn.mechanics.trajectory import CylinderSeries, Series
 from support_exudyn.model.guides import Guide, IdealGuide
+from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.linkage import Body, Linkage
 from support_exudyn.model.loads.load import ActingLoad, LoadChannel
 from support_exudyn.model.pins import IdealPin, Pin
@@ -32,6 +34,8 @@ def channel_definitions(
     loads: Mapping[str, ActingLoad],
     cylinders: Collection[str] = (),
     guides: Mapping[str, Guide] = MappingProxyType({}),
+    legs: Mapping[str, HydraulicLeg] = MappingProxyType({}),
+    pump: bool = False,
 ) -> ChannelDefinitions:
     """All channels of a linkage by name.
 
@@ -42,6 +46,7 @@ def channel_definitions(
         loads: what acts on the machine besides its weight, by name.
         cylinders: names of those columns of oil that have a valve and pressures.
         guides: all that are not ideal, by name.
+        legs: actuators on oil that have elements, by name. pump: whether they share one.
     """
     found = {"time": ChannelDefinition("s", "time", DataNeeds.NOTHING, lambda context: context.run.time)}
     for n, (name, body) in enumerate(linkage.bodies.items()):
@@ -52,6 +57,7 @@ def channel_definitions(
         found |= _of_actuator(name, name in oil)
         if name in cylinders:
             found |= _of_cylinder(name)
+    found |= leg_channels(legs, pump)
     for name in linkage.cranks:
         found |= _of_crank(name)
     for name, slide in linkage.slides.items():
@@ -65,7 +71,7 @@ def channel_definitions(
     return found | _of_energy(
         _stored(not all(pin.holds for pin in pins.values()) or bool(guides), bool(oil), bool(loads)),
         bool(loads),
-        bool(cylinders),
+        bool(cylinders) or bool(legs),
     )
 
 

@@ -80,6 +80,26 @@ class CylinderSeries(NamedTuple):
 
 
 @dataclass(frozen=True)
+class LegSeries:
+    """A hydraulic leg with elements at the records: see `leg_channels` for what its values are.
+
+    force: that pushes the ends apart (n,) [N]. energy: stored (n,) [J]. values: (n,) each, by name.
+    """
+
+    force: Series
+    energy: Series
+    values: Mapping[str, Series]
+
+
+class OilEvent(NamedTuple):
+    """Something that happened in a leg: when [s], what, and whether it began or ended then."""
+
+    time: float
+    what: str
+    begins: bool
+
+
+@dataclass(frozen=True)
 class Trajectory:
     """A run at its records, for a linkage with b bodies.
 
@@ -89,8 +109,8 @@ class Trajectory:
     contacts: clearance pins by name. actuators: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all actuators (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
-    (n,) [J]. loads: by name. cylinders: of actuators, by name. compliant_pins: by name. gears: moment on the
-    second body (n,) [N m].
+    (n,) [J]. loads: by name. cylinders, legs: of actuators, by name. compliant_pins: by name. gears: moment on
+    the second body (n,) [N m].
     """
 
     time: Series
@@ -109,6 +129,7 @@ class Trajectory:
     friction_moments: Mapping[str, Series] = field(default_factory=dict)
     loads: Mapping[str, LoadSeries] = field(default_factory=dict)
     cylinders: Mapping[str, CylinderSeries] = field(default_factory=dict)
+    legs: Mapping[str, LegSeries] = field(default_factory=dict)
     compliant_pins: Mapping[str, CompliantSeries] = field(default_factory=dict)
     gears: Mapping[str, Series] = field(default_factory=dict)
 
@@ -171,7 +192,7 @@ class Outcome:
     trajectory: at the records. onsets: for each clearance pin the beginnings of contact. largest_force: for
     each clearance pin the largest force [N] at any time. largest_force_time: when that is [s]; in the redundant
     formulation the end of the step that has it. impulses: where the speed of rigid actuators or cranks jumped.
-    counts: what the solver did.
+    counts: what the solver did. oil_events: what happened in each hydraulic leg with elements.
     """
 
     trajectory: Trajectory | ObservedRun
@@ -180,3 +201,4 @@ class Outcome:
     largest_force_time: Mapping[str, float]
     impulses: tuple[Impulse, ...]
     counts: Counts
+    oil_events: Mapping[str, tuple[OilEvent, ...]] = field(default_factory=dict)

@@ -269,6 +269,8 @@ class ScenarioData(Value, ABC):
             self.acting_loads,
             self.cylinders,
             self.guides,
+            self.legs,
+            self.pump is not None,
         )
 
     @property

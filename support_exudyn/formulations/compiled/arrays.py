@@ -3,7 +3,7 @@
 Every record has what is known before the run, and behind it what is computed at an instant. Numbers of bodies
 are -1 for the ground, of points and courses -1 for none. The state y of a scene with b bodies is
 
-    y = [x, y, turn of each body | their rates | states of friction laws, pressures | losses, work]
+    y = [x, y, turn of each body | their rates | states of friction laws, pressures, legs | losses, work]
 
 with positions from those at the start.
 """
@@ -70,7 +70,11 @@ RUBBING = _record("row body other constants", "law radius moment")
 
 
 class SceneArrays(NamedTuple):
-    """All that an evaluation of the equations of motion takes. square: C M^-1 C^T and its factors."""
+    """All that an evaluation of the equations of motion takes. square: C M^-1 C^T and its factors.
+
+    gaps, sides, beyond: of legs, what passes zero where something happens, on which side of it each is, and how
+    far it has been on the other within a step, shape (legs, GAPS).
+    """
 
     bodies: Records
     points: Records
@@ -84,6 +88,11 @@ class SceneArrays(NamedTuple):
     contacts: Records
     oil: Records
     cylinders: Records
+    legs: Records
+    pumps: Records
+    gaps: Matrix
+    sides: Matrix
+    beyond: Matrix
     loads: Records
     bushings: Records
     rubbing: Records
@@ -97,6 +106,7 @@ class Scratch(NamedTuple):
     right, impulses: a number a row. end, probe, slope, along: states; see `stabilised`. path: of the
     interpolation. rates: of a step's stages.
     now, then: contacts at its start and end. lines, answers, gram, square, sides, sizes: see `masses`.
+    gaps: of legs at its start. oil_events: time, leg, gap, side of each.
     """
 
     right: Vector
@@ -115,6 +125,8 @@ class Scratch(NamedTuple):
     square: Matrix
     sides: Matrix
     sizes: Vector
+    gaps: Matrix
+    oil_events: Matrix
 
 
 def scratch(scene: SceneArrays, states: int) -> Scratch:
@@ -138,10 +150,13 @@ def scratch(scene: SceneArrays, states: int) -> Scratch:
         square=np.zeros((most, most)),
         sides=np.zeros((most, most)),
         sizes=np.zeros(most),
+        gaps=np.zeros_like(scene.gaps),
+        oil_events=np.zeros((MOST_OIL_EVENTS if scene.legs.size else 0, 4)),
     )
 
 
 STAGES = 7  # of a step
+MOST_OIL_EVENTS = 100_000
 
 # what a run counts and where it stopped
 (
@@ -157,9 +172,10 @@ STAGES = 7  # of a step
     LAST_STEP,
     NOT_A_NUMBER,
     STIFF,
+    OIL_EVENTS,
     REPORT,
-) = range(13)
-FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED = range(6)
+) = range(14)
+FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED, TOO_MANY_OIL_EVENTS = range(7)
 LOSSES = 3  # last components of the state: damping, friction, and the work of what drives
 DAMPING_LOSS, FRICTION_LOSS, WORK = -3, -2, -1
 

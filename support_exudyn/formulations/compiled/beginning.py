@@ -4,6 +4,7 @@ from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import JUMP_ENERGY, WORK, Matrix, SceneArrays, Scratch, Vector
 from support_exudyn.formulations.compiled.masses import renew_mass
 from support_exudyn.formulations.compiled.motion import SINGULAR, divide, respond
+from support_exudyn.formulations.compiled.oil_events import begin_gaps
 from support_exudyn.formulations.compiled.recording import write_record
 from support_exudyn.formulations.compiled.step import evaluate
 
@@ -20,6 +21,7 @@ def begin_run(scene: SceneArrays, room: Scratch, y: Vector, rows: Matrix) -> boo
         renew_mass(scene, room, n, y)
     evaluate(scene, 0.0, y, room.slope, room.right)
     write_record(scene, 0.0, y, room.slope, rows[0])
+    begin_gaps(scene)
     for n in range(scene.courses.size):
         scene.courses[n].still = 0
     return least > SINGULAR

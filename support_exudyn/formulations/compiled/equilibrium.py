@@ -26,6 +26,7 @@ from support_exudyn.formulations.compiled.forces import (
     press_oil,
     push_contact,
 )
+from support_exudyn.formulations.compiled.hydraulics import press_legs, rest_tubes
 from support_exudyn.formulations.compiled.motion import hold, place
 from support_exudyn.formulations.compiled.setup import Model
 from support_exudyn.formulations.contract import Failure, SimulationError
@@ -84,6 +85,9 @@ def balance(
         y[one.state + 1] = volumes[n, 1] + one.modulus * math.log(volumes[n, 3] / rod)
     press_oil(scene)
     press_cylinders(scene, y, left)
+    if scene.legs.size > 0:
+        rest_tubes(scene, y, left)
+        press_legs(scene, y, left)
     press_loads(scene, 0.0, y)
     press_bushings(scene, y)
     for n in range(scene.bodies.size):
@@ -255,7 +259,8 @@ def _shares(model: Model) -> tuple[float, ...]:
 def _held_by_loads(model: Model) -> Vector | None:
     """Places at which a linkage rests that nothing but loads holds, such as springs; None if it is none."""
     scenario = model.scenario
-    if not scenario.acting_loads or model.contacts or model.oil or model.cylinders or model.scene.bushings.size:
+    compliant = model.oil or model.cylinders or model.legs.names or model.scene.bushings.size
+    if not scenario.acting_loads or model.contacts or compliant:
         return None
     closed, acting = kinetics_of(scenario.linkage), scenario.acting_loads
     weight = closed.weight(scenario.gravity)

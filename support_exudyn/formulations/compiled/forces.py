@@ -282,6 +282,11 @@ def powers(scene: SceneArrays, y: Vector, slope: Vector) -> None:
         work, damping = work + scene.oil[n].work, damping + scene.oil[n].loss
     for n in range(scene.cylinders.size):
         work, damping = work + scene.cylinders[n].work, damping + scene.cylinders[n].loss
+    for n in range(scene.legs.size):
+        work, damping = work + scene.legs[n].work, damping + scene.legs[n].loss
+        friction += scene.legs[n].friction
+    for n in range(scene.pumps.size):
+        work += scene.pumps[n].work
     for n in range(scene.loads.size):
         work, damping = work + scene.loads[n].work, damping + scene.loads[n].loss
     for n in range(scene.bushings.size):

@@ -14,6 +14,7 @@ from support_exudyn.formulations.compiled.arrays import (
     STOPPED_AT,
     STUCK,
     TOO_MANY_IMPACTS,
+    TOO_MANY_OIL_EVENTS,
     TOO_MANY_STEPS,
     Matrix,
     SceneArrays,
@@ -22,7 +23,7 @@ from support_exudyn.formulations.compiled.arrays import (
 )
 from support_exudyn.formulations.compiled.beginning import begin_run, jump
 from support_exudyn.formulations.compiled.changes import happen, renew_masses
-from support_exudyn.formulations.compiled.depth import CUT, IMPACT, NOTHING, RETURN, SEPARATION, TOO_LONG
+from support_exudyn.formulations.compiled.depth import CUT, IMPACT, NOTHING, RETURN, SEPARATION, SHORT, TOO_LONG
 from support_exudyn.formulations.compiled.events import first_event
 from support_exudyn.formulations.compiled.landing import copy_contacts, land, met_before
 from support_exudyn.formulations.compiled.method import (
@@ -37,6 +38,17 @@ from support_exudyn.formulations.compiled.method import (
     fit_step,
     leave_stabilised,
     try_step,
+)
+from support_exudyn.formulations.compiled.oil_events import (
+    AT_ONCE,
+    GAP,
+    NONE,
+    TOO_FAR,
+    first_gap,
+    forget_beyond,
+    keep_gaps,
+    land_on_gap,
+    pass_gap,
 )
 from support_exudyn.formulations.compiled.recording import note_peaks, write_records
 from support_exudyn.formulations.compiled.step import evaluate
@@ -82,6 +94,7 @@ def integrate(
         report[RECORDS] = max(1.0, report[RECORDS])
         jump(scene, room, t, y, jumps, report)
         evaluate(scene, t, y, k[0], right)
+        keep_gaps(scene, room.gaps)
         copy_contacts(scene.contacts, now)
     begin_method(room, going, weights)
     while t < stop:
@@ -99,6 +112,7 @@ def integrate(
         if last:
             h = stop - t
         decay = going[DECAY]
+        forget_beyond(scene)
         error = try_step(scene, room, going, t, h, y, weights, report)
         if not error <= 1.0:
             h *= min(factor_of(error, 1.0, decay), 1.0)
@@ -106,12 +120,30 @@ def integrate(
         copy_contacts(scene.contacts, then)
         fit_step(room, decay, h, y)
         n, what, low, high = first_event(scene, h, now, then, room.path, room.probe, room.slope)
-        if decay > 0.0 and what != NOTHING:  # events are met by the explicit method
+        oil, leg, gap = first_gap(scene, room)
+        if decay > 0.0 and (what != NOTHING or oil != NONE):  # events are met by the explicit method
             h = leave_stabilised(going, h)
             continue
-        if what == TOO_LONG:
+        if what == TOO_LONG or (oil == TOO_FAR and h > SHORT):
             h *= SHORTEN
             continue
+        if oil == AT_ONCE:
+            if not pass_gap(scene, room, leg, gap, t, report):
+                return TOO_MANY_OIL_EVENTS
+            evaluate(scene, t, y, k[0], right)
+            keep_gaps(scene, room.gaps)
+            continue
+        if oil == GAP:
+            h = land_on_gap(scene, room, leg, gap, t, h, y, weights, report)
+            copy_contacts(scene.contacts, then)
+            fit_step(room, 0.0, h, y)
+            last = h >= stop - t
+            n, what, low, high = first_event(scene, h, now, then, room.path, room.probe, room.slope)
+            if what == TOO_LONG:
+                h *= SHORTEN
+                continue
+            if what != NOTHING:
+                oil = NONE
         follow = wanted if last else h * factor_of(error, error_before, decay)
         error_before = max(error, 1e-4)
         was_cut = n >= 0 and now[n].push < 0.0
@@ -127,16 +159,23 @@ def integrate(
                 was_cut = now[n].push < 0.0
             fit_step(room, 0.0, h, y)
             last = h >= stop - t
+        keep_gaps(scene, room.gaps)
         copy_contacts(then, scene.contacts)
         note_peaks(scene, room, t, h, report)
         report[ACCEPTED] += 1
-        report[CUTS] += what not in (NOTHING, RETURN)
+        report[CUTS] += what not in (NOTHING, RETURN) or oil == GAP
         write_records(scene, room, t, h, stop + CLOSE if last else t + h, times, rows, report)
         copy_contacts(then, scene.contacts)
         t = stop if last else t + h
         for i in range(y.size):
             y[i] = end[i]
-        if what == NOTHING:
+        if oil == GAP:
+            if not pass_gap(scene, room, leg, gap, t, report):
+                return TOO_MANY_OIL_EVENTS
+            evaluate(scene, t, y, k[0], right)
+            copy_contacts(scene.contacts, now)
+            keep_gaps(scene, room.gaps)
+        elif what == NOTHING:
             for i in range(y.size):
                 k[0, i] = k[STAGES - 1, i]
             copy_contacts(then, now)
@@ -153,6 +192,6 @@ def integrate(
                 now[n].rate = max(0.0, now[n].rate)
             elif what == CUT:
                 now[n].push = 1e-30 if was_cut else -1e-30
-        h = choose_method(scene, room, going, t, h, follow, y, weights, what == NOTHING, report)
+        h = choose_method(scene, room, going, t, h, follow, y, weights, what == NOTHING and oil == NONE, report)
     going[MIDST], going[NEXT_STEP] = 0.0, h
     return FINISHED

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import numpy as np
 
 from support_exudyn.formulations.compiled.arrays import LOSSES, MEMORY, Matrix
 from support_exudyn.formulations.compiled.setup import Model
+from support_exudyn.formulations.hydraulics.series import leg_series
 from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.bushing import bushing_series
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.contact_state import PinMemory
-from support_exudyn.mechanics.trajectory import CylinderSeries, Series, Trajectory
+from support_exudyn.mechanics.oil_column import OilSeries
+from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, OilEvent, Series, Trajectory
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.scenario.recorded_channels import needs
 
@@ -53,7 +57,7 @@ class _Records:
         self.courses = courses.reshape(len(rows), scene.courses.size, 2)
 
 
-def trajectory(model: Model, rows: Matrix) -> Trajectory:
+def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEvent, ...]]) -> Trajectory:
     """The run at its records."""
     scenario, linkage, found = model.scenario, model.scenario.linkage, _Records(model, rows)
     needed = needs(scenario)
@@ -69,13 +73,15 @@ def trajectory(model: Model, rows: Matrix) -> Trajectory:
     for record, (name, filled) in zip(model.scene.cylinders, model.cylinders.items(), strict=True):
         state = int(record["state"])
         cylinders[name] = filled.series(motion, found.state[:, state : state + 2], driven(name, 0))
+    legs = leg_series(model.legs, found.time, _told(model, motion, driven), found.state, oil_events)
     held, first = found.held, 0
     pins: dict[str, Series] = {}
     for name in scenario.held_pins:
         # rows of pins are second minus first, so that what holds them acts on the second reversed
         pins[name] = -held[:, first : first + 2]
         first += 2
-    actuators = {name: one.force for name, one in (oil | cylinders).items()}
+    on_oil: dict[str, OilSeries | CylinderSeries | LegSeries] = {**oil, **cylinders, **legs}
+    actuators = {name: one.force for name, one in on_oil.items() if name in linkage.actuators}
     rigid = [name for name in linkage.actuators if name not in scenario.compliant_actuators]
     pushed: dict[str, Series] = {}
     for name in (*rigid, *linkage.cranks):
@@ -116,14 +122,35 @@ def trajectory(model: Model, rows: Matrix) -> Trajectory:
         cranks={name: pushed[name] for name in linkage.cranks},
         slides=slides,
         gears=gears,
-        oil_energy=sum((one.energy for one in (oil | cylinders).values()), still),
+        oil_energy=sum((one.energy for one in on_oil.values()), still),
         work=losses[:, 2],
         damping_loss=losses[:, 0],
         friction_loss=losses[:, 1],
         loads=loads,
         cylinders=cylinders,
+        legs=legs,
         compliant_pins=bushings,
     )
+
+
+def _told(
+    model: Model, motion: BodyMotion, driven: Callable[[str, int], Series]
+) -> dict[str, dict[str, Series]]:
+    """What the records of legs are told at the records of the run."""
+    found = {}
+    for record, name in zip(model.legs.records, model.legs.names, strict=True):
+        length, rate = motion.lengthening(model.scenario.linkage.actuators[name])
+        value, speed = driven(name, 0), driven(name, 1)
+        still = np.zeros_like(value)
+        by_drive = bool(record["driven"])
+        found[name] = {
+            "length": length,
+            "rate": rate,
+            "inflow": value if by_drive else still,
+            "inflow_rate": speed if by_drive else still,
+            "opening": still if by_drive else value,
+        }
+    return found
 
 
 def _memories(model: Model, found: _Records, n: int) -> Series:

@@ -13,12 +13,15 @@ from support_exudyn.formulations.compiled.arrays import (
     IMPACTS,
     JUMP_ENERGY,
     LAST_STEP,
+    MOST_OIL_EVENTS,
     NOT_A_NUMBER,
+    OIL_EVENTS,
     PAUSED,
     REPORT,
     STOPPED_AT,
     STUCK,
     TOO_MANY_IMPACTS,
+    TOO_MANY_OIL_EVENTS,
     TOO_MANY_STEPS,
     Vector,
     scratch,
@@ -29,8 +32,9 @@ from support_exudyn.formulations.compiled.outcome import record_width, trajector
 from support_exudyn.formulations.compiled.setup import Model, model_of
 from support_exudyn.formulations.compiled.start import error_weights, first_state
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
+from support_exudyn.formulations.hydraulics.records import GAP_NAMES
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.trajectory import Counts, Impulse, Outcome
+from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Outcome
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.hydraulic_cylinder import Inlet
 from support_exudyn.scenario.scenario import Scenario
@@ -44,6 +48,7 @@ AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then it cannot be inte
 CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed far out of its place."
 MOST_IMPACTS = 100_000
 NOTHING_RESTS = "Look at the contact law: nothing comes to rest."
+CHATTER = "A valve chatters: give it hysteresis, a poppet or a smaller flow."
 
 
 class _Run:
@@ -105,7 +110,7 @@ class _Run:
     def _followed(self) -> list[Drive | Inlet]:
         """What drives and valves follow, in the order of the courses."""
         drives = [self.scenario.drive_of(name) for name in self.model.drives]
-        return [*drives, *(self.scenario.cylinders[name].inlet for name in self.model.valves)]
+        return [*drives, *(self.scenario.valved[name].inlet for name in self.model.valves)]
 
     def _jumps(self, t: float) -> Vector:
         """Jumps of the rates of all courses at t [s]."""
@@ -146,13 +151,14 @@ def _outcome(going: _Run) -> Outcome:
     impacts: dict[str, list[Onset]] = {name: [] for name in model.contacts}
     for number, *onset in going.onsets[: int(report[IMPACTS])].tolist():
         impacts[model.contacts[int(number)]].append(Onset(*onset))
-    contacts = model.scene.contacts
+    contacts, events = model.scene.contacts, _oil_events(going)
     return Outcome(
-        trajectory=trajectory(model, going.rows),
+        trajectory=trajectory(model, going.rows, events),
         onsets={name: tuple(found) for name, found in impacts.items()},
         largest_force=dict(zip(model.contacts, contacts["largest"].tolist(), strict=True)),
         largest_force_time=dict(zip(model.contacts, contacts["largest_at"].tolist(), strict=True)),
         impulses=tuple(going.impulses),
+        oil_events=events,
         counts=Counts(
             steps=int(report[ACCEPTED]),
             cut_steps=int(report[CUTS]),
@@ -160,6 +166,15 @@ def _outcome(going: _Run) -> Outcome:
             clamped_steps=int(report[CLAMPED]),
         ),
     )
+
+
+def _oil_events(going: _Run) -> dict[str, tuple[OilEvent, ...]]:
+    """What happened in each leg."""
+    names = going.model.legs.names
+    found: dict[str, list[OilEvent]] = {name: [] for name in names}
+    for t, leg, gap, side in going.room.oil_events[: int(going.report[OIL_EVENTS])].tolist():
+        found[names[int(leg)]].append(OilEvent(t, GAP_NAMES[int(gap)], side > 0.0))
+    return {name: tuple(events) for name, events in found.items()}
 
 
 def _failure(going: _Run) -> Failure:
@@ -175,6 +190,8 @@ def _failure(going: _Run) -> Failure:
         reason, advice = f"more than {scenario.solver.most_steps} steps", FEWER_STEPS
     elif code == TOO_MANY_IMPACTS:
         reason, advice = f"more than {MOST_IMPACTS} impacts", NOTHING_RESTS
+    elif code == TOO_MANY_OIL_EVENTS:
+        reason, advice = f"more than {MOST_OIL_EVENTS} openings and closings of valves", CHATTER
     elif broken := _broken_law(going):
         reason, advice = broken
     elif code == DEAD_CENTRE:

@@ -16,9 +16,11 @@ from support_exudyn.formulations.compiled import arrays
 from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
 from support_exudyn.formulations.compiled.courses import Courses, TimeFunction, courses, segment_edges
 from support_exudyn.formulations.compiled.written import load_source
+from support_exudyn.formulations.hydraulics.fill import Legs, fill_legs
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
+from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.drives.drive import Drive
@@ -50,6 +52,7 @@ class Model:
     contacts: tuple[str, ...]
     oil: Mapping[str, PreloadedActuator]
     cylinders: Mapping[str, PreloadedCylinder]
+    legs: Legs
     driven_rows: Mapping[str, int]
     states: int
 
@@ -86,12 +89,12 @@ def model_of(scenario: Scenario) -> Model:
     build = _Builder(scenario)
     linkage = scenario.linkage
     rigid = [name for name in linkage.actuators if name not in scenario.compliant_actuators]
-    driven = [name for name in (*linkage.actuators, *linkage.cranks) if name not in scenario.cylinders]
+    driven = [name for name in (*linkage.actuators, *linkage.cranks) if name not in scenario.valved]
     moving = [name for name in driven if scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)]
-    valves = [name for name, one in scenario.cylinders.items() if one.inlet.breaks or one.inlet.opening(0.0)]
+    valves = [name for name, one in scenario.valved.items() if one.inlet.breaks or one.inlet.opening(0.0)]
     edges = segment_edges(scenario.breaks, scenario.duration)
     functions: list[TimeFunction] = [_extension(scenario.drive_of(name)) for name in moving]
-    functions += [scenario.cylinders[name].inlet.opening for name in valves]
+    functions += [scenario.valved[name].inlet.opening for name in valves]
     sources = {name: load_source(load) for name, load in scenario.acting_loads.items()}
     of_loads = len(functions)
     functions += [function for *_, own in sources.values() for function in own]
@@ -112,6 +115,8 @@ def model_of(scenario: Scenario) -> Model:
     oil_records = np.zeros(len(oil), arrays.OIL)
     for record, (name, filled) in zip(oil_records, oil.items(), strict=True):
         _oil(record, filled, build, course.get(name, -1))
+    legs = _legs(scenario, build, course, states)
+    states += legs.states
     loads = _loads(scenario, build, sources, of_loads)
     bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
@@ -129,6 +134,11 @@ def model_of(scenario: Scenario) -> Model:
         contacts=contacts,
         oil=oil_records,
         cylinders=cylinder_records,
+        legs=legs.records.copy(),
+        pumps=legs.pumps.copy(),
+        gaps=legs.gaps.copy(),
+        sides=np.zeros_like(legs.gaps),
+        beyond=np.zeros_like(legs.gaps),
         loads=loads,
         bushings=bushings,
         rubbing=rubbing,
@@ -147,6 +157,7 @@ def model_of(scenario: Scenario) -> Model:
         contacts=tuple(scenario.contact_places),
         oil=oil,
         cylinders=cylinders,
+        legs=legs,
         driven_rows={
             name: int(order[n]) for n, name in enumerate((*rigid, *linkage.cranks), 2 * len(scenario.held_pins))
         },
@@ -313,6 +324,17 @@ def _cylinder(record: Any, one: PreloadedCylinder, build: _Builder, course: int,
     record["flow_factor"], record["damping"] = model.flow_factor, model.damping
     record["hose"], record["rod_hose"] = model.hose_volume, model.rod_side_hose_volume
     record["length0"] = actuator.start_length
+
+
+def _legs(scenario: Scenario, build: _Builder, course: Mapping[str, int], states: int) -> Legs:
+    """Legs with elements, whose states begin at a place."""
+    preloaded = preloaded_legs(scenario.linkage, scenario.legs, scenario.gravity)
+    found = fill_legs(tuple(preloaded.values()), scenario.pump, states)
+    for record, (name, one) in zip(found.records, preloaded.items(), strict=True):
+        record["foot"] = build.point(one.actuator.foot, one.actuator.foot_point)
+        record["head"] = build.point(one.actuator.head, one.actuator.head_point)
+        record["course"] = course.get(name, -1)
+    return found
 
 
 def _oil(record: Any, one: PreloadedActuator, build: _Builder, course: int) -> None:

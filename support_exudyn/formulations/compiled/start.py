@@ -7,6 +7,7 @@ import numpy as np
 from support_exudyn.formulations.compiled.arrays import LOSSES, Vector
 from support_exudyn.formulations.compiled.equilibrium import settle
 from support_exudyn.formulations.compiled.setup import Model
+from support_exudyn.formulations.hydraulics.fill import weigh_states
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.scenario.scenario import Scenario
 
@@ -70,6 +71,9 @@ def error_weights(model: Model, y: Vector, tolerance: float) -> Vector:
     for record in model.scene.cylinders:
         pressure = max(mass * pull / record["bore"], record["supply"])
         found[record["state"] : record["state"] + 2] = 1.0 / pressure
+    if model.legs.names:
+        carries = mass * pull / float(model.legs.records["bore"].max())
+        weigh_states(model.legs, found, carries, mass * speed**2, play)
     for record, place in zip(model.scene.contacts, scenario.contact_places.values(), strict=True):
         if record["state"] >= 0:
             found[record["state"]] = abs(place.contact.friction(0.0, 1.0, SMALL)) / SMALL

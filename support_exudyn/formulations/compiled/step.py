@@ -23,6 +23,7 @@ from support_exudyn.formulations.compiled.forces import (
     press_oil,
     push_contact,
 )
+from support_exudyn.formulations.compiled.hydraulics import press_legs
 from support_exudyn.formulations.compiled.motion import (
     SINGULAR,
     divide,
@@ -92,6 +93,8 @@ def evaluate(scene: SceneArrays, t: float, y: Vector, slope: Vector, right: Vect
         press_oil(scene)
     if scene.cylinders.size > 0:
         press_cylinders(scene, y, slope)
+    if scene.legs.size > 0:
+        press_legs(scene, y, slope)
     if scene.loads.size > 0:
         press_loads(scene, t, y)
     if scene.bushings.size > 0:

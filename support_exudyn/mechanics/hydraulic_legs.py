@@ -1,0 +1,75 @@
+"""Hydraulic legs with elements in their place: what they carry, and with what pressures they start."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from support_exudyn.mechanics.oil_column import static_loads
+from support_exudyn.model.actuators import OilColumn
+from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
+from support_exudyn.model.hydraulics.leg import HydraulicLeg
+from support_exudyn.model.linkage import LinearActuator, Linkage
+from user_forces.values.value import InputError, Vector2
+
+
+@dataclass(frozen=True)
+class StartPressures:
+    """Pressures [Pa] of a leg at the start: of the piston side, the rod side, and in the tube of two stages."""
+
+    piston: float
+    rod: float
+    tube: float
+
+
+@dataclass(frozen=True)
+class PreloadedLeg:
+    """A leg in its place.
+
+    name, actuator: which it is. model: of it. load: that it carries at the start, pushing its ends apart, if
+    no setting pressure is asked for [N].
+    """
+
+    name: str
+    actuator: LinearActuator
+    model: HydraulicLeg
+    load: float
+
+    @property
+    def start_pressures(self) -> StartPressures:
+        """The pressures that carry the load, or those of setting. Raises InputError if none can."""
+        model = self.model
+        if not isinstance(model, OilColumn | HydraulicCylinder):
+            raise TypeError(f"actuators.{self.name} = {type(model).__name__}: is no oil column or cylinder")
+        tank, rod_area = 0.0, 0.0
+        if isinstance(model, HydraulicCylinder):
+            tank, rod_area = model.tank_pressure, model.rod_side_area
+        piston, rod = model.setting_pressure or 0.0, tank
+        if model.setting_pressure is None:
+            piston = (self.load + tank * rod_area) / model.bore_area
+            if piston < tank and rod_area > 0.0:
+                piston, rod = tank, (tank * model.bore_area - self.load) / rod_area
+        tube = piston
+        if (stage := model.second_stage) is not None:
+            pushes = model.bore_area * piston - rod_area * rod
+            tube = (pushes + stage.rod_side_area * rod) / stage.bore_area
+        lowest = model.vapour_pressure
+        if lowest is not None and min(piston, rod, tube) < lowest:
+            raise InputError(
+                f"actuators.{self.name}.vapour_pressure = {lowest} Pa: in the start posture the leg is pulled "
+                f"with {-self.load:.4g} N, for which a chamber would have {min(piston, rod, tube):.4g} Pa; "
+                "allowed: less than that, or a setting_pressure with a load that balances it"
+            )
+        return StartPressures(piston, rod, tube)
+
+
+def preloaded_legs(
+    linkage: Linkage, models: Mapping[str, HydraulicLeg], gravity: Vector2
+) -> dict[str, PreloadedLeg]:
+    """Legs that hold the machine in its start posture, all pins ideal and the other actuators rigid."""
+    if not models:
+        return {}
+    loads = static_loads(linkage, gravity)
+    return {
+        name: PreloadedLeg(name, linkage.actuators[name], model, loads[name]) for name, model in models.items()
+    }
