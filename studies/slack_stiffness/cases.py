@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
 
+from studies.common.loose_supports import loose_pins, support
 from studies.common.support_legs import PAIRS, legs_data
-from support_exudyn import ClearancePin, OilColumn, Scenario
-from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.files.machines.read import read_machine
-from support_exudyn.files.scenarios.short_pin import ShortPin, pin_in_machine
+from support_exudyn import OilColumn, Scenario
 from support_exudyn.machines.four_bar_shield import PINS
-from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.model.loads.applied_force import AppliedForce
 from support_exudyn.model.loads.course import TableCourse
 from user_forces.values.value import Vector2
@@ -26,30 +21,6 @@ ROOF_IS_ON, BEGIN = 0.3, 0.5  # when all of the roof load is there, and when the
 QUARTER = 1.0  # of a loop [s]
 PERIOD = 2e-3  # between records [s]
 SLOW = ("reference", 0.5, 0.3, FRICTION)  # the case that is pushed half as fast, too
-
-
-@cache
-def machine_data(name: str) -> MachineData:
-    """A machine that comes with the package, and the bores of its pins."""
-    return read_machine(name)
-
-
-def support(name: str) -> HydraulicSupport:
-    """A four-column support that comes with the package."""
-    machine = machine_data(name).machine
-    assert isinstance(machine, HydraulicSupport)
-    return machine
-
-
-def loose_pins(
-    machine: str, clearance_mm: float, friction: float, pins: Iterable[str]
-) -> dict[str, ClearancePin]:
-    """These pins with this radial clearance, along their length in bores of the machine; none at 0 mm."""
-    if clearance_mm == 0.0:
-        return {}
-    data = machine_data(machine)
-    short = ShortPin(clearance=clearance_mm / 1e3, friction=friction)
-    return {name: pin_in_machine(short, data.machine, name, data.bore_radii[name]) for name in pins}
 
 
 @dataclass(frozen=True)
