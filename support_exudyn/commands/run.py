@@ -7,7 +7,7 @@ from pathlib import Path
 from rich.console import Console
 
 from support_exudyn.commands.command_line import add_json, add_out, answer, folder, shown_progress
-from support_exudyn.commands.tables import facts, printed, show_numbers, show_table, show_touches
+from support_exudyn.commands.tables import facts, printed, show_legs, show_numbers, show_table, show_touches
 from support_exudyn.files import ScenarioFile, read_scenario_file
 from support_exudyn.files.whole_file import check_may_be_replaced, named, real_path
 from support_exudyn.postprocessing import summary as summary
@@ -103,6 +103,11 @@ def _tell(console: Console, result: Result, file: ScenarioFile, written: list[Pa
             ("channel", "unit", ">min", ">mean", ">max"),
             paths,
         )
+    pressures = [name for name in result.channels if name.endswith("pressure")]
+    if result.oil_events and pressures:
+        pressed = [row[:-1] for row in summary.of_channels(result, pressures, *WHOLE)]
+        show_table(console, "pressures", ("channel", "unit", ">min", ">mean", ">max"), pressed)
+    show_legs(console, result, *WHOLE)
     show_touches(console, result)
     assumed = [("assumed", sentence) for sentence in file.assumed]
     show_table(console, "how", (), [*summary.how(result)[:-1], *assumed])

@@ -13,6 +13,7 @@ from support_exudyn.commands.tables import (
     facts,
     printed,
     show_impacts,
+    show_legs,
     show_numbers,
     show_pressed,
     show_shaking,
@@ -92,6 +93,9 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
             ]
             for pin, onsets in result.onsets.items()
         },
+        "oil_events": {
+            name: [event._asdict() for event in events] for name, events in result.oil_events.items()
+        },
         "pin_stability": pin_shaking.data(_outlooks(result)),
         "channels": {name: summary.extent(result, name, *ends) for name in names},
     }
@@ -126,6 +130,7 @@ def _tables(console: Console, result: Result, given: argparse.Namespace) -> None
     show_table(console, "what was run", (), summary.what_was_run(result))
     show_table(console, "how", (), summary.how(result))
     show_numbers(console, "what came out", "no accuracy was asked", result, *ends)
+    show_legs(console, result, *ends)
     show_pressed(console, pin_contact.LARGEST, pin_contact.hardest_pressed(result))
     show_shaking(console, _outlooks(result))
     show_touches(console, result)

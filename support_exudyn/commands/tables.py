@@ -15,7 +15,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from support_exudyn.commands.command_line import silence_output
-from support_exudyn.postprocessing import pin_contact, pin_shaking
+from support_exudyn.postprocessing import leg_table, pin_contact, pin_shaking
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.shown_numbers import ranking
@@ -148,3 +148,10 @@ def facts(result: Result, after: float, until: float) -> dict[str, Any]:
         "wall_time_s": result.wall_time,
         "numbers": {name: found._asdict() for name, found in summary.numbers(result, after, until).items()},
     }
+
+
+def show_legs(console: Console, result: Result, after: float, until: float) -> None:
+    """What hydraulic legs with elements have done, if there are some; between two times [s]."""
+    rows = leg_table.leg_rows(result, after, until)
+    if rows:
+        show_table(console, "hydraulic legs", leg_table.LEGS, rows)

@@ -16,6 +16,7 @@ from llvmlite import ir
 from numba.extending import intrinsic
 
 from support_exudyn.formulations import contact_events
+from support_exudyn.model.hydraulics import oil
 from user_forces import contact
 from user_forces.compilation.flat import NAMES
 
@@ -26,7 +27,8 @@ except ImportError:  # Windows
 
 fcntl: Any = _fcntl
 SECONDS = {"closed_forms": 8, "compiled": 17}  # that compiling takes on a quiet machine of 2020
-CONSTANTS_OF = (contact_events, contact)  # modules of which compiled functions use constants
+COMPILED = ("compiled", "hydraulics")  # folders with compiled functions
+CONSTANTS_OF = (contact_events, contact, oil)  # modules of which compiled functions use constants
 ALLOCATES = (
     ".closed_forms."  # entries there make arrays; elsewhere all functions are given those that they fill
 )
@@ -120,12 +122,16 @@ def _kept(function: Function) -> Function:
     return dispatcher  # type: ignore[no-any-return]
 
 
+def source_files() -> list[Path]:
+    """The files that compiled code comes from."""
+    here = Path(__file__).parent
+    files = sorted(file for folder in COMPILED for file in (here / folder).rglob("*.py"))
+    return [*files, Path(__file__), *(Path(str(module.__file__)) for module in CONSTANTS_OF)]
+
+
 def _source_stamp() -> tuple[str, int]:
     """What identifies the compiled code: a hash of all files that it comes from, and their length."""
-    here = Path(__file__).parent
-    files = sorted((here / "compiled").rglob("*.py"))
-    files += [Path(__file__), *(Path(str(module.__file__)) for module in CONSTANTS_OF)]
-    text = b"".join(file.read_bytes() for file in files)
+    text = b"".join(file.read_bytes() for file in source_files())
     return hashlib.sha256(text).hexdigest(), len(text)
 
 

@@ -9,6 +9,7 @@ from support_exudyn.mechanics.oil_column import static_loads
 from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
+from support_exudyn.model.hydraulics.oil import ATMOSPHERE
 from support_exudyn.model.linkage import LinearActuator, Linkage
 from user_forces.values.value import InputError, Vector2
 
@@ -60,7 +61,21 @@ class PreloadedLeg:
                 f"with {-self.load:.4g} N, for which a chamber would have {min(piston, rod, tube):.4g} Pa; "
                 "allowed: less than that, or a setting_pressure with a load that balances it"
             )
+        self._check_air(piston)
         return StartPressures(piston, rod, tube)
+
+    def _check_air(self, pressure: float) -> None:
+        """Raise InputError if the trapped air would fill the chamber at the start, or more."""
+        air, model = self.model.trapped_air, self.model
+        if air is None:
+            return
+        assert isinstance(model, OilColumn | HydraulicCylinder)  # `start_pressures` has looked
+        room = model.bore_area * model.oil_length
+        if pressure <= -ATMOSPHERE or not air.at(pressure) < room:
+            raise InputError(
+                f"actuators.{self.name}.trapped_air.volume = {air.volume} m^3: at the {pressure:.4g} Pa of the "
+                f"start no room for oil is left in {room:.4g} m^3; allowed: less air, or a leg that is pressed"
+            )
 
 
 def preloaded_legs(

@@ -227,6 +227,14 @@ class HydraulicCylinder(HydraulicLeg):
                 f"{self.tank_pressure} Pa"
             )
 
+    def check_elements(self, name: str) -> None:
+        """Raise InputError if elements do not go together; name: of the actuator."""
+        super().check_elements(name)
+        if self.rod_relief is not None and self.rod_relief.poppet is not None:
+            raise InputError(
+                f"actuators.{name}.rod_relief.poppet: allowed: none; the rod side's valve opens at once"
+            )
+
     @property
     def flow_factor(self) -> float:
         """Flow through the open valve over the root of the pressure drop [m^3/(s Pa^0.5)]."""

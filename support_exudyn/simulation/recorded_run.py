@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.trajectory import Counts, Impulse, Series
+from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Series
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.names import Named, UnknownNameError, no_attribute
@@ -27,6 +27,8 @@ class RecordedRun:
     redundant formulation the end of the step that has it.
     impulses: where the speed of
     rigid actuators or cranks jumped. counts: what the solver did.
+    oil_events: for each hydraulic leg with elements, when valves opened and closed, cavities grew and were
+    filled, and stops were met.
     wall_time: [s], of building, settling and integrating, of all runs that an accuracy took.
     provenance: versions and platform.
     goal: the accuracy that was asked for, None if none was; `scenario` then has the settings that were chosen.
@@ -43,6 +45,7 @@ class RecordedRun:
     wall_time: float
     provenance: Mapping[str, str]
     largest_force_time: Mapping[str, float] = field(default_factory=dict)
+    oil_events: Mapping[str, tuple[OilEvent, ...]] = field(default_factory=dict)
     goal: float | None = None
     coarser: RecordedRun | None = None
 
@@ -50,6 +53,7 @@ class RecordedRun:
         """Let what is asked for by a wrong name be told with those that look like it."""
         kinds = {"channels": "channel", "onsets": "clearance pin", "largest_force": "clearance pin"}
         kinds["largest_force_time"] = "clearance pin"
+        kinds["oil_events"] = "hydraulic leg with elements"
         for name, kind in kinds.items():
             object.__setattr__(self, name, Named(getattr(self, name), kind))
 

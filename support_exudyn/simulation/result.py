@@ -20,7 +20,7 @@ from support_exudyn.files.own_modules import import_modules_of, modules_of
 from support_exudyn.files.series.own_runs import RUN
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.trajectory import Counts, Impulse
+from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent
 from support_exudyn.scenario.presentation import presenter
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.simulation.data_frames import to_pandas, to_xarray
@@ -247,6 +247,8 @@ def _write(group: h5py.Group, result: Result, scenario: Mapping[str, Any]) -> No
         "provenance": dict(result.provenance),
         "goal": result.goal,
     }
+    if result.oil_events:
+        texts["oil_events"] = {name: [*map(list, found)] for name, found in result.oil_events.items()}
     write_texts(group, {name: json.dumps(item) for name, item in texts.items()})
     group.attrs["wall_time_s"] = result.wall_time
     for name, onsets in result.onsets.items():
@@ -283,9 +285,17 @@ def _read(group: Inside) -> Result:
         counts=Counts(**group.data("counts")),
         wall_time=float(group.attributes["wall_time_s"]),
         provenance=group.data("provenance"),
+        oil_events=_oil_events(group.data("oil_events")) if "oil_events" in group.attributes else {},
         goal=group.data("goal"),
         coarser=coarser,
     )
+
+
+def _oil_events(data: Mapping[str, Any]) -> dict[str, tuple[OilEvent, ...]]:
+    return {
+        name: tuple(OilEvent(float(t), str(what), bool(on)) for t, what, on in found)
+        for name, found in data.items()
+    }
 
 
 def _onsets(name: str, rows: np.ndarray) -> tuple[Onset, ...]:

@@ -45,6 +45,7 @@ def single_run(scenario: Scenario, progress: Progress) -> Result:
         largest_force=outcome.largest_force,
         largest_force_time=outcome.largest_force_time,
         impulses=outcome.impulses,
+        oil_events=outcome.oil_events,
         counts=outcome.counts,
         wall_time=time.perf_counter() - began,
         provenance=provenance(),

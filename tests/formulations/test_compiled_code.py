@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 import pickle
 import sys
@@ -13,6 +14,8 @@ import numba
 import pytest
 
 from support_exudyn.formulations import compilation
+from support_exudyn.formulations.compiled.integrate import integrate
+from support_exudyn.formulations.hydraulics.leg import evaluate_legs
 
 
 def twice(value: float) -> float:
@@ -100,3 +103,19 @@ def test_the_compiling_is_told_at_a_terminal_and_elsewhere(
     assert capsys.readouterr().err.startswith(f"{told}, once on this machine: about ")
     compilation._tell.__wrapped__("__main__")
     assert capsys.readouterr().err == ""
+
+
+def test_every_compiled_function_is_in_the_stamp() -> None:
+    # else old code would go on running after the file has changed
+    files = {path.resolve() for path in compilation.source_files()}
+    seen: set[object] = set()
+    waiting = [integrate.py_func, evaluate_legs.py_func]  # type: ignore[attr-defined]
+    while waiting:
+        function = waiting.pop()
+        if function in seen:
+            continue
+        seen.add(function)
+        assert Path(inspect.getfile(function)).resolve() in files, function
+        named = (function.__globals__.get(name) for name in function.__code__.co_names)
+        waiting += [one.py_func for one in named if hasattr(one, "py_func")]
+    assert len(seen) > 60

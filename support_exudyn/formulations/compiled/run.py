@@ -32,6 +32,7 @@ from support_exudyn.formulations.compiled.outcome import record_width, trajector
 from support_exudyn.formulations.compiled.setup import Model, model_of
 from support_exudyn.formulations.compiled.start import error_weights, first_state
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
+from support_exudyn.formulations.hydraulics.fill import empty_legs
 from support_exudyn.formulations.hydraulics.records import GAP_NAMES
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Outcome
@@ -48,6 +49,7 @@ AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then it cannot be inte
 CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed far out of its place."
 MOST_IMPACTS = 100_000
 NOTHING_RESTS = "Look at the contact law: nothing comes to rest."
+EMPTY = "Give it end_stops inside of its oil's lengths, or look at what moves it."
 CHATTER = "A valve chatters: give it hysteresis, a poppet or a smaller flow."
 
 
@@ -194,6 +196,8 @@ def _failure(going: _Run) -> Failure:
         reason, advice = f"more than {MOST_OIL_EVENTS} openings and closings of valves", CHATTER
     elif broken := _broken_law(going):
         reason, advice = broken
+    elif empty := empty_legs(going.model.legs.names, going.model.scene.legs):
+        reason, advice = empty, EMPTY
     elif code == DEAD_CENTRE:
         reason, advice = "the linkage is at a dead centre", CLOSES
     elif report[NOT_A_NUMBER]:

@@ -23,6 +23,9 @@ def first_state(model: Model) -> Vector:
     count = 3 * len(scenario.linkage.bodies)
     for record, one in zip(model.scene.cylinders, model.cylinders.values(), strict=True):
         y[record["state"] : record["state"] + 2] = one.start_pressures
+    if model.legs.names:
+        first = int(model.legs.records["state"][0])
+        y[first : first + model.legs.states] = model.legs.start
     if scenario.start == "settled":
         settle(model, y)
     else:

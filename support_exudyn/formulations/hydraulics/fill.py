@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from support_exudyn.formulations.hydraulics.leg import SEAT
 from support_exudyn.formulations.hydraulics.records import BOOKED, GAPS, LEG, LINEAR, LOG, PUMP, Records
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
 from support_exudyn.mechanics.trajectory import Series
@@ -17,9 +18,10 @@ from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.hydraulics.lines import PumpStation
 from support_exudyn.model.hydraulics.motion import EndStops
-from support_exudyn.model.hydraulics.oil import ATMOSPHERE, TrappedAir
+from support_exudyn.model.hydraulics.oil import TrappedAir
 
 SMOOTH = 1e-3  # share of the nominal drop below which flow is laminar
+SMALLEST_STRAIN = 1e-5  # of the oil, by which errors of legs are weighed that nothing presses
 SMALLEST_SPEED = 1e-3  # [m/s], of the tube of two stages, by which errors are weighed
 
 
@@ -28,7 +30,7 @@ class Legs:
     """Legs of a scene as records.
 
     records: one a leg, in the order of names. pumps: one, or none. gaps: of each leg, see `records`, with room.
-    states: how many states they have, which begin at the first place that was free.
+    states: how many states they have, which begin at the first place that was free. start: their values.
     """
 
     names: tuple[str, ...]
@@ -36,6 +38,7 @@ class Legs:
     pumps: Records
     gaps: Series
     states: int
+    start: Series
 
 
 class _States:
@@ -64,9 +67,27 @@ def fill_legs(legs: Sequence[PreloadedLeg], pump: PumpStation | None, first: int
         record["volume"], record["modulus"] = pump.line_volume, pump.bulk_modulus
         record["scale"] = pump.line_volume / pump.bulk_modulus
         record["oil0"] = pump.line_volume + pump.pressure * record["scale"]
-    return Legs(
-        tuple(leg.name for leg in legs), records, pumps, np.zeros((len(legs), GAPS)), states.next - first
-    )
+    start = np.zeros(states.next - first)
+    for record, leg in zip(records, legs, strict=True):
+        if record["poppet"] >= 0:  # it rests on its seat, or on its spring
+            above = leg.start_pressures.piston - record["opens"]
+            start[record["poppet"] - first] = above if above > 0.0 else above / SEAT
+    gaps = np.zeros((len(legs), GAPS))
+    return Legs(tuple(leg.name for leg in legs), records, pumps, gaps, start.size, start)
+
+
+def empty_legs(names: Sequence[str], records: Records) -> str:
+    """Which leg of records as they stand has no room, or no oil, left in a chamber; empty if none."""
+    for name, leg in zip(names, records, strict=True):
+        if not leg["volume"] > 0.0 or (leg["stage"] >= 0 and not leg["volume2"] > 0.0):
+            return f"{name} is drawn in until no room is left under its piston"
+        if leg["rod"] >= 0 and not leg["rod_volume"] > 0.0:
+            return f"{name} is extended until no room is left around its rod"
+        if not leg["oil"] > 0.0 or (leg["stage"] >= 0 and not leg["oil2"] > 0.0):
+            return f"{name} has lost all its oil"
+        if leg["line"] >= 0 and not leg["line_oil"] > 0.0:
+            return f"more oil is drawn out of the line of {name} than it holds"
+    return ""
 
 
 def _leg(record: Any, leg: PreloadedLeg, states: _States) -> None:
@@ -112,7 +133,7 @@ def _leg(record: Any, leg: PreloadedLeg, states: _States) -> None:
 def oil_of(law: int, pressure: float, volume: float, modulus: float, air: TrappedAir | None) -> float:
     """Oil [m^3], as its volume without pressure, that has a pressure [Pa] in a volume [m^3] with air."""
     if air is not None:
-        volume_of_air: float = air.volume * (ATMOSPHERE / (pressure + ATMOSPHERE)) ** (1.0 / air.exponent)
+        volume_of_air = air.at(pressure)
         if law == LOG:
             return (volume - volume_of_air) * math.exp(pressure / modulus)
         return volume * (1.0 + pressure / modulus) - volume_of_air
@@ -186,7 +207,7 @@ def weigh_states(legs: Legs, weights: Series, pressure: float, energy: float, pl
         energy: of losses [J]. play: of lengths [m].
     """
     for leg in legs.records:
-        size = max(pressure, float(leg["supply"]), float(leg["opens"]))
+        size = max(pressure, float(leg["supply"]), float(leg["opens"]), SMALLEST_STRAIN * float(leg["modulus"]))
         speed = max(math.sqrt(play * 10.0), SMALLEST_SPEED)
         for place in ("state", "rod", "line", "stage"):
             if leg[place] >= 0:

@@ -35,6 +35,7 @@ from support_exudyn.formulations.hydraulics.records import (
     STAGE_LOSS,
     STOP_LOSS,
     VALVE_LOSS,
+    VISCOUS_LOSS,
     YIELD,
     YIELD_LOSS,
     YIELDED,
@@ -82,8 +83,10 @@ def fill_chambers(legs: Records, n: int, length: float, inflow: float, y: Series
     leg.volume = leg.bore * (leg.oil_length + s) + leg.hose
     leg.reference = leg.bore * (leg.oil_length + inflow)
     p = pressure_of(law, leg.oil, leg.volume, leg.reference, modulus, leg.air, leg.air_exponent)
+    if not (leg.volume > 0.0 and leg.oil > 0.0):  # no room or no oil is left: `empty_legs` says so
+        p = math.nan
     gaps[CAVITY] = p - lowest
-    leg.pressure, leg.cavity = max(p, lowest), 0.0
+    leg.pressure, leg.cavity = lowest if p < lowest else p, 0.0
     if p < lowest:
         filled = liquid_volume(law, leg.oil, lowest, leg.reference, modulus)
         leg.cavity = leg.volume - filled - air_volume(leg.air, leg.air_exponent, lowest)
@@ -95,7 +98,7 @@ def fill_chambers(legs: Records, n: int, length: float, inflow: float, y: Series
             leg.rod_volume += leg.rod_area2 * (leg.rod_length2 - extension + s)
         p = pressure_of(law, leg.rod_oil, leg.rod_volume, leg.rod_volume, modulus, 0.0, 1.0)
         gaps[ROD_CAVITY] = p - lowest
-        leg.rod_pressure, leg.rod_cavity = max(p, lowest), 0.0
+        leg.rod_pressure, leg.rod_cavity = lowest if p < lowest else p, 0.0
         if p < lowest:
             leg.rod_cavity = leg.rod_volume - liquid_volume(law, leg.rod_oil, lowest, 0.0, modulus)
     if leg.stage >= 0:
@@ -103,8 +106,10 @@ def fill_chambers(legs: Records, n: int, length: float, inflow: float, y: Series
         leg.volume2 = leg.bore2 * (leg.oil_length2 + extension - s)
         reference = leg.bore2 * leg.oil_length2
         p = pressure_of(law, leg.oil2, leg.volume2, reference, modulus, 0.0, 1.0)
+        if not (leg.volume2 > 0.0 and leg.oil2 > 0.0):
+            p = math.nan
         gaps[CAVITY_2] = p - lowest
-        leg.pressure2, leg.cavity2 = max(p, lowest), 0.0
+        leg.pressure2, leg.cavity2 = lowest if p < lowest else p, 0.0
         if p < lowest:
             leg.cavity2 = leg.volume2 - liquid_volume(law, leg.oil2, lowest, reference, modulus)
     leg.line_pressure = leg.pressure
@@ -113,9 +118,9 @@ def fill_chambers(legs: Records, n: int, length: float, inflow: float, y: Series
         if leg.driven != 0:
             leg.line_oil += leg.bore * inflow
         room = leg.line_volume
-        p = pressure_of(law, leg.line_oil, room, room, modulus, 0.0, 1.0)
+        p = pressure_of(law, leg.line_oil, room, room, modulus, 0.0, 1.0) if leg.line_oil > 0.0 else math.nan
         gaps[LINE_CAVITY] = p - lowest
-        leg.line_pressure, leg.line_cavity = max(p, lowest), 0.0
+        leg.line_pressure, leg.line_cavity = lowest if p < lowest else p, 0.0
         if p < lowest:
             leg.line_cavity = room - liquid_volume(law, leg.line_oil, lowest, room, modulus)
 
@@ -307,7 +312,7 @@ def push_ends(
         leg.kinetic = 0.5 * leg.tube_mass * v * v
     leg.stopped, leg.seal = stopped, seal
     slope[leg.booked + SEAL_LOSS], slope[leg.booked + STOP_LOSS] = seal, held
-    slope[leg.booked + STAGE_LOSS] = lost
+    slope[leg.booked + STAGE_LOSS], slope[leg.booked + VISCOUS_LOSS] = lost, viscous
     leg.loss += viscous + held + lost
     leg.friction = seal
 

@@ -73,3 +73,8 @@ class HydraulicLeg(ActuatorModel, ABC):
                 f"actuators.{name}.vapour_pressure = {lowest} Pa: allowed: > -{ATMOSPHERE} Pa, which is no "
                 "pressure at all"
             )
+        if self.second_stage is not None and self.end_stops is None:
+            raise InputError(
+                f"actuators.{name}.end_stops = None: allowed with a second stage: stops of the outer one, "
+                "whose lowest place releases the foot valve"
+            )

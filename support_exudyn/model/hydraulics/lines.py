@@ -37,7 +37,7 @@ class PumpStation(Value):
         flow = Q min(1, max(0, (p_max - p) / range))
 
     It holds the pressure at p_max while nothing is drawn, and gives no more than Q. The line's pressure follows
-    from the oil in it; at the start it is p_max. What cylinders push back stays in the line.
+    from the oil in it, p = p_max + B (in - out)/V. What cylinders push back stays in the line.
 
     Arguments:
         flow: Q, the largest [m^3/s], > 0; 450 l/min, 7.5e-3 m^3/s, is that of a usual station.

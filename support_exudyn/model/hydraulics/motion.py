@@ -91,9 +91,9 @@ class SecondStage(Value):
 
     s is the extension of the outer stage since the start, p the pressure under the tube, p2 that inside it, p_r
     that of the rod sides of both stages, which are joined. A foot valve lets oil into the tube freely, and out
-    of it only where the tube stands on the bottom of its stroke, within `release` of it. The leg's own
-    `bore_area`, `oil_length`, `end_stops` are those of the outer stage. The tube's inertia is seen from the
-    foot.
+    of it only where the tube stands near the bottom of its stroke, by the share (lowest + release - s)/release,
+    cut at 0 and 1. The leg's own `bore_area`, `oil_length`, `end_stops` are those of the outer stage; its seals
+    and its `damping` act on the rate of each stage. The tube's inertia is seen from the foot.
 
     Arguments:
         bore_area: A2 of the inner piston, all legs of a pair together [m^2], > 0.

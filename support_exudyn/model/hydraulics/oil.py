@@ -26,3 +26,8 @@ class TrappedAir(Value):
 
     volume: CubicMetres[Positive]
     exponent: Positive = 1.4
+
+    def at(self, pressure: float) -> float:
+        """V_air [m^3] at a pressure [Pa], > -p_a."""
+        volume: float = self.volume * (ATMOSPHERE / (pressure + ATMOSPHERE)) ** (1.0 / self.exponent)
+        return volume
