@@ -20,7 +20,7 @@ from support_exudyn.model.plane_geometry import moved
 from user_forces.values.value import Vector2
 
 MACHINES = ("reference", "zf18000")
-# a fraction of masses 0.5, 1, 2, 5 t and heights 0.2, 0.5, 1, 2 m: the corners and the middle; all else is crossed
+# of masses 0.5, 1, 2, 5 t and heights 0.2, 0.5, 1, 2 m the corners and the middle; all else is crossed
 MIDDLE = (2.0, 0.5)  # mass [t], height [m]
 BLOWS = ((0.5, 0.2), (0.5, 2.0), MIDDLE, (5.0, 0.2), (5.0, 2.0))
 CLEARANCE_MM, FRICTION = 1.5, 0.25
@@ -32,8 +32,8 @@ AFTER = 0.35  # that is looked at after a blow [s]
 PERIOD = 2.5e-4  # between records [s]
 GRAVITY = 9.81
 CHANNELS = (
-    "*_column.pressure", "*_column.force", "*_column.yield_flow", "*_column.yielded", "*_column.cavity", "block.force",
-    "canopy.angle", "pin.*.force",
+    "*_column.pressure", "*_column.force", "*_column.yield_flow", "*_column.yielded", "*_column.cavity",
+    "block.force", "canopy.angle", "pin.*.force",
 )  # fmt: skip
 
 
@@ -205,7 +205,7 @@ def rated_flow(machine: str) -> float:
 
 
 def cases(*, small: bool = False) -> list[Blow]:
-    """All blows; small: the middle one on the reference support alone, at all places, with all pins and legs."""
+    """All blows; small: the middle one on the reference support alone, with all places, pins and legs."""
     machines, blows = (MACHINES[:1], (MIDDLE,)) if small else (MACHINES, BLOWS)
     return [
         Blow(machine, place, mass, height, pins, valve)
@@ -215,4 +215,3 @@ def cases(*, small: bool = False) -> list[Blow]:
         for pins in PINS
         for valve in (True, False)
     ]
-

@@ -25,7 +25,9 @@ def support(name: str) -> HydraulicSupport:
     return machine
 
 
-def loose_pins(machine: str, clearance_mm: float, friction: float, pins: Iterable[str]) -> dict[str, ClearancePin]:
+def loose_pins(
+    machine: str, clearance_mm: float, friction: float, pins: Iterable[str]
+) -> dict[str, ClearancePin]:
     """These pins with this radial clearance, along their length in bores of the machine; none at 0 mm."""
     if clearance_mm == 0.0:
         return {}

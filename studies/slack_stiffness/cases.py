@@ -57,7 +57,7 @@ class PushedSupport:
 
     @property
     def place(self) -> Vector2:
-        """Where roof load and push act in the start posture [m]: on the canopy, between the heads of the legs."""
+        """Where roof load and push act in the start posture [m]: on the canopy, between the legs' heads."""
         start = support(self.machine).start()
         front, rear = start.front_head, start.rear_head
         return 0.5 * (front[0] + rear[0]), 0.5 * (front[1] + rear[1])

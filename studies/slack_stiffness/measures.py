@@ -1,4 +1,4 @@
-"""What is measured of a loop: slack, stiffness beyond it, stiffness as a whole, and what legs and links take."""
+"""What is measured of a loop: slack, stiffness beyond it and as a whole, and what legs and links take."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class Loop:
 
     @property
     def within(self) -> float:
-        """Stiffness that the legs alone have [N/m]: what they push with, over the displacement; < 0: they lean."""
+        """Stiffness of the legs alone [N/m]: what they push with, over the displacement; < 0: they lean."""
         return -float(np.polyfit(self.shift, self.leg_force, 1)[0])
 
     @property

@@ -1,8 +1,8 @@
 """How much of the linkage's horizontal stiffness does slack in its pins take?
 
-The reference support and a ZF18000 on trapped oil under three roof loads, pushed slowly to the front and to the
-rear, with ideal pins and with 0.25 to 2 mm of clearance in all of them: slack of the canopy, stiffness within it
-and beyond it, and what links and legs carry.
+The reference support and a ZF18000 on trapped oil under three roof loads, pushed slowly to the front and to
+the rear, with ideal pins and with 0.25 to 2 mm of clearance in all of them: slack of the canopy, stiffness
+within it and beyond it, and what links and legs carry.
 """
 
 from collections.abc import Mapping
