@@ -33,11 +33,13 @@ def peak_figure(found: Found, machines: Sequence[str]) -> Figure:
             for n, pins in enumerate(PINS):
                 for valve in (True, False):
                     _points(axes, found, measure, machine, pins, valve=valve, shift=0.22 * (n - 1))
-            axes.set(ylabel=label, ylim=(0.0, None))
+            axes.set_ylabel(label)
         limit = 1e-6 * yield_pressure(machine)
         panels[0, column].axhline(limit, color="#777777", lw=0.8)
         panels[0, column].axhline(OVERLOAD * limit, color="#777777", lw=0.8, ls=(0, (4, 2)))
         panels[0, column].set_title(machine)
+        for axes in panels[:, column]:
+            axes.set_ylim(0.0, None)  # of all that is drawn
         panels[1, column].set_xticks(range(len(PLACES)), [place.replace(" ", "\n", 1) for place in PLACES])
     drawing.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=7)
     letters(list(panels.flat))

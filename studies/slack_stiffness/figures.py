@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -59,7 +60,7 @@ def slack_figure(found: Found, factors: Mapping[str, float]) -> Figure:
     return drawing
 
 
-def _draw(axes: Axes, found: Found, measure: str, machine: str, share: float, **look: str) -> None:
+def _draw(axes: Axes, found: Found, measure: str, machine: str, share: float, **look: Any) -> None:
     sizes = CLEARANCES_MM[1:]
     values = [found[measure, PushedSupport(machine, size, share, FRICTION).name].value for size in sizes]
-    axes.plot(sizes, values, mfc="none", ms=4.5, lw=0.8, **look)  # type: ignore[arg-type]
+    axes.plot(sizes, values, mfc="none", ms=4.5, lw=0.8, **look)

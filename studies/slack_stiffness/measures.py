@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from studies.common.numbers import Measure, Number, measured
-from studies.common.rise import MeasuredRun, Series, between
+from studies.common.rise import Mask, MeasuredRun, Series, between
 from studies.common.support_legs import PAIRS
 from studies.slack_stiffness.cases import PushedSupport
 from support_exudyn import Result
@@ -30,14 +30,15 @@ class Loop:
     run: MeasuredRun
 
     @cached_property
-    def inside(self) -> Series:
+    def inside(self) -> Mask:
         """Mask of the loop's records."""
         return between(self.run, self.case.time(1), self.case.time(5))
 
     @cached_property
     def force(self) -> Series:
         """The push [N], forward."""
-        return self.run["push.force_x"][self.inside]
+        found: Series = self.run["push.force_x"][self.inside]
+        return found
 
     @cached_property
     def shift(self) -> Series:
