@@ -75,7 +75,7 @@ def test_negative_step_is_refused() -> None:
 def test_unknown_field_is_refused() -> None:
     with pytest.raises(
         InputError,
-        match=r"Scenario\.speed = 3: unknown field; the fields are machine, pins, guides, actuators, pump, parts",
+        match=r"Scenario\.speed = 3: unknown field; the fields are machine, pins, guides, actuators, pump",
     ):
         scenario(speed=3)
 
