@@ -39,7 +39,7 @@ def peak_figure(found: Found, machines: Sequence[str]) -> Figure:
         panels[0, column].axhline(OVERLOAD * limit, color="#777777", lw=0.8, ls=(0, (4, 2)))
         panels[0, column].set_title(machine)
         for axes in panels[:, column]:
-            axes.set_ylim(0.0, None)  # of all that is drawn
+            axes.set_ylim(0.0, 1.05 * axes.get_ylim()[1])  # of all that is drawn
         panels[1, column].set_xticks(range(len(PLACES)), [place.replace(" ", "\n", 1) for place in PLACES])
     drawing.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=7)
     letters(list(panels.flat))

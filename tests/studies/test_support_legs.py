@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from importlib import resources
+from pathlib import Path
 
 import pytest
 
 from studies.common.support_legs import PAIRS, legs_data, support_legs
 from support_exudyn import bore_area, simulate
 from support_exudyn.files import load_toml, read_scenario_file
+from support_exudyn.sweeps.file import read_sweep
 from user_forces import InputError
 
+SWEEP = Path(__file__).parents[2] / "studies" / "examples" / "uncertain_legs.toml"
 EXAMPLES = resources.files("support_exudyn.files.examples")
 MACHINES = {"reference": "ZF7200/20/32", "zf18000": "ZF18000/23/42D"}
 
@@ -65,8 +68,8 @@ def test_a_support_under_a_converging_roof_yields_at_its_pressure() -> None:
 
 
 def test_the_sweep_over_legs_draws_within_their_ranges() -> None:
-    with resources.as_file(EXAMPLES / "uncertain_legs.toml") as path:
-        varied = load_toml(path)["vary"]
+    varied = load_toml(SWEEP)["vary"]
+    assert len(read_sweep(SWEEP).points) == 24
     about = legs_data().about("reference")
     for key, one in varied.items():
         known = about["cylinder." + key.split(".", 2)[2]]
