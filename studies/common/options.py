@@ -21,7 +21,8 @@ class Options:
 
     out: folder for output. workers: number of processes, or the pool that all studies share. kept: folder of
     runs that are made once and kept, see `studies.common.runs`; None: none is. machines: number of plausible
-    machines that claims draws; runs: number of scenes that extremes draws; None: their own choice. subject: the
+    machines that claims draws; runs: number of scenes that extremes draws; with
+    any blow runs its small form; None: their own choice. subject: the
     machine and pin that the study is about.
     """
 
@@ -45,7 +46,12 @@ def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
     add("--workers", type=workers, default=os.cpu_count() or 1, metavar="N", help="processes (all cores)")
     machines = partial(count, most=MOST_MACHINES)
     add("--machines", type=machines, metavar="N", help="plausible machines that claims draws")
-    add("--runs", type=partial(count, most=MOST_RUNS), metavar="N", help="scenes that extremes draws")
+    add(
+        "--runs",
+        type=partial(count, most=MOST_RUNS),
+        metavar="N",
+        help="scenes that extremes draws; blow: its small form",
+    )
     own = "your machine or scenario in place of the paper's: a TOML file, or a shipped machine's name"
     add("--machine", type=folder, metavar="FILE", help=own)
     add("--pin", metavar="PIN", help="the pin of your machine that gets clearance (rear_base)")

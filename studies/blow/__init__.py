@@ -1,0 +1,1 @@
+"""What does a block do that falls on a set support?"""

@@ -1,0 +1,127 @@
+"""Legs of the reference support and of a ZF18000: bores, pressures, valves, each with source and range."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib import resources
+from typing import Annotated
+
+from pydantic import Field
+
+from support_exudyn import HydraulicCylinder, Scenario
+from support_exudyn.files.toml.reading import read_value
+from support_exudyn.files.toml.text import parsed
+from support_exudyn.model.actuators import bore_area
+from support_exudyn.model.hydraulics.lines import PumpStation
+from user_forces.values.sourced import SourcedNumber
+from user_forces.values.units import Metres, Newtons, Pascals
+from user_forces.values.value import InputError, Positive, Value, value
+
+FILE = "support_legs.toml"
+PAIRS = ("front_column", "rear_column")
+
+
+@value
+class PublishedForces(Value):
+    """Printed forces of a support, and the bore of its legs that they imply.
+
+    Arguments:
+        model: name of the support.
+        rated: force at which its legs yield [N], > 0.
+        setting: with which they are set [N], > 0.
+        legs: number, >= 1.
+        pressure: of the pump that sets them [Pa], > 0, assumed among the usual ones.
+        bore: [m], > 0, of which legs at that pressure give the setting force.
+    """
+
+    model: str
+    rated: Newtons[Positive]
+    setting: Newtons[Positive]
+    legs: Annotated[int, Field(ge=1)]
+    pressure: Pascals[Positive]
+    bore: Metres[Positive]
+
+    @property
+    def implied_setting(self) -> float:
+        """Setting force of legs of this bore at this pressure [N]."""
+        return self.pressure * bore_area(self.bore, self.legs)
+
+    @property
+    def yield_pressure(self) -> float:
+        """Pressure at which legs of this bore carry the rated force [Pa]."""
+        return self.rated / bore_area(self.bore, self.legs)
+
+
+@value
+class SupportLegs(Value):
+    """A pair of legs of a support, and the station that feeds all of them.
+
+    Arguments:
+        cylinder: both legs of a pair together, the front pair and the rear pair alike.
+        pump: of the face.
+    """
+
+    cylinder: HydraulicCylinder
+    pump: PumpStation
+
+
+@value
+class LegsFile(Value):
+    """The file of legs: sources by their names, legs by machine, and what is published of others."""
+
+    sources: Mapping[str, str]
+    reference: SupportLegs
+    zf18000: SupportLegs
+    published: tuple[PublishedForces, ...]
+
+
+@dataclass(frozen=True)
+class SourcedLegs:
+    """What the file says, with range and source of every number by its key."""
+
+    file: LegsFile
+    sourced: Mapping[str, SourcedNumber]
+
+    def of(self, machine: str) -> SupportLegs:
+        """The legs of a machine that comes with the package. Raises InputError if there are none."""
+        if machine not in ("reference", "zf18000"):
+            raise InputError(f"legs of {machine!r}: there are none; allowed: 'reference', 'zf18000'")
+        found: SupportLegs = getattr(self.file, machine)
+        return found
+
+    def about(self, machine: str) -> dict[str, SourcedNumber]:
+        """Range and source of every number of a machine's legs, by its key within the machine."""
+        stem = f"{machine}."
+        return {key.removeprefix(stem): one for key, one in self.sourced.items() if key.startswith(stem)}
+
+
+@cache
+def legs_data() -> SourcedLegs:
+    """The file of legs, read once."""
+    text = (resources.files("studies.common") / FILE).read_text("utf-8")
+    sourced: dict[str, SourcedNumber] = {}
+    file = read_value(LegsFile, parsed(text, FILE), FILE, sourced=sourced)
+    named = {key: replace(one, source=file.sources.get(one.source, one.source)) for key, one in sourced.items()}
+    return SourcedLegs(file, named)
+
+
+def support_legs(machine: str, *, valve: bool = True) -> dict[str, HydraulicCylinder]:
+    """Both pairs of legs of a machine, set and closed: check valves hold what oil is in them.
+
+    What only matters where oil is let in, check valve and line, is left out.
+
+    Arguments:
+        machine: "reference" or "zf18000".
+        valve: whether they have yield valves.
+    """
+    full = legs_data().of(machine).cylinder
+    held = replace(full, check_valve=None, line=None, end_stops=None)
+    leg = held if valve else replace(held, yield_valve=None)
+    return dict.fromkeys(PAIRS, leg)
+
+
+def on_legs(scenario: Scenario, machine: str, *, valve: bool = True) -> Scenario:
+    """The scenario on the legs of a machine, which follow no drive."""
+    return replace(scenario, actuators=support_legs(machine, valve=valve))

@@ -1,0 +1,153 @@
+"""What is measured of a loop: slack, stiffness beyond it and as a whole, and what legs and links take."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from studies.common.numbers import Measure, Number, measured
+from studies.common.rise import Mask, MeasuredRun, Series, between
+from studies.common.support_legs import PAIRS
+from studies.slack_stiffness.cases import PushedSupport
+from support_exudyn import Result
+from support_exudyn.machines.four_bar_shield import PINS
+
+OUTER = 0.7  # share of the push from which on a branch is fitted by a straight line
+SIDES = {"front": 1.0, "rear": -1.0}
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A run of a support as force over displacement: from the first turn in front, to the rear and back.
+
+    case: that was run. run: its records.
+    """
+
+    case: PushedSupport
+    run: MeasuredRun
+
+    @cached_property
+    def inside(self) -> Mask:
+        """Mask of the loop's records."""
+        return between(self.run, self.case.time(1), self.case.time(5))
+
+    @cached_property
+    def force(self) -> Series:
+        """The push [N], forward."""
+        found: Series = self.run["push.force_x"][self.inside]
+        return found
+
+    @cached_property
+    def shift(self) -> Series:
+        """Displacement of the pushed point since the start [m], forward."""
+        angle = self.run["canopy.angle"]
+        x, y = self.run["canopy.x"], self.run["canopy.y"]
+        ox, oy = self.case.place[0] - x[0], self.case.place[1] - y[0]
+        place = x + ox * np.cos(angle) - oy * np.sin(angle)
+        found: Series = (place - self.case.place[0])[self.inside]
+        return found
+
+    @cached_property
+    def leg_force(self) -> Series:
+        """What the legs push the canopy forward with [N]."""
+        pairs = [self.run[f"{name}.force"] * np.cos(self.run[f"{name}.angle"]) for name in PAIRS]
+        found: Series = np.sum(pairs, axis=0)[self.inside]
+        return found
+
+    def outward(self, side: float) -> tuple[float, float]:
+        """Slope [N/m] of the branch on which the push grows to a side, and its displacement at no push [m].
+
+        side: 1 for the front, -1 for the rear.
+        """
+        rate = np.gradient(self.force)
+        chosen = (side * self.force > OUTER * self.case.push) & (side * rate > 0.0)
+        slope, place = np.polyfit(self.force[chosen], self.shift[chosen], 1)
+        return float(1.0 / slope), float(place)
+
+    @property
+    def slack(self) -> float:
+        """How far apart the outward branches of both sides begin [m]."""
+        return self.outward(1.0)[1] - self.outward(-1.0)[1]
+
+    @property
+    def beyond(self) -> float:
+        """Tangent stiffness beyond the slack [N/m]: that of both sides in series, twice."""
+        front, rear = (self.outward(side)[0] for side in SIDES.values())
+        return 2.0 / (1.0 / front + 1.0 / rear)
+
+    @property
+    def whole(self) -> float:
+        """Stiffness from turn to turn [N/m]."""
+        return float(np.ptp(self.force) / np.ptp(self.shift))
+
+    @property
+    def within(self) -> float:
+        """Stiffness of the legs alone [N/m]: what they push with, over the displacement; < 0: they lean."""
+        return -float(np.polyfit(self.shift, self.leg_force, 1)[0])
+
+    @property
+    def leg_share(self) -> float:
+        """Share of the push that the legs take, from turn to turn; negative: they push where it goes."""
+        ends = int(np.argmax(self.force)), int(np.argmin(self.force))
+        change = self.leg_force[ends[0]] - self.leg_force[ends[1]]
+        return float(-change / np.ptp(self.force))
+
+    @property
+    def loss(self) -> float:
+        """Energy that a loop turns into heat, over the rectangle around it."""
+        area = abs(float(np.trapezoid(self.force, self.shift)))
+        return area / float(np.ptp(self.force) * np.ptp(self.shift))
+
+
+MEASURES = {  # unit and scale from SI, by the name of a property
+    "slack": ("mm", 1e3),
+    "beyond": ("kN/mm", 1e-6),
+    "whole": ("kN/mm", 1e-6),
+    "within": ("kN/mm", 1e-6),
+    "leg_share": ("1", 1.0),
+    "loss": ("1", 1.0),
+}
+OF_IDEAL = ("whole", "leg_share")  # what a support without slack has
+
+
+def pin_shares(case: PushedSupport, run: Result) -> dict[str, float]:
+    """Change of the force of each pin over that of the push, from turn to turn, all pins ideal."""
+    front, rear = (int(np.argmin(np.abs(run.time - case.time(n)))) for n in (1, 3))
+    found = {}
+    for pin in PINS:
+        change = [run[f"pin.{pin}.force_{axis}"][front] - run[f"pin.{pin}.force_{axis}"][rear] for axis in "xy"]
+        found[pin] = float(np.hypot(*change) / (2.0 * case.push))
+    return found
+
+
+def kinematic_slack(case: PushedSupport, shares: Mapping[str, float]) -> float:
+    """Slack [m] by virtual work: each journal goes from one side of its bore to the other along its force.
+
+    s = 2 c sum f,   f: force of a pin over the push
+    """
+    return 2e-3 * case.clearance_mm * sum(shares.values())
+
+
+def numbers(ran: Mapping[str, tuple[PushedSupport, Result]]) -> list[Number]:
+    """All numbers of the study."""
+    found = []
+    for name, (case, run) in ran.items():
+        for measure, (unit, scale) in MEASURES.items():
+            if case.clearance_mm or measure in OF_IDEAL:
+                found.append(measured(measure, name, unit, run, _of(case, measure, scale)))
+    return found
+
+
+def _of(case: PushedSupport, measure: str, scale: float) -> Measure:
+    return lambda run: scale * float(getattr(Loop(case, run), measure))
+
+
+def participation(slack: float, displacement: float) -> float:
+    """Share of its stiffness that the linkage has left where the roof moves the canopy so far either way [m].
+
+    1 - s / (2 d),   at least 0
+    """
+    return max(0.0, 1.0 - slack / (2.0 * displacement))

@@ -1,0 +1,68 @@
+"""Blows: supports that stand still until they are struck, and what is measured of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from studies.blow import run as study
+from studies.blow.cases import BLOWS, MACHINES, PINS, PLACES, STRIKE, Blow, cases, yield_pressure
+from studies.blow.measures import BEFORE, Struck, ratios
+from studies.common.chapter import Chapter
+from studies.common.numbers import Number, by_case
+from studies.common.options import Options
+from support_exudyn import simulate
+
+TIP = Blow("reference", "tip", 2.0, 0.5, "ideal", valve=True)
+
+
+def test_all_is_crossed_but_masses_and_heights() -> None:
+    found = cases()
+    assert len(set(found)) == len(found) == 2 * len(MACHINES) * len(PLACES) * len(BLOWS) * len(PINS)
+    assert set(cases(small=True)) < set(found)
+
+
+@pytest.mark.parametrize("height", [0.2, 0.5, 2.0])
+def test_every_block_strikes_in_time_with_the_speed_of_its_fall(height: float) -> None:
+    block = replace(TIP, height=height).block()
+    assert block.first_speed == pytest.approx(np.sqrt(2.0 * 9.81 * height), rel=1e-12)
+    assert block.speed * STRIKE + 0.5 * 9.81 * STRIKE**2 == pytest.approx(block.height, rel=1e-12)
+
+
+@pytest.mark.parametrize("pins", PINS)
+def test_a_support_stands_still_until_it_is_struck(pins: str) -> None:
+    blow = replace(TIP, pins=pins)
+    run = simulate(replace(blow.scenario(), accuracy=None))
+    before = run.time < STRIKE - BEFORE
+    assert run["block.force"][before].max() == 0.0
+    for name in ("front_column", "rear_column"):
+        pressure = run[f"{name}.pressure"][before]
+        assert np.ptp(pressure) < 0.01 * pressure[0]
+    assert 1e6 * 30 < run["front_column.pressure"][0] < yield_pressure("reference")
+    struck = Struck(blow, run)
+    assert struck.pressure > yield_pressure("reference")  # the valve opens
+    assert struck.flow > 0.0
+    assert struck.tilt < 0.0  # forward
+    # in its first contact the block gives all of its momentum, and twice of it at the most
+    first = run.time < STRIKE + 0.05
+    momentum = float(np.trapezoid(run["block.force"][first], run.time[first]))
+    assert 1.0 < momentum / (2e3 * np.sqrt(2.0 * 9.81 * 0.5)) < 2.0
+
+
+def test_peaks_are_compared_with_those_of_the_same_blow() -> None:
+    loose = [replace(TIP, pins=pins, place=place) for pins in ("one", "all") for place in ("tip", "shield")]
+    ideal = [study.with_ideal_pins(one) for one in loose]
+    made_up = {one.name: 2.0 for one in ideal} | {one.name: 3.0 for one in loose}
+    found = by_case([Number("rise", name, value, "MPa", 0.0) for name, value in made_up.items()])
+    assert ratios(found, "rise", [*loose, *ideal], study.with_ideal_pins) == [1.5] * 4
+
+
+@pytest.mark.slow
+def test_the_small_form_makes_a_chapter(tmp_path: Path) -> None:
+    chapter = study.study(Options(out=tmp_path, workers=2, runs=1))
+    assert isinstance(chapter, Chapter)
+    assert (tmp_path / "peaks.png").is_file()
+    assert not any(text.strip() == "" for text in (chapter.answer, *chapter.findings))
