@@ -4,6 +4,7 @@ A run is good if it has finished and what can be asked of it is so:
 
 - all of its numbers are finite, energy adds up, no journal is deeper in its bore than a stated share of the
   radius (`simulation.result_checks` looks at that in every run; here it is looked at once more);
+- no oil of a hydraulic leg is lost or made;
 - no free impact gives back more than the law does;
 - a run of half its steps agrees with it within the error that it reports;
 - so does, where there is one, an independent formulation of the same scene.
@@ -74,8 +75,8 @@ class Judgement:
     outcome: good, refused or silent. reason: why not good. error: reported, relative, of the worst number.
     half: how far half the steps are away in the same measure. other: how far the independent formulation is,
     nan if there is none. energy: by how much it is open as a share of what was turned over. depth: largest
-    share of the bore's radius. restitution: the largest of free impacts over that of the law, nan if there is
-    none. met: whether an accuracy that was asked for was reached. wall_s: of everything.
+    share of the bore's radius. oil: by how much that of a leg is open as a share of it, nan if none is
+    counted. restitution: the largest of free impacts over that of the law, nan if there is none. met: whether an accuracy that was asked for was reached. wall_s: of everything.
     """
 
     outcome: str

@@ -21,9 +21,9 @@ from studies.common.options import Options
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.extremes import long_runs
-from studies.extremes.cases import BOX, DRAWN, MAPS, RANDOM, cases
+from studies.extremes.cases import BOX, DRAWN, HYDRAULICS, MAPS, RANDOM, cases
 from studies.extremes.figures import figures
-from studies.extremes.judge import BEFORE, FREE, GOOD, MORE, REFUSED, SILENT, Case, Judgement
+from studies.extremes.judge import BEFORE, FREE, GOOD, LEAK, MORE, REFUSED, SILENT, Case, Judgement
 from studies.extremes.long_runs import LongRun
 from studies.extremes.ranges import SPANS
 from studies.extremes.runs import PATIENCE, run_all
@@ -44,6 +44,7 @@ KINDS = {
     "other machines and loads": (
         "mass ratio", "posture", "all pins", "no gravity", "roof", "columns", "free impact", "space",
     ),
+    "on hydraulic legs": (HYDRAULICS,),
     "grids of the maps": MAPS,
 }  # fmt: skip
 
@@ -125,6 +126,7 @@ def numbers(judged: Judged, long: Long) -> list[Number]:
     of_these = f"the {len(every)} good of {len(judged)} runs"  # others have other extremes
     extremes = {
         "largest_energy_open": [one.energy for one in every],
+        "largest_oil_open": [one.oil for one in every],
         "largest_depth": [one.depth for one in every],
         "largest_restitution_over_law": [one.restitution for one in every],
         "largest_half_over_reported": [one.half / one.error for one in every if one.error],
@@ -261,7 +263,7 @@ def words(judged: Judged, long: Long) -> dict[str, object]:
         "runs": len(judged),
         "kinds": len(RANDOM),
         "spans": SPANS,
-        "limits": SimpleNamespace(OPEN=OPEN, DEEPEST=DEEPEST, FREE=FREE, MORE=MORE),
+        "limits": SimpleNamespace(OPEN=OPEN, DEEPEST=DEEPEST, FREE=FREE, LEAK=LEAK, MORE=MORE),
         "patience": PATIENCE,
         "sure": SURE,
         "counts": counts(judged),

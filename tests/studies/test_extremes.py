@@ -25,7 +25,8 @@ from studies.common.options import Options
 from studies.extremes import judge as judge_module
 from studies.extremes import long_runs, runs, scenes
 from studies.extremes import run as extremes
-from studies.extremes.cases import BOX, DRAWN, MAPS, RANDOM, cases, mapped
+from studies.extremes.cases import BOX, DRAWN, HYDRAULICS, MAPS, RANDOM, cases, mapped
+from studies.extremes.hydraulics import oil_open
 from studies.extremes.judge import (
     GOOD,
     REFUSED,
@@ -73,7 +74,7 @@ def full() -> list[Case]:
 
 
 def test_there_are_many_different_cases_of_every_group(full: list[Case]) -> None:
-    assert len(full) == 2218
+    assert len(full) == 3618
     for chosen in (full, cases(), cases(1)):
         assert len({case.name for case in chosen}) == len(chosen)
         assert {case.group for case in chosen} == {*MAPS, *RANDOM}
@@ -273,6 +274,18 @@ def test_energy_that_does_not_add_up_is_caught(struck: Result) -> None:
         assert found.outcome == outcome
         assert ("energy is open" in found.reason) == (outcome == SILENT)
         assert found.energy == pytest.approx(share, rel=1e-3)  # what it is open by anyway
+
+
+def test_oil_that_is_lost_or_made_is_caught() -> None:
+    scene = next(case for case in cases() if case.group == HYDRAULICS).scenario()
+    result = simulate(replace(scene, formulation="compiled", duration=1e-3, record_period=1e-4))
+    (leg,) = result.scenario.legs
+    assert oil_open(result) < 0.1 * judge_module.LEAK
+    for share, low, high in ((1e-9, 0.5e-9, 2e-9), (1e-3, 0.5e-3, 2e-3)):
+        wrong = with_channel(
+            result, f"{leg}.oil", lambda values, share=share: values * (1.0 + share * result.time / 1e-3)
+        )
+        assert low < oil_open(wrong) < high
 
 
 def test_an_impact_that_gives_back_more_than_its_law_is_caught(struck: Result) -> None:
