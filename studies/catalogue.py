@@ -12,10 +12,11 @@ from studies.scene_detail import run as scene_detail
 from studies.slider_crank import run as slider_crank
 from studies.speed_accuracy import run as speed_accuracy
 from studies.stability import run as stability
+from studies.valve_modes import run as valve_modes
 from studies.which_pin import run as which_pin
 
 _IN_ORDER = (
-    clearance_influence, clearance_size, drive_mode, claims, which_pin, scene_detail, contact_laws,
+    clearance_influence, clearance_size, drive_mode, valve_modes, claims, which_pin, scene_detail, contact_laws,
     slider_crank, outside, stability, speed_accuracy, extremes,
 )  # fmt: skip
 STUDIES: dict[str, Study] = {module.study.name: module.study for module in _IN_ORDER}

@@ -30,6 +30,7 @@ def leg_values(model: HydraulicLeg) -> Iterator[LegValue]:
         yield LegValue("opening", "1", "of the valve; positive: pump to the piston side")
         yield LegValue("rod_flow", "m^3/s", "into the rod side")
         yield LegValue("let_in", "m^3", "oil that inlets have let in so far, as volume without pressure")
+        yield LegValue("viscous_loss", "J", "taken by the viscous damping of its seals so far")
         yield LegValue("valve_loss", "J", "taken by the inlet and the check valve so far")
         if model.rod_relief is not None:
             yield LegValue("relief_flow", "m^3/s", "out of the rod side by its relief valve")
@@ -44,6 +45,7 @@ def leg_values(model: HydraulicLeg) -> Iterator[LegValue]:
         yield LegValue("yield_loss", "J", "taken by relief valves so far")
     if model.vapour_pressure is not None:
         yield LegValue("cavity", "m^3", "volume of vapour in all its chambers and its line")
+        yield LegValue("cavity_energy", "J", "stored in it, which the atmosphere gives back as it is filled")
     if model.seal_friction is not None:
         yield LegValue("seal_loss", "J", "taken by the seals so far")
     if model.end_stops is not None or model.second_stage is not None:

@@ -35,6 +35,7 @@ from support_exudyn.formulations.hydraulics.records import (
     STAGE_LOSS,
     STOP_LOSS,
     VALVE_LOSS,
+    VISCOUS_LOSS,
     YIELD,
     YIELD_LOSS,
     YIELDED,
@@ -311,7 +312,7 @@ def push_ends(
         leg.kinetic = 0.5 * leg.tube_mass * v * v
     leg.stopped, leg.seal = stopped, seal
     slope[leg.booked + SEAL_LOSS], slope[leg.booked + STOP_LOSS] = seal, held
-    slope[leg.booked + STAGE_LOSS] = lost
+    slope[leg.booked + STAGE_LOSS], slope[leg.booked + VISCOUS_LOSS] = lost, viscous
     leg.loss += viscous + held + lost
     leg.friction = seal
 

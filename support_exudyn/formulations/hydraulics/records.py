@@ -59,11 +59,12 @@ LOG, LINEAR = range(2)  # laws of the oil
     SEAL_LOSS,
     STOP_LOSS,
     STAGE_LOSS,
+    VISCOUS_LOSS,
     YIELDED,
     RELIEVED,
     LET_IN,
     BOOKED,
-) = range(10)
+) = range(11)
 # what passes zero where something happens
 (
     CAVITY,

@@ -18,6 +18,7 @@ from support_exudyn.formulations.hydraulics.records import (
     STAGE_LOSS,
     STOP_LOSS,
     VALVE_LOSS,
+    VISCOUS_LOSS,
     YIELD,
     YIELD_LOSS,
     YIELDED,
@@ -49,6 +50,7 @@ BOOKED = {  # of states, by the name of the value
     "seal_loss": SEAL_LOSS,
     "stop_loss": STOP_LOSS,
     "stage_loss": STAGE_LOSS,
+    "viscous_loss": VISCOUS_LOSS,
 }
 OILS = ("oil", "rod_oil", "oil2", "line_oil")
 CAVITIES = ("cavity", "rod_cavity", "cavity2", "line_cavity")
@@ -123,6 +125,9 @@ def _of_leg(records: Records, states: Matrix, leg: Records, stored: Series) -> L
     values |= {name: states[:, leg["booked"] + place].copy() for name, place in BOOKED.items()}
     values["oil"] = sum((records[name] for name in there), np.zeros(len(records)))
     values["cavity"] = sum((records[name] for name in CAVITIES), np.zeros(len(records)))
+    values["cavity_energy"] = (
+        -leg["vapour"] * values["cavity"] if np.isfinite(leg["vapour"]) else values["cavity"]
+    )
     if leg["stage"] >= 0:
         values["stage_extension"] = states[:, leg["stage"] + 1].copy()
     return LegSeries(records["force"].copy(), stored, values)

@@ -1,0 +1,73 @@
+"""The drive modes by valves and a pump."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from studies.valve_modes.cases import PINS, PUMP, PUMPS, START, case_name, scenarios
+from studies.valve_modes.measures import extension, measures
+from studies.valve_modes.run import main
+from support_exudyn import Result, simulate
+
+
+@cache
+def _begin(mode: str, oil: str = "boils") -> Result:
+    """The first half second after the valve opens, on the limited pump."""
+    case = scenarios()[case_name(mode, PUMPS[0], PINS[0], oil)]
+    return simulate(replace(case, duration=START + 0.5))
+
+
+def test_a_sudden_valve_boils_the_oil_and_a_ramp_does_not() -> None:
+    sudden, gentle = _begin("mode 1"), _begin("mode 2")
+    assert sudden["front_column.cavity"].max() > 5e-5  # 50 ml
+    assert sudden["front_column.pressure"].min() == -99e3
+    assert gentle["front_column.cavity"].max() == 0.0
+    assert gentle["front_column.pressure"].min() > 0.0
+
+
+def test_oil_that_pulls_does_so() -> None:
+    run = _begin("mode 1", "pulls")
+    assert run["front_column.pressure"].min() < -1e6
+    assert run["front_column.force"].min() < -1e5
+
+
+def test_the_pump_gives_no_more_than_it_can_and_its_oil_adds_up() -> None:
+    run = _begin("mode 1")
+    assert run["pump.flow"].max() <= PUMP.flow * (1.0 + 1e-12)
+    held = run["pump.oil"] + run["front_column.oil"] + run["rear_column.oil"]
+    left = run["front_column.yielded"] + run["rear_column.yielded"]
+    assert left.max() == 0.0
+    # what is in all chambers and lines comes from the pump but for what rod sides gave to the tank
+    from_pump = run["front_column.let_in"] + run["rear_column.let_in"]
+    legs = run["front_column.oil"] + run["rear_column.oil"]
+    assert np.abs(legs - legs[0] - from_pump).max() < 1e-10 * legs[0]
+    assert held[-1] - held[0] <= run["pump.given"][-1] + 1e-12
+
+
+def test_the_time_with_a_cavity_is_that_of_the_records() -> None:
+    run = _begin("mode 1")
+    found = measures(run)["time_with_cavity"][1](run)
+    boils = (run["front_column.cavity"] > 0.0) | (run["rear_column.cavity"] > 0.0)
+    assert found == pytest.approx(1e3 * run.scenario.record_period * boils.sum(), abs=3.0)
+
+
+@pytest.mark.slow
+def test_the_limited_pump_raises_both_rows_by_what_it_gives() -> None:
+    run = simulate(scenarios()[case_name("mode 1", PUMPS[0], PINS[0])])
+    areas = [run.scenario.valved[name].bore_area for name in ("front_column", "rear_column")]
+    middle = (run.time > 6.0) & (run.time < 12.0)
+    time = run.time[middle]
+    swept = sum(area * extension(run, row)[middle] for area, row in zip(areas, ("front", "rear"), strict=True))
+    assert (swept[-1] - swept[0]) / (time[-1] - time[0]) == pytest.approx(PUMP.flow, rel=1e-3)
+
+
+@pytest.mark.slow
+def test_the_study_runs_and_says_what_it_found(tmp_path: object, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--out", str(tmp_path), "--workers", "1"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "the oil boils" in said
+    assert "Along a ramp nothing boils" in said
