@@ -30,8 +30,8 @@ class OilColumn(HydraulicLeg):
 
     u is by how much the oil is compressed: length at the start + precompression + extension - length. The
     precompression carries the static load of the start posture with ideal pins, so that a machine at rest
-    stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff. Nothing in it
-    damps, and the oil pulls as well as it pushes. Elements do that, see `HydraulicLeg`: with a `line` the drive's
+    stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff. Nothing damps,
+    and the oil pulls as well as it pushes. Elements change that, see `HydraulicLeg`: with a `line` the drive's
     oil comes through a hose whose resistance damps, with a `vapour_pressure` oil that is pulled boils.
 
     Arguments:
@@ -40,7 +40,7 @@ class OilColumn(HydraulicLeg):
         bulk_modulus: B of the oil or emulsion [Pa], > 0; 1.96e9 by the published stiffness of four shields.
     """
 
-    REMOVED: ClassVar[Mapping[str, str]] = {
+    _removed: ClassVar[Mapping[str, str]] = {
         "damping_time": "allowed: a line, whose resistance damps the column: its volume, nominal_flow and "
         "nominal_drop"
     }

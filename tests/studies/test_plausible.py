@@ -29,7 +29,7 @@ from studies.claims.plausible import (
 )
 from studies.common import paper_machine
 from studies.contact_laws.catalogue import POWER_LAWS
-from support_exudyn import HydraulicSupport, reference_support
+from support_exudyn import HydraulicSupport, Line, reference_support
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.pin_surroundings import links_stiffness
 from user_forces import (
