@@ -11,6 +11,7 @@ from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.hydraulics.oil import ATMOSPHERE
 from support_exudyn.model.linkage import LinearActuator, Linkage
+from support_exudyn.model.spatial_linkage import SpatialActuator
 from user_forces.values.value import InputError, Vector2
 
 
@@ -32,7 +33,7 @@ class PreloadedLeg:
     """
 
     name: str
-    actuator: LinearActuator
+    actuator: LinearActuator | SpatialActuator
     model: HydraulicLeg
     load: float
 

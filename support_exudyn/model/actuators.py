@@ -44,6 +44,7 @@ class OilColumn(HydraulicLeg):
         "damping_time": "allowed: a line, whose resistance damps the column: its volume, nominal_flow and "
         "nominal_drop"
     }
+    extensive: ClassVar[tuple[str, ...]] = ("bore_area",)
 
     bore_area: SquareMetres[Positive]
     oil_length: Metres[Positive]

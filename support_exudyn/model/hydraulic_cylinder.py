@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import field
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -197,6 +197,15 @@ class HydraulicCylinder(HydraulicLeg):
         rod_relief: lets oil out of the rod side above a pressure; None: nothing does.
         The others are those of `HydraulicLeg`.
     """
+
+    extensive: ClassVar[tuple[str, ...]] = (
+        "bore_area",
+        "rod_side_area",
+        "nominal_flow",
+        "hose_volume",
+        "rod_side_hose_volume",
+        "damping",
+    )
 
     bore_area: SquareMetres[Positive]
     rod_side_area: SquareMetres[Positive]

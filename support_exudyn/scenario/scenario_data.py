@@ -238,8 +238,8 @@ class ScenarioData(Value, ABC):
         """Names of all parts that follow a drive: actuators, then cranks."""
         if self.dimensions == 2:
             return tuple(name for name in self.linkage.driven if name not in self.valved)
-        actuators = self.space.actuators.items()
-        return tuple(name for name, actuator in actuators if self.linkage.actuators[actuator.actuator].driven)
+        driven = [name for name in self.linkage.driven if name not in self.valved]
+        return tuple(name for name, one in self.space.actuators.items() if one.actuator in driven)
 
     @cached_property
     def drives_in_use(self) -> tuple[Drive, ...]:
@@ -307,8 +307,8 @@ class ScenarioData(Value, ABC):
 
     @cached_property
     def legs(self) -> dict[str, HydraulicLeg]:
-        """Those whose oil is counted, for they have elements or share a pump, by name."""
-        shared = self.pump is not None
+        """Those whose oil is counted, by name: they have elements, or are cylinders that share a pump or in space."""
+        shared = self.pump is not None or self.dimensions == 3
         return {
             name: one
             for name, one in self.hydraulics.items()

@@ -73,8 +73,6 @@ def _check_space(scenario: ScenarioData) -> None:
         raise ValueError(
             f"formulation = {scenario.formulation!r}: is planar; allowed in space: 'auto', 'redundant'"
         )
-    for name in scenario.cylinders:
-        raise ValueError(f"actuators.{name} = HydraulicCylinder: is planar; allowed in space: OilColumn")
     for name, pin in scenario.pins.items():
         if refused := pin.refused_in_space():
             part, what, allowed = refused
@@ -95,7 +93,7 @@ def _check_space(scenario: ScenarioData) -> None:
 def _check_pairs(scenario: ScenarioData, space: SpatialLinkage) -> None:
     """Rigid actuators of a pair cannot be driven apart: what they stand under is rigid, too."""
     for name, actuator in space.actuators.items():
-        if actuator.actuator in scenario.oil_columns:
+        if actuator.actuator in scenario.compliant_actuators:
             continue
         for other in space.parts_of_actuator(actuator.actuator):
             if scenario.drive_of(other) != scenario.drive_of(name):

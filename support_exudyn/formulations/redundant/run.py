@@ -30,8 +30,8 @@ from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.joint_forces import JointForces
-from support_exudyn.mechanics.oil_column import oil_series
-from support_exudyn.mechanics.trajectory import CylinderSeries, Outcome, Series, Trajectory
+from support_exudyn.mechanics.oil_column import OilSeries, oil_series
+from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError
@@ -59,7 +59,7 @@ def check(scenario: Scenario) -> None:
     rigid = [
         name
         for name in scenario.linkage.actuators
-        if name not in scenario.oil_columns and scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)
+        if name not in scenario.compliant_actuators and scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)
     ]
     if scenario.solver.constraint_index == 2 and scenario.solver.integrator != "trapezoidal":
         raise InputError(
@@ -101,6 +101,7 @@ def _outcome(scene: Scene, progress: Progress) -> Outcome:
         largest_force_time={name: pin.largest_force_time for name, pin in scene.clearance_joints.items()},
         impulses=tuple(solving.impulses),
         counts=counts,
+        oil_events=scene.legs.events,
     )
 
 
@@ -123,6 +124,7 @@ def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
         | {name: pin.largest_force_time for name, pin in edges.items()},
         impulses=tuple(solving.impulses),
         counts=counts,
+        oil_events=scene.legs.events,
     )
 
 
@@ -148,7 +150,12 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         for name, item in scene.cylinders.items()
         if DataNeeds.OIL in needed
     }
-    compliant_actuators = {name: series.force for name, series in (oil | cylinders).items()}
+    legs: dict[str, LegSeries] = {}
+    if scene.legs.names and DataNeeds.OIL in needed:
+        lengths = {name: motion.lengthening(scene.linkage.actuators[name]) for name in scene.legs.names}
+        legs = scene.legs.series(history.time, lengths, history.legs)
+    on_oil: dict[str, OilSeries | CylinderSeries | LegSeries] = {**oil, **cylinders, **legs}
+    compliant_actuators = {name: one.force for name, one in on_oil.items() if name in scene.linkage.actuators}
     contacts = {
         name: scene.places[name].series(motion, history.memory[:, n])
         for n, name in enumerate(scene.clearance_joints)
@@ -177,12 +184,13 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         cranks=found.joints.cranks,
         slides=found.joints.slides,
         gears=found.joints.gears,
-        oil_energy=sum((series.energy for series in (oil | cylinders).values()), np.zeros_like(history.time)),
+        oil_energy=sum((one.energy for one in on_oil.values()), np.zeros_like(history.time)),
         work=history.work,
         damping_loss=history.damping_loss,
         friction_loss=history.friction_loss,
         loads=loads,
         cylinders=cylinders,
+        legs=legs,
         compliant_pins=compliant,
     )
 

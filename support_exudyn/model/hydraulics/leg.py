@@ -8,6 +8,7 @@ from support_exudyn.model.actuator_model import ActuatorModel
 from support_exudyn.model.hydraulics.lines import Line
 from support_exudyn.model.hydraulics.motion import EndStops, SealFriction, SecondStage
 from support_exudyn.model.hydraulics.oil import ATMOSPHERE, TrappedAir
+from support_exudyn.model.hydraulics.sharing import Shared
 from support_exudyn.model.hydraulics.valves import YieldValve
 from user_forces.values.units import Pascals
 from user_forces.values.value import InputError, Positive, Real, value
@@ -27,7 +28,7 @@ ELEMENTS = (  # fields of a leg that make it more than its oil
 
 
 @value
-class HydraulicLeg(ActuatorModel, ABC):
+class HydraulicLeg(Shared, ActuatorModel, ABC):
     """An actuator on oil, and what it has besides; each is None by default, which leaves it out.
 
     Pressures are those above the atmosphere's. Where an element takes part, the oil in each chamber is counted,

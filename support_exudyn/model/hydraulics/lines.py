@@ -1,11 +1,14 @@
 """Between pump and leg: the line to it, and the pump that all legs share."""
 
+from typing import ClassVar
+
+from support_exudyn.model.hydraulics.sharing import Shared
 from user_forces.values.units import CubicMetres, CubicMetresPerSecond, Pascals
 from user_forces.values.value import Positive, Value, value
 
 
 @value
-class Line(Value):
+class Line(Shared, Value):
     """A hose between the inlet and the piston side: it holds oil, and resists its flow.
 
         flow = (p_line - p) / R,   R = nominal_drop / nominal_flow
@@ -19,6 +22,8 @@ class Line(Value):
         nominal_flow: at `nominal_drop`, all together [m^3/s], > 0.
         nominal_drop: of the pressure, at which that flows [Pa], > 0.
     """
+
+    extensive: ClassVar[tuple[str, ...]] = ("volume", "nominal_flow")
 
     volume: CubicMetres[Positive]
     nominal_flow: CubicMetresPerSecond[Positive]

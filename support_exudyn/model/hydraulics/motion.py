@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from pydantic import model_validator
 
+from support_exudyn.model.hydraulics.sharing import Shared
 from user_forces.values.units import (
     CubicMetresPerSecond,
     Kilograms,
@@ -20,7 +23,7 @@ from user_forces.values.value import NonNegative, Positive, Real, Value, value
 
 
 @value
-class SealFriction(Value):
+class SealFriction(Shared, Value):
     """Friction of seals and guide rings, by Stribeck's curve.
 
         F = (F_c + (F_s - F_c) exp(-(v/v_s)^2)) tanh(v/v_t)
@@ -35,6 +38,8 @@ class SealFriction(Value):
         stribeck_speed: v_s [m/s], > 0.
         transition_speed: v_t [m/s], > 0, less than v_s.
     """
+
+    extensive: ClassVar[tuple[str, ...]] = ("coulomb", "static")
 
     coulomb: Newtons[NonNegative]
     static: Newtons[NonNegative]
@@ -54,7 +59,7 @@ class SealFriction(Value):
 
 
 @value
-class EndStops(Value):
+class EndStops(Shared, Value):
     """Where the stroke ends: steel meets steel.
 
         F = k depth max(0, 1 + b rate)
@@ -67,6 +72,8 @@ class EndStops(Value):
         stiffness: k [N/m], > 0.
         damping: b [s/m], >= 0.
     """
+
+    extensive: ClassVar[tuple[str, ...]] = ("stiffness",)
 
     lowest: Metres[Real]
     highest: Metres[Real]
@@ -84,7 +91,7 @@ class EndStops(Value):
 
 
 @value
-class SecondStage(Value):
+class SecondStage(Shared, Value):
     """The inner stage of a telescopic leg, and the tube between both stages, which moves by pressure and area.
 
         m s'' = p A - p_r A_r - (p2 A2 - p_r A2r) - d s' + stops + friction of the seals of both
@@ -107,6 +114,8 @@ class SecondStage(Value):
         damping: d, viscous, of the tube [N s/m], >= 0.
         release: [m], > 0.
     """
+
+    extensive: ClassVar[tuple[str, ...]] = ("bore_area", "rod_side_area", "tube_mass", "nominal_flow", "damping")
 
     bore_area: SquareMetres[Positive]
     oil_length: Metres[Positive]

@@ -1,5 +1,8 @@
 """What makes oil other than a linear spring: trapped air."""
 
+from typing import ClassVar
+
+from support_exudyn.model.hydraulics.sharing import Shared
 from user_forces.values.units import CubicMetres
 from user_forces.values.value import Positive, Value, value
 
@@ -7,7 +10,7 @@ ATMOSPHERE = 101325.0  # [Pa]; pressures of the program are those above it
 
 
 @value
-class TrappedAir(Value):
+class TrappedAir(Shared, Value):
     """Air that stays in the chamber of a leg, and makes its oil softer the lower the pressure is.
 
         V_air = V0 (p_a / (p + p_a))^(1/n)
@@ -23,6 +26,8 @@ class TrappedAir(Value):
         volume: V0, of the air at the pressure of the atmosphere, all legs of a pair together [m^3], > 0.
         exponent: n [-], > 0; 1: slow changes that keep the temperature, 1.4: fast ones.
     """
+
+    extensive: ClassVar[tuple[str, ...]] = ("volume",)
 
     volume: CubicMetres[Positive]
     exponent: Positive = 1.4

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
 from pydantic import model_validator
 
+from support_exudyn.model.hydraulics.sharing import Shared
 from user_forces.values.units import (
     CubicMetresPerSecond,
     Kilograms,
@@ -70,7 +72,7 @@ class Poppet(Value):
 
 
 @value
-class YieldValve(Value):
+class YieldValve(Shared, Value):
     """A relief valve: it lets oil out to the tank above a pressure.
 
         flow = slope max(0, p - p_open),   slope = rated_flow / rated_overpressure
@@ -85,6 +87,8 @@ class YieldValve(Value):
         closing_pressure: p_close [Pa], > 0, at most the opening pressure; None: the same.
         poppet: what takes its time; None: nothing. Not together with a closing pressure of its own.
     """
+
+    extensive: ClassVar[tuple[str, ...]] = ("rated_flow",)
 
     opening_pressure: Pascals[Positive]
     rated_flow: CubicMetresPerSecond[Positive]

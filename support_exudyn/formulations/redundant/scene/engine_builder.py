@@ -1,7 +1,8 @@
 """What builders of models in the engine share, in the plane and in space."""
 
+import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -13,6 +14,10 @@ from exudyn.itemInterface import (
     ObjectGround,
 )
 
+from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
+from support_exudyn.formulations.redundant.scene.leg_circuit import LegItem
+from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
+from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.scenario.scenario import Scenario
 
@@ -67,6 +72,21 @@ class EngineBuilder(ABC):
         ends = self.ends(actuator)
         spring = ObjectConnectorSpringDamper(markerNumbers=ends, referenceLength=actuator.start_length)
         return self.mbs.AddObject(spring)
+
+    def add_leg(self, leg: PreloadedLeg) -> LegItem:
+        """Put a hydraulic leg with elements in place of an actuator; its force follows when all is there."""
+        ends, model = self.ends(leg.actuator), leg.model
+        spring = ObjectConnectorSpringDamper(markerNumbers=ends, referenceLength=leg.actuator.start_length)
+        by_valve = isinstance(model, HydraulicCylinder)
+        source = model.inlet if by_valve else self.scenario.drive_of(leg.name)
+        return LegItem(leg, ends, self.mbs.AddObject(spring), source)
+
+    def join_legs(self, items: Iterable[LegItem]) -> EngineLegs:
+        """All legs, and the pump that they share."""
+        scenario = self.scenario
+        mass = sum(body.mass for body in scenario.linkage.bodies.values())
+        weight = mass * math.hypot(*scenario.gravity)
+        return EngineLegs(self.mbs, tuple(items), scenario.pump, weight, scenario.solver.locate)
 
     def ends(self, actuator: Any) -> list[Any]:
         """The markers of foot and head."""

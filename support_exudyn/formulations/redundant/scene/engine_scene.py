@@ -9,6 +9,7 @@ import exudyn
 from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts
+from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_motion import BodyMotion
@@ -51,7 +52,7 @@ class EngineScene(ABC):
     bodies: all that move, each an item with its data as `body`. clearance_pins: everything that may make
     contact and part. compliant_pins: pins whose force follows from their deflection. frictions: of ideal pins.
     loads: what presses on the machine. weights: loads of the engine, by body. driven: all actuators and cranks,
-    by the drive that they follow. cylinders: the actuators that follow none.
+    by the drive that they follow. cylinders: the actuators that follow none. legs: those on oil with elements.
     """
 
     scenario: Scenario
@@ -65,6 +66,7 @@ class EngineScene(ABC):
     weights: Mapping[str, Any]
     driven: tuple[DrivenParts, ...]
     cylinders: Mapping[str, CylinderItem]
+    legs: EngineLegs
 
     def release(self) -> None:
         """Let go of the engine's model: what its user functions know would never be freed."""
@@ -80,6 +82,7 @@ class EngineScene(ABC):
             parts.move_to(t)
         for cylinder in self.cylinders.values():
             cylinder.open_to(t)
+        self.legs.follow(t)
 
     @abstractmethod
     def jump(self, time: float) -> Impulse | None:
@@ -149,4 +152,6 @@ def slide(scene: EngineScene, rest: float) -> None:
     data.SetODE2Coordinates_t(velocity + rest * acceleration)
     if scene.cylinders:
         data.SetODE1Coordinates(data.GetODE1Coordinates() + rest * data.GetODE1Coordinates_t())
+    scene.legs.slide(rest)
+    scene.legs.refresh()
     scene.refresh_memory(rest)

@@ -14,6 +14,7 @@ from support_exudyn.formulations.redundant.clearance.pin_motion import PinEnd, P
 from support_exudyn.formulations.redundant.clearance.slot_frames import between
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
+from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.redundant.scene.engine_scene import (
     CURRENT,
     INITIAL,
@@ -53,6 +54,7 @@ class Scene(EngineScene):
     rigid_actuators: dict[str, ActuatorItem]
     oil_columns: dict[str, OilColumnItem]
     cylinders: dict[str, CylinderItem]
+    legs: EngineLegs
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
     gears: tuple[str, ...]

@@ -31,6 +31,7 @@ from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.cylinder_chambers import fill_cylinders
+from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
 from support_exudyn.mechanics.oil_column import fill
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.linkage import GROUND, Body, Crank, Gear, Slide
@@ -221,6 +222,7 @@ class PlaneBuilder(EngineBuilder):
             name: CylinderItem(mbs, preloaded, self.ends(linkage.actuators[name]), is_in_equilibrium)
             for name, preloaded in fill_cylinders(linkage, scenario.cylinders, scenario.gravity).items()
         }
+        legs = [self.add_leg(one) for one in preloaded_legs(linkage, scenario.legs, scenario.gravity).values()]
         heavy = linkage.bodies if any(scenario.gravity) else {}
         weights = {name: self.add_weight(name, body) for name, body in heavy.items()}
         mbs.Assemble()
@@ -246,6 +248,7 @@ class PlaneBuilder(EngineBuilder):
             rigid_actuators=rigid_actuators,
             oil_columns=oil_columns,
             cylinders=cylinders,
+            legs=self.join_legs(legs),
             cranks=crank_items,
             slides={name: SlideItem(o, multiplier(o)) for name, o in slides.items()},
             gears=tuple(linkage.gears),
@@ -264,6 +267,7 @@ class PlaneBuilder(EngineBuilder):
         scene.start_moving()
         for cylinder in cylinders.values():
             cylinder.assembled()
+        scene.legs.begin()
         scene.start_rubbing()
         scene.reset_memory()
         return scene

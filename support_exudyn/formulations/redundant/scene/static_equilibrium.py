@@ -51,6 +51,7 @@ def find_static_equilibrium(scene: EngineScene) -> None:
             for_a_while.enter_context(pin.settling(weight, lambda: share))
         for cylinder in scene.cylinders.values():
             for_a_while.enter_context(cylinder.settling())
+        for_a_while.enter_context(scene.legs.settling())
         for share in CENTRING if held is None else ():  # noqa: B007
             _solve(scene)
             data.SetODE2Coordinates(data.GetODE2Coordinates(), INITIAL)
@@ -63,6 +64,7 @@ def find_static_equilibrium(scene: EngineScene) -> None:
         if isinstance(item, BodyItem):  # loads are planar
             velocity[item.first : item.first + 3] = *item.body.velocity, item.body.spin
     data.SetODE2Coordinates_t(velocity, INITIAL)
+    scene.legs.begin()
     scene.reset_memory()
 
 
@@ -73,7 +75,7 @@ def _held_by_loads(scene: EngineScene) -> Matrix | None:
     """
     if not isinstance(scene, Scene) or not scene.loads:
         return None
-    compliant = (scene.clearance_joints, scene.compliant_pins, scene.oil_columns, scene.cylinders)
+    compliant = (scene.clearance_joints, scene.compliant_pins, scene.oil_columns, scene.cylinders, scene.legs.names)
     if any(compliant) or scene.bodies.keys() != scene.scenario.unloaded.bodies.keys():
         return None
     closed, acting = scene.closed_kinetics, scene.scenario.acting_loads

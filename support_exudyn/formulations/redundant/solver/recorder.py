@@ -23,7 +23,7 @@ class History:
     """Raw states at the records, one row each; see `channels` for what they mean.
 
     time (n,); position, velocity (n, coordinates); memory (n, clearance pins, fields of PinMemory);
-    pressure (n, 2 cylinders) as the engine has it; work, damping_loss, friction_loss (n,) [J]. What was not to
+    pressure (n, 2 cylinders) as the engine has it; legs (n, states) of legs with elements; work, damping_loss, friction_loss (n,) [J]. What was not to
     be kept has rows without columns; integrals that were not are zero.
     """
 
@@ -32,6 +32,7 @@ class History:
     velocity: np.ndarray
     memory: np.ndarray
     pressure: np.ndarray
+    legs: np.ndarray
     work: np.ndarray
     damping_loss: np.ndarray
     friction_loss: np.ndarray
@@ -56,6 +57,7 @@ class Recorder:
             or scene.frictions
             or scene.loads
             or scene.cylinders
+            or scene.legs.names
         )
         self._kept = tuple(part in needs for part in STATE)
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
@@ -67,6 +69,9 @@ class Recorder:
         self._frictions = tuple(scene.frictions.items())
         self._loads = tuple(scene.loads.items())
         self._cylinders = tuple(scene.cylinders.values())
+        self._legs = scene.legs
+        self._keeps_legs = bool(scene.legs.names) and DataNeeds.OIL in needs
+        self._leg_states = array("d")
         self._mbs = scene.mbs
         # numbers one behind the other: with an object for each part of a record they take three times as much
         self._time = array("d")
@@ -145,6 +150,8 @@ class Recorder:
         )
         if self._keeps_pressures:
             self._pressures.frombytes(data.GetODE1Coordinates().tobytes())
+        if self._keeps_legs:
+            self._leg_states.frombytes(self._legs.states().tobytes())
 
     def _keep(self, t: float, state: Sequence[Series | None], totals: Sequence[float]) -> None:
         """Add a record; parts of the state that are not to be kept may be None."""
@@ -171,6 +178,7 @@ class Recorder:
             velocity,
             memory.reshape(time.size, pins, len(PinMemory._fields)),
             np.array(self._pressures).reshape(time.size, -1 if self._pressures else 0),
+            np.array(self._leg_states).reshape(time.size, -1 if self._leg_states else 0),
             *np.array(self._totals).reshape(time.size, 3).T,
         )
 
@@ -195,6 +203,9 @@ class Recorder:
             work, loss = cylinder.powers()
             driving += work
             damping += loss
+        if self._legs.names:
+            work, loss, rubbed = self._legs.powers()
+            driving, damping, friction = driving + work, damping + loss, friction + rubbed
         for compliant in self._compliant:
             damping += compliant.loss()
         for name, rubbing in self._frictions:

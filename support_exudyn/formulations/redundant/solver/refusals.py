@@ -19,6 +19,8 @@ FEWER_STEPS = (
     "in all (`solver.most_steps`)."
 )
 
+EMPTY = "Give it end_stops inside of its oil's lengths, or look at what moves it."
+
 
 def why(error: Exception, scene: EngineScene, ahead: float) -> tuple[str, str]:
     """Reason and advice, where the engine has raised an error.
@@ -50,7 +52,10 @@ def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
         scene: at the last step that could be made.
         ahead: time that was to be reached [s].
     """
+    if empty := scene.legs.empty():
+        return empty, EMPTY
     try:
+        scene.legs.look(ahead)
         for parts in scene.driven:
             parts.look(ahead)
         for name, load in scene.loads.items():

@@ -76,6 +76,7 @@ class SolverRun:
         )
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
+        self.legs = scene.legs
         self.cylinders = tuple(scene.cylinders.values())
         self.valves = any(cylinder.moves for cylinder in self.cylinders)
         unknowns = int(self.data.ODE2Size() + self.data.ODE1Size() + self.data.AEsize())
@@ -84,14 +85,15 @@ class SolverRun:
             scenario.duration,
             unknowns,
             force_rounding([item.preloaded for parts in scene.driven for item in parts.oil])
-            + sum(pin.rounding for pin in scene.compliant_pins.values()),
+            + sum(pin.rounding for pin in scene.compliant_pins.values())
+            + scene.legs.rounding,
             bool(self.cylinders),
         )
         self.locates = scenario.solver.locate
         self.impact_steps = scenario.solver.impact_steps
         # what a load does need not show in accelerations, and long steps would pass over where it begins
         # and pressures are not interpolated at records that a step passes over
-        grows = scenario.solver.growth > 1.0 and not scene.loads and not scene.cylinders
+        grows = scenario.solver.growth > 1.0 and not (scene.loads or scene.cylinders or scene.legs.names)
         self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
@@ -105,7 +107,8 @@ class SolverRun:
             parts.moves(scenario.duration) for parts in scene.driven
         )
         self.needs_step_callbacks = (
-            bool(self.pins or self.frictions or self.impacting_loads) or self.smooth is not None
+            bool(self.pins or self.frictions or self.impacting_loads or scene.legs.names)
+            or self.smooth is not None
         )
         moves = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
         if (
@@ -162,7 +165,7 @@ class SolverRun:
         mbs = self.scene.mbs
         if self.needs_step_callbacks:
             mbs.SetPreStepUserFunction(self._before_try)
-            if self.pins:
+            if self.pins or self.legs.names:
                 mbs.SetPostNewtonUserFunction(self._after_newton)
             mbs.SetPostStepUserFunction(self._after_step)
             return
@@ -202,15 +205,16 @@ class SolverRun:
         """Prepare every attempt at a step that would end at t."""
         if self.trying:
             self.repeated = True
-            if any(pin.wants_cut for pin in self.pins):
+            if self.legs.wants_cut or any(pin.wants_cut for pin in self.pins):
                 self.cut_steps += 1
             else:
                 self.failed_newton += 1
                 self.newton.failed()
         self.trying = True
         self.scene.drive_to(t)
+        step = float(self.solver.it.currentStepSize)
+        self.legs.begin_try(step)
         if self.pins:
-            step = float(self.solver.it.currentStepSize)
             for pin in self.pins:
                 pin.begin_try(step)
             self.newton.begin(step)
@@ -239,6 +243,8 @@ class SolverRun:
                     again, shortest = True, min(shortest, step)
         except LawError as error:
             raise error.at(name) from None
+        if (step := self.legs.after_newton(t)) is not None:
+            again, shortest = True, min(shortest, step)
         if not again:
             return [0.0, -1.0]
         if shortest == math.inf:
@@ -264,6 +270,7 @@ class SolverRun:
                     pin.accept(t)
                 except LawError as error:  # inside the step
                     raise error.at(name) from None
+            kink = self.legs.accept(t) or kink
         self.recorder.after_step(t, kink)
         for friction in self.frictions:
             friction.accept()
@@ -277,6 +284,7 @@ class SolverRun:
             self.scene.refresh_memory()
             for cylinder in self.cylinders:
                 cylinder.tell_rates()
+            self.legs.refresh()
         if self.smooth is not None and self.plan.passes_record(t, goal):
             self.recorder.begin_step(t)
         self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
@@ -315,7 +323,7 @@ class SolverRun:
 
         It will if a clearance pin begins or ends a contact in it.
         """
-        if not self.pins or not self.locates:
+        if not (self.pins or self.legs.names) or not self.locates:
             return False
         if following < taken / MUCH_SHORTER:
             return True
@@ -376,7 +384,10 @@ class SolverRun:
             for b in breaks:
                 cylinder.switch(b)
             cylinder.tell_rates()
-        if self.cylinders and not jumps:
+        for b in breaks:
+            self.legs.switch(b)
+        self.legs.refresh()
+        if (self.cylinders or self.legs.names) and not jumps:
             self.recorder.switch(t)
 
     def _longest_step(self, t: float) -> float:
@@ -398,9 +409,9 @@ class SolverRun:
             goal = self.plan.far_time(t, self.smooth.size)
         else:
             goal = self.plan.next_time(t, max(largest, SMALLEST_IMPACT_STEP))
-        for pin in self.pins:
-            if pin.landing < goal and t + SHARE * (goal - t) < pin.landing:
-                goal = pin.landing
+        for landing in (*(pin.landing for pin in self.pins), self.legs.landing):
+            if landing < goal and t + SHARE * (goal - t) < landing:
+                goal = landing
         return goal
 
     def _failure(self, reason: str, advice: str = ADVICE) -> Failure:

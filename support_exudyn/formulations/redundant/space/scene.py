@@ -10,6 +10,7 @@ import numpy as np
 from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
+from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.redundant.scene.engine_scene import (
     CURRENT,
     INITIAL,
@@ -63,12 +64,13 @@ class SpatialScene(EngineScene):
     sections: dict[str, list[SectionPin]]  # of every clearance bearing
     rigid_actuators: dict[str, ActuatorItem]
     oil_columns: dict[str, OilColumnItem]
+    legs: EngineLegs
     driven: tuple[DrivenParts, ...]  # all actuators, by the drive that they follow
     compliant_pins: dict[str, CompliantItem] = field(default_factory=dict)  # not covered
     frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: nor these
     loads: dict[str, LoadItem] = field(default_factory=dict)  # nor are they
     weights: dict[str, Any] = field(default_factory=dict)  # are asked for where loads bring bodies along
-    cylinders: dict[str, CylinderItem] = field(default_factory=dict)  # nor these
+    cylinders: dict[str, CylinderItem] = field(default_factory=dict)  # are legs here
 
     @property
     def gravity(self) -> Vector3:

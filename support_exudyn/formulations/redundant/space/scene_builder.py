@@ -27,6 +27,7 @@ from support_exudyn.formulations.redundant.space.section_motion import SectionEn
 from support_exudyn.formulations.redundant.space.section_pin import SectionJournal, SectionPin, part_of
 from support_exudyn.formulations.redundant.space.sections import ends, sections
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
+from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg, preloaded_legs
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
 from support_exudyn.mechanics.space.constraints import BearingEnd, Kind, all_rows, frame_of, independent, matrix
 from support_exudyn.mechanics.space.motion import COORDINATES, motion_of, parameter_rates
@@ -150,25 +151,24 @@ class _SpaceBuilder(EngineBuilder):
         with_clearance = [
             name for name, bearing in linkage.bearings.items() if bearing.pin in scenario.clearance_pins
         ]
-        on_oil = [
-            name for name, actuator in linkage.actuators.items() if actuator.actuator in scenario.oil_columns
-        ]
-        candidates = all_rows(
-            linkage, list(scenario.clearance_pins), [name for name in linkage.actuators if name not in on_oil]
-        )
+        actuators = linkage.actuators.items()
+        on_oil = [name for name, one in actuators if one.actuator in scenario.oil_columns]
+        held = [name for name, one in actuators if one.actuator not in scenario.compliant_actuators]
+        candidates = all_rows(linkage, list(scenario.clearance_pins), held)
         still = np.zeros(COORDINATES * len(linkage.bodies))
         start = motion_of(linkage, still, still)
         rows = independent(candidates, matrix(start, candidates)[0])
         for name, bearing in linkage.bearings.items():
-            held: set[Kind] = {row.kind for row in rows if row.name == name}
-            if held:
-                self.add_joint(bearing, held)
+            kinds: set[Kind] = {row.kind for row in rows if row.name == name}
+            if kinds:
+                self.add_joint(bearing, kinds)
         rigid = {
             row.name: self.add_rigid_actuator(linkage.actuators[row.name])
             for row in rows
             if row.kind == "actuator"
         }
         oil = {name: self.add_oil_column(linkage.actuators[name]) for name in on_oil}
+        legs = [self.add_leg(leg) for leg in self.legs()]
         connectors = {name: self.add_connectors(linkage.bearings[name]) for name in with_clearance}
         if any(scenario.gravity):
             for name, body in linkage.bodies.items():
@@ -198,6 +198,7 @@ class _SpaceBuilder(EngineBuilder):
             sections={},
             rigid_actuators=rigid_items,
             oil_columns=oil_items,
+            legs=self.join_legs(legs),
             driven=by_drive(self.mbs, scenario.drive_of, rigid_items, oil_items, {}),
         )
         for name, group in connectors.items():
@@ -205,6 +206,7 @@ class _SpaceBuilder(EngineBuilder):
             scene.clearance_joints.update({f"{name}[{n}]": pin for n, pin in enumerate(pins)})
         scene.drive_to(0.0)
         scene.start_moving()
+        scene.legs.begin()
         scene.reset_memory()
         return scene
 
@@ -218,6 +220,15 @@ class _SpaceBuilder(EngineBuilder):
             model: OilColumn = replace(whole.model, bore_area=actuator.share * whole.model.bore_area)
             found[name] = replace(whole, model=model)
         return found
+
+    def legs(self) -> list[PreloadedLeg]:
+        """Hydraulic legs with elements: those of the plane, each side with its share of them."""
+        plane = preloaded_legs(self.scenario.linkage, self.scenario.legs, self.scenario.gravity)
+        return [
+            PreloadedLeg(name, one, whole.model.share(one.share), one.share * whole.load)
+            for name, one in self.linkage.actuators.items()
+            if (whole := plane.get(one.actuator)) is not None
+        ]
 
     def section_end(self, end: BearingEnd, place: float, first: int | None) -> SectionEnd:
         """Where a section of a bore or a journal stands; first: of its body's coordinates, see `SectionEnd`."""

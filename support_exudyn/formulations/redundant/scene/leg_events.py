@@ -1,0 +1,112 @@
+"""What happens in the legs of a circuit within steps: valves open and close, cavities grow, stops are met.
+
+Each is a gap that passes zero, see `hydraulics.records`. Over a step it is taken as the cubic that fits the gap and
+its rate at both ends. A step that passes zero inside is repeated so that it ends there, as for a contact. The
+force has a kink there; only a valve with hysteresis does something else from then on.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from support_exudyn.formulations.contact_events import BEYOND, SHARE, DepthPath, first_rise
+from support_exudyn.formulations.hydraulics.records import GAP_NAMES, HIGH_2, LOW, Matrix
+from support_exudyn.formulations.redundant.scene.leg_circuit import LegCircuit
+from support_exudyn.mechanics.trajectory import OilEvent
+
+NEAR_PRESSURE, NEAR_LENGTH = 0.1, 1e-12  # [Pa], [m] beyond zero that rounding may be
+
+
+class LegEvents:
+    """Where within steps things happen in the legs of a circuit.
+
+    Arguments:
+        circuit: that is run. locates: whether steps are to end at what happens.
+    """
+
+    def __init__(self, circuit: LegCircuit, locates: bool) -> None:
+        self.circuit, self.locates = circuit, locates
+        self.found: list[list[OilEvent]] = [[] for _ in circuit.items]
+        shape = circuit.gaps.shape
+        self._near = np.full(shape, NEAR_PRESSURE)
+        self._near[:, LOW : HIGH_2 + 1] = NEAR_LENGTH
+        self._sides = np.zeros(shape)
+        self._gaps, self._rates = np.zeros(shape), np.zeros(shape)  # at the start of the step
+        self._pending: list[tuple[int, int, float]] = []  # leg, gap, time: at the end of the tried step
+        self.landing, self.wants_cut = math.inf, False
+
+    def start(self) -> None:
+        """The run begins: on which side of zero each gap is, 0 for those that a leg does not have."""
+        self._sides = np.sign(self.circuit.gaps)
+        self.keep()
+
+    def keep(self) -> None:
+        """Gaps are those at the start of a step from now on."""
+        self._gaps, self._rates = self.circuit.gaps.copy(), self.circuit.gap_rates(1.0)
+
+    def begin_try(self) -> None:
+        """Begin to try a step: nothing has happened in it."""
+        self._pending, self.wants_cut = [], False
+
+    def judge(self, t: float) -> float | None:
+        """Decide on a solved step that would end at t [s]: None if it may stand, else see `ClearanceJoint`."""
+        h, gaps, rates = self.circuit.step, self.circuit.gaps, self.circuit.gap_rates(self.circuit.step)
+        again: float | None = None
+        beyond = -self._sides * gaps > self._near
+        turns = (self._sides * self._rates < 0.0) & (self._sides * rates > 0.0)
+        for n, k in np.argwhere((self._sides != 0.0) & (beyond | turns)).tolist():
+            asked = self._one(n, k, t, h, (float(gaps[n, k]), float(rates[n, k])))
+            if asked is not None:
+                again = asked if again is None else min(again, asked)
+        self.wants_cut = again is not None and again < math.inf
+        if again is not None:
+            self._pending = []
+        return again
+
+    def _one(self, n: int, k: int, t: float, h: float, end: tuple[float, float]) -> float | None:
+        """The same for one gap, `end` being it and its rate at the end of the step."""
+        x = self._passes(n, k, h, end)
+        if x is None:
+            return None
+        if x <= SHARE and self.locates:  # the step begins where it happens
+            self._pass(n, k, t - h + x * h)
+            if self.circuit.jumps(n, k):
+                self.circuit.refresh_start()
+                self.keep()
+                return math.inf
+            self._gaps[n, k] = self._sides[n, k] * float(self._near[n, k])
+            x = self._passes(n, k, h, end)
+            if x is None:
+                return None
+        if x >= 1.0 - SHARE or not self.locates:
+            if -self._sides[n, k] * end[0] > 0.0 or self.locates:
+                self._pending.append((n, k, t - (1.0 - x) * h))
+            return None
+        goal = x + BEYOND * SHARE
+        self.landing = min(self.landing, t - (1.0 - goal) * h)
+        # the engine shortens a repeated step to three quarters or less, so a late one is reached in two
+        return (goal if goal <= 0.75 else 0.5 * goal) * h
+
+    def _passes(self, n: int, k: int, h: float, end: tuple[float, float]) -> float | None:
+        """The fraction of the step at which a gap passes zero to the other side; None if it does not."""
+        side = -float(self._sides[n, k])
+        before = min(side * float(self._gaps[n, k]), -float(self._near[n, k]) * 1e-3)
+        return first_rise(DepthPath(before, side * float(self._rates[n, k]), side * end[0], side * end[1], h))
+
+    def _pass(self, n: int, k: int, t: float) -> None:
+        self._sides[n, k] = -self._sides[n, k]
+        begins = bool(self._sides[n, k] > 0.0)
+        self.circuit.pass_gap(n, k, begins)
+        self.found[n].append(OilEvent(t, GAP_NAMES[k], begins))
+
+    def accept(self, t: float) -> bool:
+        """The step to t [s] stands: note what has happened at its end; whether anything has."""
+        happened = bool(self._pending)
+        for n, k, at in sorted(self._pending, key=lambda one: one[2]):
+            self._pass(n, k, at)
+        self._pending = []
+        if happened or not self.landing > t:
+            self.landing = math.inf
+        return happened
