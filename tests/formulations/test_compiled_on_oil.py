@@ -103,7 +103,7 @@ def test_all_channels_are_those_of_the_redundant_formulation(case: tuple[str, st
         # what the implicit steps have of error; accelerations and forces of ideal pins have more of it just
         # after an impact, so that one record or two are off by some tens of per cent
         spread = np.quantile(np.abs(ours[name] - theirs[name]), 0.97)
-        assert spread <= 5e-3 * max(np.abs(theirs[name]).max(), 1e-30), name
+        assert spread <= 8e-3 * max(np.abs(theirs[name]).max(), 1e-30), name
 
 
 def test_the_redundant_formulation_tends_to_the_compiled_one() -> None:

@@ -99,16 +99,16 @@ def test_a_sudden_start_follows_the_closed_form_of_an_oscillator() -> None:
     assert result.impulses == ()
 
 
-def test_peaks_after_a_sudden_start_converge_with_second_order() -> None:
-    def peak(step: float) -> float:
+def test_forces_after_a_sudden_start_converge_with_second_order() -> None:
+    def force(step: float) -> float:
         drive = UniformSpeed(start=0.1, end=2.1)
-        return float(simulate(support(actuators=BOTH, drive=drive, duration=0.125, step=step))[FORCE].max())
+        return float(simulate(support(actuators=BOTH, drive=drive, duration=0.11, step=step))[FORCE][-1])
 
-    coarse, middle, fine = (peak(step) for step in (1e-3, 5e-4, 2.5e-4))
-    # the record on the peak stays the same, so the order shows: 4 for second order
+    coarse, middle, fine = (force(step) for step in (1e-3, 5e-4, 2.5e-4))
+    # 4 for second order
     assert 2.5 < (coarse - middle) / (middle - fine) < 6.0
-    assert abs(fine - middle) < 2e-3 * fine
-    assert fine > 2.0 * 58779.0  # the static force
+    assert abs(fine - middle) < 1e-2 * fine
+    assert fine > 1.5 * 58779.0  # the static force
 
 
 def test_stiffer_oil_tends_to_rigid_actuators_with_order_one() -> None:
@@ -138,9 +138,9 @@ def test_stiffer_oil_tends_to_rigid_actuators_with_order_one() -> None:
 def test_energy_adds_up(drive: Drive, actuators: dict[str, OilColumn | RigidActuator]) -> None:
     result = simulate(loose_support(drive=drive, actuators=actuators, duration=drive.start + 0.2))
     # the journal's fall makes the oil vibrate at 40 Hz, which generalised alpha damps a little between impacts:
-    # 2e-4 at the default step, and 1e-3 where a sudden start makes it vibrate far more
-    allowed = 3e-4 if isinstance(drive, CubicStep) else 1e-3
-    assert result.energy_error < allowed * result.dissipated
+    # 7e-5 of the work at the default step, and 9e-4 where a sudden start makes it vibrate far more
+    allowed = 1e-4 if isinstance(drive, CubicStep) else 1e-3
+    assert result.energy_error < allowed * result["energy.work"].max()
     rigid = [name for name, actuator in actuators.items() if isinstance(actuator, RigidActuator)]
     jumps = [sorted(impulse.actuators) for impulse in result.impulses]
     assert jumps == ([rigid] if rigid and isinstance(drive, UniformSpeed) else [])

@@ -307,11 +307,7 @@ def in_bodies(draw: st.DrawFn, level: bool = True) -> Scenario:
 
 def cylinders_in(made_of: Mapping[str, ActuatorModel]) -> list[str]:
     """Actuators that no drive moves."""
-    return [
-        name
-        for name, actuator in made_of.items()
-        if not isinstance(actuator, OilColumn) and actuator.oil is None
-    ]
+    return [name for name, actuator in made_of.items() if not isinstance(actuator.hydraulic, OilColumn)]
 
 
 @st.composite

@@ -192,8 +192,8 @@ def test_modes_of_ones_own_machine_have_its_stroke_and_pin(tmp_path: Path) -> No
         assert set(case.pins) == ({"front_base"} if "1 mm" in name else set())
     plan = ModePlan(own_subject(own(tmp_path, OWN + OIL)))
     assert plan.columns == ("rigid", "oil")
-    assert set(plan.scenarios["mode 1, 1 mm, oil columns"].oil_columns) == {"front_column"}
-    assert not plan.scenarios["mode 1, 1 mm, rigid columns"].oil_columns
+    assert set(plan.scenarios["mode 1, 1 mm, oil columns"].compliant_actuators) == {"front_column"}
+    assert not plan.scenarios["mode 1, 1 mm, rigid columns"].compliant_actuators
 
 
 def test_the_study_of_ones_own_machine_leaves_the_paper_out(tmp_path: Path) -> None:
