@@ -17,6 +17,7 @@ from support_exudyn import (
     LinearActuator,
     Linkage,
     Machine,
+    OilColumn,
     PumpStation,
     Result,
     Roof,
@@ -25,6 +26,7 @@ from support_exudyn import (
     reference_support,
 )
 from support_exudyn.files.machines import shipped
+from support_exudyn.formulations.registry import FormulationName
 from support_exudyn.mechanics.oil_column import static_loads
 from support_exudyn.model.linkage import GROUND, pinned
 from user_forces.values.value import Vector2, value
@@ -115,7 +117,7 @@ def on_legs(
     drive: Drive,
     loose: bool,
     roof: float,
-    formulation: str,
+    formulation: FormulationName,
 ) -> Scenario:
     """A machine on drawn legs.
 
@@ -175,6 +177,7 @@ def oil_open(result: Result) -> float:
         if isinstance(model, HydraulicCylinder):
             got = result[f"{name}.let_in"]
         else:
+            assert isinstance(model, OilColumn)  # the only other leg
             drive = result.scenario.drive_of(name)
             got = model.bore_area * np.array([drive.extension(t) for t in result.time.tolist()])
         lost = [

@@ -76,7 +76,8 @@ class Judgement:
     half: how far half the steps are away in the same measure. other: how far the independent formulation is,
     nan if there is none. energy: by how much it is open as a share of what was turned over. depth: largest
     share of the bore's radius. oil: by how much that of a leg is open as a share of it, nan if none is
-    counted. restitution: the largest of free impacts over that of the law, nan if there is none. met: whether an accuracy that was asked for was reached. wall_s: of everything.
+    counted. restitution: the largest of free impacts over that of the law, nan if there is none. met: whether
+    an accuracy that was asked for was reached. wall_s: of everything.
     """
 
     outcome: str

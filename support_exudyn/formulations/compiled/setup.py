@@ -330,9 +330,10 @@ def _legs(scenario: Scenario, build: _Builder, course: Mapping[str, int], states
     """Legs with elements, whose states begin at a place."""
     preloaded = preloaded_legs(scenario.linkage, scenario.legs, scenario.gravity)
     found = fill_legs(tuple(preloaded.values()), scenario.pump, states)
-    for record, (name, one) in zip(found.records, preloaded.items(), strict=True):
-        record["foot"] = build.point(one.actuator.foot, one.actuator.foot_point)
-        record["head"] = build.point(one.actuator.head, one.actuator.head_point)
+    for record, name in zip(found.records, preloaded, strict=True):
+        actuator = scenario.linkage.actuators[name]
+        record["foot"] = build.point(actuator.foot, actuator.foot_point)
+        record["head"] = build.point(actuator.head, actuator.head_point)
         record["course"] = course.get(name, -1)
     return found
 

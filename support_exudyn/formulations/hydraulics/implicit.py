@@ -2,8 +2,8 @@
 
 z1 = z0 + h/2 (f(z0) + f(z1)),   with the lengths and rates that both ends of the step have
 
-It is of second order, damps nothing that it need not, stays finite however stiff a valve, a stop or a poppet is,
-and keeps sums that the rates keep, such as that of all oil. What is only booked follows from the rest.
+It is of second order, damps nothing that it need not, stays finite however stiff a valve, a stop or a poppet
+is, and keeps sums that the rates keep, such as that of all oil. What is only booked follows from the rest.
 """
 
 import numpy as np
@@ -111,8 +111,8 @@ def advance_legs(
 ) -> bool:
     """Find the states of all legs, and of their pump, at the end of a step of h [s]; whether they were found.
 
-    By Newton's method; where a whole step of it makes nothing better, by a part of it. With h = 0 the states are
-    those of the start. Records tell lengths, rates and inlets at the end, and take what follows.
+    By Newton's method; where a whole step of it makes nothing better, by a part of it. With h = 0 the states
+    are those of the start. Records tell lengths, rates and inlets at the end, and take what follows.
 
     Arguments:
         legs, pumps, gaps: see `press_all`.

@@ -32,7 +32,6 @@ LEG = OilColumn(
     bore_area=bore_area(0.4),
     oil_length=1.0,
     bulk_modulus=1.96e9,
-    damping_time=0.0,
     vapour_pressure=0.0,
     yield_valve=VALVE,
 )

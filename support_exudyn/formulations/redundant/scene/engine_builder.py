@@ -77,8 +77,8 @@ class EngineBuilder(ABC):
         """Put a hydraulic leg with elements in place of an actuator; its force follows when all is there."""
         ends, model = self.ends(leg.actuator), leg.model
         spring = ObjectConnectorSpringDamper(markerNumbers=ends, referenceLength=leg.actuator.start_length)
-        by_valve = isinstance(model, HydraulicCylinder)
-        source = model.inlet if by_valve else self.scenario.drive_of(leg.name)
+        drive = self.scenario.drive_of(leg.name)
+        source = model.inlet if isinstance(model, HydraulicCylinder) else drive
         return LegItem(leg, ends, self.mbs.AddObject(spring), source)
 
     def join_legs(self, items: Iterable[LegItem]) -> EngineLegs:

@@ -72,7 +72,7 @@ class EngineLegs:
     def after_newton(self, t: float) -> float | None:
         """Decide on a solved step that would end at t [s]: None if it may stand.
 
-        Else with which length [s] it is to be repeated; infinite: with the same, for a valve has opened or closed.
+        Else with which length [s] it is to be repeated; infinite: with the same, for a valve opened or closed.
         """
         asked = []
         for circuit, events in zip(self.circuits, self._events, strict=True):

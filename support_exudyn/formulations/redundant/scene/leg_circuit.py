@@ -56,10 +56,10 @@ class LegItem:
         assert isinstance(model, OilColumn | HydraulicCylinder)  # PreloadedLeg has looked
         stiffness = model.stiffness(0.0) + (model.end_stops.stiffness if model.end_stops else 0.0)
         size = max(actuator.start_length, *map(abs, (*actuator.foot_point, *actuator.head_point)))
-        return LENGTHS * sys.float_info.epsilon * stiffness * size
+        return float(LENGTHS * sys.float_info.epsilon * stiffness * size)
 
     def told(self, t: float) -> tuple[float, float, float]:
-        """What a drive has let in at t [s], as an extension [m], its rate [m/s], and the opening of the inlet."""
+        """What a drive has let in at t [s], as an extension [m], its rate [m/s], and the inlet's opening."""
         source = self.source
         if isinstance(source, Inlet):
             return 0.0, 0.0, source.opening(t)

@@ -1,7 +1,7 @@
 """What happens in the legs of a circuit within steps: valves open and close, cavities grow, stops are met.
 
-Each is a gap that passes zero, see `hydraulics.records`. Over a step it is taken as the cubic that fits the gap and
-its rate at both ends. A step that passes zero inside is repeated so that it ends there, as for a contact. The
+Each is a gap that passes zero, see `hydraulics.records`. Over a step it is taken as the cubic that fits the gap
+and its rate at both ends. A step that passes zero inside is repeated so that it ends there, as for a contact. The
 force has a kink there; only a valve with hysteresis does something else from then on.
 """
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from support_exudyn.formulations.contact_events import BEYOND, SHARE, DepthPath, first_rise
 from support_exudyn.formulations.hydraulics.leg import OPEN
-from support_exudyn.formulations.hydraulics.records import GAP_NAMES, HIGH_2, LOW, Matrix
+from support_exudyn.formulations.hydraulics.records import GAP_NAMES, HIGH_2, LOW
 from support_exudyn.formulations.redundant.scene.leg_circuit import LegCircuit
 from support_exudyn.mechanics.trajectory import OilEvent
 

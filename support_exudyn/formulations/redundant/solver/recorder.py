@@ -23,8 +23,8 @@ class History:
     """Raw states at the records, one row each; see `channels` for what they mean.
 
     time (n,); position, velocity (n, coordinates); memory (n, clearance pins, fields of PinMemory);
-    pressure (n, 2 cylinders) as the engine has it; legs (n, states) of legs with elements; work, damping_loss, friction_loss (n,) [J]. What was not to
-    be kept has rows without columns; integrals that were not are zero.
+    pressure (n, 2 cylinders) as the engine has it; legs (n, states) of legs with elements; work, damping_loss,
+    friction_loss (n,) [J]. What was not to be kept has rows without columns; integrals that were not are zero.
     """
 
     time: np.ndarray
