@@ -11,6 +11,7 @@ from studies.extremes.drawn_legs import Leg, drawn_drive, drawn_leg, drawn_pump
 from studies.extremes.judge import Case
 from studies.extremes.ranges import SPANS, Point, drawn
 from support_exudyn import Held, HydraulicCylinder, Scenario
+from support_exudyn.formulations.registry import FormulationName
 from support_exudyn.scenario.scenario_data import Accuracy
 
 SEED = 20261122
@@ -26,7 +27,7 @@ HYDRAULICS = "hydraulics"
 RECORDS = 500  # of a stroke
 PACE = 0.5
 STROKE = 0.05  # [m]
-FORMULATIONS = ("compiled", "redundant")
+FORMULATIONS: tuple[FormulationName, ...] = ("compiled", "redundant")
 STARTS = ("concentric", "closed", "overlapping", "settled")
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 GRIDS = {STEP_STIFFNESS: 13, CLEARANCE_SPEED: 12, FRICTION_STEP: 13}  # lines and columns

@@ -307,7 +307,7 @@ class ScenarioData(Value, ABC):
 
     @cached_property
     def legs(self) -> dict[str, HydraulicLeg]:
-        """Those whose oil is counted, by name: with elements, or cylinders that share a pump or are in space."""
+        """Those whose oil is counted, by name: with elements, or cylinders with a pump or in space."""
         shared = self.pump is not None or self.dimensions == 3
         return {
             name: one

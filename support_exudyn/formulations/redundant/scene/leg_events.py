@@ -1,8 +1,8 @@
 """What happens in the legs of a circuit within steps: valves open and close, cavities grow, stops are met.
 
 Each is a gap that passes zero, see `hydraulics.records`. Over a step it is taken as the cubic that fits the gap
-and its rate at both ends. A step that passes zero inside is repeated so that it ends there, as for a contact. The
-force has a kink there; only a valve with hysteresis does something else from then on.
+and its rate at both ends. A step that passes zero inside is repeated so that it ends there, as for a contact.
+The force has a kink there; only a valve with hysteresis does something else from then on.
 """
 
 from __future__ import annotations
