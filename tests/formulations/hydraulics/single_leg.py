@@ -184,7 +184,8 @@ class Leg:
         piston, around = self.volumes(outer, inner)
         reference = piston
         if self.linear:
-            reference = self.area * (self.model.oil_length + self.drive.extension(t))
+            come = self.area * self.drive.extension(t) - y.get("wl", 0.0)  # what is no longer in the line
+            reference = self.area * self.model.oil_length + come
         found = {"p": self.piston.lawful(y["w"], piston, reference)}
         if self.valve is not None:
             found["p1"] = self.rod.lawful(y["w1"], around, around)
