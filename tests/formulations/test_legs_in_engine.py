@@ -1,0 +1,70 @@
+"""Hydraulic legs with elements in the engine, against the compiled formulation and plain cylinders."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from support_exudyn import Held, HydraulicCylinder, RampedOpening, Result, Scenario, SolverSettings, simulate
+from support_exudyn.model.hydraulics.motion import EndStops
+from support_exudyn.model.hydraulics.valves import YieldValve
+from tests.cases.cylinder_cases import Ram, opened
+
+CYLINDER = opened(RampedOpening(start=0.02, end=0.15, ramp=0.02, extent=1.0), damping=5e4)
+CHANNELS = ("jack.length", "ram.velocity_y", "jack.pressure", "jack.rod_pressure")
+YIELDS = YieldValve(opening_pressure=3e6, rated_flow=2e-2, rated_overpressure=1e6)
+CASES = {
+    "yields": replace(CYLINDER, yield_valve=YIELDS),
+    "hysteresis": replace(CYLINDER, yield_valve=replace(YIELDS, closing_pressure=2.5e6, rated_flow=1e-2)),
+    "boils": replace(CYLINDER, vapour_pressure=-9e4),
+    "stops": replace(CYLINDER, end_stops=EndStops(lowest=-0.01, highest=0.01, stiffness=3e8)),
+}
+
+
+def lift(cylinder: HydraulicCylinder, formulation: str, step: float = 4e-4) -> Result:
+    settings = SolverSettings(tolerance=1e-9) if formulation == "compiled" else SolverSettings()
+    return simulate(
+        Scenario(
+            machine=Ram(),
+            actuators={"jack": cylinder},
+            drive=Held(),
+            duration=0.3,
+            step=step,
+            record_period=0.01,
+            formulation=formulation,
+            solver=settings,
+        )
+    )
+
+
+def error(run: Result, wanted: Result) -> float:
+    parts = [np.abs(run[name] - wanted[name]).max() / np.ptp(wanted[name]) for name in CHANNELS]
+    return float(np.linalg.norm(parts))
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_legs_are_those_of_the_compiled_formulation_to_second_order(name: str) -> None:
+    wanted = lift(CASES[name], "compiled")
+    coarse, fine = lift(CASES[name], "redundant"), lift(CASES[name], "redundant", step=2e-4)
+    assert error(fine, wanted) < 1e-3
+    assert 3.3 < error(coarse, wanted) / error(fine, wanted) < 4.7
+    events, known = fine.oil_events["jack"], wanted.oil_events["jack"]
+    assert known
+    assert [one[1:] for one in events] == [one[1:] for one in known]
+    np.testing.assert_allclose([e.time for e in events], [e.time for e in known], atol=2e-5)
+    assert np.abs(fine["energy.balance"]).max() < 1e-5 * fine["energy.work"].max()
+
+
+def test_oil_is_conserved() -> None:
+    run = lift(CASES["yields"], "redundant")
+    kept = run["jack.oil"] + run["jack.yielded"] - run["jack.let_in"]
+    assert np.abs(kept - kept[0]).max() < 1e-10 * kept[0]
+    assert run["jack.yielded"][-1] > 1e-6
+
+
+def test_stops_far_away_leave_a_plain_cylinder() -> None:
+    far = replace(CYLINDER, end_stops=EndStops(lowest=-0.4, highest=0.9))
+    plain, leg = lift(CYLINDER, "redundant"), lift(far, "redundant")
+    assert error(leg, plain) < 2e-3
