@@ -82,8 +82,6 @@ def fill_chambers(legs: Records, n: int, length: float, inflow: float, y: Series
         leg.oil += leg.bore * inflow
     leg.volume = leg.bore * (leg.oil_length + s) + leg.hose
     leg.reference = leg.bore * (leg.oil_length + inflow)
-    if leg.driven != 0 and leg.line >= 0:  # what has come through the line
-        leg.reference = leg.bore * leg.oil_length - leg.line_scale * y[leg.line]
     p = pressure_of(law, leg.oil, leg.volume, leg.reference, modulus, leg.air, leg.air_exponent)
     if not (leg.volume > 0.0 and leg.oil > 0.0):  # no room or no oil is left: `empty_legs` says so
         p = math.nan
@@ -206,8 +204,6 @@ def let_in(
     slope[leg.line] -= moved / leg.line_scale
     slope[leg.state] += moved / leg.scale
     slope[leg.booked + LINE_LOSS] = lost
-    if leg.driven != 0:
-        leg.work -= 0.5 * p * p / modulus * moved
     leg.loss += lost
     leg.flow = flow
 
@@ -346,8 +342,7 @@ def press_leg(
     if leg.driven != 0:
         into = leg.line_pressure if leg.line >= 0 else leg.pressure
         leg.work += into * leg.bore * leg.inflow_rate
-        if leg.line < 0:
-            leg.work -= 0.5 * leg.pressure * leg.pressure / leg.modulus * leg.bore * leg.inflow_rate
+        leg.work -= 0.5 * leg.pressure * leg.pressure / leg.modulus * leg.bore * leg.inflow_rate
         leg.flow = leg.flow if leg.line >= 0 else leg.bore * leg.inflow_rate
 
 

@@ -184,8 +184,7 @@ class Leg:
         piston, around = self.volumes(outer, inner)
         reference = piston
         if self.linear:
-            come = self.area * self.drive.extension(t) - y.get("wl", 0.0)  # what is no longer in the line
-            reference = self.area * self.model.oil_length + come
+            reference = self.area * (self.model.oil_length + self.drive.extension(t))
         found = {"p": self.piston.lawful(y["w"], piston, reference)}
         if self.valve is not None:
             found["p1"] = self.rod.lawful(y["w1"], around, around)
