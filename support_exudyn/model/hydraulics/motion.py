@@ -115,13 +115,7 @@ class SecondStage(Shared, Value):
         release: [m], > 0.
     """
 
-    extensive: ClassVar[tuple[str, ...]] = (
-        "bore_area",
-        "rod_side_area",
-        "tube_mass",
-        "nominal_flow",
-        "damping",
-    )
+    extensive: ClassVar[tuple[str, ...]] = ("bore_area", "rod_side_area", "tube_mass", "nominal_flow", "damping")
 
     bore_area: SquareMetres[Positive]
     oil_length: Metres[Positive]

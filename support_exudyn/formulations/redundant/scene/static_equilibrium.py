@@ -75,13 +75,7 @@ def _held_by_loads(scene: EngineScene) -> Matrix | None:
     """
     if not isinstance(scene, Scene) or not scene.loads:
         return None
-    compliant = (
-        scene.clearance_joints,
-        scene.compliant_pins,
-        scene.oil_columns,
-        scene.cylinders,
-        scene.legs.names,
-    )
+    compliant = (scene.clearance_joints, scene.compliant_pins, scene.oil_columns, scene.cylinders, scene.legs.names)
     if any(compliant) or scene.bodies.keys() != scene.scenario.unloaded.bodies.keys():
         return None
     closed, acting = scene.closed_kinetics, scene.scenario.acting_loads
