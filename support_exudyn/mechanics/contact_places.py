@@ -207,7 +207,7 @@ class GuideContactPlace(ContactPlace):
         corner = motion.place(self.journal, self.journal_point)
         offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
         away = np.maximum(np.linalg.norm(offset, axis=1), math.ulp(0.0))[:, None]
-        point = corner + self.part.contact.bearing.radius * offset / away
+        point = corner + self.part.contact.bearing.contact_arms(0.0)[1] * offset / away
         return self.bore, self.journal, PinForce(np.column_stack([contact.force_x, contact.force_y]), point)
 
     @property
