@@ -17,12 +17,15 @@ from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.plane_geometry import minus, rotated
 from user_forces.values.value import Vector2
 
+PLAY = 1e-3  # [m], as of a pin
+
 
 @dataclass(frozen=True)
 class BlockContactPlace(GuideContactPlace):
     """The face of a falling block, which a point of the machine may meet: a slot with one wall.
 
-    The block is the bore; `play` is the depth of its first blow.
+    The block is the bore. It has no play; that by which steps and errors go is the depth of its first blow, or
+    PLAY if that is less.
     """
 
     @property
@@ -59,7 +62,7 @@ def block_places(blocks: Mapping[str, FallingBlock], gravity: Vector2) -> dict[s
             name,
             Slide(body=block.body, point=block.reference, direction=block.slope, against=name),
             GuideContact(rotated(minus(block.point, block.reference), -block.slope), 0.0, block.contact),
-            block.first_depth(gravity),
+            min(block.first_depth(gravity) or PLAY, PLAY),
         )
         for name, block in blocks.items()
     }

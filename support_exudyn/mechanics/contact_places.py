@@ -150,7 +150,8 @@ class GuideContactPlace(ContactPlace):
         """Tell corner and middle line by the slide."""
         slide, (point, middle, contact) = self.slide, self.part
         guide = self.name.rpartition(".")[0]
-        known = {"of": f"guides.{guide}", "contact": contact, "bore": slide.against, "journal": slide.body}
+        known: dict[str, object] = {"of": f"guides.{guide}", "contact": contact}
+        known |= {"bore": slide.against, "journal": slide.body}
         known["bore_point"] = plus(slide.point, rotated((0.0, middle), slide.direction))
         known["journal_point"] = plus(slide.point, rotated(point, slide.direction))
         for name, item in known.items():

@@ -42,10 +42,10 @@ PIN, ACTUATOR, CRANK, SLIDE, GEAR = range(5)
 ROW = _record("body other first", "x y t ox oy ot wanted held off rate")
 # rows that share a body, i >= j; which of the bodies of each it is
 PAIR = _record("i j side other", "")
-# journal `second` in bore `first`, both points. slot: corner between walls, or ONE_SIDED of one wall alone. law:
-# address of both laws, with constants from `constants` on. state: of the friction law in y. radius: of the bore,
-# or of a pin in a slot. angle: of the bore's axes at the start. | closed, impact velocity, inverse effective
-# mass: what it remembers.
+# journal `second` in bore `first`, both points. slot: corner between walls, or ONE_SIDED of one wall alone.
+# law: address of both laws, with constants from `constants` on. state: of the friction law in y.
+# radius: of the bore, or of a pin in a slot. angle: of the bore's axes at the start. | closed, impact velocity,
+# inverse effective mass: what it remembers.
 # Then the contact now, the largest force and when that was, where the law last gave what no force can be.
 ONE_SIDED = 2
 CONTACT = _record(

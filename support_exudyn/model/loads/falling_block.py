@@ -22,7 +22,7 @@ from user_forces.values.units import (
     NewtonsPerMetreToN,
     Radians,
 )
-from user_forces.values.value import InputError, NonNegative, Positive, Real, Restitution, Vector2, value
+from user_forces.values.value import NonNegative, Positive, Real, Restitution, Vector2, value
 
 STEEPEST = math.radians(80.0)  # slope of a face; one that stands upright cannot be fallen on
 
@@ -46,7 +46,8 @@ class FallingBlock(AnyLoad):
     NAME.velocity_y tell its motion. Its face is a contact, as a clearance pin is: its blows are located, and
     `Result` has them by the load's name. Channels of its own: NAME.force, NAME.gap, NAME.impact_velocity.
 
-    It starts at t = 0 and strikes at sqrt(2 height/g) if it starts at rest and the point stands still.
+    It starts at t = 0 and strikes at sqrt(2 height/g) if it starts at rest and the point stands still; with no
+    height, speed and weight it waits to be struck.
 
     Arguments:
         body, point: what it falls on, and where, start posture [m].
@@ -70,24 +71,10 @@ class FallingBlock(AnyLoad):
     slope: Radians[Annotated[Real, Field(ge=-STEEPEST, le=STEEPEST)]] = 0.0
     density: KilogramsPerCubicMetre[Positive] = 2600.0
 
-    def check(self, gravity: Vector2) -> None:
-        """Raise InputError unless it falls as far as its point under gravity [m/s^2]."""
-        if self._square_of_speed(gravity) <= 0.0:
-            raise InputError(
-                f"height = {self.height} m, speed = {self.speed} m/s: with a gravity of {gravity[1]:g} m/s^2 "
-                "upward it does not strike; allowed: height > 0 with a gravity that pulls down, or more speed"
-            )
-
-    def first_speed(self, gravity: Vector2) -> float:
-        """Speed downward with which it reaches its point under gravity [m/s^2], if that stands still [m/s]."""
-        return math.sqrt(self._square_of_speed(gravity))
-
-    def _square_of_speed(self, gravity: Vector2) -> float:
-        return self.speed**2 - 2.0 * gravity[1] * self.height
-
     def first_depth(self, gravity: Vector2) -> float:
-        """Depth of the first blow on something that stands still, undamped [m]."""
-        return self.contact.normal.turning_depth(0.5 * self.mass * self.first_speed(gravity) ** 2)
+        """Depth [m] of the first blow on what stands still, undamped, under gravity [m/s^2]; 0: none."""
+        energy = self.mass * (0.5 * self.speed**2 - gravity[1] * self.height)
+        return self.contact.normal.turning_depth(max(0.0, energy))
 
     @property
     def side(self) -> float:

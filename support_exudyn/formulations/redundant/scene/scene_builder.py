@@ -220,8 +220,7 @@ class PlaneBuilder(EngineBuilder):
             for part, contact in guide.contacts().items():
                 self.add_corner(f"{name}.{part}", contact.point[1])
         for name, block in scenario.blocks.items():
-            contact = scenario.contact_places[name].contact
-            self.connectors[name] = FaceConnector(mbs, contact, *self.mounts(name), block.start_depth)
+            self.connectors[name] = FaceConnector(mbs, block.contact, *self.mounts(name), block.start_depth)
         for gear in linkage.gears.values():
             self.add_gear(gear)
         loads = {name: self.add_load(load, name) for name, load in scenario.acting_loads.items()}
