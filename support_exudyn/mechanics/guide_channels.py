@@ -70,9 +70,7 @@ class _Block:
             upper.append(slot.clearance - height)
             lower.append(slot.clearance + height)
             x, y = (place - middle).T
-            arms.append(
-                (along * x + across * y, along * y - across * x + np.sign(height) * slot.contact_arms(0.0)[1])
-            )
+            arms.append((along * x + across * y, along * y - across * x + np.sign(height) * radius))
         self.upper, self.lower = np.min(upper, axis=0), np.min(lower, axis=0)
         self.x, self.y = np.moveaxis(np.array(arms), 1, 0)
 

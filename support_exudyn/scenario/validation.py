@@ -182,4 +182,4 @@ def _check_load(scenario: ScenarioData, where: str, name: str, load: AnyLoad, ta
             f"{where}.other = {against!r}: no such body; allowed: {GROUND}, {', '.join(linkage.bodies)}"
         )
     if not isinstance(load, (ActingLoad, FallingBlock)):
-        raise ValueError(f"{where} = {type(load).__name__}: allowed: a Load, a MomentLoad or a FallingBlock")
+        raise ValueError(f"{where} = {type(load).__name__}: allowed: one of the kinds in model.loads")

@@ -60,9 +60,10 @@ CYLINDER = _record(
     "bore rod_side oil_length rod_length modulus supply flow_factor tank hose rod_hose damping length0 "
     "force work loss",
 )
-# a force on point `point` against `origin`, or a moment on their bodies; with the first
-# of its own courses, and how many
-LOAD = _record("point origin moment constants course courses", "law fx fy work loss")
+# a force on point `point` against `origin`, a moment on their bodies, or forces up on both, with the heights
+# of these at the start, `first` and `second`; with the first of its own courses, and how many
+FORCE, MOMENT, STRETCH = range(3)
+LOAD = _record("point origin kind constants course courses", "law first second fx fy work loss")
 # what a load is told of its own courses, and where in `SceneArrays.out`
 FIRST_COURSE, COURSES_OF_LOAD = 4, 8
 BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")

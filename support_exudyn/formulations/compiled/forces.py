@@ -7,7 +7,9 @@ from support_exudyn.formulations.compiled.arrays import (
     DAMPING_LOSS,
     FIRST_COURSE,
     FRICTION_LOSS,
+    MOMENT,
     ONE_SIDED,
+    STRETCH,
     WORK,
     SceneArrays,
     Vector,
@@ -230,7 +232,7 @@ def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
         constants = scene.constants[one.constants :]
         for k in range(one.courses):
             scene.out[FIRST_COURSE + k] = scene.courses[one.course + k].value
-        if one.moment != 0:
+        if one.kind == MOMENT:
             turn = (y[3 * point.body + 2] if point.body >= 0 else 0.0) - (
                 y[3 * origin.body + 2] if origin.body >= 0 else 0.0
             )
@@ -238,6 +240,12 @@ def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
             one.fx = call_law(one.law, t, turn, spin, 0.0, 0.0, 0.0, constants, scene.out)
             push(scene, point.body, 0.0, 0.0, one.fx)
             push(scene, origin.body, 0.0, 0.0, -one.fx)
+        elif one.kind == STRETCH:
+            first, second = point.y - one.first, origin.y - one.second
+            one.fx = call_law(one.law, t, first, second, point.vy, origin.vy, 0.0, constants, scene.out)
+            one.fy = scene.out[2]
+            push_point(scene, one.point, 0.0, one.fx)
+            push_point(scene, one.origin, 0.0, one.fy)
         else:
             x, y_ = point.x - origin.x, point.y - origin.y
             vx, vy = point.vx - origin.vx, point.vy - origin.vy
