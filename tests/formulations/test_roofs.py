@@ -79,7 +79,7 @@ def tilted(damping: float) -> np.ndarray:
 @pytest.mark.parametrize("damping", [0.0, 0.3])
 def test_a_bedding_is_the_integral_over_its_stretch(formulation: str, share: float, damping: float) -> None:
     scene = Scenario(
-        machine=Plate(), loads={"roof": over_the_plate(damping=damping)}, duration=0.6, step=2e-4,
+        machine=Plate(), loads={"roof": over_the_plate(damping=damping)}, duration=0.6, step=1e-4,
         formulation=formulation, solver=EXACT,
     )  # fmt: skip
     result = simulate(scene)
@@ -189,7 +189,8 @@ def reaction(**changes: object) -> GroundReaction:
 
 
 @pytest.mark.parametrize("between", ["linear", "smooth"])
-@pytest.mark.parametrize(("formulation", "share"), [("redundant", 1e-4), ("compiled", 1e-7)])
+# redundant: second order, four times less with half the steps
+@pytest.mark.parametrize(("formulation", "share"), [("redundant", 4e-4), ("compiled", 1e-7)])
 def test_a_ram_under_a_reaction_curve_is_as_by_scipy(between: str, formulation: str, share: float) -> None:
     roof = reaction(between=between)
     hold = SpringDamper(body="ram", point=TOP, other_point=(0.0, 0.0), stiffness=3e7, free_length=1.0)
