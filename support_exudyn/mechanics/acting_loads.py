@@ -105,7 +105,7 @@ def forces_at_rest(
         elif isinstance(load, StretchLoad):
             ends = [system.point(position, load.body, point) for point in load.points]
             ways = [float(place[1]) - point[1] for (place, _), point in zip(ends, load.points, strict=True)]
-            pushes = load.forces(LoadedStretch(time, *ways, 0.0, 0.0))
+            pushes = load.forces(LoadedStretch(time, ways[0], ways[1], 0.0, 0.0))
             forces += sum(push * rate[1] for push, (_, rate) in zip(pushes, ends, strict=True))
     return forces
 

@@ -78,7 +78,7 @@ class BeddedRoof(StretchLoad):
         speed = self.descent.speed(at.time)
         return speed + at.first_rate, speed + at.second_rate
 
-    def _pressed_part(self, depths: Vector2) -> Part:
+    def _pressed_part(self, depths: Vector2) -> Pressed:
         return _positive_part(*depths)
 
     def stored(self, at: LoadedStretch) -> float:
@@ -151,7 +151,7 @@ class BeddedRoof(StretchLoad):
         return first, second
 
 
-class Part(NamedTuple):
+class Pressed(NamedTuple):
     """A part of a stretch, from one share of its length to another; nothing if they are in the wrong order."""
 
     begin: float
@@ -162,9 +162,9 @@ class Part(NamedTuple):
         """Its share of the stretch."""
         return maximum(0.0, self.end - self.begin)
 
-    def within(self, other: Part) -> Part:
+    def within(self, other: Pressed) -> Pressed:
         """What both have in common."""
-        return Part(maximum(self.begin, other.begin), minimum(self.end, other.end))
+        return Pressed(maximum(self.begin, other.begin), minimum(self.end, other.end))
 
     def points(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Gauss's two points, as shares of the stretch, and their weights: exact for cubics."""
@@ -172,11 +172,11 @@ class Part(NamedTuple):
         return (middle - GAUSS * size, 0.5 * size), (middle + GAUSS * size, 0.5 * size)
 
 
-def _positive_part(first: float, second: float) -> Part:
+def _positive_part(first: float, second: float) -> Pressed:
     """Where what goes evenly from a first number to a second is positive."""
     before, after = maximum(0.0, -first), maximum(0.0, -second)
     begin = before / (before + maximum(0.0, second) + SMALLEST)
-    return Part(begin, 1.0 - after / (after + maximum(0.0, first) + SMALLEST))
+    return Pressed(begin, 1.0 - after / (after + maximum(0.0, first) + SMALLEST))
 
 
 def _between(s: float, ends: Vector2) -> float:

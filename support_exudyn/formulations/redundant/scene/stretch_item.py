@@ -43,7 +43,7 @@ class StretchItem(LoadItem):
         return f"force of {first:g}, {second:g} N", size, size * math.hypot(at.first_rate, at.second_rate)
 
 
-class Moving(NamedTuple):
+class FirstPoint(NamedTuple):
     """What the connector tells: time [s], way up [m], its rate [m/s], turn [rad] and its rate [rad/s]."""
 
     time: float
@@ -53,7 +53,7 @@ class Moving(NamedTuple):
     spin: float
 
 
-def pull(load: StretchLoad, at: Moving) -> Vector2:
+def pull(load: StretchLoad, at: FirstPoint) -> Vector2:
     """With what the connector pulls its ends together: force up [N] and moment [N m] about the first point."""
     (x, y), (u, v) = load.points
     along, up = u - x, v - y
@@ -68,7 +68,7 @@ def add_stretch(mbs: Any, load: StretchLoad, origin: Any, first: Any, second: An
     """Let a load act between a marker on the ground and the first of two on the body."""
     connector = mbs.AddObject(ObjectConnectorRigidBodySpringDamper(markerNumbers=[origin, first]))
     function: Any = _force(load)
-    if is_formula(lambda *known: pull(load, Moving(*known)), len(Moving._fields)):
+    if is_formula(lambda *known: pull(load, FirstPoint(*known)), len(FirstPoint._fields)):
         function = CreateSymbolicUserFunction(mbs, _expression(load), NAME, connector)
     mbs.SetObjectParameter(connector, NAME, function)
     return StretchItem(mbs, load, connector, function, (first, second))
@@ -80,7 +80,7 @@ def _force(load: StretchLoad) -> Callable[..., list[float]]:
     def force(
         mbs: Any, t: float, item: int, way: Any, rotation: Any, velocity: Any, spin: Any, *others: Any
     ) -> list[float]:
-        up, moment = pull(load, Moving(t, way[1], velocity[1], rotation[2], spin[2]))
+        up, moment = pull(load, FirstPoint(t, way[1], velocity[1], rotation[2], spin[2]))
         return [0.0, up, 0.0, 0.0, 0.0, moment]
 
     return force
@@ -90,7 +90,7 @@ def _expression(load: StretchLoad) -> Callable[..., Any]:
     """The same as a function that the engine calls once with its symbols; it goes by the names of arguments."""
 
     def force(*known: Any) -> Any:
-        up, moment = pull(load, Moving(*map(unknown, known)))
+        up, moment = pull(load, FirstPoint(*map(unknown, known)))
         zero = engine.Real(0.0)
         return engine.Vector([zero, real(up), zero, zero, zero, real(moment)])
 
