@@ -85,12 +85,15 @@ if TYPE_CHECKING:
     )
     from support_exudyn.model.loads.applied_force import AppliedForce
     from support_exudyn.model.loads.applied_torque import AppliedTorque
+    from support_exudyn.model.loads.bedded_roof import BeddedRoof
     from support_exudyn.model.loads.course import HarmonicCourse, TableCourse
     from support_exudyn.model.loads.falling_block import FallingBlock
+    from support_exudyn.model.loads.ground_reaction import GroundReaction
     from support_exudyn.model.loads.load import Load, LoadedPoint
     from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
     from support_exudyn.model.loads.roof import Roof
     from support_exudyn.model.loads.spring_damper import SpringDamper
+    from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
     from support_exudyn.model.loads.torsion_spring import TorsionSpring
     from support_exudyn.model.machine import Machine
     from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
@@ -116,6 +119,7 @@ __all__ = [
     "ActuatorModel",
     "AppliedForce",
     "AppliedTorque",
+    "BeddedRoof",
     "Body",
     "BushingPin",
     "Channel",
@@ -134,6 +138,7 @@ __all__ = [
     "FilesCompared",
     "FrictionLaw",
     "Gear",
+    "GroundReaction",
     "Guide",
     "HarmonicCourse",
     "Held",
@@ -152,6 +157,7 @@ __all__ = [
     "Linkage",
     "Load",
     "LoadedPoint",
+    "LoadedStretch",
     "Lumped",
     "Machine",
     "MomentLoad",
@@ -182,6 +188,7 @@ __all__ = [
     "SolverSettings",
     "SpringDamper",
     "Steady",
+    "StretchLoad",
     "Stroke",
     "SuddenOpening",
     "TableCourse",
@@ -261,12 +268,15 @@ _PLACES = {
     ),
     ".model.loads.applied_force": ("AppliedForce",),
     ".model.loads.applied_torque": ("AppliedTorque",),
+    ".model.loads.bedded_roof": ("BeddedRoof",),
     ".model.loads.course": ("HarmonicCourse", "TableCourse"),
     ".model.loads.falling_block": ("FallingBlock",),
+    ".model.loads.ground_reaction": ("GroundReaction",),
     ".model.loads.load": ("Load", "LoadedPoint"),
     ".model.loads.moment_load": ("MomentLoad", "TurnedBody"),
     ".model.loads.roof": ("Roof",),
     ".model.loads.spring_damper": ("SpringDamper",),
+    ".model.loads.stretch_load": ("LoadedStretch", "StretchLoad"),
     ".model.loads.torsion_spring": ("TorsionSpring",),
     ".model.machine": ("Machine",),
     ".model.pins": ("ClearancePin", "IdealPin", "Pin"),

@@ -11,12 +11,13 @@ from support_exudyn.mechanics.reactions import push, twist
 from support_exudyn.mechanics.trajectory import LoadSeries, Series
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
 from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
+from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
 
 
 @singledispatch
 def load_series(load: ActingLoad, name: str, motion: BodyMotion, time: Series) -> LoadSeries:
     """The load of this name at the records [s]."""
-    raise TypeError(f"loads.{name} = {type(load).__name__}: is neither a Load nor a MomentLoad")
+    raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
 
 
 @load_series.register
@@ -50,12 +51,33 @@ def _of_moment(load: MomentLoad, name: str, motion: BodyMotion, time: Series) ->
     )
 
 
+@load_series.register
+def _of_stretch(load: StretchLoad, name: str, motion: BodyMotion, time: Series) -> LoadSeries:
+    del name
+    ends = [motion.point(load.body, point) for point in load.points]
+    ways = [end.position[:, 1] - point[1] for end, point in zip(ends, load.points, strict=True)]
+    rates = [end.velocity[:, 1] for end in ends]
+    found = [LoadedStretch(*row) for row in np.column_stack([time, *ways, *rates]).tolist()]
+    observed = [load.observed(at) for at in found]
+    forces = np.array([load.forces(at) for at in found]).reshape(-1, 2)
+    arm = ends[1].position[:, 0] - ends[0].position[:, 0]
+    return LoadSeries(
+        np.column_stack([np.zeros(len(found)), forces.sum(axis=1)]),
+        arm * forces[:, 1],
+        np.array([load.stored(at) for at in found]),
+        {name: np.array([values[name] for values in observed]) for name in load.channels},
+    )
+
+
 def add_load(forces: Series, motion: BodyMotion, name: str, load: ActingLoad, series: LoadSeries) -> None:
     """Add what a load of this name does at the records to the forces on all coordinates (n, 3 b)."""
     against = load.against(name)
     if isinstance(load, Load):
         push(forces, motion, load.body, series.force, motion.place(load.body, load.point))
         push(forces, motion, against, -series.force, motion.place(against, load.origin))
+    elif isinstance(load, StretchLoad):
+        push(forces, motion, load.body, series.force, motion.place(load.body, load.points[0]))
+        twist(forces, motion, load.body, series.moment)
     else:
         twist(forces, motion, load.body, series.moment)
         twist(forces, motion, against, -series.moment)
@@ -80,13 +102,23 @@ def forces_at_rest(
         elif isinstance(load, MomentLoad):
             row = system.turning(position.size, load.body) - system.turning(position.size, against)
             forces += row * load.moment(TurnedBody(time, float(row @ position), 0.0))
+        elif isinstance(load, StretchLoad):
+            ends = [system.point(position, load.body, point) for point in load.points]
+            ways = [float(place[1]) - point[1] for (place, _), point in zip(ends, load.points, strict=True)]
+            pushes = load.forces(LoadedStretch(time, ways[0], ways[1], 0.0, 0.0))
+            forces += sum(push * rate[1] for push, (_, rate) in zip(pushes, ends, strict=True))
     return forces
 
 
 def load_rate(system: Kinetics, name: str, load: ActingLoad) -> Matrix:
-    """What turns all velocities into those a load sees in the start posture, (2, n) or of a moment (1, n)."""
+    """What turns all velocities into those a load sees in the start posture, (2, n) or of a moment (1, n).
+
+    Of a stretch those up at both its ends.
+    """
     still, against = np.zeros(3 * len(system.bodies)), load.against(name)
     if isinstance(load, Load):
         point = system.point(still, load.body, load.point)[1]
         return point - system.point(still, against, load.origin)[1]
+    if isinstance(load, StretchLoad):
+        return np.array([system.point(still, load.body, point)[1][1] for point in load.points])
     return (system.turning(still.size, load.body) - system.turning(still.size, against))[None]

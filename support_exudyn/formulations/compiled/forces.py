@@ -7,6 +7,9 @@ from support_exudyn.formulations.compiled.arrays import (
     DAMPING_LOSS,
     FIRST_COURSE,
     FRICTION_LOSS,
+    MOMENT,
+    ONE_SIDED,
+    STRETCH,
     WORK,
     SceneArrays,
     Vector,
@@ -44,9 +47,9 @@ def observe(scene: SceneArrays, n: int, y: Vector) -> None:
         along, across = c * x + s * y_, c * y_ - s * x
         # the plain rate across, less what the slot's turning moves the walls there
         speed, rise = c * vx + s * vy, c * vy - s * vx - bore_spin * along
-        side = 1.0 if across >= 0.0 else -1.0
+        side = 1.0 if across >= 0.0 or contact.slot == ONE_SIDED else -1.0
         nx, ny = -s * side, c * side
-        depth = abs(across) - contact.clearance
+        depth = side * across - contact.clearance
         rate = side * rise
         bore_arm, arm = contact.clearance + depth + contact.radius, contact.radius
         x, y_ = -s * across, c * across
@@ -229,11 +232,7 @@ def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
         constants = scene.constants[one.constants :]
         for k in range(one.courses):
             scene.out[FIRST_COURSE + k] = scene.courses[one.course + k].value
-        if one.hangs != 0.0:
-            one.fx, one.fy = 0.0, -one.hangs * (point.y - origin.y)
-            push_apart(scene, one.origin, one.point, one.fx, one.fy)
-            continue
-        if one.moment != 0:
+        if one.kind == MOMENT:
             turn = (y[3 * point.body + 2] if point.body >= 0 else 0.0) - (
                 y[3 * origin.body + 2] if origin.body >= 0 else 0.0
             )
@@ -241,6 +240,12 @@ def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
             one.fx = call_law(one.law, t, turn, spin, 0.0, 0.0, 0.0, constants, scene.out)
             push(scene, point.body, 0.0, 0.0, one.fx)
             push(scene, origin.body, 0.0, 0.0, -one.fx)
+        elif one.kind == STRETCH:
+            first, second = point.y - one.first, origin.y - one.second
+            one.fx = call_law(one.law, t, first, second, point.vy, origin.vy, 0.0, constants, scene.out)
+            one.fy = scene.out[2]
+            push_point(scene, one.point, 0.0, one.fx)
+            push_point(scene, one.origin, 0.0, one.fy)
         else:
             x, y_ = point.x - origin.x, point.y - origin.y
             vx, vy = point.vx - origin.vx, point.vy - origin.vy

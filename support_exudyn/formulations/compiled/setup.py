@@ -26,6 +26,7 @@ from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import Load
+from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.compilation.flat import asks_for_mass, friction_source, law_source
 from user_forces.lawful import LawError
@@ -296,7 +297,7 @@ def _contact(record: Any, place: ContactPlace, build: _Builder, linkage: Linkage
     bearing, contact = place.contact.bearing, place.contact
     record["first"] = build.point(place.bore, place.bore_point)
     record["second"] = build.point(place.journal, place.journal_point)
-    record["slot"] = bearing.is_slot
+    record["slot"] = arrays.ONE_SIDED if bearing.is_one_sided else bearing.is_slot
     record["law"], record["constants"] = build.law(law_source(contact))
     record["clearance"] = bearing.clearance
     # distance of the contact point from the bore's centre at no depth, less the clearance in a slot
@@ -356,10 +357,14 @@ def _loads(
     """Loads with their compiled functions; course: the first of theirs."""
     found = np.zeros(len(scenario.acting_loads), arrays.LOAD)
     for record, (name, load) in zip(found, scenario.acting_loads.items(), strict=True):
-        against = load.against(name)
-        point, origin = (load.point, load.origin) if isinstance(load, Load) else ((0.0, 0.0), (0.0, 0.0))
+        against, kind = load.against(name), arrays.MOMENT
+        point, origin = (0.0, 0.0), (0.0, 0.0)
+        if isinstance(load, Load):
+            kind, point, origin = arrays.FORCE, load.point, load.origin
+        elif isinstance(load, StretchLoad):
+            kind, against, (point, origin) = arrays.STRETCH, load.body, load.points
+        record["kind"], record["first"], record["second"] = kind, point[1], origin[1]
         record["point"], record["origin"] = build.point(load.body, point), build.point(against, origin)
-        record["moment"] = not isinstance(load, Load)
         source, constants, own = sources[name]
         record["law"], record["constants"] = build.law((source, constants))
         record["course"], record["courses"] = course, len(own)

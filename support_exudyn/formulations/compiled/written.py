@@ -6,6 +6,7 @@ from typing import Any
 from support_exudyn.formulations.compiled.arrays import COURSES_OF_LOAD, FIRST_COURSE
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
 from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
+from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
 from user_forces.compilation.flat import (
     LAW_ARGUMENTS,
     Formulas,
@@ -38,11 +39,12 @@ class _Time(SourceLine):
 
 
 def load_source(load: ActingLoad) -> tuple[str, list[float], list[TimeFunction]]:
-    """A load as a function of the numbers of `LoadedPoint` or `TurnedBody`, with the signature of a law.
+    """A load as a function of what it is told of the motion, with the signature of a law.
 
-    It gives the force forward [N], or the moment [N m], and writes the power of what moves the load and what is
-    lost [W], and of a force its part upwards [N]. The functions of time that it needs come last; their values
-    stand in `out` when it is called.
+    It gives the force forward [N], the moment [N m], or of a stretch the force up at its first point [N], and
+    writes the power of what moves the load and what is lost [W], and of a force its part upwards, of a stretch
+    that at its second point [N]. The functions of time that it needs come last; their values stand in `out`
+    when it is called.
 
     Raises UnwrittenLawError, with the name of the load, if there is no such source.
     """
@@ -53,6 +55,10 @@ def load_source(load: ActingLoad) -> tuple[str, list[float], list[TimeFunction]]
             at = LoadedPoint(time, *known[: len(LoadedPoint._fields) - 1])
             given, up = load.force(at)
             written = [*load.powers(at), up]
+        elif isinstance(load, StretchLoad):
+            stretch = LoadedStretch(time, *known[: len(LoadedStretch._fields) - 1])
+            given, second = load.forces(stretch)
+            written = [*load.powers(stretch), second]
         else:
             assert isinstance(load, MomentLoad)
             turned = TurnedBody(time, *known[: len(TurnedBody._fields) - 1])

@@ -23,7 +23,14 @@ SOLVED = 1e-15  # the same, of what is left of the equations, with which there i
 
 @compiled
 def fill_rest(
-    h: float, weights: Series, y0: Series, rates0: Series, y: Series, slope: Series, places: Places, rows: Matrix
+    h: float,
+    weights: Series,
+    y0: Series,
+    rates0: Series,
+    y: Series,
+    slope: Series,
+    places: Places,
+    rows: Matrix,
 ) -> float:
     """Write what is left of the equations into the last column of `rows`; the most of it, by weights."""
     most, m = 0.0, rows.shape[0]

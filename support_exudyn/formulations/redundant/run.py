@@ -59,7 +59,8 @@ def check(scenario: Scenario) -> None:
     rigid = [
         name
         for name in scenario.linkage.actuators
-        if name not in scenario.compliant_actuators and scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)
+        if name not in scenario.compliant_actuators
+        and scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)
     ]
     if scenario.solver.constraint_index == 2 and scenario.solver.integrator != "trapezoidal":
         raise InputError(

@@ -115,7 +115,13 @@ class SecondStage(Shared, Value):
         release: [m], > 0.
     """
 
-    extensive: ClassVar[tuple[str, ...]] = ("bore_area", "rod_side_area", "tube_mass", "nominal_flow", "damping")
+    extensive: ClassVar[tuple[str, ...]] = (
+        "bore_area",
+        "rod_side_area",
+        "tube_mass",
+        "nominal_flow",
+        "damping",
+    )
 
     bore_area: SquareMetres[Positive]
     oil_length: Metres[Positive]

@@ -169,7 +169,9 @@ class LegCircuit:
         """Find the states at the end of the step that the engine has solved. Raises ArithmeticError if not."""
         self._tell()
         if not self._advance():
-            raise ArithmeticError(f"the pressures of {', '.join(i.preloaded.name for i in self.items)} not found")
+            raise ArithmeticError(
+                f"the pressures of {', '.join(i.preloaded.name for i in self.items)} not found"
+            )
 
     def accept(self) -> None:
         """Keep the states that `solve` has found, and what they change by."""
@@ -256,6 +258,4 @@ class LegCircuit:
 
 def spring(mbs: Any, markers: Sequence[Any], start_length: float) -> Any:
     """The connector of a leg, which its circuit gives a force."""
-    return mbs.AddObject(
-        ObjectConnectorSpringDamper(markerNumbers=list(markers), referenceLength=start_length)
-    )
+    return mbs.AddObject(ObjectConnectorSpringDamper(markerNumbers=list(markers), referenceLength=start_length))

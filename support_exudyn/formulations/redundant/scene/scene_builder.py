@@ -20,7 +20,13 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
-from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector, SlotConnector, frame
+from support_exudyn.formulations.redundant.clearance.connector import (
+    FaceConnector,
+    Mount,
+    PinConnector,
+    SlotConnector,
+    frame,
+)
 from support_exudyn.formulations.redundant.scene.bushing import BushingItem
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
@@ -29,6 +35,7 @@ from support_exudyn.formulations.redundant.scene.engine_scene import CompliantIt
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem, add_force, add_moment
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction, rotations
 from support_exudyn.formulations.redundant.scene.scene import Scene
+from support_exudyn.formulations.redundant.scene.stretch_item import add_stretch
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.cylinder_chambers import fill_cylinders
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
@@ -37,6 +44,7 @@ from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.linkage import GROUND, Body, Crank, Gear, Slide
 from support_exudyn.model.loads.load import ActingLoad, Load
 from support_exudyn.model.loads.moment_load import MomentLoad
+from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
@@ -184,7 +192,7 @@ class PlaneBuilder(EngineBuilder):
     @singledispatchmethod
     def add_load(self, load: ActingLoad, name: str) -> LoadItem:
         """Add what stands in the engine for a load of this name."""
-        raise TypeError(f"loads.{name} = {type(load).__name__}: is neither a Load nor a MomentLoad")
+        raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
 
     @add_load.register
     def _add_force(self, load: Load, name: str) -> LoadItem:
@@ -195,6 +203,11 @@ class PlaneBuilder(EngineBuilder):
     def _add_moment(self, load: MomentLoad, name: str) -> LoadItem:
         del name
         return add_moment(self.mbs, load, rotations(self.mbs, self.node(load.other), self.node(load.body)))
+
+    @add_load.register
+    def _add_stretch(self, load: StretchLoad, name: str) -> LoadItem:
+        first, second = (self.marker(load.body, point) for point in load.points)
+        return add_stretch(self.mbs, load, self.marker(load.against(name), load.points[0]), first, second)
 
     def build(self) -> Scene:
         """The whole scene."""
@@ -214,6 +227,8 @@ class PlaneBuilder(EngineBuilder):
         for name, guide in scenario.guides.items():
             for part, contact in guide.contacts().items():
                 self.add_corner(f"{name}.{part}", contact.point[1])
+        for name, block in scenario.blocks.items():
+            self.connectors[name] = FaceConnector(mbs, block.contact, *self.mounts(name), block.start_depth)
         for gear in linkage.gears.values():
             self.add_gear(gear)
         loads = {name: self.add_load(load, name) for name, load in scenario.acting_loads.items()}

@@ -1,0 +1,113 @@
+"""A roof whose force follows from how far it has converged."""
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from typing_extensions import Self
+
+from support_exudyn.model.drives.table_drive import TableDrive
+from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
+from user_forces.expressions.scalar import maximum, minimum
+from user_forces.values.units import Metres, Newtons
+from user_forces.values.value import NonNegative, Vector2, value
+
+MOST = 50  # points of a curve, each of which an evaluation of the force goes through
+
+
+@value
+class GroundReaction(Load):
+    """A roof that pushes a point of a body down by a force which follows from its convergence.
+
+    The convergence is the way down of the point since the start posture, which the roof follows without a gap:
+    the force against it is the roof's ground reaction curve. It falls where rock carries the more of itself the
+    more it has given, and rises where loose rock grows. The curve goes through given points, joined as those of
+    a `TableDrive` are; the force is constant before the first and after the last, and on the way back it is
+    what it was on the way down. All that it does to the point counts as work; it stores nothing.
+
+    Arguments:
+        body, point: what it presses on, see `Load`.
+        convergences: of the points of the curve [m], >= 0, each greater than the one before; two to 50.
+        forces: at these, downward [N], >= 0.
+        between: how the points are joined: "linear", with kinks of the force at the points, or "smooth".
+    """
+
+    convergences: Metres[Annotated[tuple[NonNegative, ...], Field(min_length=2, max_length=MOST)]]
+    forces: Newtons[Annotated[tuple[NonNegative, ...], Field(min_length=2, max_length=MOST)]]
+    between: Literal["smooth", "linear"] = "smooth"
+
+    @model_validator(mode="after")
+    def _is_a_curve(self) -> Self:
+        if len(self.convergences) != len(self.forces):
+            raise ValueError(
+                f"{len(self.convergences)} convergences and {len(self.forces)} forces: allowed: as many of both"
+            )
+        for n, (before, after) in enumerate(zip(self.convergences, self.convergences[1:], strict=False), 1):
+            if after <= before:
+                raise ValueError(f"convergences[{n}] = {after} m: allowed: > {before} m, the one before")
+        return self
+
+    @cached_property
+    def _rise(self) -> TableDrive:
+        """What the force gains over the first one, by the convergence in place of the time."""
+        gains = tuple(force - self.forces[0] for force in self.forces)
+        return TableDrive(times=self.convergences, extensions=gains, between=self.between)
+
+    @cached_property
+    def _pieces(self) -> tuple[tuple[float, float, float, float, float], ...]:
+        """Where each piece of the curve begins, its length [m], and the coefficients of what it adds [N]."""
+        found = []
+        for begin, end in zip(self.convergences, self.convergences[1:], strict=False):
+            piece = self._rise.cubic(0.5 * (begin + end))
+            found.append((begin, end - begin, piece.a1, piece.a2, piece.a3))
+        return tuple(found)
+
+    def push(self, convergence: float) -> float:
+        """The force at a convergence [m], downward [N]."""
+        force: float = self.forces[0]
+        for begin, length, a1, a2, a3 in self._pieces:
+            x = minimum(1.0, maximum(0.0, (convergence - begin) / length))
+            force = force + x * (a1 + x * (a2 + x * a3))
+        return force
+
+    def force(self, at: LoadedPoint) -> Vector2:
+        """Force on the point: nothing forward, and down [N]."""
+        return 0.0, -self.push(-at.y)
+
+    def stored(self, at: LoadedPoint) -> float:
+        """Stored energy, which is 0 J."""
+        del at
+        return 0.0
+
+    def powers(self, at: LoadedPoint) -> Powers:
+        """Power [W] of the force on the point, and no loss."""
+        return Powers(-self.push(-at.y) * at.vy, 0.0)
+
+    @property
+    def channels(self) -> Mapping[str, LoadChannel]:
+        """The channels are the roof's force and its convergence."""
+        return {
+            "force": LoadChannel("N", "of the roof, downward"),
+            "convergence": LoadChannel("m", "way down of roof and point since the start posture"),
+        }
+
+    def observed(self, at: LoadedPoint) -> Mapping[str, float]:
+        """Force [N] and convergence [m]."""
+        return {"force": self.push(-at.y), "convergence": -at.y}
+
+    @property
+    def steepness(self) -> Vector2:
+        """Steepness [N/m]: none along the face, that of the steepest chord, times 3 of cubics, against it."""
+        steepest = max(
+            abs(high - low) / (end - begin)
+            for low, high, begin, end in zip(
+                self.forces, self.forces[1:], self.convergences, self.convergences[1:], strict=False
+            )
+        )
+        return 0.0, steepest * (1.0 if self.between == "linear" else 3.0)
+
+    def largest(self, duration: float) -> Vector2:
+        """The force in the start posture, down [N]."""
+        del duration
+        return 0.0, -self.push(0.0)

@@ -1,0 +1,232 @@
+"""Roofs over a stretch and by a reaction curve: closed forms, an independent integrator, both formulations."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from support_exudyn import (
+    BeddedRoof,
+    Body,
+    CubicStep,
+    GroundReaction,
+    Linkage,
+    LoadedStretch,
+    Machine,
+    OilColumn,
+    Roof,
+    Scenario,
+    SolverSettings,
+    SpringDamper,
+    UniformSpeed,
+    bore_area,
+    reference_support,
+    simulate,
+)
+from support_exudyn.model.linkage import pinned
+from support_exudyn.model.loads.load import ActingLoad
+from tests.roof_cases import MASS, OVER_THE_COLUMNS, TOP, Ram
+from user_forces import value
+
+FORMULATIONS = ("redundant", "compiled")
+EXACT = SolverSettings(tolerance=1e-9)
+
+
+@value
+class Plate(Machine):
+    """A plate of 4 m and 1 t on a pivot in its middle, and nothing else."""
+
+    spin: float = 0.0
+
+    def linkage(self) -> Linkage:
+        plate = Body(mass=1000.0, inertia=1500.0, centre=(0.0, 1.0), spin=self.spin)
+        return Linkage(bodies={"plate": plate}, pins={"pivot": pinned("ground", "plate", (0.0, 1.0))})
+
+
+def over_the_plate(**changes: object) -> BeddedRoof:
+    fields: dict[str, object] = {
+        "body": "plate", "points": ((-2.0, 1.0), (2.0, 1.0)), "bedding": 1e6, "gaps": (0.01, 0.002),
+        "descent": CubicStep(stroke=0.012, start=0.0, end=0.2), "damping": 0.3,
+    }  # fmt: skip
+    return BeddedRoof(**fields | changes)
+
+
+@cache
+def tilted(damping: float) -> np.ndarray:
+    """Angle and spin of the plate after 0.6 s, with the integral over 4000 points (the rule of midpoints)."""
+    roof = over_the_plate(damping=damping)
+    s = (np.arange(4000) + 0.5) / 4000
+    x = -2.0 + 4.0 * s
+    gaps = 0.01 + s * (0.002 - 0.01)
+
+    def rates(t: float, state: np.ndarray) -> list[float]:
+        angle, spin = state
+        depth = roof.descent.extension(t) + x * math.sin(angle) - gaps
+        rate = roof.descent.speed(t) + x * math.cos(angle) * spin
+        spread = 1e6 * np.maximum(0.0, depth) * np.maximum(0.0, 1.0 + damping * rate)
+        return [spin, -float((spread * x).mean()) * 4.0 * math.cos(angle) / 1500.0]
+
+    found = solve_ivp(rates, (0.0, 0.6), [0.0, 0.0], "DOP853", rtol=1e-10, atol=1e-12, max_step=1e-3)
+    return found.y[:, -1]
+
+
+@pytest.mark.parametrize(("formulation", "share"), [("redundant", 2e-4), ("compiled", 1e-6)])
+@pytest.mark.parametrize("damping", [0.0, 0.3])
+def test_a_bedding_is_the_integral_over_its_stretch(formulation: str, share: float, damping: float) -> None:
+    scene = Scenario(
+        machine=Plate(), loads={"roof": over_the_plate(damping=damping)}, duration=0.6, step=1e-4,
+        formulation=formulation, solver=EXACT,
+    )  # fmt: skip
+    result = simulate(scene)
+    found = np.array([result["plate.angle"][-1], result["plate.angular_velocity"][-1]])
+    size = [np.abs(result[f"plate.{what}"]).max() for what in ("angle", "angular_velocity")]
+    # the reference's own points are good to 1e-7
+    np.testing.assert_allclose(found / size, tilted(damping) / size, atol=share)
+    turned = np.abs(result["energy.work"]).max()
+    assert result.energy_error < 1e-4 * turned
+    if damping > 0.0:
+        assert result["energy.damping_loss"][-1] > 1e-3 * turned
+
+
+def test_place_and_pressed_length_of_a_bedding_on_what_stands_still() -> None:
+    # a wedge: pressed from where the gap is closed to the second point, resultant at its third
+    roof = BeddedRoof(
+        body="ram",
+        points=((-1.0, 1.0), (2.0, 1.0)),
+        bedding=2e6,
+        gaps=(0.02, 0.005),
+        descent=UniformSpeed(stroke=0.015, start=0.0, end=1e-3),
+    )
+    found = roof.observed(LoadedStretch(0.02, 0.0, 0.0, 0.0, 0.0))
+    pressed = 3.0 * 0.01 / 0.015
+    force = 0.5 * 2e6 * 0.01 * pressed
+    expected = {"pressed": pressed, "force": force, "place": 3.0 - pressed / 3.0}
+    assert found == pytest.approx(expected | {"gap_first": 0.005, "gap_second": -0.01}, rel=1e-12)
+    assert sum(roof.largest(1.0)) == pytest.approx(-force, rel=1e-12)
+    apart = roof.observed(LoadedStretch(0.0, 0.0, 0.0, 0.0, 0.0))
+    assert (apart["force"], apart["place"], apart["pressed"]) == (0.0, 0.0, 0.0)
+
+
+def over_the_canopy(load: ActingLoad | dict[str, ActingLoad], **changes: object) -> Scenario:
+    oil = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9, damping_time=5e-3)
+    fields: dict[str, object] = {
+        "machine": reference_support(), "loads": load if isinstance(load, dict) else {"roof": load},
+        "duration": 0.15, "actuators": {"front_column": oil, "rear_column": oil}, "start": "settled",
+        "step": 2.5e-4,
+    }  # fmt: skip
+    return Scenario(**fields | changes)
+
+
+def on_the_canopy(**changes: object) -> BeddedRoof:
+    x, y = OVER_THE_COLUMNS
+    fields: dict[str, object] = {
+        "body": "canopy", "points": ((x - 0.6, y), (x + 1.4, y)), "bedding": 5e8, "gaps": (0.001, 0.003),
+        "descent": CubicStep(stroke=0.006, start=0.0, end=0.1),
+    }  # fmt: skip
+    return BeddedRoof(**fields | changes)
+
+
+def test_many_points_tend_to_the_bedding_with_second_order() -> None:
+    whole = simulate(over_the_canopy(on_the_canopy(), formulation="compiled", solver=EXACT))
+    force = whole["roof.force"]
+    errors = []
+    for count in (4, 8):
+        roofs: dict[str, ActingLoad] = {}
+        for n in range(count):
+            s, (x, y) = (n + 0.5) / count, OVER_THE_COLUMNS
+            roofs[f"roof_{n}"] = Roof(
+                body="canopy",
+                point=(x - 0.6 + 2.0 * s, y),
+                stiffness=5e8 * 2.0 / count,
+                gap=0.001 + 0.002 * s,
+                descent=CubicStep(stroke=0.006, start=0.0, end=0.1),
+            )
+        run = simulate(over_the_canopy(roofs, formulation="compiled", solver=EXACT))
+        errors.append(float(np.abs(sum(run[f"{name}.force"] for name in roofs) - force).max()))
+    assert errors[1] < 0.01 * force.max()
+    assert errors[0] / errors[1] > 3.0
+
+
+@pytest.mark.parametrize("damping", [0.0, 2.0])
+def test_both_formulations_agree_under_a_bedding(damping: float) -> None:
+    scene = over_the_canopy(on_the_canopy(damping=damping), step=1e-4)
+    one, other = (simulate(replace(scene, formulation=name, solver=EXACT)) for name in FORMULATIONS)
+    for channel in ("roof.force", "roof.place", "front_column.force", "pin.rear_base.force", "tip.y"):
+        # kinks, where the bedding begins and its pressed part grows, within steps of 0.1 ms
+        size = np.abs(one[channel]).max()
+        np.testing.assert_allclose(other[channel] / size, one[channel] / size, atol=5e-4, err_msg=channel)
+    for run in (one, other):
+        assert run.energy_error < 1e-3 * np.abs(run["energy.work"]).max()
+
+
+@pytest.mark.parametrize("load", ["bedding", "linear", "smooth"])
+def test_kinks_of_the_force_cost_no_accuracy(load: str) -> None:
+    # by where the point is, so that nothing tells when: two tolerances of the method with error control
+    roof = on_the_canopy(damping=1.0) if load == "bedding" else reaction(body="canopy", between=load)
+    scene = over_the_canopy(roof, formulation="compiled")
+    rough, fine = (
+        simulate(replace(scene, solver=SolverSettings(tolerance=t)))["front_column.force"] for t in (1e-6, 1e-9)
+    )
+    np.testing.assert_allclose(rough / fine.max(), fine / fine.max(), atol=1e-5)
+
+
+# --- a reaction curve ---
+
+
+def reaction(**changes: object) -> GroundReaction:
+    fields: dict[str, object] = {
+        "body": "ram", "point": TOP, "convergences": (0.0, 0.002, 0.005, 0.02),
+        "forces": (4e5, 2.5e5, 1e5, 6e4), "between": "linear",
+    }  # fmt: skip
+    if changes.get("body") == "canopy":
+        changes["point"] = OVER_THE_COLUMNS
+    return GroundReaction(**fields | changes)
+
+
+@pytest.mark.parametrize("between", ["linear", "smooth"])
+# redundant: second order, four times less with half the steps
+@pytest.mark.parametrize(("formulation", "share"), [("redundant", 4e-4), ("compiled", 1e-7)])
+def test_a_ram_under_a_reaction_curve_is_as_by_scipy(between: str, formulation: str, share: float) -> None:
+    roof = reaction(between=between)
+    hold = SpringDamper(body="ram", point=TOP, other_point=(0.0, 0.0), stiffness=3e7, free_length=1.0)
+    scene = Scenario(
+        machine=Ram(), loads={"roof": roof, "hold": hold}, duration=0.2, step=5e-5,
+        formulation=formulation, solver=EXACT,
+    )  # fmt: skip
+    result = simulate(scene)
+
+    def curve(down: float) -> float:
+        if between == "linear":
+            return float(np.interp(down, roof.convergences, roof.forces))
+        from scipy.interpolate import PchipInterpolator
+
+        first, *inner, last = roof.convergences
+        table = PchipInterpolator([first - 1.0, first, *inner, last, last + 1.0], [4e5, *roof.forces, 6e4])
+        return float(table(min(max(down, first - 0.5), last + 0.5)))
+
+    def rates(t: float, state: np.ndarray) -> list[float]:
+        up, speed = state
+        return [speed, (-3e7 * up - curve(-up)) / MASS - 9.81]
+
+    found = solve_ivp(rates, (0.0, 0.2), [0.0, 0.0], "DOP853", rtol=1e-11, atol=1e-13, max_step=2e-4)
+    size = np.abs(result["ram.y"] - TOP[1]).max()
+    assert size > 0.005  # past two of the curve's points
+    assert result["ram.y"][-1] - TOP[1] == pytest.approx(found.y[0, -1], abs=share * size)
+    assert result.energy_error < 1e-3 * np.abs(result["energy.work"]).max()
+    expected = [curve(one) for one in result["roof.convergence"]]
+    np.testing.assert_allclose(result["roof.force"], expected, rtol=1e-9)
+
+
+def test_a_support_settles_under_a_reaction_curve() -> None:
+    roof = reaction(body="canopy")
+    one, other = (simulate(over_the_canopy(roof, formulation=name, duration=0.02)) for name in FORMULATIONS)
+    for run in (one, other):
+        # at rest where the curve meets what the columns give
+        assert np.ptp(run["roof.force"]) < 1e-5 * run["roof.force"][0]
+        assert 1e5 < run["roof.force"][0] < 4e5
+    assert one["roof.force"][0] == pytest.approx(other["roof.force"][0], rel=1e-8)
