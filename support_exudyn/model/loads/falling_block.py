@@ -72,6 +72,10 @@ class FallingBlock(Load):
     density: KilogramsPerCubicMetre[Positive] = 2600.0
     gravity: MetresPerSecondSquared[NonNegative] = 9.81
 
+    def misfit(self, dimensions: int) -> str:
+        """Its guide is in the plane."""
+        return "falls in the plane; allowed: dimensions = 2" if dimensions == 3 else ""
+
     def check(self, gravity: Vector2) -> None:
         """Raise InputError unless gravity [m/s^2] is that which its law was made for, and it does fall."""
         if gravity != (0.0, -self.gravity):

@@ -13,11 +13,12 @@ from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm
 from support_exudyn.mechanics.drive_acceleration import accelerations_of
 from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.space.accelerations import accelerations
+from support_exudyn.mechanics.space.acting_loads import add_load, load_series
 from support_exudyn.mechanics.space.constraints import Constraint, direction_of
 from support_exudyn.mechanics.space.kinetics import inertias, weight
 from support_exudyn.mechanics.space.motion import SpatialMotion, cross, motion_of
 from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
-from support_exudyn.mechanics.trajectory import ContactSeries, Series
+from support_exudyn.mechanics.trajectory import ContactSeries, LoadSeries, Series
 from support_exudyn.model.linkage import GROUND
 from user_forces.friction.frictionless import Frictionless
 
@@ -100,6 +101,12 @@ class SpatialObservation:
         return SectionSeries(moving, contact, force, moving.centre + arm[:, None] * outward)
 
     @cached_property
+    def acting(self) -> dict[str, LoadSeries]:
+        """What acts on the machine besides its weight, by name."""
+        acting = self.scene.scenario.acting_loads.items()
+        return {name: load_series(load, name, self.motion, self.time) for name, load in acting}
+
+    @cached_property
     def oil(self) -> dict[str, OilSeries]:
         """Every column of oil over time."""
         return {name: self._oil(name) for name in self.scene.oil_columns}
@@ -144,7 +151,7 @@ class SpatialObservation:
 
     @cached_property
     def _applied(self) -> Series:
-        """Weights and forces of oil and clearance bearings on all bodies, (n, b, 6)."""
+        """Weights and forces of oil, clearance bearings and loads on all bodies, (n, b, 6)."""
         weights = weight(self.scene.linkage, self.scene.gravity).reshape(1, -1, 6)
         forces = np.tile(weights, (self.motion.count, 1, 1))
         for name, oil in self.oil.items():
@@ -162,6 +169,8 @@ class SpatialObservation:
             for section in group:
                 self._push(forces, journal.body, section.force, section.point)
                 self._push(forces, bore.body, -section.force, section.point)
+        for name, load in self.scene.scenario.acting_loads.items():
+            add_load(forces, self.motion, name, load, self.acting[name], self._push)
         return forces
 
     def _push(self, forces: Series, body: str, force: Series, point: Series) -> None:
@@ -218,10 +227,12 @@ class SpatialObservation:
 
     @cached_property
     def stored(self) -> Series:
-        """Energy stored in contacts and oil [J]."""
+        """Energy stored in contacts, oil and loads [J]."""
         found = np.zeros_like(self.time)
         for oil in self.oil.values():
             found = found + oil.energy
+        for load in self.acting.values():
+            found = found + load.stored
         for group in self.sections.values():
             for section in group:
                 found = found + section.contact.stored

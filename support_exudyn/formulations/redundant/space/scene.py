@@ -66,7 +66,7 @@ class SpatialScene(EngineScene):
     driven: tuple[DrivenParts, ...]  # all actuators, by the drive that they follow
     compliant_pins: dict[str, CompliantItem] = field(default_factory=dict)  # not covered
     frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: nor these
-    loads: dict[str, LoadItem] = field(default_factory=dict)  # nor are they
+    loads: dict[str, LoadItem] = field(default_factory=dict)
     weights: dict[str, Any] = field(default_factory=dict)  # are asked for where loads bring bodies along
     cylinders: dict[str, CylinderItem] = field(default_factory=dict)  # nor these
 

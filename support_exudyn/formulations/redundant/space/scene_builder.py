@@ -22,6 +22,7 @@ from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnIt
 from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
 from support_exudyn.formulations.redundant.space.bearing_connector import BearingConnector
 from support_exudyn.formulations.redundant.space.bearing_source import BearingGeometry
+from support_exudyn.formulations.redundant.space.loads import add_load
 from support_exudyn.formulations.redundant.space.scene import SpatialBodyItem, SpatialScene
 from support_exudyn.formulations.redundant.space.section_motion import SectionEnd, SectionMover, marker_frame
 from support_exudyn.formulations.redundant.space.section_pin import SectionJournal, SectionPin, part_of
@@ -170,6 +171,7 @@ class _SpaceBuilder(EngineBuilder):
         }
         oil = {name: self.add_oil_column(linkage.actuators[name]) for name in on_oil}
         connectors = {name: self.add_connectors(linkage.bearings[name]) for name in with_clearance}
+        loads = {name: add_load(load, name, self) for name, load in scenario.acting_loads.items()}
         if any(scenario.gravity):
             for name, body in linkage.bodies.items():
                 self.add_weight(name, body)
@@ -199,6 +201,7 @@ class _SpaceBuilder(EngineBuilder):
             rigid_actuators=rigid_items,
             oil_columns=oil_items,
             driven=by_drive(self.mbs, scenario.drive_of, rigid_items, oil_items, {}),
+            loads=loads,
         )
         for name, group in connectors.items():
             scene.sections[name] = pins = self.section_pins(scene, name, group)
