@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from typing import Any
 
 from support_exudyn import (
     Body,
     CubicStep,
     Drive,
+    FallingBlock,
     Held,
     Linkage,
     Load,
@@ -21,9 +22,8 @@ from support_exudyn import (
     bore_area,
     reference_support,
 )
-from support_exudyn.model.loads.load import Powers
+from support_exudyn.model.loads.load import AnyLoad, Powers
 from user_forces import value
-from user_forces.expressions.scalar import maximum
 from user_forces.values.value import Vector2
 
 MASS, STIFFNESS = 1000.0, 1e6
@@ -67,38 +67,9 @@ class DeadLoad(Load):
         return Powers(0.0, 0.0)
 
 
-@value
-class BareBlock(Load):
-    """A block on an upright guide that falls on the point: what a load with a mass of its own takes."""
-
-    mass: float
-    gap: float
-    stiffness: float
-
-    def joined(self, linkage: Linkage, name: str) -> Linkage:
-        block = Body(mass=self.mass, inertia=1.0, centre=self.point)
-        guide = Slide(body=name, point=self.point, direction=0.5 * math.pi)
-        return replace(
-            linkage,
-            bodies={**linkage.bodies, name: block},
-            slides={**linkage.slides, f"{name}_guide": guide},
-        )
-
-    def against(self, name: str) -> str:
-        return name
-
-    def force(self, at: LoadedPoint) -> Vector2:
-        return 0.0, -self.stiffness * maximum(0.0, at.y - self.gap)
-
-    def stored(self, at: LoadedPoint) -> float:
-        return 0.5 * self.stiffness * maximum(0.0, at.y - self.gap) ** 2
-
-    def powers(self, at: LoadedPoint) -> Powers:
-        return Powers(0.0, 0.0)
-
-    @property
-    def steepness(self) -> Vector2:
-        return 0.0, self.stiffness
+def elastic_block(**fields: Any) -> FallingBlock:
+    """A block that gives all back, by a straight spring."""
+    return FallingBlock(**{"exponent": 1.0, "restitution": 1.0} | fields)
 
 
 @value
@@ -149,7 +120,7 @@ def over_the_canopy(down: float, start: float = 0.02, end: float = 0.12, **chang
     return Roof(**fields | changes)
 
 
-def pressed_support(roof: Load, **changes: object) -> Scenario:
+def pressed_support(roof: AnyLoad, **changes: object) -> Scenario:
     """The reference support under a roof."""
     fields: dict[str, object] = {
         "machine": reference_support(),

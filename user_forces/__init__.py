@@ -16,9 +16,11 @@ if TYPE_CHECKING:
     from user_forces.conformal import LineContact as LineContact
     from user_forces.conformal import line_contact as line_contact
     from user_forces.contact import ContactForce as ContactForce
+    from user_forces.contact import FaceContact as FaceContact
     from user_forces.contact import JournalContact as JournalContact
     from user_forces.contact import SlipHistory as SlipHistory
     from user_forces.contact import SlotContact as SlotContact
+    from user_forces.face import Face as Face
     from user_forces.friction.ambrosio import Ambrosio as Ambrosio
     from user_forces.friction.bengisu_akay import BengisuAkay as BengisuAkay
     from user_forces.friction.brown_mcphee import BrownMcPhee as BrownMcPhee
@@ -78,7 +80,8 @@ if TYPE_CHECKING:
 _PLACES = {
     ".catalogue": ("laws",),
     ".conformal": ("LineContact", "line_contact"),
-    ".contact": ("ContactForce", "JournalContact", "SlipHistory", "SlotContact"),
+    ".contact": ("ContactForce", "FaceContact", "JournalContact", "SlipHistory", "SlotContact"),
+    ".face": ("Face",),
     ".friction.ambrosio": ("Ambrosio",),
     ".friction.bengisu_akay": ("BengisuAkay",),
     ".friction.brown_mcphee": ("BrownMcPhee",),

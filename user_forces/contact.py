@@ -8,15 +8,16 @@ from typing import NamedTuple
 
 from pydantic import model_validator
 
-from user_forces.expressions.scalar import hypot, is_number, maximum, where
+from user_forces.expressions.scalar import is_number, maximum, where
+from user_forces.face import Face
 from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
+from user_forces.journal import SMALLEST as SMALLEST
 from user_forces.journal import ContactGeometry, JournalBearing
 from user_forces.normal.law import Impact, NormalLaw
 from user_forces.slot import Slot
 from user_forces.values.value import Value, value
 
-SMALLEST = 1e-300  # [m], only so that nothing is divided by zero
 SHALLOWEST = 1e-30  # depth [m] with which a law is evaluated where there is no contact
 
 
@@ -79,7 +80,7 @@ class Contact(Value, ABC):
 
         Arguments:
             x, y: journal's centre minus bore's centre [m], in any axes; of a slot 0 and the distance from the
-                middle line.
+                middle line, of a face 0 and that from the line in front of it.
             vx, vy: velocity of the journal's centre minus that of the bore's centre [m/s], same axes;
                 the plain difference, not the rate seen by an observer who turns with the bore. Of a slot along
                 and across: the plain difference from any point of the middle line, less along y what the
@@ -95,11 +96,9 @@ class Contact(Value, ABC):
             `journal_arm` plus the eccentricity from the bore's. From the middle every way leads outwards:
             there the rate is the speed.
         """
-        eccentricity = hypot(x, y)
         bearing = self.bearing
+        eccentricity, nx, ny = bearing.outwards(x, y)
         depth = bearing.depth(eccentricity)  # Eq. 3
-        away = maximum(eccentricity, SMALLEST)
-        nx, ny = x / away, y / away
         bore_arm, journal_arm = bearing.contact_arms(depth)
         slip = nx * vy - ny * vx + journal_spin * journal_arm - bore_spin * bore_arm
         rate = nx * vx + ny * vy
@@ -176,9 +175,33 @@ class SlotContact(Contact):
 
     @model_validator(mode="after")
     def _law_is_of_walls(self) -> SlotContact:
-        if hasattr(self.normal, "bearing"):
-            raise ValueError(
-                f"normal = {type(self.normal).__name__}: is of a pin in its bore; "
-                "allowed: laws of a stiffness, such as Exact"
-            )
+        _check_straight(self.normal)
         return self
+
+
+@value
+class FaceContact(Contact):
+    """Contact of a point with a straight face: geometry and normal law; there is no friction along the face.
+
+    Arguments:
+        bearing: the face.
+        normal: law for the normal force; one that goes by the radii of a bore does not fit.
+    """
+
+    bearing: Face
+    normal: NormalLaw
+    friction: Frictionless = Frictionless()
+
+    @model_validator(mode="after")
+    def _law_is_of_a_face(self) -> FaceContact:
+        _check_straight(self.normal)
+        return self
+
+
+def _check_straight(law: NormalLaw) -> None:
+    """Raise ValueError if a law goes by the radii of a pin in its bore."""
+    if hasattr(law, "bearing"):
+        raise ValueError(
+            f"normal = {type(law).__name__}: is of a pin in its bore; "
+            "allowed: laws of a stiffness, such as Exact"
+        )

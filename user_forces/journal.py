@@ -18,20 +18,29 @@ from typing import ClassVar
 
 from pydantic import model_validator
 
-from user_forces.expressions.scalar import hypot
+from user_forces.expressions.scalar import hypot, maximum
 from user_forces.values.units import Metres
 from user_forces.values.value import Positive, Value, value
+
+SMALLEST = 1e-300  # [m], only so that nothing is divided by zero
 
 
 class ContactGeometry(Value, ABC):
     """What a journal is enclosed by, and where both make contact.
 
     clearance: eccentricity at which it makes contact [m]. is_slot: only what is across counts, the journal
-    slides freely along.
+    slides freely along. is_one_sided: only one side of it can be met.
     """
 
     clearance: float
     is_slot: ClassVar[bool] = False
+    is_one_sided: ClassVar[bool] = False
+
+    def outwards(self, x: float, y: float) -> tuple[float, float, float]:
+        """The eccentricity [m] of a journal at x, y [m], and the direction towards what it may meet there."""
+        eccentricity = hypot(x, y)
+        away = maximum(eccentricity, SMALLEST)
+        return eccentricity, x / away, y / away
 
     def depth(self, eccentricity: float) -> float:
         """Depth |e| - c [m] for an eccentricity |e| [m] (Eq. 3 of the paper); negative: a gap."""

@@ -38,7 +38,7 @@ def _reasons(scenario: Scenario) -> Iterator[str]:
             yield f"actuators.{name} = {type(model).__name__}: allowed: RigidActuator"
     for name in scenario.own_bodies:
         yield f"parts.{name}: a body of its own; allowed: parts that are fixed to their bodies"
-    for name in scenario.acting_loads:
+    for name in (*scenario.acting_loads, *scenario.blocks):
         yield f"loads.{name}: allowed: none but the weight"
     others = {"cranks": linkage.cranks, "slides": linkage.slides, "gears": linkage.gears}
     for kind, items in others.items():

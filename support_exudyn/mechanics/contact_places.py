@@ -150,7 +150,8 @@ class GuideContactPlace(ContactPlace):
         """Tell corner and middle line by the slide."""
         slide, (point, middle, contact) = self.slide, self.part
         guide = self.name.rpartition(".")[0]
-        known = {"of": f"guides.{guide}", "contact": contact, "bore": slide.against, "journal": slide.body}
+        known: dict[str, object] = {"of": f"guides.{guide}", "contact": contact}
+        known |= {"bore": slide.against, "journal": slide.body}
         known["bore_point"] = plus(slide.point, rotated((0.0, middle), slide.direction))
         known["journal_point"] = plus(slide.point, rotated(point, slide.direction))
         for name, item in known.items():
@@ -207,7 +208,7 @@ class GuideContactPlace(ContactPlace):
         corner = motion.place(self.journal, self.journal_point)
         offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
         away = np.maximum(np.linalg.norm(offset, axis=1), math.ulp(0.0))[:, None]
-        point = corner + self.part.contact.bearing.radius * offset / away
+        point = corner + self.part.contact.bearing.contact_arms(0.0)[1] * offset / away
         return self.bore, self.journal, PinForce(np.column_stack([contact.force_x, contact.force_y]), point)
 
     @property

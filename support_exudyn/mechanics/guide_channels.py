@@ -66,11 +66,13 @@ class _Block:
             place = motion.place(slide.body, plus(slide.point, rotated(part.point, slide.direction)))
             x, y = (place - origin).T
             height = along * y - across * x - part.middle  # from the middle line
-            slot = part.contact.bearing
+            slot, radius = part.contact.bearing, part.contact.bearing.contact_arms(0.0)[1]
             upper.append(slot.clearance - height)
             lower.append(slot.clearance + height)
             x, y = (place - middle).T
-            arms.append((along * x + across * y, along * y - across * x + np.sign(height) * slot.radius))
+            arms.append(
+                (along * x + across * y, along * y - across * x + np.sign(height) * slot.contact_arms(0.0)[1])
+            )
         self.upper, self.lower = np.min(upper, axis=0), np.min(lower, axis=0)
         self.x, self.y = np.moveaxis(np.array(arms), 1, 0)
 

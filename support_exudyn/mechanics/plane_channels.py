@@ -6,6 +6,7 @@ from types import MappingProxyType
 import numpy as np
 
 import support_exudyn.mechanics.bushing  # noqa: F401 - registers its channels
+from support_exudyn.mechanics.block_contact import block_channels
 from support_exudyn.mechanics.channels import (
     CONTACT,
     LOADED,
@@ -32,6 +33,7 @@ def channel_definitions(
     loads: Mapping[str, ActingLoad],
     cylinders: Collection[str] = (),
     guides: Mapping[str, Guide] = MappingProxyType({}),
+    blocks: Collection[str] = (),
 ) -> ChannelDefinitions:
     """All channels of a linkage by name.
 
@@ -42,6 +44,7 @@ def channel_definitions(
         loads: what acts on the machine besides its weight, by name.
         cylinders: names of those columns of oil that have a valve and pressures.
         guides: all that are not ideal, by name.
+        blocks: names of those that fall on the machine.
     """
     found = {"time": ChannelDefinition("s", "time", DataNeeds.NOTHING, lambda context: context.run.time)}
     for n, (name, body) in enumerate(linkage.bodies.items()):
@@ -62,8 +65,11 @@ def channel_definitions(
         found |= pin_channels(pins.get(name, IdealPin()), name)
     for name, load in loads.items():
         found |= _of_load(name, load)
+    for name in blocks:
+        found |= block_channels(name)
+    compliant = not all(pin.holds for pin in pins.values()) or bool(guides) or bool(blocks)
     return found | _of_energy(
-        _stored(not all(pin.holds for pin in pins.values()) or bool(guides), bool(oil), bool(loads)),
+        _stored(compliant, bool(oil), bool(loads)),
         bool(loads),
         bool(cylinders),
     )

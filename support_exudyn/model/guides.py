@@ -21,7 +21,7 @@ from pydantic import model_validator
 
 from support_exudyn.model.pins import Refusal
 from support_exudyn.model.simple_laws import fields_of, friction_of, law_with
-from user_forces.contact import SlotContact
+from user_forces.contact import FaceContact, SlotContact
 from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.materials import STEEL, STEEL_35CRMO, Material, plane_contact_stiffness
@@ -42,12 +42,12 @@ class GuideContact(NamedTuple):
     """A corner of a block, or a pin, between the walls of a guide; x along the guide, y across.
 
     point: of the corner or the pin's centre from the guide's point [m]. middle: y of the slot's middle line
-    [m]. contact: geometry and laws.
+    [m]. contact: geometry and laws; of a guide with one wall alone those of a face.
     """
 
     point: Vector2
     middle: float
-    contact: SlotContact
+    contact: SlotContact | FaceContact
 
 
 class Guide(Value, ABC):

@@ -294,9 +294,10 @@ def _tiles(estimates: Mapping[str, Mapping[str, Estimate]], key: Sequence[str]) 
     if len(estimates) > 2:
         return ()
     last = [*estimates.values()][-1]
-    hardest = hardest_first(last) or hardest_first(next(iter(estimates.values())))
-    told = [f"{stem(pin)}{end}" for pin in hardest[:1] for end in (LARGEST, LARGEST_TIME, ".force.mean")]
-    told += [f"{stem(pin)}{LARGEST}" for pin in hardest[1:2]]
+    known = {**next(iter(estimates.values())), **last}
+    stems = [stem(pin, known) for pin in hardest_first(last) or hardest_first(known)]
+    told = [f"{one}{end}" for one in stems[:1] for end in (LARGEST, LARGEST_TIME, ".force.mean")]
+    told += [f"{one}{LARGEST}" for one in stems[1:2]]
     told += [name for name in key if name.rpartition(".")[2] in ("mean", "largest", "std")]
     found: list[KeyNumber] = []
     for name in dict.fromkeys(told):

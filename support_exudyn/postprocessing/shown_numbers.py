@@ -15,7 +15,7 @@ AT_RECORDS = (".force.largest", ".force.largest_time")  # the same of the record
 
 
 def hardest_first(found: Mapping[str, Estimate]) -> list[str]:
-    """The clearance pins, and corners in guides, by their largest force at any step, the hardest hit first.
+    """The clearance pins, corners in guides and blocks, by their largest force at any step, the hardest first.
 
     found: numbers of the run by name, as `Result.numbers` names them.
     """
@@ -24,9 +24,9 @@ def hardest_first(found: Mapping[str, Estimate]) -> list[str]:
     return [name.removeprefix("pin.").removesuffix(LARGEST) for name in ranked]
 
 
-def stem(joint: str) -> str:
-    """What the numbers of a joint begin with; joint: as `hardest_first` names it, pins without "pin."."""
-    return joint if joint.startswith("guide.") else f"pin.{joint}"
+def stem(joint: str, found: Mapping[str, Estimate]) -> str:
+    """What a joint's numbers begin with among these; joint: as `hardest_first` names it, without "pin."."""
+    return f"pin.{joint}" if f"pin.{joint}{LARGEST}" in found else joint
 
 
 def ranking(found: Mapping[str, Estimate]) -> str:
@@ -39,7 +39,8 @@ def ranking(found: Mapping[str, Estimate]) -> str:
 
 
 def _hit(pin: str, found: Mapping[str, Estimate]) -> str:
-    force, when = found[f"{stem(pin)}{LARGEST}"], found.get(f"{stem(pin)}{LARGEST_TIME}")
+    own = stem(pin, found)
+    force, when = found[f"{own}{LARGEST}"], found.get(f"{own}{LARGEST_TIME}")
     return f"{pin}, {said(force.value, force.unit, 4)}" + (f" at {said(when.value, 's', 4)}" if when else "")
 
 
@@ -61,7 +62,9 @@ def shown(
     Returns:
         Of each run the numbers that are printed, in their order.
     """
-    first = [f"{stem(pin)}{end}" for found in numbers for pin in hardest_first(found) for end in AT_ANY_STEP]
+    first = [
+        f"{stem(pin, found)}{end}" for found in numbers for pin in hardest_first(found) for end in AT_ANY_STEP
+    ]
     names = list(dict.fromkeys([*first, *(name for found in numbers for name in found)]))
     left_out = {
         name

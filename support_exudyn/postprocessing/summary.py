@@ -45,7 +45,7 @@ def what_is_run(scenario: Scenario) -> list[Row]:
     if others:
         rows.append(("ideal pins", ", ".join(others)))
     rows += [(f"guide {name}", words(guide)) for name, guide in scenario.guides.items()]
-    parts = {**scenario.actuators, **scenario.parts, **scenario.acting_loads}
+    parts = {**scenario.actuators, **scenario.parts, **scenario.acting_loads, **scenario.blocks}
     rows += [(name, words(part)) for name, part in parts.items()]
     rows += [("drive", words(scenario.drive))]
     rows += [(f"drive of {name}", words(drive)) for name, drive in scenario.drives.items()]

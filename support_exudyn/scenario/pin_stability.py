@@ -29,7 +29,6 @@ from support_exudyn.mechanics.postures import posture
 from support_exudyn.mechanics.reactions import weight_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.drives.drive import Reciprocating
-from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
@@ -259,8 +258,6 @@ def _moving_times(scenario: Scenario) -> list[float]:
 def _loaded(scenario: Scenario, motion: BodyMotion, times: Series) -> Series:
     """Forces of loads between what the machine has and the ground, on all coordinates (n, 3 bodies)."""
     forces = np.zeros_like(motion.position)
-    known = (GROUND, *motion.linkage.bodies)
     for name, load in scenario.acting_loads.items():
-        if load.against(name) in known:  # a block that falls is followed by runs only
-            add_load(forces, motion, name, load, load_series(load, name, motion, times))
+        add_load(forces, motion, name, load, load_series(load, name, motion, times))
     return forces

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from support_exudyn.mechanics.block_contact import block_places
 from support_exudyn.mechanics.channels import ALL_CHANNELS, ChannelDefinition
 from support_exudyn.mechanics.contact_places import ContactPlace, contact_places
 from support_exudyn.mechanics.initial_eccentricity import eccentric
@@ -29,7 +30,8 @@ from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.hydraulics.lines import PumpStation
 from support_exudyn.model.linkage import Linkage
-from support_exudyn.model.loads.load import ActingLoad
+from support_exudyn.model.loads.falling_block import FallingBlock
+from support_exudyn.model.loads.load import ActingLoad, AnyLoad
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.model.spatial_linkage import SpatialLinkage
@@ -98,7 +100,7 @@ class ScenarioData(Value, ABC):
     parts: Mapping[str, PartModel] = field(default_factory=dict)
     drive: Drive = field(default_factory=Held)
     drives: Mapping[str, Drive] = field(default_factory=dict)
-    loads: Mapping[str, ActingLoad] = field(default_factory=dict)
+    loads: Mapping[str, AnyLoad] = field(default_factory=dict)
     duration: Seconds[Positive]
     dimensions: Literal[2, 3] = 2
     start: Literal["concentric", "settled"] = "concentric"
@@ -135,15 +137,21 @@ class ScenarioData(Value, ABC):
 
     @cached_property
     def acting_loads(self) -> dict[str, ActingLoad]:
-        """All loads by name: those that the machine has of its own making, then those of the scenario."""
-        return {**self.machine.loads, **self.loads}
+        """Loads that act by time and motion: those that the machine has of its own making, then the others."""
+        given = {name: load for name, load in self.loads.items() if isinstance(load, ActingLoad)}
+        return {**self.machine.loads, **given}
+
+    @cached_property
+    def blocks(self) -> dict[str, FallingBlock]:
+        """Blocks that fall on the machine, by name."""
+        return {name: load for name, load in self.loads.items() if isinstance(load, FallingBlock)}
 
     @cached_property
     def linkage(self) -> Linkage:
-        """The mechanism in its start posture, as far as it is modelled, with what loads bring along."""
+        """The mechanism in its start posture, as far as it is modelled, with blocks that fall on it."""
         linkage = self.unloaded
-        for name, load in self.acting_loads.items():
-            linkage = load.joined(linkage, name)
+        for name, block in self.blocks.items():
+            linkage = block.joined(linkage, name)
         return linkage
 
     @cached_property
@@ -180,8 +188,9 @@ class ScenarioData(Value, ABC):
 
     @cached_property
     def contact_places(self) -> dict[str, ContactPlace]:
-        """Where bodies may make contact and part, by name: clearance pins, corners of blocks in guides."""
-        return contact_places(self.linkage, self.clearance_pins, self.guides)
+        """Where bodies may make contact and part: clearance pins, corners in guides, faces of blocks."""
+        joints = contact_places(self.linkage, self.clearance_pins, self.guides)
+        return {**joints, **block_places(self.blocks, self.gravity)}
 
     def contact_stem(self, name: str) -> str:
         """What channels and numbers of a contact begin with; name: of `contact_places`, or of an edge."""
@@ -271,6 +280,7 @@ class ScenarioData(Value, ABC):
             self.acting_loads,
             self.cylinders,
             self.guides,
+            tuple(self.blocks),
         )
 
     @property

@@ -41,8 +41,7 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
     finer = math.sqrt(GOAL_OF_SHARES / goal)
     times = timescales(plain)
     step = min(FLIGHT * times.flight, RESTING * times.resting, DRIVE * times.drive) / finer
-    impacts = plain.contact_places or any(load.impacts_machine for load in plain.acting_loads.values())
-    impact_steps = round(IMPACT_STEPS * finer) if impacts else FEWEST_IMPACT_STEPS
+    impact_steps = round(IMPACT_STEPS * finer) if plain.contact_places else FEWEST_IMPACT_STEPS
     solver = replace(
         plain.solver,
         impact_steps=min(max(impact_steps, FEWEST_IMPACT_STEPS), MOST_AT_FIRST),

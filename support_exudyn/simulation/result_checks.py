@@ -112,7 +112,8 @@ def _who_loses(scenario: Scenario, kind: str) -> str:
     laws = {name: losses[kind] for name, losses in kinds.items() if kind in losses}
     found = [f"{name} = {type(law).__name__}" for name, law in laws.items()]
     if kind == "damping_loss":
-        found += [f"loads.{name} = {type(load).__name__}" for name, load in scenario.acting_loads.items()]
+        loads = {**scenario.acting_loads, **scenario.blocks}
+        found += [f"loads.{name} = {type(load).__name__}" for name, load in loads.items()]
         found += [f"actuators.{name}" for name in scenario.compliant_actuators]
     return "of " + ", ".join(found)
 

@@ -35,7 +35,7 @@ from tests.formulations import test_slots_and_gears as slots
 from tests.formulations import test_springs as springs
 from tests.formulations import test_two_loose_pins as loose
 from tests.linkage_cases import CrankRocker
-from tests.roof_cases import MASS, TOP, BareBlock, DeadLoad, thrown
+from tests.roof_cases import MASS, TOP, DeadLoad, elastic_block, thrown
 from tests.roof_cases import STIFFNESS as HARD
 from user_forces import (
     Ambrosio,
@@ -119,8 +119,8 @@ def test_a_load_of_ones_own_is_followed() -> None:
     np.testing.assert_allclose(result["guide.force"], 7.0, rtol=1e-12)
 
 
-def test_a_load_that_brings_a_mass_along_is_an_elastic_impact() -> None:
-    block = BareBlock(body="ram", point=TOP, mass=MASS / 4.0, gap=0.01, stiffness=HARD)
+def test_a_block_that_waits_is_an_elastic_impact() -> None:
+    block = elastic_block(body="ram", point=TOP, mass=MASS / 4.0, height=0.01, stiffness=HARD)
     result = compiled(replace(thrown(0.01, 1e-4), loads={"block": block}))
     # 250 kg meet 1 t that comes at 1 m/s
     assert result["ram.velocity_y"][-1] == pytest.approx(0.6, abs=1e-6)

@@ -175,8 +175,8 @@ def flat_function(function: Callable[[float], float]) -> Callable[[float], float
 def _outwards(contact: Contact) -> str:
     """Formula of the rate of a journal in the middle, from where every way leads outwards."""
     formulas, (vx, vy) = lines(("vx", "vy"))
-    contact.bearing.speed_outwards(vx, vy)
-    return next(iter(formulas))
+    found = contact.bearing.speed_outwards(vx, vy)
+    return next(iter(formulas), text(found))
 
 
 class UnwrittenLawError(TypeError):

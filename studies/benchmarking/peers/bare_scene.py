@@ -90,6 +90,7 @@ def clearance_contact(scenario: Scenario) -> tuple[str, JournalContact, str]:
         or scenario.own_bodies
         or scenario.friction_pins
         or scenario.acting_loads
+        or scenario.blocks
         or scenario.start != "concentric"
     ):
         raise InputError(
@@ -231,6 +232,7 @@ def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
 
 def ideal_scene(scenario: Scenario) -> BareScene:
     """The model of a scenario without clearance pins; raises InputError if it is not covered."""
-    if scenario.clearance_pins or scenario.actuators or scenario.acting_loads or scenario.friction_pins:
+    loaded = scenario.acting_loads or scenario.blocks
+    if scenario.clearance_pins or scenario.actuators or scenario.friction_pins or loaded:
         raise InputError("a competitor with ideal pins takes rigid actuators, no loads and no friction")
     return _BareBuilder(scenario).scene()

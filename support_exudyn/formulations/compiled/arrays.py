@@ -42,10 +42,12 @@ PIN, ACTUATOR, CRANK, SLIDE, GEAR = range(5)
 ROW = _record("body other first", "x y t ox oy ot wanted held off rate")
 # rows that share a body, i >= j; which of the bodies of each it is
 PAIR = _record("i j side other", "")
-# journal `second` in bore `first`, both points. slot: corner between walls. law: address of both laws, with
-# constants from `constants` on. state: of the friction law in y. radius: of the bore, or of a pin in a slot.
-# angle: of the bore's axes at the start. | closed, impact velocity, inverse effective mass: what it remembers.
+# journal `second` in bore `first`, both points. slot: corner between walls, or ONE_SIDED of one wall alone.
+# law: address of both laws, with constants from `constants` on. state: of the friction law in y.
+# radius: of the bore, or of a pin in a slot. angle: of the bore's axes at the start. | closed, impact velocity,
+# inverse effective mass: what it remembers.
 # Then the contact now, the largest force and when that was, where the law last gave what no force can be.
+ONE_SIDED = 2
 CONTACT = _record(
     "first second slot constants state renews forgets",
     "law clearance radius angle closed impact_velocity xx xy yy "
@@ -59,9 +61,8 @@ CYLINDER = _record(
     "force work loss",
 )
 # a force on point `point` against `origin`, or a moment on their bodies; with the first
-# of its own courses, and how many. hangs: by what spring what it brings along hangs over its point, while a
-# static equilibrium is looked for; else 0
-LOAD = _record("point origin moment constants course courses", "law hangs fx fy work loss")
+# of its own courses, and how many
+LOAD = _record("point origin moment constants course courses", "law fx fy work loss")
 # what a load is told of its own courses, and where in `SceneArrays.out`
 FIRST_COURSE, COURSES_OF_LOAD = 4, 8
 BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")

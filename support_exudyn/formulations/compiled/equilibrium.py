@@ -40,7 +40,8 @@ SHIFT = 1e-9  # [m] over which it is looked how forces change, and [rad] of a bo
 CLOSE = 1e-12  # [m], [rad] of the last change; rounding of coordinates on top:
 ROUNDINGS = 64.0
 LONGEST = 0.2  # [m], [rad] of a change
-HANGS_BY = 0.01  # [m] that the spring would give under what hangs, if it were to carry it
+HANGS_BY = 0.01  # [m] that the spring by which a block hangs would give under the weight of all bodies
+LEAST = 1.0  # [N], stands for that weight where there is none
 VALID = 1.0 - 1e-9  # share of the depth up to which a law is valid, beyond which it goes on in proportion
 UNSETTLED = (
     "Is every body held by pins and actuators, and does gravity press the clearance pins? Otherwise start "
@@ -51,10 +52,12 @@ UNSETTLED = (
 class Centring(NamedTuple):
     """How contacts are held while an equilibrium is looked for, shape (contacts,) each.
 
-    pull: of the springs [N/m]. soft: share of the law's force. deepest: depth up to which it is valid [m].
+    pull: of the springs [N/m]; slack: depth at which they carry nothing [m]. soft: share of the law's force.
+    deepest: depth up to which it is valid [m].
     """
 
     pull: Vector
+    slack: Vector
     soft: Vector
     deepest: Vector
 
@@ -109,7 +112,7 @@ def centre(scene: SceneArrays, centring: Centring, n: int, y: Vector) -> None:
     """Let the elastic force of a contact act, and that of a spring to its middle."""
     contact = scene.contacts[n]
     observe(scene, n, y)
-    force = centring.pull[n] * (contact.depth + contact.clearance)
+    force = centring.pull[n] * (contact.depth - centring.slack[n])
     if contact.depth > 0.0:
         depth = min(contact.depth, centring.deepest[n])
         constants = scene.constants[contact.constants :]
@@ -179,16 +182,15 @@ class _Search:
 
     def centring(self, share: float) -> Centring:
         """Springs that hold so much of the weight at the wall, and contacts that give way by so much of it."""
-        places = self.model.scenario.contact_places.values()
-        found = [
-            (
-                share * self.weight / place.contact.bearing.clearance,
-                self._softness(place.contact.normal, share * place.contact.bearing.clearance),
-                VALID * place.contact.normal.largest_depth,
-            )
-            for place in places
-        ]
-        return Centring(*np.array(found).reshape(-1, 3).T.copy())
+        found = []
+        blocks = self.model.scenario.blocks
+        for name, where in self.model.scenario.contact_places.items():
+            law, clearance = where.contact.normal, where.contact.bearing.clearance
+            pull, slack = share * self.weight / clearance, -clearance
+            if name in blocks:  # it hangs, whatever the share
+                pull, slack = max(self.weight, LEAST) / HANGS_BY, blocks[name].start_depth
+            found.append((pull, slack, self._softness(law, share * clearance), VALID * law.largest_depth))
+        return Centring(*np.array(found).reshape(-1, 4).T.copy())
 
     def _softness(self, law: NormalLaw, allowed: float) -> float:
         return min(1.0, self.weight / law.force_in_search(allowed)) if allowed > 0.0 else 1.0
@@ -214,23 +216,19 @@ class _Search:
 def settle(model: Model, y: Vector) -> None:
     """Bring the state to static equilibrium under gravity, at rest: elastic contacts, no friction.
 
-    What loads bring along hangs over its point meanwhile, such as a block that falls, and starts from there as
-    it was to start.
+    Blocks that are to fall hang over their points meanwhile, and start from there as they were to start.
 
     Raises SimulationError if there is no equilibrium or it is not found.
     """
     scenario, scene = model.scenario, model.scene
     scene.courses["value"] = scene.courses["rate"] = scene.courses["bend"] = 0.0
-    brought = [name for name in scenario.linkage.bodies if name not in scenario.unloaded.bodies]
-    weights = scene.bodies["weight_y"].copy()
+    weights = {what: scene.bodies[what].copy() for what in ("weight_x", "weight_y")}
     search = _Search(model, y)
-    for n, (name, load) in enumerate(scenario.acting_loads.items()):
-        if load.against(name) in brought:
-            body = list(scenario.linkage.bodies).index(load.against(name))
-            scene.loads[n]["hangs"] = abs(weights[body]) / HANGS_BY
-            scene.bodies[body]["weight_y"] = 0.0
+    falling = [list(scenario.linkage.bodies).index(name) for name in scenario.blocks]
+    for what in weights:
+        scene.bodies[what][falling] = 0.0
     try:
-        held = _held_by_loads(model) if not brought else None
+        held = _held_by_loads(model)
         if held is not None:
             search.x[: search.count] = held
         elif not all(search.newton(search.centring(share)) for share in _shares(model)):
@@ -238,11 +236,11 @@ def settle(model: Model, y: Vector) -> None:
     except LoadError:
         raise SimulationError(Failure("no static equilibrium was found", UNSETTLED, 0.0)) from None
     finally:
-        scene.loads["hangs"] = 0.0
-        scene.bodies["weight_y"] = weights
+        for what, pull in weights.items():
+            scene.bodies[what] = pull
     y[: search.count] = search.x[: search.count]
     for n, name in enumerate(scenario.linkage.bodies):
-        if name in brought:
+        if name in scenario.blocks:
             moving, i = scenario.linkage.bodies[name], search.count + 3 * n
             y[i : i + 3] = *moving.velocity, moving.spin
 

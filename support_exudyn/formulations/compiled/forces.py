@@ -7,6 +7,7 @@ from support_exudyn.formulations.compiled.arrays import (
     DAMPING_LOSS,
     FIRST_COURSE,
     FRICTION_LOSS,
+    ONE_SIDED,
     WORK,
     SceneArrays,
     Vector,
@@ -44,9 +45,9 @@ def observe(scene: SceneArrays, n: int, y: Vector) -> None:
         along, across = c * x + s * y_, c * y_ - s * x
         # the plain rate across, less what the slot's turning moves the walls there
         speed, rise = c * vx + s * vy, c * vy - s * vx - bore_spin * along
-        side = 1.0 if across >= 0.0 else -1.0
+        side = 1.0 if across >= 0.0 or contact.slot == ONE_SIDED else -1.0
         nx, ny = -s * side, c * side
-        depth = abs(across) - contact.clearance
+        depth = side * across - contact.clearance
         rate = side * rise
         bore_arm, arm = contact.clearance + depth + contact.radius, contact.radius
         x, y_ = -s * across, c * across
@@ -229,10 +230,6 @@ def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
         constants = scene.constants[one.constants :]
         for k in range(one.courses):
             scene.out[FIRST_COURSE + k] = scene.courses[one.course + k].value
-        if one.hangs != 0.0:
-            one.fx, one.fy = 0.0, -one.hangs * (point.y - origin.y)
-            push_apart(scene, one.origin, one.point, one.fx, one.fy)
-            continue
         if one.moment != 0:
             turn = (y[3 * point.body + 2] if point.body >= 0 else 0.0) - (
                 y[3 * origin.body + 2] if origin.body >= 0 else 0.0

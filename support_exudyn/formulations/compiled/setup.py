@@ -285,7 +285,7 @@ def _contact(record: Any, place: ContactPlace, build: _Builder, linkage: Linkage
     bearing, contact = place.contact.bearing, place.contact
     record["first"] = build.point(place.bore, place.bore_point)
     record["second"] = build.point(place.journal, place.journal_point)
-    record["slot"] = bearing.is_slot
+    record["slot"] = arrays.ONE_SIDED if bearing.is_one_sided else bearing.is_slot
     record["law"], record["constants"] = build.law(law_source(contact))
     record["clearance"] = bearing.clearance
     # distance of the contact point from the bore's centre at no depth, less the clearance in a slot

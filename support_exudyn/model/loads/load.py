@@ -1,4 +1,4 @@
-"""What every load is: a force or a moment that follows from time and the motion of what it acts on."""
+"""What every load is; most are a force or a moment that follows from time and the motion of what it acts on."""
 
 import math
 from abc import ABC, abstractmethod
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.model.linkage import GROUND
 from user_forces.values.units import Metres
 from user_forces.values.value import Real, Value, Vector2, value
 
@@ -42,7 +42,23 @@ class Powers(NamedTuple):
 
 
 @value
-class ActingLoad(Value, ABC):
+class AnyLoad(Value, ABC):
+    """What is put on a machine besides its weight.
+
+    Arguments:
+        body: name of the body that it acts on.
+    """
+
+    body: str
+
+    def against(self, name: str) -> str:
+        """The body that the opposite acts on, if the load has this name: the ground by default."""
+        del name
+        return GROUND
+
+
+@value
+class ActingLoad(AnyLoad, ABC):
     """What acts on a body: `Load` is a force on a point of it, `MomentLoad` a moment.
 
     What it is told of the motion, `at`, is a `LoadedPoint` or a `TurnedBody`.
@@ -51,8 +67,6 @@ class ActingLoad(Value, ABC):
         body: name of the body.
     """
 
-    body: str
-
     @abstractmethod
     def stored(self, at: Any) -> float:
         """Energy that the load has stored [J]."""
@@ -60,25 +74,6 @@ class ActingLoad(Value, ABC):
     @abstractmethod
     def powers(self, at: Any) -> Powers:
         """What moves the load does, and what is lost in it."""
-
-    def joined(self, linkage: Linkage, name: str) -> Linkage:
-        """The linkage with the bodies that the load of this name brings along; none by default."""
-        del name
-        return linkage
-
-    def check(self, gravity: Vector2) -> None:
-        """Raise InputError if it does not go with this gravity [m/s^2]; any does by default."""
-        del gravity
-
-    def misfit(self, dimensions: int) -> str:
-        """What speaks against it in the plane (2) or in space (3), in words; empty, as by default: nothing."""
-        del dimensions
-        return ""
-
-    def against(self, name: str) -> str:
-        """The body that the opposite acts on, if the load has this name: the ground by default."""
-        del name
-        return GROUND
 
     @property
     def channels(self) -> Mapping[str, LoadChannel]:
@@ -113,16 +108,6 @@ class ActingLoad(Value, ABC):
     @property
     def shortest_time(self) -> float:
         """Shortest time of a course of its own [s], which steps have to follow; infinite by default."""
-        return math.inf
-
-    @property
-    def impacts_machine(self) -> bool:
-        """Whether it strikes the machine, so that steps have to be shortened in time: see `longest_step`."""
-        return False
-
-    def longest_step(self, at: Any, number: int) -> float:
-        """Longest next step [s] if an impact is to take so many steps; infinite by default."""
-        del at, number
         return math.inf
 
 

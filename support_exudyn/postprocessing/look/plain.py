@@ -9,7 +9,6 @@ from shapely.geometry import Polygon, box
 from shapely.ops import unary_union
 
 from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage, Slide
-from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.loads.spring_damper import SpringDamper
 from support_exudyn.model.to_space import at, copies
 from support_exudyn.postprocessing.look.poses import planar_pins
@@ -209,10 +208,9 @@ def _struts(scenario: Scenario, name: str, radius: float) -> Iterator[DrawnActua
 def blocks(scenario: Scenario) -> list[Solid]:
     """A cube for each falling block, of its mass and density, where it starts."""
     found = []
-    for name, load in scenario.acting_loads.items():
-        if isinstance(load, FallingBlock):
-            x, y = scenario.linkage.bodies[name].centre
-            half = 0.5 * load.side
-            mesh = plate(box(x - half, y - half, x + half, y + half), 0.0, load.side)
-            found.append(Solid(name, name, Role.ROCK, mesh))
+    for name, block in scenario.blocks.items():
+        x, y = scenario.linkage.bodies[name].centre
+        half = 0.5 * block.side
+        mesh = plate(box(x - half, y - half, x + half, y + half), 0.0, block.side)
+        found.append(Solid(name, name, Role.ROCK, mesh))
     return found

@@ -33,7 +33,7 @@ def sliding_block(slide: Slide, guide: Guide) -> Iterator[Polygon]:
     if not parts:
         return
     whole = MultiPoint([part.point for part in parts]).convex_hull
-    radius = parts[0].contact.bearing.radius
+    radius = parts[0].contact.bearing.contact_arms(0.0)[1]
     yield _placed(whole.buffer(radius, quad_segs=ROUND) if radius else whole, slide)
 
 

@@ -35,6 +35,8 @@ from user_forces.values.value import Vector2
 # Largest turn between the marker frames before they are lined up again [rad]: the displacement is then
 # right within 4e-10 of itself, and the rest is corrected.
 FRAME_TURN = 1e-4
+HANGS_BY = 0.01  # [m] that the spring by which a block hangs would give under the weight of all bodies
+LEAST = 1.0  # [N], stands for that weight where there is none
 
 
 Frame = list[list[float]]
@@ -187,6 +189,36 @@ class SlotConnector(PinConnector):
             pull = share() * load / play * (y - self._rest)
             pull += math.copysign(self._pressed(abs(y), load, share() * play), y)
             fx, fy, moment = slot_directions(self.at, along, 1.0, 0.0, half)[0]
+            return [pull * fx, pull * fy, 0.0, 0.0, 0.0, pull * moment]
+
+        self.set_force(force)
+
+
+class FaceConnector(PinConnector):
+    """Markers and connector of a point at the face of a falling block in the engine.
+
+    Arguments as of `PinConnector`, and: start_depth: how far the point is behind the face at the start [m].
+    """
+
+    def __init__(
+        self, mbs: Any, contact: Contact, bore: Mount, journal: Mount, turn: float, start_depth: float
+    ) -> None:
+        super().__init__(mbs, contact, bore, journal, turn)
+        self._rest = self.clearance + start_depth
+
+    def settle(self, load: float, share: Callable[[], float]) -> None:
+        """The block, whose weight does not act meanwhile, hangs over its point by a spring, as at the start."""
+        del share
+        stiffness = max(load, LEAST) / HANGS_BY
+
+        def force(
+            mbs: Any, t: float, item: int, displacement: list[float], rotation: list[float], *others: Any
+        ) -> list[float]:
+            half, scale = 0.5 * rotation[2], displacement_scale(rotation[2])
+            apart = Relative(scale * displacement[0], scale * displacement[1], 0.0, 0.0)
+            along, (_, y, *_) = in_slot(self.at, apart, half)
+            fx, fy, moment = slot_directions(self.at, along, 1.0, 0.0, half)[0]
+            pull = stiffness * (y - self._rest)
             return [pull * fx, pull * fy, 0.0, 0.0, 0.0, pull * moment]
 
         self.set_force(force)

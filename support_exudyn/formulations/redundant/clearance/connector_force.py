@@ -20,8 +20,8 @@ from typing import Any, NamedTuple, cast
 
 from support_exudyn.mechanics.contact_state import InverseMass
 from user_forces.compilation.flat import asks_for_mass
-from user_forces.contact import SMALLEST, Contact, ContactForce, SlipHistory
-from user_forces.expressions.scalar import cos, hypot, maximum, sin
+from user_forces.contact import Contact, ContactForce, SlipHistory
+from user_forces.expressions.scalar import cos, maximum, sin
 from user_forces.friction.frictionless import Frictionless
 from user_forces.normal.law import Impact
 
@@ -119,7 +119,7 @@ def rough_force(
     """
     impact = Impact(speed, inverse_mass.mass(motion.x, motion.y))
     found = contact.force(*motion[:4], *motion.spins(at), impact, history)
-    eccentricity = hypot(motion.x, motion.y)
+    eccentricity = contact.bearing.outwards(motion.x, motion.y)[0]
     return found, found.journal_arm + SHARE[at] * eccentricity
 
 
@@ -141,16 +141,15 @@ def in_slot(at: Attachment, motion: Relative, half_turn: float) -> tuple[float, 
 
 
 def slot_directions(
-    at: Attachment, along: float, y: float, arm: float, half_turn: float
+    at: Attachment, along: float, side: float, arm: float, half_turn: float
 ) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
     """Force x and y and moment of the connector for 1 N of normal force, and of friction.
 
     Arguments:
         at, half_turn: as of `in_slot`.
-        along, y: of the corner along the slot and across, from the middle line [m].
+        along: of the corner along the slot [m]. side: 1 at the upper wall, -1 at the lower.
         arm: of friction, see `rough_force` [m].
     """
-    side = y / maximum(hypot(0.0, y), SMALLEST)
     c, s = (cos(half_turn), sin(half_turn)) if at is Attachment.MIDDLE else (1.0, 0.0)
     moment = SHARE[at] * along * side
     return (s * side, c * side, moment), (c * side, -s * side, -arm)

@@ -168,7 +168,8 @@ def _in_slot(contact: Contact, at: Attachment) -> list[str]:
     along, moving = in_slot(at, Relative(x, y, *motion), half)
     history = SlipHistory(deflection, slip, step)
     found, arm = rough_force(contact, at, moving, speed, InverseMass(xx, xy, yy), history)
-    both = zip(*slot_directions(at, along, moving.y, arm, half), strict=True)
+    side = contact.bearing.outwards(0.0, moving.y)[2]
+    both = zip(*slot_directions(at, along, side, arm, half), strict=True)
     force = [text(found.normal_force * normal + found.friction_force * across) for normal, across in both]
     return _source(
         contact,

@@ -29,8 +29,8 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
     straightened,
 )
 from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
-from user_forces.contact import SMALLEST, Contact, SlipHistory
-from user_forces.expressions.scalar import Expression, hypot, maximum, where
+from user_forces.contact import Contact, SlipHistory
+from user_forces.expressions.scalar import Expression, where
 
 engine: Any = getattr(exudyn, "symbolic")  # noqa: B009 - its stubs lack the module
 APART = 1e300  # [m], deeper than any pin
@@ -230,8 +230,7 @@ class SymbolicForce:
         motion = Relative(x, y, vx, vy, unknown(angular_velocity[2]), unknown(self._bore_spin))
         history = SlipHistory(*(unknown(variable) for variable in self._history))
         found, arm = rough_force(self._contact, self._at, motion, self._speed, self._inverse_mass, history)
-        away = maximum(hypot(x, y), SMALLEST)
-        nx, ny = x / away, y / away
+        _, nx, ny = self._contact.bearing.outwards(x, y)
         along = engine.Vector([real(nx), real(ny), *_zeros(4)])
         across = engine.Vector([real(ny), real(-nx), *_zeros(3), real(-arm)])
         normal = self._if_pressed(found.depth, found.normal_force)
@@ -249,7 +248,8 @@ class SymbolicForce:
         history = SlipHistory(*(unknown(variable) for variable in self._history))
         found, arm = rough_force(self._contact, self._at, moving, self._speed, self._inverse_mass, history)
         forces = found.normal_force, found.friction_force
-        directions = slot_directions(self._at, along, moving.y, arm, 0.5 * turn)
+        side = self._contact.bearing.outwards(0.0, moving.y)[2]
+        directions = slot_directions(self._at, along, side, arm, 0.5 * turn)
         pushed, rubbed = (
             engine.Vector([real(fx), real(fy), *_zeros(3), real(moment)])
             * real(self._if_pressed(found.depth, one))

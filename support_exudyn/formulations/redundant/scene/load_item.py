@@ -7,13 +7,11 @@ not get along with a stiff one.
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import exudyn
-import numpy as np
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import ObjectConnectorCartesianSpringDamper, ObjectConnectorCoordinateSpringDamper
 
@@ -22,7 +20,6 @@ from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint, Power
 from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
 from user_forces.lawful import ROUNDING, LawError
 
-HANGS_BY = 0.01  # [m] that the spring would give under what hangs, if it were to carry it
 NAME = "springForceUserFunction"  # the engine's, of its springs
 
 
@@ -61,34 +58,12 @@ class LoadItem(ABC):
         if not loss >= -ROUNDING * (abs(work) + power):
             raise LawError(f"{name}: {type(self.load).__name__} loses {loss:.6g} W; allowed: >= 0")
 
-    def longest_step(self, t: float, number: int) -> float:
-        """How long the step from t [s] on may be [s], with so many in an impact."""
-        return self.load.longest_step(self.at(t), number)
-
 
 @dataclass(frozen=True)
 class ForceItem(LoadItem):
     """A force on a point in the engine."""
 
     load: Load
-
-    @contextmanager
-    def hung(self, weight: Any) -> Iterator[None]:
-        """What the load brings along hangs, without its weight, over its point for as long as this lasts.
-
-        weight: of it, a load of the engine. A spring that nothing stretches keeps it there.
-        """
-        pull = self.mbs.GetLoadParameter(weight, "loadVector")
-        stiffness = float(np.linalg.norm(pull)) / HANGS_BY
-        self.mbs.SetLoadParameter(weight, "loadVector", [0.0, 0.0, 0.0])
-        self.mbs.SetObjectParameter(self.object, NAME, 0)
-        self.mbs.SetObjectParameter(self.object, "stiffness", [0.0, stiffness, 0.0])
-        try:
-            yield
-        finally:
-            self.mbs.SetObjectParameter(self.object, "stiffness", [0.0, 0.0, 0.0])
-            self.mbs.SetObjectParameter(self.object, NAME, self.function)
-            self.mbs.SetLoadParameter(weight, "loadVector", pull)
 
     def at(self, t: float) -> LoadedPoint:
         """See `LoadItem`."""

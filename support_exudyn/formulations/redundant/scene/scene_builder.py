@@ -20,7 +20,13 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
-from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector, SlotConnector, frame
+from support_exudyn.formulations.redundant.clearance.connector import (
+    FaceConnector,
+    Mount,
+    PinConnector,
+    SlotConnector,
+    frame,
+)
 from support_exudyn.formulations.redundant.scene.bushing import BushingItem
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
@@ -213,6 +219,8 @@ class PlaneBuilder(EngineBuilder):
         for name, guide in scenario.guides.items():
             for part, contact in guide.contacts().items():
                 self.add_corner(f"{name}.{part}", contact.point[1])
+        for name, block in scenario.blocks.items():
+            self.connectors[name] = FaceConnector(mbs, block.contact, *self.mounts(name), block.start_depth)
         for gear in linkage.gears.values():
             self.add_gear(gear)
         loads = {name: self.add_load(load, name) for name, load in scenario.acting_loads.items()}

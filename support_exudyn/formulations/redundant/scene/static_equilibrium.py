@@ -1,7 +1,8 @@
 """Static equilibrium with clearance pins, so that a run can start settled."""
 
 import math
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 import exudyn
@@ -10,7 +11,6 @@ from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.limits import CENTRING
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL, EngineScene
-from support_exudyn.formulations.redundant.scene.load_item import ForceItem
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.mechanics.acting_loads import forces_at_rest
 from support_exudyn.mechanics.body_coordinates import BodyItem
@@ -32,8 +32,8 @@ ROUNDINGS = 64.0  # of the coordinates
 def find_static_equilibrium(scene: EngineScene) -> None:
     """Make the static equilibrium under gravity the initial state of the scene, at rest.
 
-    Elastic contact without friction. Velocities the machine asks for are set to zero. What loads bring along
-    hangs over its point meanwhile, such as a block that falls, and starts from there as it was to start.
+    Elastic contact without friction. Velocities the machine asks for are set to zero. Blocks that are to fall
+    hang over their points meanwhile, and start from there as they were to start.
 
     Raises SimulationError if there is no equilibrium or it is not found.
     """
@@ -43,10 +43,8 @@ def find_static_equilibrium(scene: EngineScene) -> None:
 
     if (held := _held_by_loads(scene)) is not None:
         data.SetODE2Coordinates(held, INITIAL)
-    load_suspension = _load_suspension(scene)
     with ExitStack() as for_a_while:
-        for load, pull in load_suspension.values():
-            for_a_while.enter_context(load.hung(pull))
+        for_a_while.enter_context(_weightless(scene))
         for pin in scene.clearance_joints.values():
             for_a_while.enter_context(pin.settling(weight, lambda: share))
         for cylinder in scene.cylinders.values():
@@ -58,9 +56,9 @@ def find_static_equilibrium(scene: EngineScene) -> None:
                 cylinder.follow()
             scene.reset_memory()  # of where journals have shifted to along their bores
     velocity = 0.0 * data.GetODE2Coordinates_t(INITIAL)
-    for name in load_suspension:
+    for name in scene.scenario.blocks:
         item = scene.bodies[name]
-        if isinstance(item, BodyItem):  # loads are planar
+        if isinstance(item, BodyItem):  # blocks are planar
             velocity[item.first : item.first + 3] = *item.body.velocity, item.body.spin
     data.SetODE2Coordinates_t(velocity, INITIAL)
     scene.reset_memory()
@@ -74,7 +72,7 @@ def _held_by_loads(scene: EngineScene) -> Matrix | None:
     if not isinstance(scene, Scene) or not scene.loads:
         return None
     compliant = (scene.clearance_joints, scene.compliant_pins, scene.oil_columns, scene.cylinders)
-    if any(compliant) or scene.bodies.keys() != scene.scenario.unloaded.bodies.keys():
+    if any(compliant):
         return None
     closed, acting = scene.closed_kinetics, scene.scenario.acting_loads
     weight = closed.weight(scene.scenario.gravity)
@@ -85,17 +83,19 @@ def _held_by_loads(scene: EngineScene) -> Matrix | None:
     return resting(closed, forces, scene.mbs.systemData.GetODE2Coordinates(INITIAL))
 
 
-def _load_suspension(scene: EngineScene) -> dict[str, tuple[ForceItem, Any]]:
-    """By body that a load brings along, the load and the body's weight."""
-    brought = {
-        item.load.against(name): item for name, item in scene.loads.items() if isinstance(item, ForceItem)
-    }
-    own = scene.scenario.unloaded.bodies
-    return {
-        body: (item, scene.weights[body])
-        for body, item in brought.items()
-        if body in scene.weights and body not in own
-    }
+@contextmanager
+def _weightless(scene: EngineScene) -> Iterator[None]:
+    """Blocks that fall on the machine have no weight for as long as this lasts."""
+    mbs = scene.mbs
+    weights = [scene.weights[name] for name in scene.scenario.blocks if name in scene.weights]
+    pulls = [mbs.GetLoadParameter(weight, "loadVector") for weight in weights]
+    for weight in weights:
+        mbs.SetLoadParameter(weight, "loadVector", [0.0, 0.0, 0.0])
+    try:
+        yield
+    finally:
+        for weight, pull in zip(weights, pulls, strict=True):
+            mbs.SetLoadParameter(weight, "loadVector", pull)
 
 
 def _solve(scene: EngineScene) -> None:

@@ -68,7 +68,8 @@ def state_of(scene: EngineScene) -> dict[str, float]:
     """What is told of a scene where a run has failed: spins [rad/s], and of clearance pins [m], [m/s]."""
     state = {f"{name}.angular_velocity": spin for name, spin in scene.spins().items()}
     for name, pin in scene.clearance_joints.items():
-        state[f"pin.{name}.depth"] = pin.memory.depth
-        state[f"pin.{name}.rate"] = pin.memory.rate
-        state[f"pin.{name}.impact_velocity"] = pin.memory.impact_velocity
+        stem = scene.scenario.contact_stem(name)
+        state[f"{stem}.depth"] = pin.memory.depth
+        state[f"{stem}.rate"] = pin.memory.rate
+        state[f"{stem}.impact_velocity"] = pin.memory.impact_velocity
     return state

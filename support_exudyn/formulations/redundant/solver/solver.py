@@ -63,7 +63,6 @@ class SolverRun:
         self.scene = scene
         self.pins = tuple(scene.clearance_joints.values())
         self.frictions = tuple(scene.frictions.values())
-        self.impacting_loads = tuple(item for item in scene.loads.values() if item.load.impacts_machine)
         self.data = scene.mbs.systemData
         self.recorder = recorder
         self.progress = progress
@@ -104,9 +103,7 @@ class SolverRun:
         self.has_prescribed_motion = self.valves or any(
             parts.moves(scenario.duration) for parts in scene.driven
         )
-        self.needs_step_callbacks = (
-            bool(self.pins or self.frictions or self.impacting_loads) or self.smooth is not None
-        )
+        self.needs_step_callbacks = bool(self.pins or self.frictions) or self.smooth is not None
         moves = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
         if (
             (moves or self.valves)
@@ -385,8 +382,6 @@ class SolverRun:
         for pin in self.pins:
             if (longest := pin.longest_step) < largest:
                 largest = longest
-        for impacting_load in self.impacting_loads:
-            largest = min(largest, impacting_load.longest_step(t, self.impact_steps))
         if self.locates and self.plan.follows_break(t):
             largest = min(largest, self.plan.step / BREAK_REFINEMENT)
         return largest
