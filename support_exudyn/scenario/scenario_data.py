@@ -199,8 +199,14 @@ class ScenarioData(Value, ABC):
 
     @cached_property
     def space(self) -> SpatialLinkage:
-        """The machine's mechanism in space. Raises InputError if it is known in its plane only."""
-        return self.machine.in_space(self.linkage)
+        """The machine's mechanism in space, with blocks that fall on it.
+
+        Raises InputError if the machine is known in its plane only.
+        """
+        space = self.machine.in_space(self.unloaded)
+        for name, block in self.blocks.items():
+            space = block.joined_in_space(space, name)
+        return space
 
     def drive_of(self, name: str) -> Drive:
         """The drive that an actuator or crank follows; `Held` for one that is not driven, or is a cylinder."""
@@ -271,7 +277,7 @@ class ScenarioData(Value, ABC):
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:
             return spatial_channel_definitions(
-                self.space, self.clearance_pins, self.oil_columns, self.acting_loads
+                self.space, self.clearance_pins, self.oil_columns, self.acting_loads, tuple(self.blocks)
             )
         return channel_definitions(
             self.linkage,

@@ -13,7 +13,6 @@ from support_exudyn import (
     AppliedForce,
     AppliedTorque,
     CubicStep,
-    FallingBlock,
     Held,
     Load,
     MomentLoad,
@@ -29,7 +28,6 @@ from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLi
 from tests.cases.run_cases import PIN, loose_support, support
 from tests.cases.spatial_cases import InSpace, observed
 from tests.roof_cases import ON_OIL
-from user_forces import InputError
 
 TIP = (3.19590271431274, 1.95)  # of the reference support's canopy [m]
 INERTIA = (0.03, 0.05, 0.04, 0.0, 0.0, 0.0)
@@ -298,9 +296,3 @@ def test_what_the_ground_carries_balances_a_load_beside_the_middle() -> None:
             push = context.actuator_force(name)[-1] * along / np.linalg.norm(along)
             rolling += np.cross(strut.foot_point, push)[0]
     assert rolling == pytest.approx(-0.5 * 4e5, rel=1e-4)  # the weight is in the middle
-
-
-def test_what_is_planar_is_refused_in_space() -> None:
-    block = FallingBlock(body="canopy", point=TIP, mass=1e3, height=0.2, stiffness=1e8, restitution=0.5)
-    with pytest.raises(InputError, match=r"slides"):
-        pressed(block)

@@ -11,6 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from support_exudyn.mechanics.block_contact import block_channels
 from support_exudyn.mechanics.channels import (
     CONTACT,
     MOTION,
@@ -69,6 +70,10 @@ class SpatialContext(Protocol):
     def acting(self) -> Mapping[str, LoadSeries]:
         """What acts on the machine besides its weight."""
 
+    @property
+    def faces(self) -> Mapping[str, ContactSeries]:
+        """The contacts of falling blocks."""
+
     def span(self, actuator: str) -> tuple[Series, Series]:
         """The vector from foot to head of an actuator (n, 3) [m], and its rate."""
 
@@ -78,11 +83,12 @@ def channel_definitions(
     with_clearance: Collection[str],
     oil: Collection[str],
     acting: Mapping[str, ActingLoad] = MappingProxyType({}),
+    blocks: Collection[str] = (),
 ) -> ChannelDefinitions:
     """All channels of a linkage in which these planar pins are with clearance, and these actuators on oil.
 
-    acting: what acts on it besides its weight, by name. The meaning of loads that rigid bodies do not determine
-    says so.
+    acting: what acts on it besides its weight, by name. blocks: names of those that fall on it.
+    The meaning of loads that rigid bodies do not determine says so.
     """
     loads = Loads(linkage, with_clearance, oil)
     found: ChannelDefinitions = {
@@ -109,6 +115,8 @@ def channel_definitions(
             found |= _said(together, ".force", loads.forces(parts))
     for name, load in acting.items():
         found |= load_channels(name, load)
+    for name in blocks:
+        found |= block_channels(name, lambda context: context.faces)
     return found | _of_energy(bool(acting))
 
 
