@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -68,15 +69,23 @@ def block_places(blocks: Mapping[str, FallingBlock], gravity: Vector2) -> dict[s
     }
 
 
-def block_channels(name: str) -> ChannelDefinitions:
-    """The channels of a block's contact."""
+def in_the_plane(context: Any) -> Mapping[str, ContactSeries]:
+    """The contacts of a run in the plane."""
+    found: Mapping[str, ContactSeries] = context.run.contacts
+    return found
+
+
+def block_channels(
+    name: str, contacts: Callable[[Any], Mapping[str, ContactSeries]] = in_the_plane
+) -> ChannelDefinitions:
+    """The channels of a block's contact; contacts: gives those of a run."""
 
     def said(
         what: str, unit: str, meaning: str, values: Callable[[ContactSeries], Series]
     ) -> ChannelDefinitions:
         return {
             f"{name}.{what}": ChannelDefinition(
-                unit, meaning, CONTACT, lambda context: values(context.run.contacts[name])
+                unit, meaning, CONTACT, lambda context: values(contacts(context)[name])
             )
         }
 

@@ -53,8 +53,8 @@ class CompliantSeries(NamedTuple):
 class LoadSeries:
     """A load at the records, shape (n,) each.
 
-    force: on the loaded point (n, 2) [N]. moment: on the body besides [N m]. stored: energy [J]. observed:
-    values of its channels, by name.
+    force: on the loaded point (n, 2) [N]. moment: on the body besides [N m]. In space both have shape (n, 3).
+    stored: energy [J]. observed: values of its channels, by name.
     """
 
     force: Series

@@ -13,6 +13,7 @@ from support_exudyn.model.linkage import ROUNDING, check_bodies
 from user_forces.values.value import NonNegative, Positive, Real, Share, Value, Vector3, value
 
 FORWARD: Vector3 = (1.0, 0.0, 0.0)
+UP: Vector3 = (0.0, 1.0, 0.0)
 ACROSS: Vector3 = (0.0, 0.0, 1.0)
 Inertia = tuple[Real, Real, Real, Real, Real, Real]
 
@@ -64,7 +65,8 @@ class Bearing(Value):
         length: of the bearing along its axis [m], >= 0.
         holds: what an ideal pin holds here besides the two directions across its axis: "tilt" of the axes
             against each other, and shift "along" them. Of one with clearance only "along" is held. A bearing
-            that holds "tilt" alone is a guide: the second body slides along it.
+            that holds "tilt" alone is a guide: the second body slides along it; with "turn" it does not turn
+            about its axis either.
         pin: name of the planar pin that this is, or is a part of.
         share: of the planar pin's contact stiffness that is here.
         is_guide: whether it is reported as a guide and not as a pin.
@@ -77,7 +79,7 @@ class Bearing(Value):
     first_axis: Vector3 = ACROSS
     second_axis: Vector3 = ACROSS
     length: NonNegative = 0.0
-    holds: frozenset[Literal["tilt", "along"]] = frozenset({"tilt", "along"})
+    holds: frozenset[Literal["tilt", "along", "turn"]] = frozenset({"tilt", "along"})
     pin: str
     share: Share = 1.0
     is_guide: Annotated[bool, Field(strict=True)] = False

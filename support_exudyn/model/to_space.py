@@ -154,7 +154,7 @@ def _bearings(linkage: Linkage, width: Width, name: str) -> Iterator[tuple[str, 
         raise InputError(
             f"pins.{name}: joins pairs {' and '.join(paired)} at different distances; allowed: one"
         )
-    holds: frozenset[Literal["tilt", "along"]] = frozenset({"tilt", "along"})
+    holds: frozenset[Literal["tilt", "along", "turn"]] = frozenset({"tilt", "along"})
     if any(body in _in_actuators(linkage) for body in paired):
         holds = frozenset({"along"})
     elif any(_first_pin(linkage, body) != name for body in paired):

@@ -64,7 +64,7 @@ class ScenarioData(Value, ABC):
             that follows another by the machine's making, such as the ram of a two-leg shield, does so unless it
             is named here.
         loads: what acts on the machine besides its weight and what it has of its own making (`Machine.loads`),
-            by name; in the plane.
+            by name; in the plane and in space.
         duration: end time [s], > 0; the run starts at 0.
         dimensions: 2: in the plane, both sides of a machine lumped; 3: in space, for machines that know their
             lateral dimensions. Parts that there are two of are then driven by names such as `front_column_left`
@@ -199,8 +199,14 @@ class ScenarioData(Value, ABC):
 
     @cached_property
     def space(self) -> SpatialLinkage:
-        """The machine's mechanism in space. Raises InputError if it is known in its plane only."""
-        return self.machine.in_space(self.linkage)
+        """The machine's mechanism in space, with blocks that fall on it.
+
+        Raises InputError if the machine is known in its plane only.
+        """
+        space = self.machine.in_space(self.unloaded)
+        for name, block in self.blocks.items():
+            space = block.joined_in_space(space, name)
+        return space
 
     def drive_of(self, name: str) -> Drive:
         """The drive that an actuator or crank follows; `Held` for one that is not driven, or is a cylinder."""
@@ -270,7 +276,9 @@ class ScenarioData(Value, ABC):
     def channel_definitions(self) -> dict[str, ChannelDefinition]:
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:
-            return spatial_channel_definitions(self.space, self.clearance_pins, self.oil_columns)
+            return spatial_channel_definitions(
+                self.space, self.clearance_pins, self.oil_columns, self.acting_loads, tuple(self.blocks)
+            )
         return channel_definitions(
             self.linkage,
             self.pins,

@@ -31,6 +31,7 @@ def check(scenario: ScenarioData) -> None:
     linkage = scenario.linkage
     if scenario.dimensions == 3:
         _check_space(scenario)
+        _check_loads_in_space(scenario)
     places = linkage.pins
     for name in scenario.pins:
         if name not in places:
@@ -171,11 +172,25 @@ def _check_loads(scenario: ScenarioData) -> None:
         _check_load(scenario, f"loads.{name}", name, load, {*taken, *own})
 
 
+def _check_loads_in_space(scenario: ScenarioData) -> None:
+    """Raise ValueError if a load acts on a body that there are two of."""
+    single = scenario.space.bodies
+    own = scenario.machine.loads
+    everything: dict[str, AnyLoad] = {**scenario.acting_loads, **scenario.blocks}
+    for name, load in everything.items():
+        where = f"machine.loads.{name}" if name in own and name not in scenario.loads else f"loads.{name}"
+        for what, body in (("body", load.body), ("other", load.against(name))):
+            if body != GROUND and body not in single:
+                allowed = [one for one in scenario.linkage.bodies if one in single]
+                raise ValueError(
+                    f"{where}.{what} = {body!r}: there are two of it in space, which is not covered; "
+                    f"allowed with dimensions = 3: {', '.join(allowed)}"
+                )
+
+
 def _check_load(scenario: ScenarioData, where: str, name: str, load: AnyLoad, taken: Collection[str]) -> None:
     """Raise ValueError unless a load goes with the machine; taken: names that it cannot have."""
     linkage, against = scenario.unloaded, load.against(name)
-    if scenario.dimensions == 3:
-        raise ValueError(f"{where}: acts in the plane; allowed with dimensions = 3: no loads")
     if name in taken:
         raise ValueError(
             f"{where}: the machine has something of this name; allowed: all but {', '.join(sorted(taken))}"

@@ -157,9 +157,11 @@ def test_a_body_that_is_not_there_is_refused() -> None:
         pressed_support(over_the_ram())
 
 
-def test_loads_in_space_are_refused() -> None:
-    with pytest.raises(InputError, match=r"loads\.roof: acts in the plane; allowed with dimensions = 3: no"):
-        pressed_support(over_the_canopy(0.1), dimensions=3)
+def test_a_load_on_one_of_two_in_space_is_refused() -> None:
+    on_link = over_the_canopy(0.1, body="front_link")
+    pressed_support(on_link)
+    with pytest.raises(InputError, match=r"loads\.roof\.body = 'front_link': there are two of it in space, "):
+        pressed_support(on_link, dimensions=3)
 
 
 @pytest.mark.parametrize(

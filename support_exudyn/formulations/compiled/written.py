@@ -52,7 +52,7 @@ def load_source(load: ActingLoad) -> tuple[str, list[float], list[TimeFunction]]
     time: Any = _Time(LAW_ARGUMENTS[0], formulas)
     try:
         if isinstance(load, Load):
-            at = LoadedPoint(time, *known[: len(LoadedPoint._fields) - 1])
+            at = LoadedPoint(time, *known[:4])
             given, up = load.force(at)
             written = [*load.powers(at), up]
         elif isinstance(load, StretchLoad):

@@ -9,6 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from support_exudyn.formulations.contract import Progress
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.cylinder_item import UNIT, CylinderItem
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.redundant.scene.record_forces import (
@@ -115,14 +116,15 @@ def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
     edges = {
         f"{name}.{side}": group[n] for name, group in groups for side, n in EDGES.items() if len(group) > 1
     }
+    single: dict[str, ClearanceJoint] = {**edges, **scene.faces}
     return Outcome(
         trajectory=SpatialObservation(scene, recorder.history()),
         onsets={name: tuple(group[0].whole.onsets) for name, group in groups}
-        | {name: tuple(pin.onsets) for name, pin in edges.items()},
+        | {name: tuple(pin.onsets) for name, pin in single.items()},
         largest_force={name: group[0].whole.largest_force for name, group in groups}
-        | {name: pin.largest_force for name, pin in edges.items()},
+        | {name: pin.largest_force for name, pin in single.items()},
         largest_force_time={name: group[0].whole.largest_force_time for name, group in groups}
-        | {name: pin.largest_force_time for name, pin in edges.items()},
+        | {name: pin.largest_force_time for name, pin in single.items()},
         impulses=tuple(solving.impulses),
         counts=counts,
         oil_events=scene.legs.events,

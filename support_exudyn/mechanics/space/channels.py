@@ -6,10 +6,12 @@ of each, and under the planar name the force of both, and the mean of lengths an
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any, Protocol
 
 import numpy as np
 
+from support_exudyn.mechanics.block_contact import block_channels
 from support_exudyn.mechanics.channels import (
     CONTACT,
     MOTION,
@@ -18,9 +20,11 @@ from support_exudyn.mechanics.channels import (
     ChannelDefinitions,
     DataNeeds,
 )
+from support_exudyn.mechanics.space.acting_loads import load_channels
 from support_exudyn.mechanics.space.determined import UNDETERMINED, Loads
 from support_exudyn.mechanics.space.motion import SpatialMotion
-from support_exudyn.mechanics.trajectory import ContactSeries, Series
+from support_exudyn.mechanics.trajectory import ContactSeries, LoadSeries, Series
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
 
 REACTION = CONTACT | OIL  # they and accelerations follow from the motion and what is applied
@@ -62,15 +66,28 @@ class SpatialContext(Protocol):
     def actuator_force(self, name: str) -> Series:
         """The force that pushes an actuator's ends apart (n,) [N]."""
 
+    @property
+    def acting(self) -> Mapping[str, LoadSeries]:
+        """What acts on the machine besides its weight."""
+
+    @property
+    def faces(self) -> Mapping[str, ContactSeries]:
+        """The contacts of falling blocks."""
+
     def span(self, actuator: str) -> tuple[Series, Series]:
         """The vector from foot to head of an actuator (n, 3) [m], and its rate."""
 
 
 def channel_definitions(
-    linkage: SpatialLinkage, with_clearance: Collection[str], oil: Collection[str]
+    linkage: SpatialLinkage,
+    with_clearance: Collection[str],
+    oil: Collection[str],
+    acting: Mapping[str, ActingLoad] = MappingProxyType({}),
+    blocks: Collection[str] = (),
 ) -> ChannelDefinitions:
     """All channels of a linkage in which these planar pins are with clearance, and these actuators on oil.
 
+    acting: what acts on it besides its weight, by name. blocks: names of those that fall on it.
     The meaning of loads that rigid bodies do not determine says so.
     """
     loads = Loads(linkage, with_clearance, oil)
@@ -96,7 +113,11 @@ def channel_definitions(
         if parts != (pin,):
             together = _forces(f"pin.{pin}", REACTION, _sum_of_bearings(parts))
             found |= _said(together, ".force", loads.forces(parts))
-    return found | _of_energy()
+    for name, load in acting.items():
+        found |= load_channels(name, load)
+    for name in blocks:
+        found |= block_channels(name, lambda context: context.faces)
+    return found | _of_energy(bool(acting))
 
 
 def _said(channels: ChannelDefinitions, what: str, determined: bool) -> ChannelDefinitions:
@@ -351,9 +372,11 @@ def _middle(
     return lambda sections: 0.5 * (axis(0)(sections) + axis(-1)(sections))
 
 
-def _of_energy() -> ChannelDefinitions:
+def _of_energy(loaded: bool) -> ChannelDefinitions:
     integrals = DataNeeds.INTEGRALS
     stored = CONTACT | OIL
+    places = "contacts, oil and loads" if loaded else "contacts and oil"
+    movers = "drives and of what moves loads" if loaded else "drive"
 
     def known(what: str) -> Callable[[SpatialContext], Series]:
         return lambda context: np.asarray(getattr(context, what))
@@ -361,10 +384,10 @@ def _of_energy() -> ChannelDefinitions:
     table: dict[str, tuple[str, DataNeeds, Any]] = {
         "kinetic": ("kinetic energy of all bodies", MOTION, known("kinetic")),
         "potential": ("of weight, zero in the machine's start posture", DataNeeds.POSITION, known("potential")),
-        "elastic": ("stored in contacts and oil", stored, known("stored")),
-        "damping_loss": ("dissipated by damping in contacts and oil so far", integrals, known("damping_loss")),
+        "elastic": (f"stored in {places}", stored, known("stored")),
+        "damping_loss": (f"dissipated by damping in {places} so far", integrals, known("damping_loss")),
         "friction_loss": ("dissipated by friction so far", integrals, known("friction_loss")),
-        "work": ("work of the drive so far", integrals, known("work")),
+        "work": (f"work of the {movers} so far", integrals, known("work")),
         "balance": (
             "gain minus work plus loss; zero if computed exactly",
             stored | integrals,

@@ -21,7 +21,8 @@ from user_forces.values.value import Vector3
 
 SAME = 1e-6  # share of a row that must be new, else it repeats others
 FindPoint = Callable[[str, Vector3], SpatialPointMotion]
-Kind = Literal["actuator", "across_1", "across_2", "along", "tilt_1", "tilt_2"]
+Kind = Literal["actuator", "across_1", "across_2", "along", "tilt_1", "tilt_2", "turn"]
+TURNS: tuple[Kind, ...] = ("tilt_1", "tilt_2", "turn")  # what holds turns about directions, not shifts
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,7 @@ def all_rows(linkage: SpatialLinkage, with_clearance: Sequence[str], rigid: Sequ
     for name, bearing in bearings:
         if "tilt" in bearing.holds and bearing.pin not in with_clearance:
             rows += [Constraint(name, "tilt_1"), Constraint(name, "tilt_2")]
+    rows += [Constraint(name, "turn") for name, bearing in bearings if "turn" in bearing.holds]
     return rows + [Constraint(name, "actuator") for name in rigid]
 
 
@@ -83,7 +85,7 @@ def _actuator_row(motion: SpatialMotion, point: FindPoint, name: str, row: Serie
 def _bearing_row(motion: SpatialMotion, point: FindPoint, row: Constraint, found: Series) -> None:
     bearing = motion.linkage.bearings[row.name]
     direction = direction_of(motion, bearing, row.kind)
-    if row.kind.startswith("tilt"):
+    if row.kind in TURNS:
         _add_turn(motion, bearing.second, direction, found)
         _add_turn(motion, bearing.first, -direction, found)
         return
@@ -97,7 +99,7 @@ def _bearing_row(motion: SpatialMotion, point: FindPoint, row: Constraint, found
 
 def direction_of(motion: SpatialMotion, bearing: Bearing, kind: Kind) -> Series:
     """The direction in which, or about which, a bearing holds, (n, 3)."""
-    column = {"across_1": 0, "across_2": 1, "along": 2, "tilt_1": 0, "tilt_2": 1}[kind]
+    column = {"across_1": 0, "across_2": 1, "along": 2, "tilt_1": 0, "tilt_2": 1, "turn": 2}[kind]
     return motion.carried(bearing.first, frame_of(bearing.first_axis)[:, column])
 
 

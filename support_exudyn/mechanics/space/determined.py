@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from support_exudyn.mechanics.space.constraints import SAME, Constraint, all_rows, direction_of, matrix
+from support_exudyn.mechanics.space.constraints import SAME, TURNS, Constraint, all_rows, direction_of, matrix
 from support_exudyn.mechanics.space.motion import COORDINATES, SpatialMotion, motion_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.spatial_linkage import SpatialLinkage
@@ -63,7 +63,7 @@ class Loads:
     def _map(self, bearings: Sequence[str], tilt: bool) -> Series:
         found = np.zeros((3, len(self.rows)))
         for n, row in enumerate(self.rows):
-            if row.kind != "actuator" and row.name in bearings and row.kind.startswith("tilt") == tilt:
+            if row.kind != "actuator" and row.name in bearings and (row.kind in TURNS) == tilt:
                 found[:, n] = direction_of(self.start, self.linkage.bearings[row.name], row.kind)[0]
         return found
 

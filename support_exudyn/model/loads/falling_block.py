@@ -8,9 +8,11 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from support_exudyn.model.linkage import Body, Linkage, Slide
+from support_exudyn.model.linkage import GROUND, Body, Linkage, Slide
 from support_exudyn.model.loads.load import AnyLoad
 from support_exudyn.model.plane_geometry import minus, rotated
+from support_exudyn.model.spatial_linkage import UP, Bearing, SpatialBody, SpatialLinkage
+from support_exudyn.model.to_space import at
 from user_forces.contact import FaceContact
 from user_forces.face import Face
 from user_forces.normal.exact import Exact
@@ -51,6 +53,7 @@ class FallingBlock(AnyLoad):
 
     Arguments:
         body, point: what it falls on, and where, start posture [m].
+        lateral: how far to the right of the machine's plane that is in space [m]; without effect in the plane.
         mass: of the block [kg], > 0.
         height: of its face straight over the point in the start posture [m], >= 0.
         stiffness: K [N/m^n], > 0.
@@ -62,6 +65,7 @@ class FallingBlock(AnyLoad):
     """
 
     point: Metres[Vector2]
+    lateral: Metres[Real] = 0.0
     mass: Kilograms[Positive]
     height: Metres[NonNegative]
     stiffness: NewtonsPerMetreToN[Positive]
@@ -80,6 +84,17 @@ class FallingBlock(AnyLoad):
     def side(self) -> float:
         """Side of a cube of the block's mass and density [m]."""
         return float(np.cbrt(self.mass / self.density))
+
+    @property
+    def inertia(self) -> float:
+        """Inertia of that cube about its middle [kg m^2]."""
+        return self.mass * self.side**2 / 6.0
+
+    @property
+    def centre(self) -> Vector2:
+        """Its middle in the start posture [m]."""
+        x, y = self.point
+        return x, y + self.height + 0.5 * self.side
 
     @cached_property
     def contact(self) -> FaceContact:
@@ -100,17 +115,38 @@ class FallingBlock(AnyLoad):
 
     def joined(self, linkage: Linkage, name: str) -> Linkage:
         """The linkage with the block and its upright guide, NAME_guide."""
-        x, y = self.point
-        side = self.side
-        centre = (x, y + self.height + 0.5 * side)
-        block = Body(
-            mass=self.mass, inertia=self.mass * side**2 / 6.0, centre=centre, velocity=(0.0, -self.speed)
-        )
-        guide = Slide(body=name, point=centre, direction=0.5 * math.pi)
+        block = Body(mass=self.mass, inertia=self.inertia, centre=self.centre, velocity=(0.0, -self.speed))
+        guide = Slide(body=name, point=self.centre, direction=0.5 * math.pi)
         return replace(
             linkage,
             bodies={**linkage.bodies, name: block},
             slides={**linkage.slides, f"{name}_guide": guide},
+        )
+
+    def joined_in_space(self, linkage: SpatialLinkage, name: str) -> SpatialLinkage:
+        """The same in space, where the guide lets it turn about no axis."""
+        inertia, centre = self.inertia, at(self.centre, self.lateral)
+        block = SpatialBody(
+            mass=self.mass,
+            inertia=(inertia, inertia, inertia, 0.0, 0.0, 0.0),
+            centre=centre,
+            velocity=(0.0, -self.speed, 0.0),
+        )
+        guide = Bearing(
+            first=GROUND,
+            second=name,
+            first_point=centre,
+            second_point=centre,
+            first_axis=UP,
+            second_axis=UP,
+            holds=frozenset({"tilt", "turn"}),
+            pin=f"{name}_guide",
+            is_guide=True,
+        )
+        return replace(
+            linkage,
+            bodies={**linkage.bodies, name: block},
+            bearings={**linkage.bearings, guide.pin: guide},
         )
 
     def against(self, name: str) -> str:

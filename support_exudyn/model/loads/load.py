@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import GROUND
 from user_forces.values.units import Metres
-from user_forces.values.value import Value, Vector2, value
+from user_forces.values.value import Real, Value, Vector2, value
 
 
 class LoadedPoint(NamedTuple):
-    """The point that a load acts on: time [s], way [m], velocity [m/s]; y is up.
+    """The point that a load acts on: time [s], way [m], velocity [m/s]; y is up, z to the right.
 
     Way and velocity are seen from `Load.origin` on `Load.against`: if that lies at the point in the start
-    posture, the way is the point's since then.
+    posture, the way is the point's since then. In the plane z and vz are 0.
     """
 
     time: float
@@ -23,6 +23,8 @@ class LoadedPoint(NamedTuple):
     y: float
     vx: float
     vy: float
+    z: float = 0.0
+    vz: float = 0.0
 
 
 class LoadChannel(NamedTuple):
@@ -120,21 +122,36 @@ class Load(ActingLoad, ABC):
 
     A `force` written as laws are, see `expressions.scalar`, is evaluated by the engine without Python.
 
+    In space the force has a third part, `sideways`, which is 0 by default, and counts in the work.
+
     Arguments:
         body: name of the body.
         point: of the body, start posture [m].
+        lateral: how far to the right of the machine's plane the point is in space [m]; negative: to the left.
+            In the plane, where both sides of a machine are lumped, a load acts the same wherever it is.
     """
 
     point: Metres[Vector2]
+    lateral: Metres[Real] = 0.0
 
     @abstractmethod
     def force(self, at: LoadedPoint) -> Vector2:
         """Force on the point, forward and up [N]."""
 
+    def sideways(self, at: LoadedPoint) -> float:
+        """Force on the point to the right [N], in space."""
+        del at
+        return 0.0
+
     @property
     def origin(self) -> Vector2:
         """The point of `against` that the opposite force acts on, start posture [m]; by default the same."""
         return self.point
+
+    @property
+    def origin_lateral(self) -> float:
+        """How far to the right that point is [m]; by default as far as the other."""
+        return self.lateral
 
     @property
     def steepness(self) -> Vector2:

@@ -31,6 +31,9 @@ class MomentLoad(ActingLoad, ABC):
 
         d stored/dt = work - loss - moment spin
 
+    In space it acts on the turn that the side view shows, about the lateral axis; see
+    `mechanics/space/acting_loads.py`.
+
     By default it stores nothing, all that it does counts as work, and the moment is its only channel.
 
     Arguments:

@@ -11,7 +11,7 @@ from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powe
 from support_exudyn.model.loads.moment_load import check_two
 from user_forces.expressions.scalar import hypot
 from user_forces.values.units import Metres, NewtonSecondsPerMetre, NewtonsPerMetre
-from user_forces.values.value import NonNegative, Vector2, value
+from user_forces.values.value import NonNegative, Real, Vector2, value
 
 COINCIDE = 1e-9  # [m] up to which two points are one
 
@@ -22,12 +22,14 @@ class SpringDamper(Load):
 
         F = -k (l - l0) - c dl/dt
 
-    l is the distance of both points; a positive F pushes them apart. The spring pulls as well as it pushes.
-    Where the points meet in the course of a run the line has no direction, and the run is refused.
+    l is the distance of both points, in the plane that of their shadows on it; a positive F pushes them apart.
+    The spring pulls as well as it pushes. Where the points meet in the course of a run the line has no
+    direction, and the run is refused.
 
     Arguments:
         body, point: one end, see `Load`.
         other, other_point: the other end: name of another body, or "ground", and its point, start posture [m].
+        other_lateral: how far to the right of the machine's plane the other end is in space [m].
         stiffness: k [N/m], >= 0.
         free_length: l0 at which the spring carries nothing [m], >= 0.
         damping: c [N s/m], >= 0.
@@ -35,6 +37,7 @@ class SpringDamper(Load):
 
     other: str = GROUND
     other_point: Metres[Vector2]
+    other_lateral: Metres[Real] = 0.0
     stiffness: NewtonsPerMetre[NonNegative] = 0.0
     free_length: Metres[NonNegative] = 0.0
     damping: NewtonSecondsPerMetre[NonNegative] = 0.0
@@ -45,7 +48,7 @@ class SpringDamper(Load):
         if self.start_length <= COINCIDE:
             raise ValueError(
                 f"other_point = {self.other_point} m: is the point of the other end, so that the spring has no "
-                f"direction; allowed: > {COINCIDE:g} m from it in the start posture"
+                f"direction; allowed: > {COINCIDE:g} m from it in the start posture, in the plane"
             )
         if self.stiffness == 0.0 and self.damping == 0.0:
             raise ValueError("stiffness = 0 N/m, damping = 0 N s/m: allowed: one of them > 0")
@@ -53,7 +56,7 @@ class SpringDamper(Load):
 
     @property
     def start_length(self) -> float:
-        """Distance of its ends in the start posture [m]."""
+        """Distance of its ends in the start posture [m], in the plane."""
         return math.dist(self.point, self.other_point)
 
     def against(self, name: str) -> str:
@@ -66,24 +69,32 @@ class SpringDamper(Load):
         """The opposite force acts at the other end."""
         return self.other_point
 
+    @property
+    def origin_lateral(self) -> float:
+        """How far to the right the other end is [m]."""
+        return self.other_lateral
+
     def force(self, at: LoadedPoint) -> Vector2:
         """Force on the point, forward and up [N]."""
-        length = hypot(at.x, at.y)
-        share = self._push(at) / length
+        share = self._push(at) / _length(at)
         return share * at.x, share * at.y
+
+    def sideways(self, at: LoadedPoint) -> float:
+        """Force on the point to the right [N]."""
+        return self._push(at) / _length(at) * at.z
 
     def _push(self, at: LoadedPoint) -> float:
         """F [N]."""
-        stretch = hypot(at.x, at.y) - self.free_length
+        stretch = _length(at) - self.free_length
         return -self.stiffness * stretch - self.damping * self._rate(at)
 
     def _rate(self, at: LoadedPoint) -> float:
         """dl/dt [m/s]."""
-        return (at.x * at.vx + at.y * at.vy) / hypot(at.x, at.y)
+        return (at.x * at.vx + at.y * at.vy + at.z * at.vz) / _length(at)
 
     def stored(self, at: LoadedPoint) -> float:
         """k (l - l0)^2/2 [J]."""
-        stretch = hypot(at.x, at.y) - self.free_length
+        stretch = _length(at) - self.free_length
         return 0.5 * self.stiffness * stretch * stretch
 
     def powers(self, at: LoadedPoint) -> Powers:
@@ -101,7 +112,7 @@ class SpringDamper(Load):
 
     def observed(self, at: LoadedPoint) -> Mapping[str, float]:
         """Force [N] and length [m]."""
-        return {"force": self._push(at), "length": hypot(at.x, at.y)}
+        return {"force": self._push(at), "length": _length(at)}
 
     @property
     def steepness(self) -> Vector2:
@@ -109,7 +120,12 @@ class SpringDamper(Load):
         return self.stiffness, self.stiffness
 
     def largest(self, duration: float) -> Vector2:
-        """Its force in the start posture [N]."""
+        """Its force in the start posture [N], in the plane."""
         del duration
         (x, y), (u, v) = self.point, self.other_point
         return self.force(LoadedPoint(0.0, x - u, y - v, 0.0, 0.0))
+
+
+def _length(at: LoadedPoint) -> float:
+    """l [m]."""
+    return hypot(hypot(at.x, at.y), at.z)

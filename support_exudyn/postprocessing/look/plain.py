@@ -211,6 +211,7 @@ def blocks(scenario: Scenario) -> list[Solid]:
     for name, block in scenario.blocks.items():
         x, y = scenario.linkage.bodies[name].centre
         half = 0.5 * block.side
-        mesh = plate(box(x - half, y - half, x + half, y + half), 0.0, block.side)
+        aside = block.lateral if scenario.dimensions == 3 else 0.0
+        mesh = plate(box(x - half, y - half, x + half, y + half), aside, block.side)
         found.append(Solid(name, name, Role.ROCK, mesh))
     return found

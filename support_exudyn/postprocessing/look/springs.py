@@ -1,5 +1,7 @@
 """What springs and dampers between two points look like: a zigzag and a rod, or a dashpot."""
 
+import math
+
 import numpy as np
 from shapely.geometry import LineString
 
@@ -22,12 +24,14 @@ def springs(scenario: Scenario, half_width: float) -> list[DrawnActuator]:
     The zigzag stays as it is while the rod at its other end follows.
     """
     loads = scenario.acting_loads.items()
-    return [_strut(name, load, half_width) for name, load in loads if isinstance(load, SpringDamper)]
+    sides = 1.0 if scenario.dimensions == 3 else 0.0
+    return [_strut(name, load, half_width, sides) for name, load in loads if isinstance(load, SpringDamper)]
 
 
-def _strut(name: str, load: SpringDamper, half_width: float) -> DrawnActuator:
-    length = load.start_length
-    ends = load.other, load.body, at(load.other_point, 0.0), at(load.point, 0.0)
+def _strut(name: str, load: SpringDamper, half_width: float, sides: float) -> DrawnActuator:
+    """sides: by which lateral places count, 0 in the plane."""
+    foot, head = at(load.other_point, sides * load.other_lateral), at(load.point, sides * load.lateral)
+    length, ends = math.dist(foot, head), (load.other, load.body, foot, head)
     if load.stiffness == 0.0:
         pot = tube((0.0, 0.0, 0.0), (DASHPOT * length, 0.0, 0.0), half_width)
         reach = OVERLAP - DASHPOT

@@ -68,15 +68,17 @@ class ForceItem(LoadItem):
     def at(self, t: float) -> LoadedPoint:
         """See `LoadItem`."""
         output = exudyn.OutputVariableType
-        x, y, _ = self.mbs.GetObjectOutput(self.object, output.Displacement)
-        vx, vy, _ = self.mbs.GetObjectOutput(self.object, output.Velocity)
-        return LoadedPoint(t, float(x), float(y), float(vx), float(vy))
+        x, y, z = self.mbs.GetObjectOutput(self.object, output.Displacement)
+        vx, vy, vz = self.mbs.GetObjectOutput(self.object, output.Velocity)
+        return LoadedPoint(t, float(x), float(y), float(vx), float(vy), float(z), float(vz))
 
     def said(self, at: LoadedPoint) -> tuple[str, float, float]:
         """See `LoadItem`."""
         along, up = self.load.force(at)
-        size = math.hypot(along, up)
-        return f"force of {along:g}, {up:g} N", size, size * math.hypot(at.vx, at.vy)
+        aside = self.load.sideways(at)
+        size = math.hypot(along, up, aside)
+        said = f"force of {along:g}, {up:g}" + f", {aside:g}" * (aside != 0.0)
+        return f"{said} N", size, size * math.hypot(at.vx, at.vy, at.vz)
 
 
 @dataclass(frozen=True)
@@ -101,7 +103,8 @@ def add_force(mbs: Any, load: Load, origin: Any, point: Any) -> ForceItem:
     """Let a force act between a marker on what it acts against and one on the body."""
     connector = mbs.AddObject(ObjectConnectorCartesianSpringDamper(markerNumbers=[origin, point]))
     function: Any = _pull(load)
-    if is_formula(lambda *known: load.force(LoadedPoint(*known)), len(LoadedPoint._fields)):
+    known = len(LoadedPoint._fields)
+    if is_formula(lambda *at: (*load.force(LoadedPoint(*at)), load.sideways(LoadedPoint(*at))), known):
         function = CreateSymbolicUserFunction(mbs, _expression(load), NAME, connector)
     mbs.SetObjectParameter(connector, NAME, function)
     return ForceItem(mbs, load, connector, function)
@@ -121,10 +124,10 @@ def _pull(load: Load) -> Callable[..., list[float]]:
     """The force with which the connector pulls its ends together, of the engine's signature, in Python."""
 
     def pull(mbs: Any, t: float, item: int, displacement: Any, velocity: Any, *others: Any) -> list[float]:
-        x, y, _ = displacement
-        vx, vy, _ = velocity
-        fx, fy = load.force(LoadedPoint(t, x, y, vx, vy))
-        return [-fx, -fy, 0.0]
+        (x, y, z), (vx, vy, vz) = displacement, velocity
+        at = LoadedPoint(t, x, y, vx, vy, z, vz)
+        fx, fy = load.force(at)
+        return [-fx, -fy, -load.sideways(at)]
 
     return pull
 
@@ -133,9 +136,10 @@ def _expression(load: Load) -> Callable[..., Any]:
     """The pull as a function that the engine calls once with its symbols; it goes by the names of arguments."""
 
     def pull(t: Any, displacement: Any, velocity: Any) -> Any:
-        known = (t, displacement[0], displacement[1], velocity[0], velocity[1])
-        fx, fy = load.force(LoadedPoint(*map(unknown, known)))
-        return engine.Vector([real(-fx), real(-fy), engine.Real(0.0)])
+        known = (t, displacement[0], displacement[1], velocity[0], velocity[1], displacement[2], velocity[2])
+        at = LoadedPoint(*map(unknown, known))
+        fx, fy = load.force(at)
+        return engine.Vector([real(-fx), real(-fy), real(-load.sideways(at))])
 
     return lambda mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset: pull(
         t, displacement, velocity

@@ -13,7 +13,6 @@ from support_exudyn.formulations.limits import CENTRING
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL, EngineScene
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.mechanics.acting_loads import forces_at_rest
-from support_exudyn.mechanics.body_coordinates import BodyItem
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.mechanics.resting import resting
 
@@ -59,8 +58,7 @@ def find_static_equilibrium(scene: EngineScene) -> None:
     velocity = 0.0 * data.GetODE2Coordinates_t(INITIAL)
     for name in scene.scenario.blocks:
         item = scene.bodies[name]
-        if isinstance(item, BodyItem):  # blocks are planar
-            velocity[item.first : item.first + 3] = *item.body.velocity, item.body.spin
+        velocity[item.first : item.first + 2] = item.body.velocity[:2]
     data.SetODE2Coordinates_t(velocity, INITIAL)
     scene.legs.begin()
     scene.reset_memory()

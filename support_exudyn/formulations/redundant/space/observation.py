@@ -1,11 +1,13 @@
 """A run in space at its records: motion, contacts, reactions, energies, each computed when it is asked for."""
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from support_exudyn.formulations.redundant.solver.recorder import History
+from support_exudyn.formulations.redundant.space.block_face import BlockFace
 from support_exudyn.formulations.redundant.space.scene import SpatialScene
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import SectionMotion, section_motion
@@ -13,11 +15,12 @@ from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm
 from support_exudyn.mechanics.drive_acceleration import accelerations_of
 from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.space.accelerations import accelerations
-from support_exudyn.mechanics.space.constraints import Constraint, direction_of
+from support_exudyn.mechanics.space.acting_loads import add_load, load_series
+from support_exudyn.mechanics.space.constraints import TURNS, Constraint, direction_of
 from support_exudyn.mechanics.space.kinetics import inertias, weight
 from support_exudyn.mechanics.space.motion import SpatialMotion, cross, motion_of
 from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
-from support_exudyn.mechanics.trajectory import ContactSeries, Series
+from support_exudyn.mechanics.trajectory import ContactSeries, LoadSeries, Series
 from support_exudyn.model.linkage import GROUND
 from user_forces.friction.frictionless import Frictionless
 
@@ -75,6 +78,27 @@ class SpatialObservation:
             for name, group in self.scene.sections.items()
         }
 
+    @cached_property
+    def faces(self) -> dict[str, ContactSeries]:
+        """The contacts of all falling blocks; forces on the machine, in the ground's axes."""
+        first = sum(map(len, self.scene.sections.values()))
+        memories = np.moveaxis(self.history.memory, 1, 0)[first:]
+        return {
+            name: self._face(face, memory)
+            for (name, face), memory in zip(self.scene.faces.items(), memories, strict=False)
+        }
+
+    def _face(self, face: BlockFace, memory: Series) -> ContactSeries:
+        (first, reference, _), (second, point, _) = face.ends
+        bore, journal = self.motion.point(first, reference), self.motion.point(second, point)
+        c, s = math.cos(face.block.slope), math.sin(face.block.slope)
+        across, still = np.array([-s, c, 0.0]), np.zeros(self.motion.count)
+        y = (journal.position - bore.position) @ across
+        rate = (journal.velocity - bore.velocity) @ across
+        moving = RelativeMotion(still, y, still, rate, still, still, still + 1.0, still)
+        found = series(face.contact, moving, memory)
+        return replace(found, force_x=-s * found.force_y, force_y=c * found.force_y)
+
     def contacts_of(self, pin: str) -> list[ContactSeries]:
         """The contacts of all sections of the bearings that make up a clearance pin."""
         bearings = self.scene.linkage.bearings
@@ -98,6 +122,12 @@ class SpatialObservation:
             force = np.einsum("nij,nj->ni", moving.axes, plane)
         arm = journal_arm(pin.contact, contact.depth)
         return SectionSeries(moving, contact, force, moving.centre + arm[:, None] * outward)
+
+    @cached_property
+    def acting(self) -> dict[str, LoadSeries]:
+        """What acts on the machine besides its weight, by name."""
+        acting = self.scene.scenario.acting_loads.items()
+        return {name: load_series(load, name, self.motion, self.time) for name, load in acting}
 
     @cached_property
     def oil(self) -> dict[str, OilSeries]:
@@ -144,7 +174,7 @@ class SpatialObservation:
 
     @cached_property
     def _applied(self) -> Series:
-        """Weights and forces of oil and clearance bearings on all bodies, (n, b, 6)."""
+        """Weights and forces of oil, clearance bearings and loads on all bodies, (n, b, 6)."""
         weights = weight(self.scene.linkage, self.scene.gravity).reshape(1, -1, 6)
         forces = np.tile(weights, (self.motion.count, 1, 1))
         for name, oil in self.oil.items():
@@ -162,6 +192,14 @@ class SpatialObservation:
             for section in group:
                 self._push(forces, journal.body, section.force, section.point)
                 self._push(forces, bore.body, -section.force, section.point)
+        for name, contact in self.faces.items():
+            push = np.column_stack([contact.force_x, contact.force_y, np.zeros(self.motion.count)])
+            (block, *_), (body, place, _) = self.scene.faces[name].ends
+            point = self.motion.point(body, place).position
+            self._push(forces, body, push, point)
+            self._push(forces, block, -push, point)
+        for name, load in self.scene.scenario.acting_loads.items():
+            add_load(forces, self.motion, name, load, self.acting[name], self._push)
         return forces
 
     def _push(self, forces: Series, body: str, force: Series, point: Series) -> None:
@@ -184,7 +222,7 @@ class SpatialObservation:
         middle = self.motion.point(bearing.second, bearing.second_point).position
         for row, value in self.held.items() if self._is_held(name) else ():
             if row.name == name:
-                part = moment if row.kind.startswith("tilt") else force
+                part = moment if row.kind in TURNS else force
                 part += value[:, None] * direction_of(self.motion, bearing, row.kind)
         sign = 1.0 if name in self.sections and self.scene.ends_of(name)[1].body == bearing.second else -1.0
         for section in self.sections.get(name, ()):
@@ -218,10 +256,14 @@ class SpatialObservation:
 
     @cached_property
     def stored(self) -> Series:
-        """Energy stored in contacts and oil [J]."""
+        """Energy stored in contacts, oil and loads [J]."""
         found = np.zeros_like(self.time)
         for oil in self.oil.values():
             found = found + oil.energy
+        for load in self.acting.values():
+            found = found + load.stored
+        for face in self.faces.values():
+            found = found + face.stored
         for group in self.sections.values():
             for section in group:
                 found = found + section.contact.stored

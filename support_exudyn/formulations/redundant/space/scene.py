@@ -20,11 +20,12 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
 )
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
+from support_exudyn.formulations.redundant.space.block_face import BlockFace
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import ends
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.contact_state import InverseMass
-from support_exudyn.mechanics.pressed_pins import EffectiveMasses, held, normal
+from support_exudyn.mechanics.pressed_pins import NEAR, EffectiveMasses, held, normal
 from support_exudyn.mechanics.space.constraints import BearingEnd, Constraint, all_rows, independent, matrix
 from support_exudyn.mechanics.space.kinetics import SpatialKinetics
 from support_exudyn.mechanics.space.motion import COORDINATES, SpatialMotion, motion_of, parameter_rates
@@ -60,7 +61,7 @@ class SpatialScene(EngineScene):
     bodies: dict[str, SpatialBodyItem]
     rows: Sequence[Constraint]
     all_rows: Sequence[Constraint]
-    clearance_joints: dict[str, SectionPin]
+    clearance_joints: dict[str, ClearanceJoint]
     sections: dict[str, list[SectionPin]]  # of every clearance bearing
     rigid_actuators: dict[str, ActuatorItem]
     oil_columns: dict[str, OilColumnItem]
@@ -68,8 +69,9 @@ class SpatialScene(EngineScene):
     driven: tuple[DrivenParts, ...]  # all actuators, by the drive that they follow
     compliant_pins: dict[str, CompliantItem] = field(default_factory=dict)  # not covered
     frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: nor these
-    loads: dict[str, LoadItem] = field(default_factory=dict)  # nor are they
-    weights: dict[str, Any] = field(default_factory=dict)  # are asked for where loads bring bodies along
+    loads: dict[str, LoadItem] = field(default_factory=dict)
+    weights: dict[str, Any] = field(default_factory=dict)  # loads of the engine, by body
+    faces: dict[str, BlockFace] = field(default_factory=dict)  # of falling blocks
     cylinders: dict[str, CylinderItem] = field(default_factory=dict)  # are legs here
 
     @property
@@ -115,6 +117,7 @@ class SpatialScene(EngineScene):
         pressed, see `pressed`.
         """
         kinetics, normals = self.kinetics(state), self._normals(state)
+        faces = [row for _, row in self._pressed_faces(kinetics, state)]
         bearings = self.linkage.bearings
         along = {
             other: kinetics.bearing_rate(*self.ends_of(other)) for other in dict.fromkeys((name, *normals))
@@ -122,15 +125,36 @@ class SpatialScene(EngineScene):
         parts = [part for part in along if bearings[part].pin == bearings[name].pin]
         share = sum(bearings[part].share for part in parts)
         together = sum(bearings[part].share * along[part] for part in parts) / share
-        others = [normals[other][None] @ along[other] for other in normals if other not in parts]
+        others = [normals[other][None] @ along[other] for other in normals if other not in parts] + faces
         answers = kinetics.answers(np.concatenate([along[name], together, *others]))
         alone, pressed = bearings[name].share * answers[:2, :2], share * held(answers[2:, 2:])
         return EffectiveMasses(InverseMass.of(alone), InverseMass.of(pressed))
 
+    def face_masses(self, name: str, state: Any = CURRENT) -> EffectiveMasses:
+        """How the point at a block's face answers impulses, in the axes of the face; others are held."""
+        kinetics, normals = self.kinetics(state), self._normals(state)
+        pressed = [normals[one][None] @ kinetics.bearing_rate(*self.ends_of(one)) for one in normals]
+        pressed += [row for other, row in self._pressed_faces(kinetics, state) if other != name]
+        answers = kinetics.answers(np.concatenate([self.faces[name].rate(kinetics), *pressed]))
+        return EffectiveMasses(InverseMass.of(answers[:2, :2]), InverseMass.of(held(answers)))
+
+    def _pressed_faces(self, kinetics: SpatialKinetics, state: Any) -> list[tuple[str, Series]]:
+        """The blocks at whose faces a point is pressed, and the rates of their depths, (1, 6 bodies)."""
+        at = self.coordinates(state)
+        return [
+            (name, face.rate(kinetics)[1:])
+            for name, face in self.faces.items()
+            if face.moving.relative(*at).y > (1.0 - NEAR) * face.contact.bearing.clearance
+        ]
+
+    def coordinates(self, state: Any) -> tuple[list[float], list[float]]:
+        """The engine's coordinates and their rates."""
+        data = self.mbs.systemData
+        return data.GetODE2Coordinates(state).tolist(), data.GetODE2Coordinates_t(state).tolist()
+
     def _normals(self, state: Any) -> dict[str, Series]:
         """Along which the journals are pressed that are, in the axes of their bores."""
-        data, found = self.mbs.systemData, {}
-        at = data.GetODE2Coordinates(state).tolist(), data.GetODE2Coordinates_t(state).tolist()
+        found, at = {}, self.coordinates(state)
         for name, group in self.sections.items():
             clearance = group[0].contact.bearing.clearance
             closed = (normal(*pin.moving.when(*at)[1][:2], clearance) for pin in group)
@@ -212,10 +236,12 @@ class SpatialScene(EngineScene):
 
     def reset_memory(self) -> None:
         """See `EngineScene`."""
-        data = self.mbs.systemData
-        at = data.GetODE2Coordinates(INITIAL).tolist(), data.GetODE2Coordinates_t(INITIAL).tolist()
-        for pin in self.clearance_joints.values():
+        at = self.coordinates(INITIAL)
+        for pin in (pin for group in self.sections.values() for pin in group):
             pin.look_beside(*at)
+        for name, face in self.faces.items():
+            memory = first_memory(self.contact(name, INITIAL))
+            face.start(memory, self.face_masses(name, INITIAL), 0.0, (face.moving.slope, 0.0))
         for name, group in self.sections.items():
             inverse_masses = self.inverse_masses(name, INITIAL)
             for n, pin in enumerate(group):
@@ -225,10 +251,18 @@ class SpatialScene(EngineScene):
 
     def contact(self, name: str, state: Any) -> ContactForce:
         """See `EngineScene`."""
-        pin, data = self.clearance_joints[name], self.mbs.systemData
-        at = data.GetODE2Coordinates(state).tolist(), data.GetODE2Coordinates_t(state).tolist()
+        at = self.coordinates(state)
+        if name in self.faces:
+            face = self.faces[name]
+            return face.contact.force(*face.moving.relative(*at)[:4], 0.0, 0.0, None)
+        pin = self._section(name)
         bore, (x, y, vx, vy, _, spin) = pin.moving.when(*at)
         return pin.contact.force(x, y, vx, vy, bore[5], spin, None)
+
+    def _section(self, name: str) -> SectionPin:
+        """A section, such as "rear_base[0]"."""
+        bearing, number = name[:-1].split("[")
+        return self.sections[bearing][int(number)]
 
 
 def rates(rows: Sequence[Constraint], speeds: Mapping[str, float]) -> Series:

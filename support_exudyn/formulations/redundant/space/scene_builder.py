@@ -16,12 +16,14 @@ from exudyn.itemInterface import (
     ObjectRigidBody,
 )
 
-from support_exudyn.formulations.redundant.clearance.connector import Mount, PinConnector
+from support_exudyn.formulations.redundant.clearance.connector import FaceConnector, Mount, PinConnector, frame
 from support_exudyn.formulations.redundant.clearance.connector_force import attachment
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
 from support_exudyn.formulations.redundant.space.bearing_connector import BearingConnector
 from support_exudyn.formulations.redundant.space.bearing_source import BearingGeometry
+from support_exudyn.formulations.redundant.space.block_face import BlockFace, FaceMover, places
+from support_exudyn.formulations.redundant.space.loads import add_load
 from support_exudyn.formulations.redundant.space.scene import SpatialBodyItem, SpatialScene
 from support_exudyn.formulations.redundant.space.section_motion import SectionEnd, SectionMover, marker_frame
 from support_exudyn.formulations.redundant.space.section_pin import SectionJournal, SectionPin, part_of
@@ -33,6 +35,7 @@ from support_exudyn.mechanics.space.constraints import BearingEnd, Kind, all_row
 from support_exudyn.mechanics.space.motion import COORDINATES, motion_of, parameter_rates
 from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
@@ -146,6 +149,30 @@ class _SpaceBuilder(EngineBuilder):
             for section, connector in zip(places, connectors, strict=True)
         ]
 
+    def add_face(self, name: str, block: FallingBlock) -> FaceConnector:
+        """The connector of a block's face, which turns as little as the ground, and the point it falls on."""
+        reference, point = places(block)
+        face, plain = np.array(frame((0.0, 0.0), block.slope)), np.eye(4)
+        face[:3, 3], plain[:3, 3] = self.local(name, reference), self.local(block.body, point)
+        bore = Mount(self.item(name), face.tolist(), on_ground=True)
+        journal = Mount(self.item(block.body), plain.tolist(), on_ground=False)
+        return FaceConnector(self.mbs, block.contact, bore, journal, 0.0, block.start_depth)
+
+    def block_face(self, scene: SpatialScene, name: str, connector: FaceConnector) -> BlockFace:
+        """The face of a block in the whole scene."""
+        block, bodies = self.scenario.blocks[name], scene.bodies
+        reference, point = places(block)
+        firsts = bodies[name].first, bodies[block.body].first
+        arm = self.local(block.body, point)
+        moving = FaceMover(self.mbs.systemData, *firsts, reference, point, arm, block.slope)
+        masses = partial(scene.face_masses, name)
+        return BlockFace(name, block, connector, moving, masses, self.scenario.solver)
+
+    def local(self, body: str, point: Vector3) -> Vector3:
+        """A point of the start posture in a body's axes [m]."""
+        x, y, z = (np.array(point) - np.array(self.centre(body))).tolist()
+        return x, y, z
+
     def build(self) -> SpatialScene:
         scenario, linkage = self.scenario, self.linkage
         with_clearance = [
@@ -170,9 +197,10 @@ class _SpaceBuilder(EngineBuilder):
         oil = {name: self.add_oil_column(linkage.actuators[name]) for name in on_oil}
         legs = [self.add_leg(leg) for leg in self.legs()]
         connectors = {name: self.add_connectors(linkage.bearings[name]) for name in with_clearance}
-        if any(scenario.gravity):
-            for name, body in linkage.bodies.items():
-                self.add_weight(name, body)
+        loads = {name: add_load(load, name, self) for name, load in scenario.acting_loads.items()}
+        faces = {name: self.add_face(name, block) for name, block in scenario.blocks.items()}
+        heavy = linkage.bodies if any(scenario.gravity) else {}
+        weights = {name: self.add_weight(name, body) for name, body in heavy.items()}
         self.mbs.Assemble()
         data = self.mbs.systemData
         bodies = {
@@ -200,10 +228,14 @@ class _SpaceBuilder(EngineBuilder):
             oil_columns=oil_items,
             legs=self.join_legs(legs),
             driven=by_drive(self.mbs, scenario.drive_of, rigid_items, oil_items, {}),
+            loads=loads,
+            weights=weights,
         )
         for name, group in connectors.items():
             scene.sections[name] = pins = self.section_pins(scene, name, group)
             scene.clearance_joints.update({f"{name}[{n}]": pin for n, pin in enumerate(pins)})
+        for name, connector in faces.items():  # after all sections, as in `SpatialObservation`
+            scene.faces[name] = scene.clearance_joints[name] = self.block_face(scene, name, connector)
         scene.drive_to(0.0)
         scene.start_moving()
         scene.legs.begin()
@@ -248,7 +280,7 @@ def joint(bearing: Bearing, held: Collection[Kind], markers: list[Any]) -> Any:
     tilts = [int(kind in held) for kind in TILTS]
     if not any(tilts) and _in_ground_axes(bearing, held):
         return ObjectJointSpherical(markerNumbers=markers, constrainedAxes=shifts)
-    return ObjectJointGeneric(markerNumbers=markers, constrainedAxes=[*shifts, *tilts, 0])
+    return ObjectJointGeneric(markerNumbers=markers, constrainedAxes=[*shifts, *tilts, int("turn" in held)])
 
 
 def _in_ground_axes(bearing: Bearing, held: Collection[Kind]) -> bool:

@@ -1,0 +1,298 @@
+"""Loads in space, in and beside the machine's plane: closed forms, symmetry, energy, and runs in the plane."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from support_exudyn import (
+    AppliedForce,
+    AppliedTorque,
+    CubicStep,
+    Held,
+    Load,
+    MomentLoad,
+    Result,
+    Roof,
+    Scenario,
+    SpringDamper,
+    TorsionSpring,
+    simulate,
+)
+from support_exudyn.mechanics.space.acting_loads import turning_axis
+from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
+from tests.cases.run_cases import PIN, loose_support, support
+from tests.cases.spatial_cases import InSpace, observed
+from tests.roof_cases import ON_OIL
+
+TIP = (3.19590271431274, 1.95)  # of the reference support's canopy [m]
+INERTIA = (0.03, 0.05, 0.04, 0.0, 0.0, 0.0)
+MASS = 2.0
+COMES_DOWN = CubicStep(stroke=0.02, start=0.0, end=0.05)
+
+
+def free(spin: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> InSpace:
+    body = SpatialBody(mass=MASS, inertia=INERTIA, centre=(0.0, 0.0, 0.0), spin=spin)
+    return InSpace(space=SpatialLinkage(bodies={"a": body}))
+
+
+def flight(load: Load | MomentLoad, machine: InSpace | None = None, **changes: object) -> Scenario:
+    fields: dict[str, object] = {
+        "machine": machine or free(),
+        "dimensions": 3,
+        "loads": {"load": load},
+        "duration": 0.1,
+        "step": 1e-3,
+        "record_period": 1e-2,
+        "gravity": (0.0, 0.0),
+    }
+    return Scenario(**fields | changes)
+
+
+def pressed(load: Load | MomentLoad, dimensions: int = 3, **more: object) -> Result:
+    """The reference support on oil under a load."""
+    fields: dict[str, object] = {
+        "drive": Held(),
+        "duration": 0.1,
+        "actuators": ON_OIL,
+        "loads": {"load": load},
+        "dimensions": dimensions,
+    }
+    return simulate(support(**fields | more))
+
+
+# --- a free body ---
+
+
+def test_a_force_beside_the_centre_shifts_and_rolls_a_free_body() -> None:
+    # a short time: F t^2 / 2 m up, F z t^2 / 2 J_xx about x, what the turn changes is of the fourth order
+    force, lateral, t = 3.0, 0.4, 1e-2
+    load = AppliedForce(body="a", point=(0.0, 0.0), lateral=lateral, full_force=(0.0, force))
+    result = simulate(flight(load, duration=t, step=1e-4, record_period=t))
+    assert result["a.y"][-1] == pytest.approx(0.5 * force / MASS * t * t, rel=1e-6)
+    # the force is up and to the right: about x it turns the right side up, which is a negative roll
+    turn = 0.5 * lateral * force / INERTIA[0] * t * t
+    assert abs(result["a.roll"][-1]) == pytest.approx(turn, rel=1e-4)
+    assert result["a.angular_velocity_x"][-1] == pytest.approx(-lateral * force / INERTIA[0] * t, rel=1e-4)
+    for still in ("a.x", "a.z", "a.yaw"):
+        assert abs(result[still][-1]) < 1e-9 * turn
+
+
+def test_a_body_on_a_lengthwise_hinge_swings_under_a_force_beside_it() -> None:
+    # J phi'' = F z cos(phi): the force keeps its direction, its point goes with the body
+    force, lateral, arm = 40.0, 0.5, 0.3
+    hinge = Bearing(
+        first="ground",
+        second="a",
+        first_point=(0.0, 0.0, 0.0),
+        second_point=(0.0, 0.0, 0.0),
+        first_axis=(1.0, 0.0, 0.0),
+        second_axis=(1.0, 0.0, 0.0),
+        length=0.1,
+        pin="pin",
+    )
+    body = SpatialBody(mass=MASS, inertia=INERTIA, centre=(0.0, 0.0, arm))
+    machine = InSpace(space=SpatialLinkage(bodies={"a": body}, bearings={"pin": hinge}))
+    load = AppliedForce(body="a", point=(0.0, 0.0), lateral=lateral, full_force=(0.0, force))
+    result = simulate(flight(load, machine, duration=0.2, step=2e-4))
+    about = INERTIA[0] + MASS * arm * arm
+
+    def rate(t: float, state: np.ndarray) -> list[float]:
+        return [state[1], lateral * force * math.cos(state[0]) / about]
+
+    # the last record may lie an ulp behind the end
+    found = solve_ivp(rate, (0.0, 0.2), [0.0, 0.0], t_eval=result.time.clip(max=0.2), rtol=1e-10, atol=1e-12)
+    assert found.y[0, -1] > 0.5  # it has swung far
+    np.testing.assert_allclose(result["a.y"], arm * np.sin(found.y[0]), atol=1e-6)  # second order in the step
+    # the hinge carries what the motion leaves of the force
+    moving = arm * (-np.sin(found.y[0]) * found.y[1] ** 2 + np.cos(found.y[0]) ** 2 * lateral * force / about)
+    np.testing.assert_allclose(result["pin.pin.force_y"], MASS * moving - force, atol=1e-3 * force)
+
+
+@pytest.mark.parametrize(
+    "load",
+    [
+        SpringDamper(
+            body="a",
+            point=(0.2, 0.1),
+            lateral=0.3,
+            other_point=(0.2, 0.5),
+            other_lateral=-0.4,
+            stiffness=900.0,
+            free_length=0.6,
+            damping=3.0,
+        ),
+        TorsionSpring(body="a", stiffness=4.0, free_turn=0.3, damping=0.05),
+        AppliedTorque(body="a", full_torque=0.4),
+        AppliedForce(body="a", point=(0.1, 0.0), lateral=-0.2, full_force=(3.0, 2.0)),
+        Roof(
+            body="a",
+            point=(0.1, 0.0),
+            lateral=0.2,
+            descent=COMES_DOWN,
+            stiffness=5e3,
+        ),
+    ],
+    ids=lambda load: type(load).__name__,
+)
+def test_energy_adds_up_while_a_body_tumbles(load: Load | MomentLoad) -> None:
+    def scattered(step: float) -> tuple[float, float]:
+        result = simulate(flight(load, free((2.0, 3.0, 4.0)), step=step, record_period=2e-2))
+        moved = np.abs(result["energy.work"]) + np.abs(result["energy.elastic"]).max()
+        return float(np.abs(result["energy.balance"]).max()), float(moved.max())
+
+    (coarse, _), (fine, size) = scattered(1e-3), scattered(2.5e-4)
+    assert size > 1e-3
+    assert fine < 1e-4 * size
+    assert fine < 0.25 * coarse + 1e-9 * size  # second order of the step, no share that stays
+
+
+def test_a_spring_across_pulls_sideways() -> None:
+    # 0.3 m forward, 0.4 m to the left: k (l - l0) along it
+    spring = SpringDamper(
+        body="a", point=(0.0, 0.0), other_point=(0.3, 0.0), other_lateral=-0.4, stiffness=100.0
+    )
+    t = 1e-3
+    result = simulate(flight(spring, duration=t, step=1e-4, record_period=t))
+    assert result["load.length"][0] == pytest.approx(0.5)
+    assert result["load.force"][0] == pytest.approx(-50.0)
+    got = [result[f"a.velocity_{axis}"][-1] for axis in "xyz"]
+    np.testing.assert_allclose(got, [30.0 / MASS * t, 0.0, -40.0 / MASS * t], rtol=1e-4, atol=1e-12)
+
+
+def test_turns_beyond_half_a_turn_are_counted() -> None:
+    # J a'' = -k a: thrown round by more than a turn
+    spring = TorsionSpring(body="a", stiffness=1e-3)
+    result = simulate(flight(spring, free((0.0, 0.0, 60.0)), duration=0.2, step=1e-3))
+    w = math.sqrt(1e-3 / INERTIA[2])
+    # second order: (spin step)^2 = 4e-3, over 12
+    np.testing.assert_allclose(result["load.angle"], 60.0 / w * np.sin(w * result.time), rtol=3e-4)
+    assert result["load.angle"][-1] > 3.0 * math.pi
+    assert np.abs(result["energy.balance"]).max() < 3e-4 * 0.5 * INERTIA[2] * 3600.0
+
+
+def test_the_axis_of_a_turn_gives_its_rate() -> None:
+    # e' = omega x e, and the difference of atan2 of both
+    e, omega = np.array([0.6, 0.2, -0.77]), np.array([0.3, -1.1, 0.7])
+    h = 1e-6
+    ahead, behind = (e + s * h * np.cross(omega, e) for s in (1.0, -1.0))
+    rate = (math.atan2(ahead[1], ahead[0]) - math.atan2(behind[1], behind[0])) / (2.0 * h)
+    assert np.dot(turning_axis(*e), omega) == pytest.approx(rate, rel=1e-8)
+
+
+def test_a_torque_between_two_bodies_turns_them_against_each_other() -> None:
+    other = SpatialBody(mass=1.0, inertia=(0.1, 0.1, 0.08, 0.0, 0.0, 0.0), centre=(1.0, 0.0, 0.0))
+    space = replace(free().space, bodies={**free().space.bodies, "b": other})
+    load = AppliedTorque(body="a", other="b", full_torque=2.0)
+    result = simulate(flight(load, InSpace(space=space)))
+    t = result.time[-1]
+    assert result["a.angular_velocity"][-1] == pytest.approx(2.0 * t / INERTIA[2], rel=1e-5)
+    assert result["b.angular_velocity"][-1] == pytest.approx(-2.0 * t / 0.08, rel=1e-5)
+
+
+# --- the support ---
+
+LOADS = {
+    "force": AppliedForce(body="canopy", point=TIP, full_force=(0.0, -1e6), start=0.01, end=0.03),
+    "torque": AppliedTorque(body="canopy", other="shield", full_torque=1e5, start=0.01, end=0.03),
+    "spring": SpringDamper(
+        body="canopy",
+        point=TIP,
+        other_point=(3.3, 0.0),
+        stiffness=1e7,
+        free_length=2.0,
+        damping=1e5,
+    ),
+    "torsion": TorsionSpring(body="canopy", stiffness=1e7, free_turn=0.01, damping=1e5),
+    "roof": Roof(
+        body="canopy",
+        point=TIP,
+        descent=COMES_DOWN,
+        stiffness=1e8,
+        damping=0.5,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LOADS)
+def test_a_load_in_the_middle_acts_as_in_the_plane(name: str) -> None:
+    plane, space = pressed(LOADS[name], 2), pressed(LOADS[name])
+    for channel in plane.channels:
+        if channel.startswith(("load.", "canopy.", "pin.rear_base.force", "energy.")):
+            size = np.abs(plane[channel]).max()
+            scale = 1e4 if channel.startswith("energy.") else 1.0
+            np.testing.assert_allclose(
+                space[channel], plane[channel], rtol=1e-5, atol=1e-6 * max(size, scale), err_msg=channel
+            )
+    assert np.abs(space["canopy.roll"]).max() < 1e-9
+
+
+def test_in_the_plane_a_lateral_place_has_no_effect() -> None:
+    force = LOADS["force"]
+    aside = pressed(replace(force, lateral=0.6), 2)
+    np.testing.assert_array_equal(aside["tip.y"], pressed(force, 2)["tip.y"])
+
+
+def beside(**loads: Load) -> Result:
+    """The support with a loose pin under loads, which rolls as far as the slack lets it."""
+    return simulate(loose_support(drive=Held(), duration=0.05, actuators=ON_OIL, loads=loads, dimensions=3))
+
+
+def test_left_mirrors_right_and_two_halves_are_one() -> None:
+    whole = AppliedForce(body="canopy", point=TIP, full_force=(0.0, -4e5), start=0.0, end=0.02)
+    half = replace(whole, full_force=(0.0, -2e5))
+    right, left = (beside(load=replace(whole, lateral=z)) for z in (0.5, -0.5))
+    roll = np.abs(right["canopy.roll"]).max()
+    assert roll > 1e-5
+    for what in ("roll", "yaw", "z"):
+        np.testing.assert_allclose(left[f"canopy.{what}"], -right[f"canopy.{what}"], atol=1e-3 * roll)
+    np.testing.assert_allclose(left["canopy.y"], right["canopy.y"], atol=1e-3 * roll)
+    np.testing.assert_allclose(
+        left["front_column_left.force"],
+        right["front_column_right.force"],
+        atol=1e-4 * np.abs(right["front_column_right.force"]).max(),
+    )
+    both, one = beside(l=replace(half, lateral=-0.5), r=replace(half, lateral=0.5)), beside(load=whole)
+    np.testing.assert_allclose(both["canopy.y"], one["canopy.y"], atol=1e-9)
+    assert np.abs(both["canopy.roll"]).max() < 1e-3 * roll
+
+
+def test_the_support_settles_under_a_load_beside_its_middle() -> None:
+    force = AppliedForce(body="canopy", point=TIP, lateral=0.5, full_force=(0.0, -4e5))
+    scenario = loose_support(
+        drive=Held(),
+        duration=0.02,
+        actuators=ON_OIL,
+        loads={"load": force},
+        dimensions=3,
+        start="settled",
+    )
+    result = simulate(scenario)
+    assert np.abs(result["canopy.roll"][0]) > 1e-5
+    # it stays where it has settled: a thousandth of what it rolls, and of the force
+    np.testing.assert_allclose(result["canopy.roll"], result["canopy.roll"][0], rtol=1e-3)
+    np.testing.assert_allclose(result[f"pin.{PIN}.force"], result[f"pin.{PIN}.force"][0], rtol=1e-3)
+
+
+def test_what_the_ground_carries_balances_a_load_beside_the_middle() -> None:
+    load = AppliedForce(body="canopy", point=TIP, lateral=0.5, full_force=(0.0, -4e5))
+    context, _ = observed(
+        support(
+            drive=Held(), duration=0.01, actuators=ON_OIL, loads={"load": load}, dimensions=3, start="settled"
+        )
+    )
+    linkage, rolling = context.scene.linkage, 0.0  # moments about x on what stands on the ground [N m]
+    for name, bearing in linkage.bearings.items():
+        if bearing.first == "ground":
+            force, moment = (part[-1] for part in context.loads[name])
+            rolling += moment[0] + np.cross(bearing.first_point, force)[0]
+    for name, strut in linkage.actuators.items():
+        if strut.foot == "ground":
+            along = context.span(name)[0][-1]
+            push = context.actuator_force(name)[-1] * along / np.linalg.norm(along)
+            rolling += np.cross(strut.foot_point, push)[0]
+    assert rolling == pytest.approx(-0.5 * 4e5, rel=1e-4)  # the weight is in the middle
