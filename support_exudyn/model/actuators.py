@@ -30,14 +30,16 @@ class OilColumn(HydraulicLeg):
     u is by how much the oil is compressed: length at the start + precompression + extension - length. The
     precompression carries the static load of the start posture with ideal pins, so that a machine at rest
     stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff. The oil pulls
-    as well as it pushes: that a real one boils when it is pulled is not modelled.
+    as well as it pushes unless a `vapour_pressure` says where it boils.
 
     Arguments:
         bore_area: A, area of the piston, all actuators of a pair together [m^2], > 0.
         oil_length: h, length of the oil under the piston at the start [m], > 0.
         bulk_modulus: B of the oil or emulsion [Pa], > 0; 1.96e9 by the published stiffness of four shields.
         damping_time: T [s], >= 0; a mass on the actuator that vibrates at w rad/s is damped by T w / 2 of the
-            critical damping.
+            critical damping. A step of the drive's speed makes the force jump by d times it. A column with
+            elements, see `HydraulicLeg`, has no such dashpot: a `line` damps it by its resistance, and a step
+            of the drive's speed does not make its force jump.
     """
 
     extensive: ClassVar[tuple[str, ...]] = ("bore_area",)

@@ -173,9 +173,9 @@ class HydraulicCylinder(HydraulicLeg):
 
     No drive moves it. Until the valve opens, the oil in both chambers carries the static load of the start
     posture with ideal pins: the chamber that the load presses has the pressure for it, the other one that of
-    the tank. Pipe, valve and fittings are one resistance. There is no check valve: where a chamber has more
-    pressure than the pump, oil flows back. Oil pulls as well as it pushes; that a real one boils when it is
-    pulled is not modelled. A run in which the piston comes to an end of its cylinder is refused.
+    the tank. Pipe, valve and fittings are one resistance. Without a check valve oil flows back where a
+    chamber has more pressure than the pump. Oil pulls as well as it pushes unless a `vapour_pressure` says
+    where it boils. A run in which the piston comes to an end of its cylinder is refused.
 
     Arguments:
         bore_area: of the piston, all cylinders of a pair together [m^2], > 0.

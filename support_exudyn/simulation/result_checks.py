@@ -121,10 +121,12 @@ def _who_loses(scenario: Scenario, kind: str) -> str:
 def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
     """Whether a piston has come to an end of its cylinder, which nothing in the model stops it at."""
     run = outcome.trajectory
-    if not scenario.cylinders or not isinstance(run, Trajectory):
+    if not scenario.valved or not isinstance(run, Trajectory):
         return
     motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
-    for name, cylinder in scenario.cylinders.items():
+    for name, cylinder in scenario.valved.items():
+        if cylinder.second_stage is not None:  # whose stops are asked for
+            continue
         actuator = scenario.linkage.actuators[name]
         span = motion.place(actuator.head, actuator.head_point) - motion.place(
             actuator.foot, actuator.foot_point
