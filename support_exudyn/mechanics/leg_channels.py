@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, NamedTuple
 
 from support_exudyn.mechanics.channels import OIL, ChannelDefinition, ChannelDefinitions
+from support_exudyn.mechanics.trajectory import LegSeries
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
 
@@ -64,17 +65,25 @@ PUMP_VALUES = (
 )
 
 
-def leg_channels(legs: Mapping[str, HydraulicLeg], pump: bool) -> ChannelDefinitions:
-    """The channels of legs by name; pump: whether they share one."""
-    found: ChannelDefinitions = {}
-    for name, model in legs.items():
-        for one in leg_values(model):
-            found[f"{name}.{one.name}"] = _channel(name, one)
-    if pump and legs:
-        for one in PUMP_VALUES:
-            found[f"{PUMP}.{one.name}"] = _channel(PUMP, one)
+def _of_run(context: Any) -> Mapping[str, LegSeries]:
+    """The legs of a run in the plane."""
+    found: Mapping[str, LegSeries] = context.run.legs
     return found
 
 
-def _channel(leg: str, one: LegValue) -> ChannelDefinition:
-    return ChannelDefinition(one.unit, one.meaning, OIL, lambda context: context.run.legs[leg].values[one.name])
+def leg_channels(
+    legs: Mapping[str, HydraulicLeg], pump: bool, known: Callable[[Any], Mapping[str, LegSeries]] = _of_run
+) -> ChannelDefinitions:
+    """The channels of legs by name; pump: whether they share one. known: their series, by what was seen."""
+    found: ChannelDefinitions = {}
+    for name, model in legs.items():
+        for one in leg_values(model):
+            found[f"{name}.{one.name}"] = _channel(name, one, known)
+    if pump and legs:
+        for one in PUMP_VALUES:
+            found[f"{PUMP}.{one.name}"] = _channel(PUMP, one, known)
+    return found
+
+
+def _channel(leg: str, one: LegValue, known: Callable[[Any], Mapping[str, LegSeries]]) -> ChannelDefinition:
+    return ChannelDefinition(one.unit, one.meaning, OIL, lambda context: known(context)[leg].values[one.name])

@@ -14,6 +14,7 @@ from support_exudyn.mechanics.block_contact import block_places
 from support_exudyn.mechanics.channels import ALL_CHANNELS, ChannelDefinition
 from support_exudyn.mechanics.contact_places import ContactPlace, contact_places
 from support_exudyn.mechanics.initial_eccentricity import eccentric
+from support_exudyn.mechanics.leg_channels import leg_channels
 from support_exudyn.mechanics.plane_channels import channel_definitions
 from support_exudyn.mechanics.space.channels import channel_definitions as spatial_channel_definitions
 from support_exudyn.model.actuators import (
@@ -276,9 +277,15 @@ class ScenarioData(Value, ABC):
     def channel_definitions(self) -> dict[str, ChannelDefinition]:
         """All channels that could be asked for, by name."""
         if self.dimensions == 3:
-            return spatial_channel_definitions(
-                self.space, self.clearance_pins, self.oil_columns, self.acting_loads, tuple(self.blocks)
+            found = spatial_channel_definitions(
+                self.space, self.clearance_pins, self.compliant_actuators, self.acting_loads, tuple(self.blocks)
             )
+            sides = {
+                name: self.legs[one.actuator]
+                for name, one in self.space.actuators.items()
+                if one.actuator in self.legs
+            }
+            return found | leg_channels(sides, self.pump is not None, lambda context: context.legs)
         return channel_definitions(
             self.linkage,
             self.pins,

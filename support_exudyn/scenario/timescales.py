@@ -227,7 +227,7 @@ def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
     driving = [(drive, cranks) for drive in scenario.drives_in_use]
     driving += [(drive, False) for load in scenario.acting_loads.values() for drive in load.drives]
     times += [load.shortest_time for load in scenario.acting_loads.values()]
-    times += [cylinder.inlet.shortest_time for cylinder in scenario.cylinders.values()]
+    times += [cylinder.inlet.shortest_time for cylinder in scenario.valved.values()]
     for drive, turns in driving:
         speed = abs(drive.initial_speed)
         if isinstance(drive, Stroke):

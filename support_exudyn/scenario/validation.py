@@ -75,9 +75,6 @@ def _check_space(scenario: ScenarioData) -> None:
         raise ValueError(
             f"formulation = {scenario.formulation!r}: is planar; allowed in space: 'auto', 'redundant'"
         )
-    for name, leg in scenario.legs.items():
-        what = ", ".join(leg.elements) or "HydraulicCylinder"
-        raise ValueError(f"actuators.{name} = {what}: is planar; allowed in space: OilColumn without elements")
     for name, pin in scenario.pins.items():
         if refused := pin.refused_in_space():
             part, what, allowed = refused

@@ -15,6 +15,7 @@ from support_exudyn.formulations.compiled.arrays import (
     Vector,
 )
 from support_exudyn.formulations.compiled.step import advance
+from support_exudyn.formulations.hydraulics.leg import OPEN
 from support_exudyn.formulations.hydraulics.records import LOW, RELIEF, YIELD
 
 MET_PRESSURE, MET_LENGTH = 0.01, 1e-13  # [Pa], [m] from zero at which a gap is met
@@ -73,7 +74,8 @@ def first_gap(scene: SceneArrays, room: Scratch) -> tuple[int, int, int]:
                 if jumps and scene.beyond[n, k] > near:
                     return TOO_FAR, n, k
                 continue
-            if begin <= near:
+            jumped = min(room.gaps[n, k], scene.gaps[n, k]) == OPEN  # where an inlet opens or closes
+            if begin <= near or jumped:
                 return AT_ONCE, n, k
             at = begin / (begin - end)
             if at < first:

@@ -46,6 +46,7 @@ from support_exudyn.mechanics.trajectory import Series
 
 SEAT = 100.0  # a poppet's seat is so many times as stiff as its spring, and critically damped
 OPEN = -1e300  # a gap that nothing closes
+CLOSED = 1e-12  # opening of an inlet, of either sign, that is rounding
 
 
 @inlined
@@ -151,6 +152,8 @@ def let_in(
     """
     leg = legs[n]
     law, modulus, p = leg.law, leg.modulus, leg.pressure
+    if abs(opening) < CLOSED:
+        opening = 0.0
     at, rod_at = (supply, leg.tank) if opening >= 0.0 else (leg.tank, supply)
     node = leg.line_pressure
     flow = loss = 0.0
@@ -158,7 +161,7 @@ def let_in(
         wide = leg.flow_factor * abs(opening)
         ahead = at - node
         if leg.check != 0 and leg.line < 0:
-            gaps[CHECK] = at - p - leg.cracking if opening != 0.0 else OPEN
+            gaps[CHECK] = at - p - leg.cracking if opening > 0.0 else OPEN
             if at - p > leg.cracking:
                 ahead = at - p - leg.cracking
             else:

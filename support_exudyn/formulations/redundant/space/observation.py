@@ -20,7 +20,7 @@ from support_exudyn.mechanics.space.constraints import TURNS, Constraint, direct
 from support_exudyn.mechanics.space.kinetics import inertias, weight
 from support_exudyn.mechanics.space.motion import SpatialMotion, cross, motion_of
 from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
-from support_exudyn.mechanics.trajectory import ContactSeries, LoadSeries, Series
+from support_exudyn.mechanics.trajectory import ContactSeries, LegSeries, LoadSeries, Series
 from support_exudyn.model.linkage import GROUND
 from user_forces.friction.frictionless import Frictionless
 
@@ -134,6 +134,24 @@ class SpatialObservation:
         """Every column of oil over time."""
         return {name: self._oil(name) for name in self.scene.oil_columns}
 
+    @cached_property
+    def legs(self) -> dict[str, LegSeries]:
+        """Every hydraulic leg with elements over time, and the pump."""
+        legs = self.scene.legs
+        if not legs.names or not self.history.legs.shape[1]:
+            return {}
+        motion = {}
+        for name in legs.names:
+            apart, relative = self.span(name)
+            length = np.linalg.norm(apart, axis=1)
+            motion[name] = length, np.einsum("ni,ni->n", apart, relative) / length
+        return legs.series(self.time, motion, self.history.legs)
+
+    @cached_property
+    def on_oil(self) -> dict[str, OilSeries | LegSeries]:
+        """All actuators that oil holds, over time."""
+        return {**self.oil, **{name: self.legs[name] for name in self.scene.legs.names if name in self.legs}}
+
     def _oil(self, name: str) -> OilSeries:
         drive = self.scene.scenario.drive_of(name)
         extension = np.array([drive.extension(t) for t in self.time.tolist()])
@@ -177,7 +195,7 @@ class SpatialObservation:
         """Weights and forces of oil, clearance bearings and loads on all bodies, (n, b, 6)."""
         weights = weight(self.scene.linkage, self.scene.gravity).reshape(1, -1, 6)
         forces = np.tile(weights, (self.motion.count, 1, 1))
-        for name, oil in self.oil.items():
+        for name, oil in self.on_oil.items():
             actuator = self.scene.linkage.actuators[name]
             along, _ = self.span(name)
             push = oil.force[:, None] * along / np.linalg.norm(along, axis=1)[:, None]
@@ -213,7 +231,7 @@ class SpatialObservation:
 
     def actuator_force(self, name: str) -> Series:
         """Force that pushes an actuator's ends apart (n,) [N]."""
-        return self.oil[name].force if name in self.oil else self.held[Constraint(name, "actuator")]
+        return self.on_oil[name].force if name in self.on_oil else self.held[Constraint(name, "actuator")]
 
     def bearing_load(self, name: str) -> tuple[Series, Series]:
         """Force of the first body on the second [N], moment about the bearing's middle [N m], (n, 3) each."""
@@ -258,8 +276,8 @@ class SpatialObservation:
     def stored(self) -> Series:
         """Energy stored in contacts, oil and loads [J]."""
         found = np.zeros_like(self.time)
-        for oil in self.oil.values():
-            found = found + oil.energy
+        for energy in (*(one.energy for one in self.oil.values()), *(one.energy for one in self.legs.values())):
+            found = found + energy
         for load in self.acting.values():
             found = found + load.stored
         for face in self.faces.values():
