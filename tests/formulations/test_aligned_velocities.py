@@ -199,7 +199,7 @@ def test_steps_that_will_be_cut_are_known(
     pins: tuple[SimpleNamespace, ...], following: float, cut: bool
 ) -> None:
     for locates in (True, False):  # where impacts are not located nothing is cut
-        run: Any = SimpleNamespace(pins=pins, locates=locates)
+        run: Any = SimpleNamespace(pins=pins, legs=SimpleNamespace(names=()), locates=locates)
         assert SolverRun._is_to_be_cut(run, LONG, following) == (cut and locates)
 
 
