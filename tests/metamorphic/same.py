@@ -60,15 +60,10 @@ def told(scenario: Scenario) -> Result:
 
 
 def plain(result: Result) -> EvaluationContext:
-    """All that was recorded; of angles and potential energy the change.
-
-    A block that starts on its point is in contact at the first record or just after, by rounding. Speeds of its
-    blows are compared as those of its onsets.
-    """
+    """All that was recorded; of angles and potential energy the change."""
     return {
         name: result[name] - (result[name][0] if name.endswith(FROM_THE_START) else 0.0)
         for name in result.channels
-        if name != "block.impact_velocity"
     }
 
 
