@@ -52,7 +52,7 @@ from support_exudyn.formulations.compiled.oil_events import (
 )
 from support_exudyn.formulations.compiled.recording import note_peaks, write_records
 from support_exudyn.formulations.compiled.step import evaluate
-from support_exudyn.formulations.compiled.step_control import CLOSE, SHORTEN, SMALLEST_STEP
+from support_exudyn.formulations.compiled.step_control import AFTER_IMPACT, CLOSE, SHORTEN, SMALLEST_STEP
 
 
 @entry
@@ -192,6 +192,8 @@ def integrate(
                 now[n].rate = max(0.0, now[n].rate)
             elif what == CUT:
                 now[n].push = 1e-30 if was_cut else -1e-30
+        if what == IMPACT:
+            follow *= AFTER_IMPACT
         h = choose_method(scene, room, going, t, h, follow, y, weights, what == NOTHING and oil == NONE, report)
     going[MIDST], going[NEXT_STEP] = 0.0, h
     return FINISHED

@@ -7,6 +7,9 @@ SHORTEN = 0.25  # factor for a step in which too much happens
 STEADY = 0.04  # weight of the last error in the choice of a step (Gustafsson), against hunting
 ORDER = 0.2 - 0.75 * STEADY
 SMALLEST_STEP = 1e-13  # [s]
+# Of the step before an impact is the first in it: forces begin as a broken power of time, over which a long
+# step is of low order, so that errors would not fall as the tolerance does
+AFTER_IMPACT = 0.02
 LANDED = 1e-14  # depth [m] at which an impact or separation is met; rounding of the posture is some 1e-16
 LANDINGS = 12
 TURNS = 3  # looks for where a contact is pressed on again; the force is continuous there
