@@ -223,7 +223,7 @@ def loads(draw: st.DrawFn, kind: Machine, level: bool) -> Mapping[str, Load]:
     )
     descent = CubicStep(stroke=draw(between(1e-3, 5e-3)), start=start, end=start + 0.02)
     roof = Roof(descent=descent, stiffness=1e8, gap=draw(between(0.0, 1e-3)), damping=1.0, **at)
-    block = FallingBlock(mass=500.0, height=1e-4, speed=1.0, stiffness=1e8, restitution=0.5, **at)
+    block = FallingBlock(mass=500.0, height=0.0, speed=1.0, stiffness=1e8, restitution=0.5, **at)
     kinds: tuple[Mapping[str, Load], ...] = ({}, {"push": force})
     if level:
         kinds = (*kinds, {"roof": roof}, {"push": force, "roof": roof}, {"block": block})

@@ -7,6 +7,7 @@ from support_exudyn.formulations.compiled.motion import SINGULAR, divide, respon
 from support_exudyn.formulations.compiled.oil_events import begin_gaps
 from support_exudyn.formulations.compiled.recording import write_record
 from support_exudyn.formulations.compiled.step import evaluate
+from support_exudyn.formulations.contact_events import STILL
 
 
 @once
@@ -15,7 +16,7 @@ def begin_run(scene: SceneArrays, room: Scratch, y: Vector, rows: Matrix) -> boo
     least = evaluate(scene, 0.0, y, room.slope, room.right)
     for n in range(scene.contacts.size):
         contact = scene.contacts[n]
-        if contact.depth > 0.0:
+        if contact.depth > (STILL if contact.rate > 0.0 else 0.0):  # else it meets just now
             contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
     for n in range(scene.contacts.size):
         renew_mass(scene, room, n, y)

@@ -6,6 +6,7 @@ from typing import Any, Protocol
 
 import exudyn
 
+from support_exudyn.formulations.contact_events import STILL
 from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts
@@ -134,8 +135,11 @@ class EngineScene(ABC):
 
 
 def first_memory(force: ContactForce) -> PinMemory:
-    """The memory of a pin at the start, from what its laws say: a journal that is pressed impacts just now."""
-    closed = force.depth > 0.0
+    """The memory of a pin at the start, from what its laws say: a journal that is pressed impacts just now.
+
+    Surfaces that move towards each other and touch within rounding are apart, so that their impact is seen.
+    """
+    closed = force.depth > (STILL if force.rate > 0.0 else 0.0)
     speed = max(0.0, force.rate) if closed else 0.0
     return PinMemory(closed, speed, depth=force.depth, rate=force.rate, slip=force.slip)
 
