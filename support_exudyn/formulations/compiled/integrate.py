@@ -1,6 +1,6 @@
 """The run: steps of chosen length, cut at impacts and separations, between two breaks of drives and loads."""
 
-from support_exudyn.formulations.compilation import entry
+from support_exudyn.formulations.compilation import entry, once
 from support_exudyn.formulations.compiled.arrays import (
     ACCEPTED,
     CUTS,
@@ -53,6 +53,77 @@ from support_exudyn.formulations.compiled.oil_events import (
 from support_exudyn.formulations.compiled.recording import note_peaks, write_records
 from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.formulations.compiled.step_control import AFTER_IMPACT, CLOSE, SHORTEN, SMALLEST_STEP
+
+
+@once
+def land_on_first(
+    scene: SceneArrays,
+    room: Scratch,
+    n: int,
+    t: float,
+    h: float,
+    what: int,
+    low: float,
+    high: float,
+    was_cut: bool,
+    y: Vector,
+    weights: Vector,
+    report: Vector,
+) -> tuple[float, int, int, bool]:
+    """Make a step of h [s] again so that it ends at the first of what happens to contacts.
+
+    Returns its length [s], the contact, what happens to it, and whether its tension was cut before.
+    """
+    now, then = room.now, room.then
+    while True:
+        copy_contacts(then, scene.contacts)
+        h = land(scene, n, t, h, what, low, high, now, y, room.rates, room.end, weights, room.right, report)
+        copy_contacts(scene.contacts, then)
+        m = met_before(n, now, then)
+        if m < 0:
+            return h, n, what, was_cut
+        n, what, low, high = m, IMPACT if now[m].closed == 0.0 else SEPARATION, 0.0, 1.0
+        was_cut = now[n].push < 0.0
+
+
+@once
+def take_up(
+    scene: SceneArrays,
+    room: Scratch,
+    n: int,
+    what: int,
+    was_cut: bool,
+    passes: bool,
+    leg: int,
+    gap: int,
+    t: float,
+    y: Vector,
+    onsets: Matrix,
+    report: Vector,
+) -> int:
+    """Take up the run at t [s], where something has happened to contact n, or a gap of a leg passes zero.
+
+    Returns FINISHED, or why the run cannot go on.
+    """
+    now, rates, right = room.now, room.rates, room.right
+    if passes:
+        if not pass_gap(scene, room, leg, gap, t, report):
+            return TOO_MANY_OIL_EVENTS
+    else:
+        evaluate(scene, t, y, room.slope, right)  # places and factors are those of what was looked at last
+        if not happen(scene, n, what, t, y, onsets, report):
+            return TOO_MANY_IMPACTS
+        if what in (IMPACT, RETURN):
+            renew_masses(scene, room, n, what, t, y, onsets, report)
+    evaluate(scene, t, y, rates[0], right)
+    copy_contacts(scene.contacts, now)
+    keep_gaps(scene, room.gaps)
+    # whatever rounding says
+    if not passes and what == RETURN:
+        now[n].rate = max(0.0, now[n].rate)
+    elif not passes and what == CUT:
+        now[n].push = 1e-30 if was_cut else -1e-30
+    return FINISHED
 
 
 @entry
@@ -148,15 +219,9 @@ def integrate(
         error_before = max(error, 1e-4)
         was_cut = n >= 0 and now[n].push < 0.0
         if what != NOTHING and low < 1.0:
-            while True:
-                copy_contacts(then, scene.contacts)
-                h = land(scene, n, t, h, what, low, high, now, y, k, end, weights, right, report)
-                copy_contacts(scene.contacts, then)
-                m = met_before(n, now, then)
-                if m < 0:
-                    break
-                n, what, low, high = m, IMPACT if now[m].closed == 0.0 else SEPARATION, 0.0, 1.0
-                was_cut = now[n].push < 0.0
+            h, n, what, was_cut = land_on_first(
+                scene, room, n, t, h, what, low, high, was_cut, y, weights, report
+            )
             fit_step(room, 0.0, h, y)
             last = h >= stop - t
         keep_gaps(scene, room.gaps)
@@ -169,29 +234,14 @@ def integrate(
         t = stop if last else t + h
         for i in range(y.size):
             y[i] = end[i]
-        if oil == GAP:
-            if not pass_gap(scene, room, leg, gap, t, report):
-                return TOO_MANY_OIL_EVENTS
-            evaluate(scene, t, y, k[0], right)
-            copy_contacts(scene.contacts, now)
-            keep_gaps(scene, room.gaps)
-        elif what == NOTHING:
+        if what == NOTHING and oil == NONE:
             for i in range(y.size):
                 k[0, i] = k[STAGES - 1, i]
             copy_contacts(then, now)
         else:
-            evaluate(scene, t, y, room.slope, right)  # places and factors are those of what was looked at last
-            if not happen(scene, n, what, t, y, onsets, report):
-                return TOO_MANY_IMPACTS
-            if what in (IMPACT, RETURN):
-                renew_masses(scene, room, n, what, t, y, onsets, report)
-            evaluate(scene, t, y, k[0], right)
-            copy_contacts(scene.contacts, now)
-            # whatever rounding says
-            if what == RETURN:
-                now[n].rate = max(0.0, now[n].rate)
-            elif what == CUT:
-                now[n].push = 1e-30 if was_cut else -1e-30
+            code = take_up(scene, room, n, what, was_cut, oil == GAP, leg, gap, t, y, onsets, report)
+            if code != FINISHED:
+                return code
         if what == IMPACT:
             follow *= AFTER_IMPACT
         h = choose_method(scene, room, going, t, h, follow, y, weights, what == NOTHING and oil == NONE, report)

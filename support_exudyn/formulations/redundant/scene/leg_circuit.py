@@ -17,7 +17,6 @@ from typing import Any
 
 import exudyn
 import numpy as np
-from exudyn.itemInterface import ObjectConnectorSpringDamper
 
 from support_exudyn.formulations.hydraulics.fill import fill_legs, weigh_states
 from support_exudyn.formulations.hydraulics.implicit import advance_legs
@@ -254,8 +253,3 @@ class LegCircuit:
             self._press()
             if abs(pushed / rise) <= RESTS:
                 break
-
-
-def spring(mbs: Any, markers: Sequence[Any], start_length: float) -> Any:
-    """The connector of a leg, which its circuit gives a force."""
-    return mbs.AddObject(ObjectConnectorSpringDamper(markerNumbers=list(markers), referenceLength=start_length))
