@@ -28,8 +28,7 @@ from user_forces.values.value import Vector2
 
 MASS, STIFFNESS = 1000.0, 1e6
 TOP = (0.0, 1.0)
-# damped so well that vibrations are gone before a run of 0.3 s ends
-OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9, damping_time=5e-3)
+OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 ON_OIL = {"front_column": OIL, "rear_column": OIL}
 # of the support [m]: over the middle between both actuators' heads, in the start posture
 OVER_THE_COLUMNS = (1.37, 1.993)

@@ -103,7 +103,7 @@ def test_all_channels_are_those_of_the_redundant_formulation(case: tuple[str, st
         # what the implicit steps have of error; accelerations and forces of ideal pins have more of it just
         # after an impact, so that one record or two are off by some tens of per cent
         spread = np.quantile(np.abs(ours[name] - theirs[name]), 0.97)
-        assert spread <= 5e-3 * max(np.abs(theirs[name]).max(), 1e-30), name
+        assert spread <= 8e-3 * max(np.abs(theirs[name]).max(), 1e-30), name
 
 
 def test_the_redundant_formulation_tends_to_the_compiled_one() -> None:
@@ -141,7 +141,7 @@ def test_the_mass_that_moves_is_that_of_the_bores_axes_where_both_bodies_turn() 
         normal=Flores(restitution=0.426, stiffness=2.2e10, exponent=1.5),
         friction=BrownMcPhee(static_coefficient=0.178, sliding_coefficient=0.137, transition_speed=0.01),
     )
-    oil = OilColumn(bore_area=0.12847, oil_length=0.698, bulk_modulus=9.81e8, damping_time=1.26e-3)
+    oil = OilColumn(bore_area=0.12847, oil_length=0.698, bulk_modulus=9.81e8)
     scene = support(
         pins={"front_shield": ClearancePin(contact=contact, bore="second", eccentricity=(3.1e-5, -4.65e-5))},
         actuators=dict.fromkeys(BOTH, oil),
@@ -200,9 +200,9 @@ def test_a_sudden_start_needs_no_impulse() -> None:
     result = simulate(on_oil(drive=UniformSpeed(start=0.05, end=2.05), duration=0.06, record_period=1e-5))
     assert result.impulses == ()
     jump = int(np.searchsorted(result.time, 0.05 + 1e-9))
-    # at once the damping of the oil has the whole speed: k T v
-    step = np.diff(result["rear_column.force"])[jump - 1]
-    assert step == pytest.approx(OIL.stiffness(0.0) * OIL.damping_time * 0.25, rel=0.02)  # 2 % in 10 us
+    # nothing jumps: beside what it vibrated with before, oil is compressed by what has been let in since
+    before, after = np.diff(result["rear_column.force"])[jump - 2 : jump]
+    assert after - before == pytest.approx(OIL.stiffness(0.0) * 0.25 * 1e-5, rel=0.02)  # bodies give way
 
 
 def test_records_do_not_change_the_run() -> None:
@@ -336,7 +336,7 @@ def test_a_drive_that_is_no_cubic_is_followed_too() -> None:
     assert ours.energy_error < 1e-6 * abs(ours["energy.work"]).max()
     theirs = simulate(on_oil(drive=drive, duration=0.02, formulation="redundant", step=1e-5))
     # second order of an implicit step of 10 us
-    assert ours["front_column.force"][-1] == pytest.approx(theirs["front_column.force"][-1], rel=1e-5)
+    assert ours["front_column.force"][-1] == pytest.approx(theirs["front_column.force"][-1], rel=4e-5)
 
 
 @value

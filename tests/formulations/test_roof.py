@@ -208,10 +208,10 @@ def reactions(result: Result, row: int = -1) -> tuple[np.ndarray, np.ndarray]:
 
 @pytest.mark.parametrize("kind", ["rigid, ideal", "oil, ideal"])
 def test_actuators_and_pins_carry_what_statics_say(kind: str) -> None:
-    result = pressed(kind)
+    result = pressed(kind, 0.3)
     assert result["roof.force"][-1] == pytest.approx(TEN_MEGANEWTONS, rel=0.01)  # by how much oil was guessed
     pins, actuators = reactions(result)
-    # what is left of vibrations that the oil damps for 0.18 s
+    # what is left of vibrations that the roof damps for 0.18 s
     for name, thrust in zip(("front_column", "rear_column"), actuators, strict=True):
         assert result[f"{name}.force"][-1] == pytest.approx(thrust, rel=1e-7)
         assert thrust > 4.9e6

@@ -99,13 +99,13 @@ def test_the_peak_has_a_band_from_assumptions_and_depends_on_the_contact(out: Pa
 def test_the_band_is_of_the_runs_of_its_grid() -> None:
     plan = ModePlan(paper_subject())
     runs = assumed.scenarios(plan)
-    assert len(runs) == len(assumed.pins()) * len(assumed.MODULI) * len(assumed.DAMPING_TIMES)
+    assert len(runs) == len(assumed.pins()) * len(assumed.MODULI) * len(assumed.HOSES)
     column = {run.actuators["rear_column"] for run in runs.values()}
-    assert {(one.bulk_modulus, one.damping_time) for one in column if isinstance(one, OilColumn)} == {
-        (modulus, damping) for modulus in assumed.MODULI for damping in assumed.DAMPING_TIMES
+    assert {(one.bulk_modulus, one.line) for one in column if isinstance(one, OilColumn)} == {
+        (modulus, hoses) for modulus in assumed.MODULI for hoses in assumed.HOSES.values()
     }
     oil = paper_machine.oil_columns()["rear_column"]
-    assert (oil.bulk_modulus, oil.damping_time) == (paper_machine.BULK_MODULUS, assumed.USUAL_DAMPING)
+    assert (oil.bulk_modulus, oil.line) == (paper_machine.BULK_MODULUS, assumed.HOSES[assumed.USUAL])
 
 
 def test_an_inlet_is_not_a_displacement(numbers: Numbers) -> None:
@@ -192,8 +192,8 @@ def test_modes_of_ones_own_machine_have_its_stroke_and_pin(tmp_path: Path) -> No
         assert set(case.pins) == ({"front_base"} if "1 mm" in name else set())
     plan = ModePlan(own_subject(own(tmp_path, OWN + OIL)))
     assert plan.columns == ("rigid", "oil")
-    assert set(plan.scenarios["mode 1, 1 mm, oil columns"].oil_columns) == {"front_column"}
-    assert not plan.scenarios["mode 1, 1 mm, rigid columns"].oil_columns
+    assert set(plan.scenarios["mode 1, 1 mm, oil columns"].compliant_actuators) == {"front_column"}
+    assert not plan.scenarios["mode 1, 1 mm, rigid columns"].compliant_actuators
 
 
 def test_the_study_of_ones_own_machine_leaves_the_paper_out(tmp_path: Path) -> None:
