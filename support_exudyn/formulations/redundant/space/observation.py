@@ -156,7 +156,8 @@ class SpatialObservation:
         drive = self.scene.scenario.drive_of(name)
         extension = np.array([drive.extension(t) for t in self.time.tolist()])
         speed = np.array([drive.speed(t) for t in self.time.tolist()])
-        length = np.linalg.norm(self.span(name), axis=1)
+        apart, _ = self.span(name)
+        length = np.linalg.norm(apart, axis=1)
         preloaded = self.scene.oil_columns[name].preloaded
         return OilSeries(
             preloaded.force(length, extension),
@@ -164,12 +165,12 @@ class SpatialObservation:
             preloaded.power(length, extension, speed),
         )
 
-    def span(self, actuator: str) -> Series:
-        """The vector from foot to head of an actuator (n, 3)."""
+    def span(self, actuator: str) -> tuple[Series, Series]:
+        """The vector from foot to head of an actuator, and its rate, (n, 3) each."""
         strut = self.scene.linkage.actuators[actuator]
         foot = self.motion.point(strut.foot, strut.foot_point)
-        found: Series = self.motion.point(strut.head, strut.head_point).position - foot.position
-        return found
+        head = self.motion.point(strut.head, strut.head_point)
+        return head.position - foot.position, head.velocity - foot.velocity
 
     @cached_property
     def accelerations(self) -> Series:
@@ -197,7 +198,7 @@ class SpatialObservation:
         forces = np.tile(weights, (self.motion.count, 1, 1))
         for name, oil in self.on_oil.items():
             actuator = self.scene.linkage.actuators[name]
-            along = self.span(name)
+            along, _ = self.span(name)
             push = oil.force[:, None] * along / np.linalg.norm(along, axis=1)[:, None]
             self._push(
                 forces, actuator.head, push, self.motion.point(actuator.head, actuator.head_point).position
