@@ -16,9 +16,9 @@ from support_exudyn import ClearancePin, Line, Result, Scenario, UniformSpeed
 
 MODULI = (1.5e9, 2.2e9)  # of the oil [Pa]; four published shields give 1.96 GPa
 HOSES = {  # of a pair of columns, by what they are called
-    "wide hoses": Line(volume=5e-3, nominal_flow=200e-3 / 60.0, nominal_drop=3e5),
+    "wide hoses": Line(volume=5e-3, nominal_flow=200e-3 / 60.0, nominal_drop=5e5),
     "usual hoses": paper_machine.HOSES,  # those of the rest of the study
-    "narrow hoses": Line(volume=20e-3, nominal_flow=200e-3 / 60.0, nominal_drop=3e6),
+    "narrow hoses": Line(volume=20e-3, nominal_flow=200e-3 / 60.0, nominal_drop=2e6),
 }
 START, AFTER = 0.8, 0.4  # of mode 1, when the journal rests; and how long is looked at [s]
 PEAK = rise.Peak(rise.FORCE, 1e-3, START, START + AFTER)  # [kN]

@@ -66,7 +66,7 @@ class LegItem:
         return source.extension(t), source.speed(t) if t > 0.0 else source.initial_speed, 0.0
 
     def told_after(self, t: float) -> tuple[float, float, float]:
-        """The same just after a break t [s]."""
+        """What a drive has let in just after a break t [s]; values as of `told`."""
         inflow, rate, opening = self.told(t)
         source = self.source
         if isinstance(source, Inlet):
