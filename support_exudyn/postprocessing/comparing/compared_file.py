@@ -102,11 +102,11 @@ class ComparedFile:
         return {} if self.run is None else curve_errors(self.run, self.series)
 
     def of(self, run: Result) -> ComparedFile:
-        """This file with another run of the scene in it, such as one with longer steps."""
+        """The file with another run of the scene in it, such as one with longer steps."""
         return replace(self, run=run, series=_series(run))
 
     def shifted(self, seconds: float) -> ComparedFile:
-        """This file with a time [s] added to all of its times."""
+        """The file with a time [s] added to all of its times."""
         return replace(self, mapped=replace(self.mapped, shift=self.mapped.shift + seconds))
 
 
