@@ -67,7 +67,7 @@ DRIVES = {"mode 2": CubicStep(start=0.05, end=0.25, stroke=0.02), "mode 1": Unif
 @cache
 def both(drive: str, actuators: str) -> tuple[Result, Result]:
     """The same scene in the compiled and in the redundant formulation."""
-    columns, step = {"oil": (BOTH, 1e-4), "stiff": (STIFF, 5e-5)}[actuators]
+    columns, step = {"oil": (BOTH, 1e-4), "stiff": (STIFF, 2.5e-5)}[actuators]
     scene = on_oil(drive=DRIVES[drive], actuators=columns, duration=0.15, step=step)
     return simulate(scene), simulate(replace(scene, formulation="redundant"))
 
