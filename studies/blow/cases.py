@@ -27,7 +27,7 @@ CLEARANCE_MM, FRICTION = 1.5, 0.25
 PINS = {"ideal": (), "one": ("rear_base",), "all": ALL_PINS}  # that have clearance
 STIFFNESS, RESTITUTION = 1e9, 0.3  # of rock on steel [N/m^1.5], assumed: 2 t from 0.5 m rest after 10 ms
 STRIKE = 0.05  # when a block strikes [s]
-# restitution of pins, drop of pressure in hoses at 300 l/min [Pa], and time [s], with which a support comes to rest
+# with which a support comes to rest: restitution of pins, drop of pressure in hoses at 300 l/min [Pa], time [s]
 DULL, DROP, UNTIL_REST = 0.05, 5e5, 0.6
 AFTER = 0.35  # that is looked at after a blow [s]
 PERIOD = 2.5e-4  # between records [s]
