@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 from support_exudyn import (
@@ -11,6 +12,7 @@ from support_exudyn import (
     Drive,
     FallingBlock,
     Held,
+    Line,
     Linkage,
     Load,
     LoadedPoint,
@@ -28,14 +30,20 @@ from user_forces.values.value import Vector2
 
 MASS, STIFFNESS = 1000.0, 1e6
 TOP = (0.0, 1.0)
-# damped so well that vibrations are gone before a run of 0.3 s ends
-OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9, damping_time=5e-3)
+OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 ON_OIL = {"front_column": OIL, "rear_column": OIL}
+# behind so much oil in lines that vibrations die out
+LINE_VOLUME = 0.1  # [m^3]
+LINE = Line(volume=LINE_VOLUME, nominal_flow=5e-3, nominal_drop=5e5)
+DAMPED = {name: replace(oil, line=LINE) for name, oil in ON_OIL.items()}
 # of the support [m]: over the middle between both actuators' heads, in the start posture
 OVER_THE_COLUMNS = (1.37, 1.993)
 HARD = 1e9  # [N/m]
 GAP = 0.0123  # [m]
 TEN_MEGANEWTONS = 1e7
+# by how much the support gives under it [m]: two columns of oil side by side, of 2.9e8 N/m each
+GIVES_ON_OIL = TEN_MEGANEWTONS / 5.89e8
+GIVES_DAMPED = GIVES_ON_OIL * (1.0 + LINE_VOLUME / (OIL.bore_area * OIL.oil_length))  # lines give, too
 
 
 @value

@@ -112,7 +112,7 @@ def numbers_of_records(run: Result, after: float = 0.0) -> Mapping[str, Estimate
 
 def tight(scene: BenchmarkScene) -> Result:
     """A run of a scene that is far closer than any accuracy that is asked for here."""
-    if scene.scenario.oil_columns:
+    if scene.scenario.compliant_actuators:
         return simulate(replace(scene.scenario, formulation="compiled", solver=SolverSettings(tolerance=1e-9)))
     return simulate(tight_runs(scene)[0])
 

@@ -22,6 +22,7 @@ from support_exudyn import (
     Held,
     HydraulicCylinder,
     Inlet,
+    Line,
     Machine,
     OilColumn,
     OwnBody,
@@ -211,7 +212,11 @@ def _oil(
         bore_area=bore_area(float(random.uniform(*bore)), columns),
         oil_length=float(random.uniform(*length)),
         bulk_modulus=_between(random, 7e8, 2e9),
-        damping_time=_between(random, 3e-4, 3e-3),
+        line=Line(
+            volume=_between(random, 3e-3, 3e-2),
+            nominal_flow=200e-3 / 60.0,
+            nominal_drop=_between(random, 3e5, 3e6),
+        ),
     )
 
 

@@ -123,7 +123,7 @@ def times_the_goal(off: Mapping[str, float]) -> float:
 
 def tight_runs(scene: BenchmarkScene) -> tuple[Scenario, Scenario]:
     """The scene as the reference has it, and as its own error is found."""
-    if scene.scenario.oil_columns:
+    if scene.scenario.compliant_actuators:
         tight = replace(scene.scenario, formulation="compiled", solver=SolverSettings(tolerance=1e-11))
         finest = SolverSettings(impact_steps=4096, backend="symbolic")
         return tight, replace(scene.scenario, formulation="redundant", step=6.25e-5, solver=finest)

@@ -10,7 +10,7 @@ from typing import Any
 
 from studies.common.loose_supports import loose_pins, support
 from studies.common.support_legs import PAIRS, legs_data, support_legs
-from support_exudyn import ClearancePin, OilColumn, Result, Scenario, simulate
+from support_exudyn import ClearancePin, Line, OilColumn, Result, Scenario, simulate
 from support_exudyn.machines.four_bar_shield import PINS as ALL_PINS
 from support_exudyn.machines.four_column_support import HydraulicSupport, Posture
 from support_exudyn.machines.shield_layout import TAIL
@@ -27,7 +27,8 @@ CLEARANCE_MM, FRICTION = 1.5, 0.25
 PINS = {"ideal": (), "one": ("rear_base",), "all": ALL_PINS}  # that have clearance
 STIFFNESS, RESTITUTION = 1e9, 0.3  # of rock on steel [N/m^1.5], assumed: 2 t from 0.5 m rest after 10 ms
 STRIKE = 0.05  # when a block strikes [s]
-DULL, UNTIL_REST = 0.05, 0.6  # restitution of pins, and the time [s], in which a support comes to rest
+# with which a support comes to rest: restitution of pins, drop of pressure in hoses at 300 l/min [Pa], time [s]
+DULL, DROP, UNTIL_REST = 0.05, 5e5, 0.6
 AFTER = 0.35  # that is looked at after a blow [s]
 PERIOD = 2.5e-4  # between records [s]
 GRAVITY = 9.81
@@ -146,9 +147,12 @@ class AtRest:
 
 
 def _under_roof(machine: str, pins: Mapping[str, ClearancePin], duration: float) -> Result:
-    """A support on plain oil under the roof load."""
+    """A support under the roof load, on oil behind hoses whose resistance brings it to rest."""
     leg = legs_data().of(machine).cylinder
-    oil = OilColumn(bore_area=leg.bore_area, oil_length=leg.oil_length, bulk_modulus=leg.bulk_modulus)
+    line = Line(volume=2.0 * leg.bore_area * leg.oil_length, nominal_flow=5e-3, nominal_drop=DROP)
+    oil = OilColumn(
+        bore_area=leg.bore_area, oil_length=leg.oil_length, bulk_modulus=leg.bulk_modulus, line=line
+    )
     scenario = Scenario(
         machine=support(machine),
         actuators=dict.fromkeys(PAIRS, oil),
@@ -163,7 +167,7 @@ def _under_roof(machine: str, pins: Mapping[str, ClearancePin], duration: float)
 
 @cache
 def at_rest(machine: str, pins: str) -> AtRest:
-    """How a support with these pins stands under the roof load, its legs on plain oil.
+    """How a support with these pins stands under the roof load.
 
     Journals begin where the forces of ideal pins press them, in contacts that hardly give back anything; after
     a while all is at rest.

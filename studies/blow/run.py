@@ -68,12 +68,12 @@ def clearance_table(found: Found, blows: Sequence[Blow]) -> TextTable:
 
 
 def with_ideal_pins(blow: Blow) -> Blow:
-    """The same blow on ideal pins."""
+    """Give the same blow ideal pins, to compare with."""
     return replace(blow, pins="ideal")
 
 
 def without_valves(blow: Blow) -> Blow:
-    """The same blow on legs without yield valves."""
+    """Take the yield valves from the legs of a blow, to compare with."""
     return replace(blow, valve=False)
 
 

@@ -30,7 +30,7 @@ Sample = Mapping[str, Choice]  # a value of every factor, by name
 
 REFERENCE_SCALE = 0.65  # of the support whose pivots the reference support has
 # data that came to be varied last
-NEW = ("contact", "backing", "stroke_time", "bulk_modulus", "oil_damping")
+NEW = ("contact", "backing", "stroke_time", "bulk_modulus", "line_volume", "line_drop")
 COLUMNS = "columns"  # what a sample says besides its factors: whether it is asked on columns of oil, too
 RIGID, ON_OIL = "rigid", "rigid and oil"
 ON_OIL_EVERY = 3  # machine: a run on oil costs ten times one on rigid columns
@@ -215,7 +215,11 @@ def oil_columns(sample: Sample) -> dict[str, OilColumn]:
         bore_area=bore_area(scale * paper_machine.OIL_BORE, 2),
         oil_length=scale * paper_machine.OIL_LENGTH,
         bulk_modulus=1e9 * number(sample, "bulk_modulus"),
-        damping_time=number(sample, "oil_damping"),
+        line=replace(
+            paper_machine.HOSES,
+            volume=1e-3 * number(sample, "line_volume"),
+            nominal_drop=1e6 * number(sample, "line_drop"),
+        ),
     )
     return {"front_column": oil, "rear_column": oil}
 

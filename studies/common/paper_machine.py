@@ -10,6 +10,7 @@ from support_exudyn import (
     HydraulicCylinder,
     HydraulicSupport,
     Inlet,
+    Line,
     OilColumn,
     RampedOpening,
     Scenario,
@@ -51,6 +52,9 @@ SLIDING_COEFFICIENT = 0.25  # assumed: dry steel on steel
 # an emulsion of oil in water with the air and the hoses that come with it, 1.5 GPa; by the published vertical
 # stiffness of four shields it would be 1.96 GPa
 OIL_BORE, OIL_LENGTH, BULK_MODULUS = 0.25, 0.5, 1.5e9  # [m], [m] at the start of the rise, [Pa]
+# each pair is fed by two hoses of 25 mm and 10 m, assumed: 10 l; with their fittings and valve block they take
+# 1 MPa at 200 l/min
+HOSES = Line(volume=10e-3, nominal_flow=200e-3 / 60.0, nominal_drop=1e6)
 # jack of the tail beam as a closed cushion of oil, assumed: one cylinder
 JACK = OilColumn(bore_area=bore_area(0.14), oil_length=0.3, bulk_modulus=BULK_MODULUS)
 # the same columns as hydraulic cylinders, assumed. Pump of 31.5 MPa, as stations for supports are rated. Valve,
@@ -182,8 +186,10 @@ def clearance_rise(
 
 
 def oil_columns() -> dict[str, OilColumn]:
-    """Both pairs of columns on oil, alike."""
-    oil = OilColumn(bore_area=bore_area(OIL_BORE, 2), oil_length=OIL_LENGTH, bulk_modulus=BULK_MODULUS)
+    """Both pairs of columns on oil behind hoses, alike."""
+    oil = OilColumn(
+        bore_area=bore_area(OIL_BORE, 2), oil_length=OIL_LENGTH, bulk_modulus=BULK_MODULUS, line=HOSES
+    )
     return {"front_column": oil, "rear_column": oil}
 
 

@@ -1,6 +1,6 @@
 """What assumptions on oil and contact do to the peak of the sudden inlet: a band beside the numerical error.
 
-The start of mode 1 on columns of oil, over bulk modulus and damping of the oil and over the contact of the pin.
+The start of mode 1 on columns of oil, over bulk modulus and hoses of the oil and over the contact of the pin.
 It starts as soon as the journal rests, and ends when the first swings are over.
 """
 
@@ -12,13 +12,17 @@ from studies.common import paper_machine, rise
 from studies.common.paper_machine import CONTACT_TITLES, CYLINDERS, PAPER
 from studies.common.words import TextTable
 from studies.drive_mode.cases import CLEARANCE_MM, PINS, ModePlan, case_name
-from support_exudyn import ClearancePin, Result, Scenario, UniformSpeed
+from support_exudyn import ClearancePin, Line, Result, Scenario, UniformSpeed
 
 MODULI = (1.5e9, 2.2e9)  # of the oil [Pa]; four published shields give 1.96 GPa
-DAMPING_TIMES = (4e-4, 1e-3, 2.4e-3)  # [s]: 5 to 30 % of the critical damping at 40 Hz
+HOSES = {  # of a pair of columns, by what they are called
+    "wide hoses": Line(volume=5e-3, nominal_flow=200e-3 / 60.0, nominal_drop=5e5),
+    "usual hoses": paper_machine.HOSES,  # those of the rest of the study
+    "narrow hoses": Line(volume=20e-3, nominal_flow=200e-3 / 60.0, nominal_drop=2e6),
+}
 START, AFTER = 0.8, 0.4  # of mode 1, when the journal rests; and how long is looked at [s]
 PEAK = rise.Peak(rise.FORCE, 1e-3, START, START + AFTER)  # [kN]
-USUAL_DAMPING = 1e-3  # of the columns in the rest of the study [s]
+USUAL = "usual hoses"
 
 
 class Band(NamedTuple):
@@ -42,25 +46,25 @@ def pins() -> dict[str, str]:
 def scenarios(plan: ModePlan) -> dict[str, Scenario]:
     """Every run of the grid, by name."""
     return {
-        _name(pin, modulus, damping): _run(plan, pin, modulus, damping)
+        _name(pin, modulus, hoses): _run(plan, pin, modulus, hoses)
         for pin in pins()
         for modulus in MODULI
-        for damping in DAMPING_TIMES
+        for hoses in HOSES
     }
 
 
-def _name(pin: str, modulus: float, damping: float) -> str:
-    return f"start of mode 1, {pin}, {modulus / 1e9:g} GPa, {1e3 * damping:g} ms"
+def _name(pin: str, modulus: float, hoses: str) -> str:
+    return f"start of mode 1, {pin}, {modulus / 1e9:g} GPa, {hoses}"
 
 
-def _run(plan: ModePlan, pin: str, modulus: float, damping: float) -> Scenario:
+def _run(plan: ModePlan, pin: str, modulus: float, hoses: str) -> Scenario:
     ideal = pin == PINS[0]
     base = plan.scenarios[case_name("mode 1", PINS[0] if ideal else PINS[1], "oil")]
     own = base.drive
     assert isinstance(own, UniformSpeed)
     drive = replace(own, start=START, end=START + own.end - own.start)
     columns = {
-        name: replace(column, bulk_modulus=modulus, damping_time=damping)
+        name: replace(column, bulk_modulus=modulus, line=HOSES[hoses])
         for name, column in paper_machine.oil_columns().items()
     }
     loose = {} if ideal else {paper_machine.CLEARANCE_PIN: _joint(plan, pin)}
@@ -78,11 +82,9 @@ def bands(results: Mapping[str, Result]) -> dict[str, Band]:
     found = {}
     for pin in pins():
         peaks = {
-            (modulus, damping): PEAK(results[_name(pin, modulus, damping)])
-            for modulus in MODULI
-            for damping in DAMPING_TIMES
+            (modulus, hoses): PEAK(results[_name(pin, modulus, hoses)]) for modulus in MODULI for hoses in HOSES
         }
-        usual = peaks[paper_machine.BULK_MODULUS, USUAL_DAMPING]
+        usual = peaks[paper_machine.BULK_MODULUS, USUAL]
         found[pin] = Band(usual, min(peaks.values()), max(peaks.values()))
     return found
 
@@ -95,4 +97,4 @@ def band_table(found: Mapping[str, Band]) -> TextTable:
         band = found[pin]
         against = "" if pin == PINS[0] else f"{100.0 * (band.usual / ideal.usual - 1.0):+.0f} %"
         rows.append((title, f"{band.usual:.0f}", against, f"{band.low:.0f} to {band.high:.0f}"))
-    return TextTable(("pin", "peak [kN]", "against ideal", "over oil and damping [kN]"), tuple(rows))
+    return TextTable(("pin", "peak [kN]", "against ideal", "over oil and hoses [kN]"), tuple(rows))

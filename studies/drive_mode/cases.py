@@ -71,7 +71,9 @@ class ModePlan:
         """How actuators are modelled: on oil if the scenario says so; on cylinders only the paper's."""
         if self.subject.is_paper:
             return COLUMNS
-        return COLUMNS[:2] if set(self.actuators) & set(self.subject.motion.oil_columns) else COLUMNS[:1]
+        return (
+            COLUMNS[:2] if set(self.actuators) & set(self.subject.motion.compliant_actuators) else COLUMNS[:1]
+        )
 
     def drive(self, mode: str, actuator: str) -> Stroke:
         """The drive of an actuator in a mode."""

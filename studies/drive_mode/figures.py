@@ -59,7 +59,7 @@ def _of_motion(plan: ModePlan) -> dict[str, Curve]:
 
 def _behind(run: Result) -> rise.Series:
     """How far the front columns are behind the displacement drive of the mode [mm]."""
-    sudden = isinstance(run.scenario.cylinders["front_column"].inlet, SuddenOpening)
+    sudden = isinstance(run.scenario.valved["front_column"].inlet, SuddenOpening)
     drive = MODES["mode 1" if sudden else "mode 2"]()
     driven = np.array([drive.extension(t) for t in run.time.tolist()])
     return np.asarray(1e3 * (driven - extension(run, "front_column")))

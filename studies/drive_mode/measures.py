@@ -126,7 +126,7 @@ def measures_of(plan: ModePlan, result: Result) -> dict[str, tuple[str, Get]]:
     found = all_measures(plan)
     if len(result.impulses) < 2:  # one at the start, one at the end
         found = {name: what for name, what in found.items() if not name.startswith("impulse")}
-    return found | (ON_CYLINDERS if result.scenario.cylinders else {})
+    return found | (ON_CYLINDERS if result.scenario.valved else {})
 
 
 def all_measures(plan: ModePlan) -> dict[str, tuple[str, Get]]:

@@ -62,7 +62,7 @@ def drawn_leg(random: np.random.Generator, load: float, length: float) -> Leg:
     load = max(LEAST, abs(load))
     pressure = of.log(2e5, 3e7)
     area, oil_length = load / pressure, length * of.log(0.01, 0.9)
-    column = OilColumn(bore_area=area, oil_length=oil_length, bulk_modulus=of.log(3e7, 2e10), damping_time=0.0)
+    column = OilColumn(bore_area=area, oil_length=oil_length, bulk_modulus=of.log(3e7, 2e10))
     leg: Leg = _cylinder(of, column, pressure) if cylinder else column
     return _with_elements(of, leg, pressure, load)
 

@@ -42,7 +42,7 @@ def crank_rocker() -> Scenario:
 
 
 def loose_crank_rocker() -> Scenario:
-    """The same with a clearance of 0.5 mm in the pin of coupler and rocker, one turn."""
+    """The crank-rocker with a clearance of 0.5 mm in the pin of coupler and rocker, one turn."""
     normal = LankaraniNikravesh(stiffness=1e10, restitution=0.9, damping_speed=KEPT)
     return Scenario(
         machine=machine("crank_rocker"),

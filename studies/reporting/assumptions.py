@@ -92,11 +92,12 @@ def contact_and_drive() -> TextTable:
             "GPa",
             f"{paper_machine.BULK_MODULUS / 1e9:g}",
         ),
+        ("oil: in the hoses of a pair", ASSUMED, "l", f"{1e3 * paper_machine.HOSES.volume:g}"),
         (
-            "oil: damping time",
+            "oil: drop of pressure in them at 200 l/min",
             ASSUMED,
-            "ms",
-            millimetres(paper_machine.oil_columns()["front_column"].damping_time),
+            "MPa",
+            f"{paper_machine.HOSES.nominal_drop / 1e6:g}",
         ),
         ("cylinders: rod", ASSUMED, "mm", millimetres(paper_machine.ROD)),
         (

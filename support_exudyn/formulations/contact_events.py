@@ -206,7 +206,7 @@ def judge(
 def _judge_contact(
     path: DepthPath, start: PinMemory, end: PinMemory, end_time: float, forgets: bool
 ) -> Verdict:
-    """The same for a pin that is in contact at the start of the step."""
+    """Judge a step that a pin begins in contact."""
     again = last_return(path)
     if again is not None:
         onset = _onset(path, again, end_time)

@@ -92,7 +92,7 @@ class BodyMotion:
         return pairs(*self.coordinates(body, point))
 
     def coordinates(self, body: str, point: Vector2) -> tuple[Series, Series]:
-        """The same by its coordinates, (n,) each."""
+        """Coordinates of a point of the start posture over time [m], (n,) each."""
         if body == GROUND:
             still = np.zeros(len(self.position))
             return still + point[0], still + point[1]

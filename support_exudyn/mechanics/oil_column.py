@@ -30,31 +30,25 @@ class PreloadedActuator:
         """Length [m] at which the oil carries nothing."""
         return self.actuator.start_length + self.precompression + extension
 
-    def force(self, length: Quantity, rate: Quantity, extension: Quantity, speed: Quantity) -> Quantity:
+    def force(self, length: Quantity, extension: Quantity) -> Quantity:
         """Force that pushes the ends apart [N]."""
-        compression = self.natural_length(extension) - length
-        return self.model.stiffness(extension) * (compression + self.model.damping_time * (speed - rate))
+        return self.model.stiffness(extension) * (self.natural_length(extension) - length)
 
     def energy(self, length: Quantity, extension: Quantity) -> Quantity:
         """Energy stored in the oil [J]."""
         compression = self.natural_length(extension) - length
         return 0.5 * self.model.stiffness(extension) * compression * compression
 
-    def powers(
-        self, length: Quantity, rate: Quantity, extension: Quantity, speed: Quantity
-    ) -> tuple[Quantity, Quantity]:
-        """Power of the drive that lets oil in, and of the damping [W].
+    def power(self, length: Quantity, extension: Quantity, speed: Quantity) -> Quantity:
+        """Power of the drive that lets oil in [W].
 
-            drive = F speed + (dk/dextension) speed u^2 / 2,   damping = k T (du/dt)^2
+            F speed + (dk/dextension) speed u^2 / 2
 
-        The second term of the drive is what the oil gives back because there is more of it to be compressed.
+        The second term is what the oil gives back because there is more of it to be compressed.
         """
         compression = self.natural_length(extension) - length
-        closing = speed - rate
-        force = self.force(length, rate, extension, speed)
         more = 0.5 * self.model.stiffness_slope(extension) * speed * compression * compression
-        damping = self.model.stiffness(extension) * self.model.damping_time * closing * closing
-        return force * speed + more, damping
+        return self.force(length, extension) * speed + more
 
     def ends(self, motion: BodyMotion) -> tuple[PointMotion, PointMotion]:
         """Motions of foot and head."""
@@ -65,9 +59,12 @@ class PreloadedActuator:
 
     def series(self, motion: BodyMotion, extension: Series, speed: Series) -> OilSeries:
         """The actuator over time, while the drive has these extensions [m] and speeds [m/s], shape (n,)."""
-        length, rate = motion.lengthening(self.actuator)
-        moving = length, rate, extension, speed
-        return OilSeries(self.force(*moving), self.energy(length, extension), *self.powers(*moving))
+        length, _ = motion.lengthening(self.actuator)
+        return OilSeries(
+            self.force(length, extension),
+            self.energy(length, extension),
+            self.power(length, extension, speed),
+        )
 
 
 LENGTHS = 4  # that are rounded, each by up to half a unit in its last place, until there is a force
@@ -76,14 +73,12 @@ LENGTHS = 4  # that are rounded, each by up to half a unit in its last place, un
 class OilSeries(NamedTuple):
     """An actuator over time, shape (n,) each.
 
-    force: that pushes the ends apart [N]. energy: stored [J]. work, loss: power of the drive, and of the
-    damping [W].
+    force: that pushes the ends apart [N]. energy: stored [J]. work: power of the drive [W].
     """
 
     force: Series
     energy: Series
     work: Series
-    loss: Series
 
 
 def static_loads(linkage: Linkage, gravity: Vector2) -> dict[str, float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC
+from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import ClassVar
 
@@ -12,7 +13,7 @@ from support_exudyn.model.actuator_model import Quantity as Quantity
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, Slide, pinned
 from support_exudyn.model.plane_geometry import direction
-from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Pascals, Seconds, SquareMetres
+from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Pascals, SquareMetres
 from user_forces.values.value import InputError, NonNegative, Positive, Value, Vector2, value
 
 
@@ -25,29 +26,29 @@ class RigidActuator(ActuatorModel):
 class OilColumn(HydraulicLeg):
     """A massless linear actuator whose column of oil is compressible; the drive lets oil into it.
 
-        F = k u + d du/dt,   k = B A / (h + extension),   d = k T
+        F = k u,   k = B A / (h + extension)
 
     u is by how much the oil is compressed: length at the start + precompression + extension - length. The
     precompression carries the static load of the start posture with ideal pins, so that a machine at rest
-    stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff. The oil pulls
-    as well as it pushes unless a `vapour_pressure` says where it boils.
+    stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff. Nothing damps,
+    and the oil pulls as well as it pushes. Elements change that, see `HydraulicLeg`: with a `line` the drive's
+    oil comes through a hose whose resistance damps, with a `vapour_pressure` oil that is pulled boils.
 
     Arguments:
         bore_area: A, area of the piston, all actuators of a pair together [m^2], > 0.
         oil_length: h, length of the oil under the piston at the start [m], > 0.
         bulk_modulus: B of the oil or emulsion [Pa], > 0; 1.96e9 by the published stiffness of four shields.
-        damping_time: T [s], >= 0; a mass on the actuator that vibrates at w rad/s is damped by T w / 2 of the
-            critical damping. A step of the drive's speed makes the force jump by d times it. A column with
-            elements, see `HydraulicLeg`, has no such dashpot: a `line` damps it by its resistance, and a step
-            of the drive's speed does not make its force jump.
     """
 
+    _removed: ClassVar[Mapping[str, str]] = {
+        "damping_time": "allowed: a line, whose resistance damps the column: its volume, nominal_flow and "
+        "nominal_drop"
+    }
     extensive: ClassVar[tuple[str, ...]] = ("bore_area",)
 
     bore_area: SquareMetres[Positive]
     oil_length: Metres[Positive]
     bulk_modulus: Pascals[Positive]
-    damping_time: Seconds[NonNegative] = 1e-3
 
     def stiffness(self, extension: Quantity) -> Quantity:
         """k [N/m] at an extension from the start [m], or at many."""

@@ -177,7 +177,7 @@ def _panel(runs: Mapping[str, Result], name: str) -> LivePanel:
 
 
 def _printed(live: LiveFigure) -> Figure:
-    """The same for paper."""
+    """Draw the panels of a live figure for paper."""
     with style.look():
         drawing = Figure(figsize=style.size(170.0, PANEL_MM * len(live.panels) + 8.0))
         panels = np.atleast_1d(drawing.subplots(len(live.panels), 1, sharex=True))

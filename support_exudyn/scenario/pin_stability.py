@@ -115,7 +115,7 @@ def pin_outlooks(
     machine, whose posture is not known beforehand, or where degrees of freedom are left.
     """
     clearances = scenario.clearance_pins
-    if not clearances or scenario.dimensions == 3 or scenario.cylinders:
+    if not clearances or scenario.dimensions == 3 or scenario.valved:
         return []
     usual = next(iter(clearances.values()))
     way = _Way.of(scenario, _moving_times(scenario) if times is None else times)

@@ -166,7 +166,7 @@ class ScenarioData(Value, ABC):
         return eccentric(modelled, offsets)
 
     def _modelled(self) -> Linkage:
-        """The same with all journals where the machine has them."""
+        """The machine's mechanism as far as it is modelled, with all journals where the machine has them."""
         heavy = {
             name: actuator for name, actuator in self.actuators.items() if isinstance(actuator, CylinderAndRod)
         }

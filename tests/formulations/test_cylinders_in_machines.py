@@ -40,7 +40,7 @@ def test_a_machine_with_closed_valves_stays_where_it_is() -> None:
 def test_one_closed_chamber_is_a_column_of_oil() -> None:
     tiny = 1e-9
     cylinder = replace(CYLINDER, rod_side_area=tiny, hose_volume=tiny, tank_pressure=0.0)
-    oil = OilColumn(bore_area=0.098, oil_length=0.5, bulk_modulus=1.5e9, damping_time=0.0)
+    oil = OilColumn(bore_area=0.098, oil_length=0.5, bulk_modulus=1.5e9)
     runs = [
         simulate(
             loose_support(

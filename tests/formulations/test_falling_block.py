@@ -294,7 +294,7 @@ def test_a_leg_that_is_struck_through_a_straight_spring(formulation: str, start:
     rock = FallingBlock(
         body="mass", point=(0.0, 1.0), mass=2000.0, height=0.5, stiffness=1e8, exponent=1.0, restitution=1.0
     )
-    oil = OilColumn(bore_area=bore_area(0.4), oil_length=1.0, bulk_modulus=1.96e9, damping_time=0.0)
+    oil = OilColumn(bore_area=bore_area(0.4), oil_length=1.0, bulk_modulus=1.96e9)
     scene = Scenario(
         machine=Leg(), actuators={"leg": oil}, loads={"rock": rock}, duration=0.36, record_period=2e-5,
         formulation=formulation, start=start, solver=EXACT,

@@ -84,33 +84,29 @@ def test_the_published_stiffness_of_four_shields_follows_from_one_bulk_modulus(
     assert legs.stiffness(0.0) / (1e3 * 9.81 / 1e-3) == pytest.approx(published, rel=5e-3)  # t/mm
 
 
-@pytest.mark.parametrize("share", [0.0, 0.05, 0.3])
-def test_a_sudden_start_follows_the_closed_form_of_a_damped_oscillator(share: float) -> None:
+def test_a_sudden_start_follows_the_closed_form_of_an_oscillator() -> None:
     # so long a cushion that its stiffness stays 1e8 N/m while 2.5 mm are let in
-    oil = OilColumn(bore_area=1.0, oil_length=2000.0, bulk_modulus=2e11, damping_time=0.0)
+    oil = OilColumn(bore_area=1.0, oil_length=2000.0, bulk_modulus=2e11)
     w = math.sqrt(1e8 / MASS)
-    oil = replace(oil, damping_time=2.0 * share / w)
     speed = 0.01
     result = lift(oil, UniformSpeed(stroke=speed, start=0.05, end=1.05), step=5e-5)
     t = result.time - 0.05
-    wd = w * math.sqrt(1.0 - share**2)
-    # v = compression rate: u'' + 2 s w u' + w^2 u = 0, u(0) = 0, u'(0) = speed
-    u = speed / wd * np.exp(-share * w * t) * np.sin(wd * t)
-    rate = speed * np.exp(-share * w * t) * (np.cos(wd * t) - share * w / wd * np.sin(wd * t))
-    expected = MASS * GRAVITY + np.where(t > 1e-9, 1e8 * (u + oil.damping_time * rate), 0.0)
+    # u'' + w^2 u = 0, u(0) = 0, u'(0) = speed
+    expected = MASS * GRAVITY + np.where(t > 1e-9, 1e8 * speed / w * np.sin(w * t), 0.0)
     # second order: 180 rad/s and 5e-5 s leave 4e-4, most of it as phase after 0.25 s
     largest = np.abs(expected - MASS * GRAVITY).max()
     np.testing.assert_allclose(result["jack.force"], expected, atol=1e-3 * largest)
     assert result.impulses == ()
 
 
-def test_peaks_after_a_sudden_start_converge_with_second_order() -> None:
-    def peak(step: float) -> float:
+def test_forces_after_a_sudden_start_converge_with_second_order() -> None:
+    def force(step: float) -> float:
         drive = UniformSpeed(start=0.1, end=2.1)
-        return float(simulate(support(actuators=BOTH, drive=drive, duration=0.3, step=step))[FORCE].max())
+        scene = support(actuators=BOTH, drive=drive, duration=0.108, record_period=0.108, step=step)
+        return float(simulate(scene)[FORCE][-1])
 
-    coarse, middle, fine = (peak(step) for step in (1e-3, 5e-4, 2.5e-4))
-    # the record on the peak stays the same, so the order shows: 4 for second order
+    coarse, middle, fine = (force(step) for step in (4e-4, 2e-4, 1e-4))
+    # 4 for second order
     assert 2.5 < (coarse - middle) / (middle - fine) < 6.0
     assert abs(fine - middle) < 2e-3 * fine
     assert fine > 2.0 * 58779.0  # the static force
@@ -123,10 +119,10 @@ def test_stiffer_oil_tends_to_rigid_actuators_with_order_one() -> None:
     def off(stiffer: float) -> float:
         oil = replace(OIL, bulk_modulus=stiffer * OIL.bulk_modulus)
         soft = simulate(support(actuators=dict.fromkeys(BOTH, oil), drive=drive, duration=0.3, step=2.5e-4))
-        late = rigid.time > 0.2  # the vibration of the start has died out
-        return float(np.abs(soft["tip.y"] - rigid["tip.y"])[late].max())
+        late = rigid.time > 0.2  # over some vibrations of the start, which nothing damps
+        return abs(float((soft["tip.y"] - rigid["tip.y"])[late].mean()))
 
-    # compliance is what moves: ten times stiffer, ten times nearer; 5 % for what still vibrates
+    # compliance is what moves: ten times stiffer, ten times nearer; 5 % for what vibrates
     assert off(10.0) / off(100.0) == pytest.approx(10.0, rel=0.05)
 
 
@@ -143,9 +139,9 @@ def test_stiffer_oil_tends_to_rigid_actuators_with_order_one() -> None:
 def test_energy_adds_up(drive: Drive, actuators: dict[str, OilColumn | RigidActuator]) -> None:
     result = simulate(loose_support(drive=drive, actuators=actuators, duration=drive.start + 0.2))
     # the journal's fall makes the oil vibrate at 40 Hz, which generalised alpha damps a little between impacts:
-    # 2e-4 at the default step, and 1e-3 where a sudden start makes it vibrate far more
-    allowed = 3e-4 if isinstance(drive, CubicStep) else 1e-3
-    assert result.energy_error < allowed * result.dissipated
+    # 7e-5 of the work at the default step, and 9e-4 where a sudden start makes it vibrate far more
+    allowed = 1e-4 if isinstance(drive, CubicStep) else 1e-3
+    assert result.energy_error < allowed * result["energy.work"].max()
     rigid = [name for name, actuator in actuators.items() if isinstance(actuator, RigidActuator)]
     jumps = [sorted(impulse.actuators) for impulse in result.impulses]
     assert jumps == ([rigid] if rigid and isinstance(drive, UniformSpeed) else [])
@@ -153,7 +149,7 @@ def test_energy_adds_up(drive: Drive, actuators: dict[str, OilColumn | RigidActu
 
 def test_energy_adds_up_over_a_stroke_that_halves_the_stiffness() -> None:
     coarse, fine = (
-        lift(OIL, CubicStep(stroke=0.5, start=0.0, end=0.25), step=step) for step in (2.5e-4, 1.25e-4)
+        lift(OIL, CubicStep(stroke=0.5, start=0.0, end=0.25), step=step) for step in (1.25e-4, 6.25e-5)
     )
     # second order, of 15 kJ of work; what the oil gives back as there is more of it is 3 J
     assert fine.energy_error < 1e-5 * fine["energy.work"][-1]

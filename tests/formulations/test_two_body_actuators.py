@@ -191,10 +191,10 @@ def test_oil_columns_of_two_bodies_tend_to_rigid_ones_with_order_one() -> None:
         oil = replace(OIL, bulk_modulus=stiffer * OIL.bulk_modulus)
         actuators = cylinders_and_rods(oil)
         soft = simulate(support(actuators=actuators, drive=RISE, duration=0.35, step=2.5e-4))
-        late = rigid.time > 0.25  # the vibration of the start has died out
-        return float(np.abs(soft["tip.y"] - rigid["tip.y"])[late].max())
+        late = rigid.time > 0.2  # over some vibrations of the start, which nothing damps
+        return abs(float((soft["tip.y"] - rigid["tip.y"])[late].mean()))
 
-    # compliance is what moves: ten times stiffer, ten times nearer; 5 % for what still vibrates
+    # compliance is what moves: ten times stiffer, ten times nearer; 5 % for what vibrates
     assert off(10.0) / off(100.0) == pytest.approx(10.0, rel=0.05)
 
 
@@ -206,9 +206,9 @@ def test_oil_columns_of_two_bodies_tend_to_rigid_ones_with_order_one() -> None:
 def test_energy_adds_up_with_second_order(oil: OilColumn | None, drive: Drive) -> None:
     coarse, fine = (
         simulate(support(actuators=cylinders_and_rods(oil), drive=drive, duration=0.5, step=step))
-        for step in (1e-3, 5e-4)
+        for step in ((2.5e-4, 1.25e-4) if oil else (1e-3, 5e-4))
     )
-    # measured 2e-7 of a work of 5 kJ with rigid actuators, 1.3e-6 with oil
+    # measured 2e-7 of a work of 5 kJ with rigid actuators, 1e-6 with oil, which vibrates
     assert fine.energy_error < 3e-6 * np.abs(fine["energy.work"]).max()
     assert fine.energy_error < 0.35 * coarse.energy_error
 
@@ -254,6 +254,6 @@ def test_actuators_of_different_kinds_may_be_mixed() -> None:
         "front_column": cylinders_and_rods(OIL)["front_column"],
         "rear_column": OIL,
     }
-    result = simulate(support(actuators=actuators, drive=RISE, duration=0.3))
+    result = simulate(support(actuators=actuators, drive=RISE, duration=0.3, step=2.5e-4))
     assert "rear_column_rod" not in result.scenario.linkage.bodies
     assert result.energy_error < 1e-5 * result["energy.work"].max()  # second order, see above

@@ -272,6 +272,7 @@ def test_no_posture_is_found_where_there_is_none() -> None:
 
 def test_the_paper_s_stroke_can_be_reached() -> None:
     SUPPORT.check_extension(0.0, 0.5)
+    assert SUPPORT.extended(0.5, SUPPORT.extended(0.25)) is not None
 
 
 @pytest.mark.parametrize(("lowest", "highest", "wrong"), [(0.0, 5.0, "5.0"), (-2.0, 0.0, "-2.0")])

@@ -33,7 +33,7 @@ MARGIN = 3.0  # both runs have an error, and that of a coarse run is now and the
 # slider that does not turn.
 ROUNDING = {"compiled": 1e-4, "redundant": 1e-3}
 # Largest value in a unit, where a scene shows less because it rests
-SMALLEST = {"m": 1e-4, "rad": 1e-4, "m/s": 0.1, "rad/s": 0.1, "rad/s^2": 10.0, "J": 1e-6}
+SMALLEST = {"m": 1e-4, "rad": 1e-4, "m/s": 0.1, "rad/s": 0.1, "rad/s^2": 10.0, "J": 1e-6, "m^3/s": 1e-6}
 MOTION = ("m", "rad")  # units of which the change is the size, for places are known much better than by a share
 EVERYWHERE = slice(None)
 ARM = 0.01  # [m], of the forces whose moments cancel; so large is a bore

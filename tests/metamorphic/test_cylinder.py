@@ -35,7 +35,6 @@ def preloaded(draw: st.DrawFn) -> HydraulicCylinder:
         bulk_modulus=draw(drawn.between(1e9, 2e9)),
         system_pressure=31.5e6,
         nominal_flow=6e-3,
-        damping=draw(drawn.between(0.0, 3e5)),
     )
 
 
@@ -50,13 +49,11 @@ def with_hoses(cylinder: HydraulicCylinder, share: float) -> HydraulicCylinder:
 
 
 def as_oil(cylinder: HydraulicCylinder) -> OilColumn:
-    """The column of oil that is as stiff and as much damped."""
-    stiffness = cylinder.stiffness(0.0)
+    """The column of oil that is as stiff; neither is damped."""
     return OilColumn(
         bore_area=cylinder.bore_area,
         oil_length=cylinder.oil_length,
-        bulk_modulus=stiffness * cylinder.oil_length / cylinder.bore_area,
-        damping_time=cylinder.damping / stiffness,
+        bulk_modulus=cylinder.stiffness(0.0) * cylinder.oil_length / cylinder.bore_area,
     )
 
 

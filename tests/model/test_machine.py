@@ -180,6 +180,7 @@ def test_a_machine_without_actuators_takes_any_extension() -> None:
             return Linkage(bodies={"a": BODY}, pins={"p": pinned("ground", "a", (0.0, 1.0))})
 
     Pendulum().check_extension(-1.0, 1.0)
+    assert not Pendulum().linkage().actuators
 
 
 def test_no_body_is_called_ground() -> None:

@@ -90,7 +90,9 @@ def test_all_except_two_together_are_found() -> None:
 
 def test_a_range_in_the_middle_is_found() -> None:
     text, right = found(lambda m: 0.1 < number(m, "sliding_coefficient") < 0.3)
-    assert re.fullmatch(r"mu_d (above 0\.1|below 0\.3)\d* and mu_d (above 0\.1|below 0\.3)\d*", text)
+    bounds = {bound.group(2): float(bound.group(3)) for bound in BOUND.finditer(text)}
+    assert text.count("mu_d") == len(bounds) == 2
+    assert bounds == pytest.approx({"above": 0.1, "below": 0.3}, rel=0.01)
     assert right >= 1.0 - 2.0 * NEAR
 
 

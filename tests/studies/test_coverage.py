@@ -42,7 +42,7 @@ def test_kinds_follow_each_other_and_are_what_they_say() -> None:
     assert all(set(one.clearance_pins) == {"rear_base"} for one in kinds["rear pin"])
     assert len({name for one in kinds["any pin"] for name in one.clearance_pins}) > 1
     assert all(len(one.clearance_pins) > 1 for one in kinds["several pins"])
-    assert all(set(one.oil_columns) == {"front_column", "rear_column"} for one in kinds["oil columns"])
+    assert all(set(one.legs) == {"front_column", "rear_column"} for one in kinds["oil columns"])
     assert all(set(one.cylinders) == {"front_column", "rear_column"} for one in kinds["cylinders"])
     assert all(set(one.loads) == {"rock"} for one in kinds["falling block"])
     assert all(set(one.own_bodies) == {"tail_beam"} for one in kinds["tail beam"])

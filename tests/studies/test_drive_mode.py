@@ -76,12 +76,14 @@ def test_the_peak_of_the_stock_recipe_doubles_when_its_step_is_halved() -> None:
     assert [after / before for before, after in pairwise(peaks)] == pytest.approx([2.0, 2.0], rel=0.01)
 
 
-def test_clearance_does_not_make_the_first_peak_worse(numbers: Numbers) -> None:
+def test_clearance_is_not_what_makes_the_shock(numbers: Numbers) -> None:
     with_clearance, ideal = (
         numbers["largest_pin_force_in_rise", case_name("mode 1", pin, "oil")] for pin in (WITH_CLEARANCE, IDEAL)
     )
-    # 3 % less, and both within half a per cent
-    assert with_clearance["value"] + with_clearance["numerical_error"] < 1.01 * ideal["value"]
+    # 5 % more, and both within 0.6 per cent
+    assert with_clearance["value"] == pytest.approx(1.05 * ideal["value"], rel=0.02)
+    for number in (with_clearance, ideal):
+        assert number["numerical_error"] < 0.01 * number["value"]
 
 
 def test_the_peak_has_a_band_from_assumptions_and_depends_on_the_contact(out: Path) -> None:
@@ -90,22 +92,22 @@ def test_the_peak_has_a_band_from_assumptions_and_depends_on_the_contact(out: Pa
     for _, peak, _, band in (ideal, paper, cylinders):
         low, high = (float(bound) for bound in band.split(" to "))
         assert low <= float(peak) <= high
-        # 1.5 to 2.2 GPa and damping alone: 175 to 211, 158 to 176, 212 to 254 kN
-        assert 1.05 * low < high < 1.4 * low
-    assert paper[2].startswith("-")
-    assert cylinders[2].startswith("+")
+        # 1.5 to 2.2 GPa, and hoses from wide to narrow: 122 to 213, 125 to 195, 158 to 316 kN
+        assert 1.4 * low < high < 2.1 * low
+    more_by_spheres, more_by_line = (float(one[2].removesuffix(" %")) for one in (paper, cylinders))
+    assert 5.0 < more_by_spheres < 0.6 * more_by_line  # 11 and 26 %
 
 
 def test_the_band_is_of_the_runs_of_its_grid() -> None:
     plan = ModePlan(paper_subject())
     runs = assumed.scenarios(plan)
-    assert len(runs) == len(assumed.pins()) * len(assumed.MODULI) * len(assumed.DAMPING_TIMES)
+    assert len(runs) == len(assumed.pins()) * len(assumed.MODULI) * len(assumed.HOSES)
     column = {run.actuators["rear_column"] for run in runs.values()}
-    assert {(one.bulk_modulus, one.damping_time) for one in column if isinstance(one, OilColumn)} == {
-        (modulus, damping) for modulus in assumed.MODULI for damping in assumed.DAMPING_TIMES
+    assert {(one.bulk_modulus, one.line) for one in column if isinstance(one, OilColumn)} == {
+        (modulus, hoses) for modulus in assumed.MODULI for hoses in assumed.HOSES.values()
     }
     oil = paper_machine.oil_columns()["rear_column"]
-    assert (oil.bulk_modulus, oil.damping_time) == (paper_machine.BULK_MODULUS, assumed.USUAL_DAMPING)
+    assert (oil.bulk_modulus, oil.line) == (paper_machine.BULK_MODULUS, assumed.HOSES[assumed.USUAL])
 
 
 def test_an_inlet_is_not_a_displacement(numbers: Numbers) -> None:
@@ -192,8 +194,8 @@ def test_modes_of_ones_own_machine_have_its_stroke_and_pin(tmp_path: Path) -> No
         assert set(case.pins) == ({"front_base"} if "1 mm" in name else set())
     plan = ModePlan(own_subject(own(tmp_path, OWN + OIL)))
     assert plan.columns == ("rigid", "oil")
-    assert set(plan.scenarios["mode 1, 1 mm, oil columns"].oil_columns) == {"front_column"}
-    assert not plan.scenarios["mode 1, 1 mm, rigid columns"].oil_columns
+    assert set(plan.scenarios["mode 1, 1 mm, oil columns"].compliant_actuators) == {"front_column"}
+    assert not plan.scenarios["mode 1, 1 mm, rigid columns"].compliant_actuators
 
 
 def test_the_study_of_ones_own_machine_leaves_the_paper_out(tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ from studies.claims.plausible import (
 )
 from studies.common import paper_machine
 from studies.contact_laws.catalogue import POWER_LAWS
-from support_exudyn import HydraulicSupport, reference_support
+from support_exudyn import HydraulicSupport, Line, reference_support
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.pin_surroundings import links_stiffness
 from user_forces import (
@@ -312,13 +312,14 @@ def test_cylinders_are_as_long_as_the_machines_pin_and_held_by_pin_and_link() ->
 
 def test_columns_of_oil_are_as_large_as_the_machine() -> None:
     assert oil_columns(REFERENCE) == paper_machine.oil_columns()
-    column = oil_columns(changed(scale=2.0 * REFERENCE_SCALE, bulk_modulus=2.0, oil_damping=5e-4))[
-        "rear_column"
-    ]
+    column = oil_columns(
+        changed(scale=2.0 * REFERENCE_SCALE, bulk_modulus=2.0, line_volume=5.0, line_drop=0.5)
+    )["rear_column"]
     ours = paper_machine.oil_columns()["rear_column"]
     assert column.bore_area == pytest.approx(4.0 * ours.bore_area, rel=EXACT)
     assert column.oil_length == pytest.approx(2.0 * ours.oil_length, rel=EXACT)
-    assert (column.bulk_modulus, column.damping_time) == (2e9, 5e-4)
+    assert column.bulk_modulus == 2e9
+    assert column.line == Line(volume=5e-3, nominal_flow=200e-3 / 60.0, nominal_drop=5e5)
 
 
 def test_every_sample_has_a_pin() -> None:

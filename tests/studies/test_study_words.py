@@ -144,3 +144,13 @@ def test_what_does_not_converge_is_named() -> None:
     for rows in ([good, bad], [row(CONVERGES)]):
         assert not velocity_converges(rows)
     assert said("velocity", False, study="drive_mode").endswith("are not shown to converge here.")
+
+
+def test_what_clearance_does_to_the_shock_follows_from_the_peaks() -> None:
+    for ideal, begins in ((100.0, "is not what makes"), (70.0, "makes a part of"), (40.0, "makes most of")):
+        assert said("shock", 100.0, ideal, study="drive_mode") == f"Clearance {begins} the shock."
+    assert said("worse", 0.9, 1.2, study="drive_mode") == (
+        "Whether clearance makes the shock worse depends on the contact."
+    )
+    assert "worse with either contact" in said("worse", 1.1, 1.2, study="drive_mode")
+    assert "milder with either contact" in said("worse", 0.9, 0.8, study="drive_mode")

@@ -52,6 +52,6 @@ def test_the_script_makes_it_again(tmp_path: Path) -> None:
 def test_the_run_is_the_one_that_the_text_tells() -> None:
     scenario = measured_scenario()
     assert (scenario.start, scenario.accuracy) == ("settled", "reference")
-    assert list(scenario.oil_columns) == ["front_column", "rear_column"]
+    assert list(scenario.legs) == ["front_column", "rear_column"]
     assert scenario.clearance_pins["rear_base"].contact.bearing.clearance == 1.5e-3
     assert replace(scenario, start="concentric").drive.breaks == (0.5, 2.5)

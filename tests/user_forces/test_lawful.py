@@ -118,6 +118,8 @@ def test_what_is_no_force_is_told(wrong: dict[str, float], reason: str) -> None:
 
 def test_what_is_right_but_for_rounding_passes() -> None:
     look(CONTACT, **STATE | {"normal": 1e4 * (1.0 - 1e-12)})
+    with pytest.raises(LawError, match="Spring drives the motion"):
+        look(CONTACT, **STATE | {"normal": 1e4 * (1.0 - 1e-3)})
 
 
 def test_a_bristle_may_give_back_what_it_has_stored() -> None:
@@ -125,6 +127,8 @@ def test_a_bristle_may_give_back_what_it_has_stored() -> None:
         bearing=BEARING, normal=Spring(), friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2)
     )
     look(bristles, **STATE | {"friction": 1e3})
+    with pytest.raises(LawError, match="pushes along the slip"):
+        look(CONTACT, **STATE | {"friction": 1e3})
 
 
 @pytest.mark.parametrize("sign", [-1.0, math.nan])
@@ -189,3 +193,5 @@ def test_the_flat_force_says_so(contact: JournalContact, depth: float, slip: flo
 def test_frictionless_is_a_friction_law_that_passes() -> None:
     smooth = JournalContact(bearing=BEARING, normal=Spring(), friction=Frictionless())
     look(smooth, **STATE | {"friction": 0.0})
+    with pytest.raises(LawError, match="Frictionless pushes along the slip"):
+        look(smooth, **STATE | {"friction": 1.0})

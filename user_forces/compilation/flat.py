@@ -277,7 +277,7 @@ class _Called:
 
 
 class _CalledFriction(_Called):
-    """The same of a friction law."""
+    """A friction law that is called by its name, as `_Called` is; it may have a state."""
 
     def __init__(self, name: str, has_state: bool) -> None:
         super().__init__(name)

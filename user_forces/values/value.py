@@ -98,6 +98,7 @@ class Value:
     Classes that our packages offer are imported into it when they are asked for.
     """
 
+    _removed: ClassVar[Mapping[str, str]] = {}  # fields that there once were, with what to do instead
     _register: ClassVar[dict[str, type[Value]]] = {}
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
@@ -146,6 +147,11 @@ class Value:
         Raises InputError if the type is not known or a field does not fit.
         """
         return _value_of(data, 0)
+
+
+def removed_fields(cls: type[Value]) -> Mapping[str, str]:
+    """Fields that a class once had, with what to do instead."""
+    return cls._removed
 
 
 def known_class(name: str) -> type[Value] | None:
@@ -310,6 +316,8 @@ def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
     where = f"{cls.__name__}.{path}" if path else cls.__name__
     fields = [f.name for f in dataclasses.fields(cls)]
     if error["type"] in ("unexpected_keyword_argument", "unexpected_positional_argument"):
+        if instead := removed_fields(cls).get(path):
+            return f"{where} = {short(error['input'])}: there is no such field any more; {instead}"
         near = get_close_matches(path[:NEAREST], fields, 1)
         guess = f"did you mean {near[0]}? " if near else ""
         return f"{where} = {short(error['input'])}: unknown field; {guess}the fields are {', '.join(fields)}"

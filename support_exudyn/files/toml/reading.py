@@ -19,7 +19,7 @@ from support_exudyn.files.toml.shapes import (
 )
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Unit
-from user_forces.values.value import DEEPEST, LARGEST, InputError, Value
+from user_forces.values.value import DEEPEST, LARGEST, InputError, Value, removed_fields
 
 V = TypeVar("V", bound=Value)
 SMALLEST_EXPONENT = -1000  # of a decimal; what is smaller is 0
@@ -83,7 +83,7 @@ class Reader:
             if key == "type":
                 continue
             if key not in keys:
-                meant, reason = _unknown(key, shapes, also)
+                meant, reason = _removed(cls, key) or _unknown(key, shapes, also)
                 self.faults.add(here, reason)
                 given[meant] = FAILED
                 continue
@@ -297,6 +297,14 @@ def in_millimetres(message: str) -> str:
 
 def _mm(metres: str) -> str:
     return f"{1e3 * float(metres):.10g}"
+
+
+def _removed(cls: type[Value], key: str) -> tuple[str, str] | None:
+    """The field that there once was of which a key is, with or without its unit, and what is said of it."""
+    for name, instead in removed_fields(cls).items():
+        if key == name or key.startswith(f"{name}_"):
+            return key, f"there is no such key any more; {instead}"
+    return None
 
 
 def _unknown(key: str, shapes: Mapping[str, FieldShape], also: Iterable[str]) -> tuple[str, str]:

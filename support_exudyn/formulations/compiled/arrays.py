@@ -54,7 +54,7 @@ CONTACT = _record(
     "depth rate slip normal friction damping push x y vx vy nx ny fx fy "
     "largest largest_at asked_depth asked_rate asked_slip asked_mass asked_deflection",
 )
-OIL = _record("foot head course", "modulus_area oil_length time natural force work loss")
+OIL = _record("foot head course", "modulus_area oil_length natural force work")
 CYLINDER = _record(
     "foot head course state",
     "bore rod_side oil_length rod_length modulus supply flow_factor tank hose rod_hose damping length0 "

@@ -26,7 +26,7 @@ from support_exudyn.formulations.compiled.forces import (
     press_oil,
     push_contact,
 )
-from support_exudyn.formulations.compiled.hydraulics import press_legs, rest_tubes
+from support_exudyn.formulations.compiled.hydraulics import press_resting_legs
 from support_exudyn.formulations.compiled.motion import hold, place
 from support_exudyn.formulations.compiled.setup import Model
 from support_exudyn.formulations.contract import Failure, SimulationError
@@ -89,8 +89,7 @@ def balance(
     press_oil(scene)
     press_cylinders(scene, y, left)
     if scene.legs.size > 0:
-        rest_tubes(scene, y, left)
-        press_legs(scene, y, left)
+        press_resting_legs(scene, y, left)
     press_loads(scene, 0.0, y)
     press_bushings(scene, y)
     for n in range(scene.bodies.size):

@@ -172,16 +172,14 @@ def press_oil(scene: SceneArrays) -> None:
         extension = speed = 0.0
         if one.course >= 0:
             extension, speed = scene.courses[one.course].value, scene.courses[one.course].rate
-        length, rate, ux, uy = lengthening(scene, one.foot, one.head)
+        length, _, ux, uy = lengthening(scene, one.foot, one.head)
         stiffness = one.modulus_area / (one.oil_length + extension)
         compression = one.natural + extension - length
-        closing = speed - rate
-        one.force = stiffness * (compression + one.time * closing)
+        one.force = stiffness * compression
         one.work = (
             one.force * speed
             - 0.5 * stiffness / (one.oil_length + extension) * speed * compression * compression
         )
-        one.loss = stiffness * one.time * closing * closing
         push_apart(scene, one.foot, one.head, one.force * ux, one.force * uy)
 
 
@@ -284,7 +282,7 @@ def powers(scene: SceneArrays, y: Vector, slope: Vector) -> None:
         damping += contact.damping
         friction -= contact.friction * contact.slip
     for n in range(scene.oil.size):
-        work, damping = work + scene.oil[n].work, damping + scene.oil[n].loss
+        work += scene.oil[n].work
     for n in range(scene.cylinders.size):
         work, damping = work + scene.cylinders[n].work, damping + scene.cylinders[n].loss
     for n in range(scene.legs.size):

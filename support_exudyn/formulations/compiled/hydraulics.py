@@ -4,9 +4,7 @@ from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import SceneArrays, Vector
 from support_exudyn.formulations.compiled.forces import lengthening, push_apart
 from support_exudyn.formulations.hydraulics.leg import press_all
-
-ROUNDS = 40  # of finding where the tube of two stages stands
-SHIFT = 1e-9  # [m] over which it is looked how its force changes
+from support_exudyn.formulations.hydraulics.rest import rest_legs
 
 
 @compiled
@@ -29,11 +27,17 @@ def press_legs(scene: SceneArrays, y: Vector, slope: Vector) -> None:
     """Forces, powers and rates of the states of all legs and of the pump, see `hydraulics.leg`."""
     tell_legs(scene)
     press_all(scene.legs, scene.pumps, scene.gaps, y, slope)
+    push_legs(scene)
+    reach(scene)
+
+
+@compiled
+def push_legs(scene: SceneArrays) -> None:
+    """Let the force of each leg act on what its ends are in."""
     for n in range(scene.legs.size):
         leg = scene.legs[n]
         _, _, ux, uy = lengthening(scene, leg.foot, leg.head)
         push_apart(scene, leg.foot, leg.head, leg.force * ux, leg.force * uy)
-    reach(scene)
 
 
 @once
@@ -47,24 +51,8 @@ def reach(scene: SceneArrays) -> None:
 
 
 @compiled
-def rest_tubes(scene: SceneArrays, y: Vector, slope: Vector) -> None:
-    """Let the tube of each leg of two stages stand where nothing pushes it, by Newton's method, at rest."""
+def press_resting_legs(scene: SceneArrays, y: Vector, slope: Vector) -> None:
+    """Forces of all legs at rest, see `hydraulics.rest`; their states there into y."""
     tell_legs(scene)
-    for n in range(scene.legs.size):
-        if scene.legs[n].stage < 0:
-            continue
-        place = scene.legs[n].stage + 1
-        y[place + 1] = 0.0
-        for _ in range(ROUNDS):
-            press_all(scene.legs, scene.pumps, scene.gaps, y, slope)
-            pushed = slope[place + 1]
-            y[place] += SHIFT
-            press_all(scene.legs, scene.pumps, scene.gaps, y, slope)
-            rise = (slope[place + 1] - pushed) / SHIFT
-            y[place] -= SHIFT
-            if not rise < 0.0:
-                break
-            step = -pushed / rise
-            y[place] += step
-            if not abs(step) > 1e-14:
-                break
+    rest_legs(scene.legs, scene.pumps, scene.gaps, y, slope)
+    push_legs(scene)

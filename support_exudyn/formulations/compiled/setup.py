@@ -345,7 +345,7 @@ def _oil(record: Any, one: PreloadedActuator, build: _Builder, course: int) -> N
     record["head"] = build.point(actuator.head, actuator.head_point)
     record["course"] = course
     record["modulus_area"], record["oil_length"] = model.bulk_modulus * model.bore_area, model.oil_length
-    record["time"], record["natural"] = model.damping_time, one.natural_length(0.0)
+    record["natural"] = one.natural_length(0.0)
 
 
 def _loads(

@@ -28,6 +28,7 @@ FIRST_PATIENCE, LONGEST_PATIENCE = (
 )  # steps after which that is looked for; doubled where it was in vain
 AT_FIRST = 2.0  # times as long is the first step of this method as those before: it damps what they leave
 MARGIN = 1.2  # on the fastest decay that has been measured
+STRAIGHT = 0.5  # cosine between a state's way and its way back, from which on that is a decay
 SHIFT = 1e-4  # of what a step may err by, over which it is looked how rates change
 ROUNDS = 3  # of looking for the fastest decay, each along what the one before has shown
 RENEWED = 25  # steps after which it is looked for again, and whether the method is of use
@@ -51,9 +52,10 @@ def fastest_decay(
 ) -> float:
     """The fastest decay [1/s] of a state whose rate is k[0], by the power method from a direction `along`.
 
-    k[1] and k[2] are overwritten, `along` is the direction found.
+    0 if what changes fastest does not go back along its own direction: that is a swing, or a state that another
+    one moves, which this method does not help. k[1] and k[2] are overwritten, `along` is the direction found.
     """
-    found = 0.0
+    found = back = 0.0
     for _ in range(ROUNDS):
         size = 0.0
         for i in range(y.size):
@@ -64,12 +66,15 @@ def fastest_decay(
         for i in range(y.size):
             k[1, i] = y[i] + share * along[i]
         evaluate(scene, t, k[1], k[2], right)
-        size = 0.0
+        before, size, back = size, 0.0, 0.0
         for i in range(y.size):
-            along[i] = k[2, i] - k[0, i]
-            size += (along[i] * weights[i]) ** 2
+            change = k[2, i] - k[0, i]
+            back -= change * along[i] * weights[i] * weights[i]
+            size += (change * weights[i]) ** 2
+            along[i] = change
         found = math.sqrt(size) / SHIFT
-    return MARGIN * found
+        back /= math.sqrt(before * size) if size > 0.0 else 1.0
+    return MARGIN * found if back > STRAIGHT else 0.0
 
 
 @compiled

@@ -80,7 +80,10 @@ def leg_series(
     stored, pumps, gaps = np.empty(time.size), legs.pumps.copy(), legs.gaps.copy()
     slope = np.empty(states.shape[1])
     inputs = {name: np.column_stack([told[leg][name] for leg in legs.names]) for name in TOLD}
-    opened = _opened(legs, time, events)
+    for name, values in inputs.items():
+        one[name] = values[0]
+    evaluate_legs(one, pumps, gaps, np.ascontiguousarray(states[0]), slope)
+    opened = _opened(legs.names, one, time, events)
     for i in range(time.size):
         for name, values in inputs.items():
             one[name] = values[i]
@@ -104,12 +107,18 @@ def leg_series(
     return series
 
 
-def _opened(legs: Legs, time: Series, events: Mapping[str, Sequence[OilEvent]]) -> Matrix:
-    """Whether both relief valves of each leg are open at the records, shape (n, legs, 2), by their events."""
-    found = np.empty((time.size, len(legs.names), 2))
-    for n, name in enumerate(legs.names):
-        for k, (field, gap) in enumerate((("open", YIELD), ("rod_open", RELIEF))):
-            found[:, n, k] = legs.records[n][field]
+def _opened(
+    names: Sequence[str], start: Records, time: Series, events: Mapping[str, Sequence[OilEvent]]
+) -> Matrix:
+    """Whether both relief valves of each leg are open at the records, shape (n, legs, 2).
+
+    By the pressures that they start with, and by events from then on.
+    """
+    found = np.empty((time.size, len(names), 2))
+    valves = ("pressure", "opens", YIELD), ("rod_pressure", "rod_opens", RELIEF)
+    for n, name in enumerate(names):
+        for k, (pressure, opens, gap) in enumerate(valves):
+            found[:, n, k] = float(start[n][pressure] > start[n][opens])
             for event in events.get(name, ()):
                 if event.what == GAP_NAMES[gap]:
                     found[time >= event.time, n, k] = float(event.begins)

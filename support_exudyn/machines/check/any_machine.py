@@ -17,7 +17,7 @@ from support_exudyn.machines.check.freedoms import (
     repeated,
 )
 from support_exudyn.machines.check.report import CheckReport, CheckTable
-from support_exudyn.machines.check.statics import mobility, statics
+from support_exudyn.machines.check.statics import DegreesOfFreedom, mobility, statics
 from support_exudyn.machines.check.transmission import (
     DEFINITION,
     LEAST,
@@ -63,6 +63,44 @@ class MachineReport(CheckReport):
     blocks: Mapping[str, tuple[float, float]] = field(repr=False)
 
 
+@dataclass(frozen=True)
+class _Found:
+    """What has been found out about a machine, before it is put in words.
+
+    Arguments:
+        data: the machine. tried: stroke that is asked for or that the file says [m], if any.
+        linkage: the mechanism. conditions: of it. free: its mobility. again: conditions that repeat others.
+        loose: ways in which it moves with all driven parts held; singular: they end beside the start posture.
+        opened: how far the two points of each pin are apart at the start [m].
+        ways: of driven parts. angles: transmission angles of them. stations: postures that are told of them.
+        at_rest: the start posture.
+    """
+
+    data: MachineData
+    tried: float | None
+    linkage: Linkage
+    conditions: Conditions
+    free: DegreesOfFreedom
+    again: Sequence[RepeatedConditions]
+    loose: Sequence[Movement]
+    singular: bool
+    opened: Mapping[str, float]
+    ways: Sequence[DriveWay]
+    angles: Mapping[str, Sequence[TransmissionAngle]]
+    stations: Mapping[str, Sequence[Moved]]
+    at_rest: Moved
+
+    @property
+    def loads(self) -> Mapping[str, ActingLoad]:
+        """Loads that act on it besides its weight, by name."""
+        return self.data.machine.loads
+
+    @property
+    def sole(self) -> DriveWay | None:
+        """The way of the driven part, if there is one alone."""
+        return self.ways[0] if len(self.ways) == 1 else None
+
+
 def check_any(data: MachineData, stroke: float | None) -> MachineReport:
     """The report of a machine that nothing but its linkage is known of.
 
@@ -73,83 +111,113 @@ def check_any(data: MachineData, stroke: float | None) -> MachineReport:
 
     Raises InputError if a stroke is asked for where no single actuator is driven.
     """
-    linkage = data.machine.linkage()
-    driven = linkage.driven
-    if stroke is not None and not (len(driven) == 1 and driven[0] in linkage.actuators):
-        raise InputError(f"stroke = {stroke} m: no single actuator drives this machine; allowed: none")
-    conditions, free = conditions_of(linkage), mobility(linkage)
-    start = np.zeros(3 * len(linkage.bodies))
-    loose = movements(conditions, start)
-    beside = _beside(conditions, loose)
-    singular = len(movements(conditions, beside)) < len(loose)
-    again = repeated(conditions, beside if singular else start)
-    fight = any(one.driven for one in again)
-    opened = {
-        name: float(np.hypot(*conditions.kinetics.relative(start, pin)[0]))
-        for name, pin in linkage.pins.items()
-    }
-    several, loads = len(driven) > 1, data.machine.loads
-    steps = STEPS_OF_SEVERAL if several else STEPS
-    ways = []
-    if not loose and not fight:
-        ways = [
-            way_of(conditions, one, _goal(linkage, one, stroke or data.stroke), steps, loads) for one in driven
-        ]
-    angles = {way.drive: list(transmission_angles(conditions, way)) for way in ways}
-    facts, warnings = [free.said()], []
-    if linkage.pins:
-        facts.append(f"closure at the start: pins within {1e3 * max(opened.values()):.1e} mm")
-    warnings += [
-        f"pins.{name}: its two points are {1e3 * gap:.3g} mm apart at the start"
-        for name, gap in opened.items()
-        if gap > OPEN * conditions.size
-    ]
-    warnings += [_repeats(one) for one in again]
-    acted = {body for name, one in loads.items() for body in (one.body, one.against(name))}
-    under_loads = bool(loads) and all(set(one.bodies) & acted for one in loose)
-    freedoms = _freedoms(conditions, loose, singular, under_loads)
-    (warnings if singular or (driven and not under_loads) else facts).extend(freedoms)
-    for way in ways:
-        facts += [*_way_facts(way), *(one.said(way) for one in angles[way.drive])]
-        warnings += [*_way_warnings(way), *_poor_angles(way, angles[way.drive])]
-    if any(angles.values()):
-        facts.append(DEFINITION)
-    stations = {way.drive: _told(way, TOLD_OF_SEVERAL if several else TOLD) for way in ways}
-    at_rest = Moved(0.0, start, statics(linkage, start, loads=loads))
-    sheets = [_sheet(way, stations[way.drive]) for way in ways]
-    if not loose:
-        moved = [one for way in ways for one in way.moved] or [at_rest]
-        facts.append(_under(moved, list(loads)))
-        if not ways:
-            sheets = [_table(linkage, "start", [("", at_rest)])]
-    sole, tried = ways[0] if len(ways) == 1 else None, stroke or data.stroke
+    found = _find(data, stroke)
+    facts, warnings = _said(found)
+    if found.loose or found.ways:
+        sheets = [_sheet(way, found.stations[way.drive]) for way in found.ways]
+    else:
+        sheets = [_table(found.linkage, "start", [("", found.at_rest)])]
     return MachineReport(
         name=data.name,
         kind=data.kind,
         facts=facts,
         sheets=sheets,
         warnings=warnings,
-        notes=list(_notes(data, linkage, ways, stroke)),
-        numbers={
-            "degrees_of_freedom": free.data(),
-            "closure_m": opened,
-            "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in again],
-            "movements": [one.data() for one in loose],
-            "drive": sole.drive if sole else "",
-            **({"stroke_m": tried} if tried is not None and not linkage.cranks else {}),
-            "locks": any(way.locks for way in ways),
-            "travel": list(sole.ends) if sole else [0.0, 0.0],
-            "stations": [] if loose else [_data(one) for one in (stations[sole.drive] if sole else [at_rest])],
-            "drives": {way.drive: _drive(way, angles[way.drive], stations[way.drive]) for way in ways},
-        },
-        linkage=linkage,
-        start=at_rest,
-        loads=loads,
-        ways=ways,
-        transmission=angles,
-        loose=loose,
+        notes=list(_notes(data, found.linkage, found.ways, stroke)),
+        numbers=_numbers(found),
+        linkage=found.linkage,
+        start=found.at_rest,
+        loads=found.loads,
+        ways=found.ways,
+        transmission=found.angles,
+        loose=found.loose,
         blocks=data.blocks,
     )
+
+
+def _find(data: MachineData, stroke: float | None) -> _Found:
+    """Find out all that `check_any` tells. Arguments, and what is raised, as there."""
+    linkage, loads = data.machine.linkage(), data.machine.loads
+    driven = linkage.driven
+    if stroke is not None and not (len(driven) == 1 and driven[0] in linkage.actuators):
+        raise InputError(f"stroke = {stroke} m: no single actuator drives this machine; allowed: none")
+    conditions = conditions_of(linkage)
+    start = np.zeros(3 * len(linkage.bodies))
+    loose = movements(conditions, start)
+    beside = _beside(conditions, loose)
+    singular = len(movements(conditions, beside)) < len(loose)
+    again = repeated(conditions, beside if singular else start)
+    several, tried = len(driven) > 1, stroke or data.stroke
+    steps, told = (STEPS_OF_SEVERAL, TOLD_OF_SEVERAL) if several else (STEPS, TOLD)
+    ways = []
+    if not loose and not any(one.driven for one in again):
+        ways = [way_of(conditions, one, _goal(linkage, one, tried), steps, loads) for one in driven]
+    return _Found(
+        data=data,
+        tried=tried,
+        linkage=linkage,
+        conditions=conditions,
+        free=mobility(linkage),
+        again=again,
+        loose=loose,
+        singular=singular,
+        opened={
+            name: float(np.hypot(*conditions.kinetics.relative(start, pin)[0]))
+            for name, pin in linkage.pins.items()
+        },
+        ways=ways,
+        angles={way.drive: list(transmission_angles(conditions, way)) for way in ways},
+        stations={way.drive: _told(way, told) for way in ways},
+        at_rest=Moved(0.0, start, statics(linkage, start, loads=loads)),
+    )
+
+
+def _said(found: _Found) -> tuple[list[str], list[str]]:
+    """What has been found out, in words: facts and warnings."""
+    facts, warnings = [found.free.said()], []
+    if found.opened:
+        facts.append(f"closure at the start: pins within {1e3 * max(found.opened.values()):.1e} mm")
+    warnings += [
+        f"pins.{name}: its two points are {1e3 * gap:.3g} mm apart at the start"
+        for name, gap in found.opened.items()
+        if gap > OPEN * found.conditions.size
+    ]
+    warnings += [_repeats(one) for one in found.again]
+    acted = {body for name, one in found.loads.items() for body in (one.body, one.against(name))}
+    under_loads = bool(found.loads) and all(set(one.bodies) & acted for one in found.loose)
+    freedoms = _freedoms(found.conditions, found.loose, found.singular, under_loads)
+    warned = found.singular or (found.linkage.driven and not under_loads)
+    (warnings if warned else facts).extend(freedoms)
+    for way in found.ways:
+        facts += [*_way_facts(way), *(one.said(way) for one in found.angles[way.drive])]
+        warnings += [*_way_warnings(way), *_poor_angles(way, found.angles[way.drive])]
+    if any(found.angles.values()):
+        facts.append(DEFINITION)
+    if not found.loose:
+        moved = [one for way in found.ways for one in way.moved] or [found.at_rest]
+        facts.append(_under(moved, list(found.loads)))
+    return facts, warnings
+
+
+def _numbers(found: _Found) -> dict[str, Any]:
+    """What has been found out, as plain data."""
+    sole = found.sole
+    shown = found.stations[sole.drive] if sole else [found.at_rest]
+    known_stroke = found.tried is not None and not found.linkage.cranks
+    return {
+        "degrees_of_freedom": found.free.data(),
+        "closure_m": found.opened,
+        "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in found.again],
+        "movements": [one.data() for one in found.loose],
+        "drive": sole.drive if sole else "",
+        **({"stroke_m": found.tried} if known_stroke else {}),
+        "locks": any(way.locks for way in found.ways),
+        "travel": list(sole.ends) if sole else [0.0, 0.0],
+        "stations": [] if found.loose else [_data(one) for one in shown],
+        "drives": {
+            way.drive: _drive(way, found.angles[way.drive], found.stations[way.drive]) for way in found.ways
+        },
+    }
 
 
 def _poor_angles(way: DriveWay, angles: Sequence[TransmissionAngle]) -> Iterator[str]:

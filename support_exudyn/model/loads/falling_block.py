@@ -124,7 +124,7 @@ class FallingBlock(AnyLoad):
         )
 
     def joined_in_space(self, linkage: SpatialLinkage, name: str) -> SpatialLinkage:
-        """The same in space, where the guide lets it turn about no axis."""
+        """The linkage in space with the block and its guide, which lets it turn about no axis."""
         inertia, centre = self.inertia, at(self.centre, self.lateral)
         block = SpatialBody(
             mass=self.mass,

@@ -98,15 +98,15 @@ class ComparedFile:
 
     @cached_property
     def _errors(self) -> Mapping[str, Values]:
-        """Of all channels of a run, which share most of the work."""
+        """Numerical errors of all channels of a run at once, as they share most of the work."""
         return {} if self.run is None else curve_errors(self.run, self.series)
 
     def of(self, run: Result) -> ComparedFile:
-        """The same of another run of the scene, such as one with longer steps."""
+        """The file with another run of the scene in it, such as one with longer steps."""
         return replace(self, run=run, series=_series(run))
 
     def shifted(self, seconds: float) -> ComparedFile:
-        """The same file with a time [s] added to all of its times."""
+        """The file with a time [s] added to all of its times."""
         return replace(self, mapped=replace(self.mapped, shift=self.mapped.shift + seconds))
 
 

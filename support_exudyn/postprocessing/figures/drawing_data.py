@@ -160,7 +160,7 @@ def _of_mesh(mesh: QuadMesh) -> DrawnData:
 
 
 def _of_image(image: AxesImage) -> DrawnData:
-    """The same of an image."""
+    """The middles of the pixels of an image, and their values."""
     values = _filled(image.get_array())
     left, right, bottom, top = image.get_extent()
     rows, columns = values.shape

@@ -7,6 +7,9 @@ import numpy as np
 from pydantic import Field
 
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.actuators import OilColumn
+from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
+from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.postprocessing.instruments.instrument import Instrument
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
@@ -49,7 +52,8 @@ class PressureGauge(Instrument):
         """The pressure (n, 1) [Pa]."""
         whole, _ = column_of(result.scenario, self.column)
         area = self.area(result.scenario)
-        if whole in result.scenario.cylinders:
+        scenario = result.scenario
+        if self._is_recorded(scenario.hydraulics.get(whole), whole in scenario.oil_columns):
             name = f"{self.column}.{'pressure' if self.side == 'piston' else 'rod_pressure'}"
             return result.recorded(name, "a gauge shows it")[:, None]
         force = result.recorded(f"{self.column}.force", "a pressure gauge needs it")
@@ -81,10 +85,16 @@ class PressureGauge(Instrument):
     def _known_area(self, scenario: Scenario) -> float | None:
         """The area of its side that the scenario says [m^2]."""
         whole, share = column_of(scenario, self.column)
-        cylinder, oil = scenario.cylinders.get(whole), scenario.oil_columns.get(whole)
-        if cylinder is not None:
-            return share * (cylinder.bore_area if self.side == "piston" else cylinder.rod_side_area)
-        return None if oil is None or self.side == "rod" else share * oil.bore_area
+        leg = scenario.hydraulics.get(whole)
+        if isinstance(leg, HydraulicCylinder):
+            return share * (leg.bore_area if self.side == "piston" else leg.rod_side_area)
+        return share * leg.bore_area if isinstance(leg, OilColumn) and self.side == "piston" else None
+
+    def _is_recorded(self, leg: HydraulicLeg | None, plain: bool) -> bool:
+        """Whether a run has the pressure of its side; plain: the leg is a plain column of oil."""
+        if isinstance(leg, OilColumn):
+            return self.side == "piston" and not plain
+        return leg is not None
 
     def _own_area(self) -> float | None:
         """The area that the gauge says [m^2]."""

@@ -65,7 +65,7 @@ class Uprights(Machine):
         )
 
 
-COLUMN = OilColumn(bore_area=0.098, oil_length=0.5, bulk_modulus=1.5e9, damping_time=0.0)
+COLUMN = OilColumn(bore_area=0.098, oil_length=0.5, bulk_modulus=1.5e9)
 CYLINDER = HydraulicCylinder(
     bore_area=0.098,
     rod_side_area=0.03,

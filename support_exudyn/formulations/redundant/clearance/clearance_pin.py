@@ -258,7 +258,7 @@ class ClearanceJoint(LargestForce):
         return self._alone.mass(*self._place())
 
     def _least_mass(self) -> float:
-        """The same at the end of the step just tried, which is known without asking where the journal is."""
+        """Mass [kg] as by `_find_least_mass`, at the end of the step just tried; the engine is not asked."""
         if self._on_line or self._was_decided:  # the inverse effective mass may have been renewed
             return self._find_least_mass()
         x, y, *_ = self._motion

@@ -176,7 +176,7 @@ class SlotConnector(PinConnector):
         self._rest = rest
 
     def settle(self, load: float, share: Callable[[], float]) -> None:
-        """The same as for a pin, across the slot alone, towards the middle of the block's play."""
+        """Let a spring pull the block across the slot to the middle of its play, see `PinConnector.settle`."""
         play = self.clearance - abs(self._rest)
 
         def force(

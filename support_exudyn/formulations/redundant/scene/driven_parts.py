@@ -91,9 +91,7 @@ class DrivenParts:
         for oil in self.oil:
             stiffness = oil.preloaded.model.stiffness(extension)
             put(oil.object, "referenceLength", oil.preloaded.natural_length(extension))
-            put(oil.object, "velocityOffset", speed)
             put(oil.object, "stiffness", stiffness)
-            put(oil.object, "damping", stiffness * oil.preloaded.model.damping_time)
         for crank in self.cranks:
             put(crank.object, "offset", speed if self.velocity_level else extension)
 

@@ -22,6 +22,7 @@ from support_exudyn.formulations.hydraulics.fill import fill_legs, weigh_states
 from support_exudyn.formulations.hydraulics.implicit import advance_legs
 from support_exudyn.formulations.hydraulics.leg import evaluate_legs
 from support_exudyn.formulations.hydraulics.records import BOOKED, RELIEF, YIELD, Matrix, Records
+from support_exudyn.formulations.hydraulics.rest import rest_legs
 from support_exudyn.formulations.hydraulics.series import TOLD
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
 from support_exudyn.mechanics.oil_column import LENGTHS
@@ -36,7 +37,6 @@ CURRENT = exudyn.ConfigurationType.Current
 NAME = "springForceUserFunction"  # the engine's, of its springs
 ENERGY, PLAY = 1e3, 1e-3  # [J], [m] that states are weighed by
 AHEAD = 1e-5  # of a step, over which gaps are differenced
-REST_ROUNDS, REST_SHIFT, RESTS = 40, 1e-9, 1e-14  # of a tube that looks for its place; [m]
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class LegItem:
         return source.extension(t), source.speed(t) if t > 0.0 else source.initial_speed, 0.0
 
     def told_after(self, t: float) -> tuple[float, float, float]:
-        """The same just after a break t [s]."""
+        """What a drive has let in just after a break t [s]; values as of `told`."""
         inflow, rate, opening = self.told(t)
         source = self.source
         if isinstance(source, Inlet):
@@ -228,28 +228,6 @@ class LegCircuit:
     # --- static equilibrium ---
 
     def _at_rest(self, n: int) -> float:
-        """Force [N] of a leg whose oil is closed, its tube being where nothing pushes it."""
-        record = self.records[n]
-        record["rate"] = 0.0
-        self.rest_tube(n)
+        """Force [N] of a leg whose oil is closed inside, see `hydraulics.rest`."""
+        rest_legs(self.records, self.pumps, self.gaps, self.states, self._slope)
         return float(self.records[n]["force"])
-
-    def rest_tube(self, n: int) -> None:
-        """Let the tube of a leg of two stages stand where nothing pushes it, by Newton's method."""
-        y, slope = self.states, self._slope
-        self._press()
-        if (place := int(self.records[n]["stage"])) < 0:
-            return
-        y[place + 2] = 0.0
-        for _ in range(REST_ROUNDS):
-            pushed = float(slope[place + 2])
-            y[place + 1] += REST_SHIFT
-            self._press()
-            rise = (float(slope[place + 2]) - pushed) / REST_SHIFT
-            y[place + 1] -= REST_SHIFT
-            if not rise < 0.0:
-                break
-            y[place + 1] -= pushed / rise
-            self._press()
-            if abs(pushed / rise) <= RESTS:
-                break

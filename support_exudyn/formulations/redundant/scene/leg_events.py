@@ -67,7 +67,7 @@ class LegEvents:
         return again
 
     def _one(self, n: int, k: int, t: float, h: float, end: tuple[float, float]) -> float | None:
-        """The same for one gap, `end` being it and its rate at the end of the step."""
+        """Judge a step by one gap, see `judge`; end: the gap and its rate at the end of the step."""
         if OPEN in (self._gaps[n, k], end[0]):  # an inlet is opened just after a break, or closed just before
             self._pending.append((n, k, t if end[0] == OPEN else t - h))
             return None

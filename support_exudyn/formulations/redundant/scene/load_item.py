@@ -156,7 +156,7 @@ def _twist(load: MomentLoad) -> Callable[..., float]:
 
 
 def _twist_expression(load: MomentLoad) -> Callable[..., Any]:
-    """The same as a function that the engine calls once with its symbols."""
+    """The moment of `_twist` as a function that the engine calls once, with its symbols."""
 
     def twist(*known: Any) -> Any:
         return real(-load.moment(TurnedBody(*map(unknown, known))))

@@ -87,7 +87,7 @@ def _force(load: StretchLoad) -> Callable[..., list[float]]:
 
 
 def _expression(load: StretchLoad) -> Callable[..., Any]:
-    """The same as a function that the engine calls once with its symbols; it goes by the names of arguments."""
+    """The force of `_force` as a function that the engine calls once, with symbols, by names of arguments."""
 
     def force(*known: Any) -> Any:
         up, moment = pull(load, FirstPoint(*map(unknown, known)))

@@ -161,13 +161,9 @@ class Recorder:
                 rows.frombytes(part.tobytes())
         self._totals.extend(totals)
 
-    def _length(self, item: OilColumnItem) -> tuple[float, float]:
-        """Length [m] of an oil column and its rate [m/s]."""
-        output = exudyn.OutputVariableType
-        distance = float(self._mbs.GetObjectOutput(item.object, output.Distance))
-        apart = self._mbs.GetObjectOutput(item.object, output.Displacement)
-        rate = self._mbs.GetObjectOutput(item.object, output.Velocity)
-        return distance, float(apart @ rate) / distance
+    def _length(self, item: OilColumnItem) -> float:
+        """Length [m] of an oil column."""
+        return float(self._mbs.GetObjectOutput(item.object, exudyn.OutputVariableType.Distance))
 
     def history(self) -> History:
         """What has been recorded so far."""
@@ -196,9 +192,7 @@ class Recorder:
                 # the multiplier of a distance is the tension, that of a crank's angle the moment against it
                 driving -= speed * sum(float(multipliers[n]) for n in struts)
             for item in oil:
-                work, loss = item.preloaded.powers(*self._length(item), extension, speed)
-                driving += work
-                damping += loss
+                driving += item.preloaded.power(self._length(item), extension, speed)
         for name, load in self._loads:
             work, loss = load.powers(t)
             if self._looks and not loss >= 0.0:

@@ -156,12 +156,13 @@ class SpatialObservation:
         drive = self.scene.scenario.drive_of(name)
         extension = np.array([drive.extension(t) for t in self.time.tolist()])
         speed = np.array([drive.speed(t) for t in self.time.tolist()])
-        apart, relative = self.span(name)
+        apart, _ = self.span(name)
         length = np.linalg.norm(apart, axis=1)
-        moving = length, np.einsum("ni,ni->n", apart, relative) / length, extension, speed
         preloaded = self.scene.oil_columns[name].preloaded
         return OilSeries(
-            preloaded.force(*moving), preloaded.energy(length, extension), *preloaded.powers(*moving)
+            preloaded.force(length, extension),
+            preloaded.energy(length, extension),
+            preloaded.power(length, extension, speed),
         )
 
     def span(self, actuator: str) -> tuple[Series, Series]:
