@@ -17,21 +17,33 @@ from support_exudyn.formulations.compiled.arrays import (
     TOO_MANY_OIL_EVENTS,
     TOO_MANY_STEPS,
     Matrix,
+    Records,
     SceneArrays,
     Scratch,
     Vector,
 )
 from support_exudyn.formulations.compiled.beginning import begin_run, jump
 from support_exudyn.formulations.compiled.changes import happen, renew_masses
-from support_exudyn.formulations.compiled.depth import CUT, IMPACT, NOTHING, RETURN, SEPARATION, SHORT, TOO_LONG
+from support_exudyn.formulations.compiled.depth import (
+    CUT,
+    CUT_MET,
+    IMPACT,
+    NOTHING,
+    RETURN,
+    SEPARATION,
+    SHORT,
+    TOO_LONG,
+)
 from support_exudyn.formulations.compiled.events import first_event
 from support_exudyn.formulations.compiled.landing import copy_contacts, land, met_before
 from support_exudyn.formulations.compiled.method import (
     AT,
+    CUT_STEPS,
     DECAY,
     LAST_ERROR,
     MIDST,
     NEXT_STEP,
+    UNCUT,
     begin_method,
     choose_method,
     factor_of,
@@ -53,6 +65,9 @@ from support_exudyn.formulations.compiled.oil_events import (
 from support_exudyn.formulations.compiled.recording import note_peaks, write_records
 from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.formulations.compiled.step_control import AFTER_IMPACT, CLOSE, SHORTEN, SMALLEST_STEP
+
+MOST_CUTS = 150  # of steps cut one after the other where tension begins or ceases; counted threefold
+OVERLOOKED = 500.0  # steps for which that is overlooked then
 
 
 @once
@@ -126,6 +141,28 @@ def take_up(
     return FINISHED
 
 
+@once
+def count_cuts(going: Vector, what: int) -> None:
+    """Count the steps that end where tension begins or ceases; if there are too many, overlook it for a while.
+
+    A contact that is pulled out of its bore as fast as its law allows stays where there is no pressure and no
+    tension. Steps that ended there would never become long, nor be stabilised. Forces are continuous there, so
+    that the error of a step says how much overlooking it matters.
+    """
+    going[UNCUT] = max(0.0, going[UNCUT] - 1.0)
+    going[CUT_STEPS] = going[CUT_STEPS] + 3.0 if what == CUT else max(0.0, going[CUT_STEPS] - 1.0)
+    if going[CUT_STEPS] > MOST_CUTS:
+        going[CUT_STEPS], going[UNCUT] = 0.0, OVERLOOKED
+
+
+@once
+def overlook_cuts(contacts: Records) -> None:
+    """Let contacts be where tension begins, on their side of it, so that a step beyond is not cut."""
+    for n in range(contacts.size):
+        if abs(contacts[n].push) > CUT_MET:
+            contacts[n].push = CUT_MET if contacts[n].push > 0.0 else -CUT_MET
+
+
 @entry
 def integrate(
     scene: SceneArrays,
@@ -190,6 +227,8 @@ def integrate(
             continue
         copy_contacts(scene.contacts, then)
         fit_step(room, decay, h, y)
+        if going[UNCUT] > 0.0:
+            overlook_cuts(now)
         n, what, low, high = first_event(scene, h, now, then, room.path, room.probe, room.slope)
         oil, leg, gap = first_gap(scene, room)
         if decay > 0.0 and (what != NOTHING or oil != NONE):  # events are met by the explicit method
@@ -229,6 +268,7 @@ def integrate(
         note_peaks(scene, room, t, h, report)
         report[ACCEPTED] += 1
         report[CUTS] += what not in (NOTHING, RETURN) or oil == GAP
+        count_cuts(going, what)
         write_records(scene, room, t, h, stop + CLOSE if last else t + h, times, rows, report)
         copy_contacts(then, scene.contacts)
         t = stop if last else t + h

@@ -30,8 +30,9 @@ from support_exudyn.formulations.compiled.step import advance, fit
 from support_exudyn.formulations.compiled.step_control import FASTEST, SAFETY, SLOWEST, factor
 
 # With what a run goes on: whether it is in the midst of a segment, time, next step, last error; the fastest
-# decay, above 0 while steps are stabilised; steps since it was looked for, and after how many it is
-MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, STIFF_STEPS, PATIENCE, GOING = range(8)
+# decay, above 0 while steps are stabilised; steps since it was looked for, and after how many it is; how many
+# steps have lately been cut where a law begins or ceases to ask for tension, and for how many more none is
+MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, STIFF_STEPS, PATIENCE, CUT_STEPS, UNCUT, GOING = range(10)
 
 
 @compiled
