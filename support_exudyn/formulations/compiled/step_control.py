@@ -9,7 +9,7 @@ ORDER = 0.2 - 0.75 * STEADY
 SMALLEST_STEP = 1e-13  # [s]
 # Of the step before an impact is the first in it: forces begin as a broken power of time, over which a long
 # step is of low order, so that errors would not fall as the tolerance does
-AFTER_IMPACT = 0.1
+AFTER_IMPACT = 0.01
 LANDED = 1e-14  # depth [m] at which an impact or separation is met; rounding of the posture is some 1e-16
 LANDINGS = 12
 TURNS = 3  # looks for where a contact is pressed on again; the force is continuous there
