@@ -3,13 +3,11 @@
 The rough form does all that the whole one does, but runs each case once where that has it at half and at a
 quarter of its steps, too: the three are then the same run. Findings are there; of the errors one sees only that
 there are some. Tests of a study of the paper are made on the rough form by default, on both with the marker
-`slow`; those of the other studies only with it, and those of drive_mode, whose study of one's own machine is
-made by default.
+`slow`; those of drive_mode, which_pin, contact_laws and scene_detail on the whole form only, with the marker.
 """
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
@@ -20,22 +18,18 @@ import pytest
 from studies.catalogue import STUDIES
 from studies.common import runs
 from studies.common.options import Options
-from studies.common.runs import with_coarser
 from studies.common.subject import Subject
-from studies.scene_detail import run as scene_detail
 from studies.scene_detail import scenes
-from studies.scene_detail.runs import Timed
-from support_exudyn import CubicStep, Result, Scenario, simulate
+from support_exudyn import CubicStep, Result, Scenario
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.sweeps.workers import Workers
 from tests.at_once import at_once
 
 ROUGH, WHOLE = "rough", "whole"
 FORMS = [ROUGH, pytest.param(WHOLE, marks=pytest.mark.slow)]
-ONLY_SLOW = [pytest.param(form, marks=pytest.mark.slow) for form in (ROUGH, WHOLE)]
-on_the_whole_form = pytest.mark.parametrize("out", FORMS[1:], indirect=True)  # where errors are looked at
+ONLY_WHOLE = FORMS[1:]
+on_the_whole_form = pytest.mark.parametrize("out", ONLY_WHOLE, indirect=True)  # where errors are looked at
 ROUGH_ACCURACY = "standard"  # of runs to an accuracy
-COARSER = {"which_pin": 3.0, "drive_mode": 4.0, "contact_laws": 2.0}  # times as long rough steps and records
+COARSER = {"drive_mode": 4.0, "contact_laws": 2.0}  # times as long rough steps and records
 SHORT = {  # strokes of scene_detail, in which pins still bounce
     "IN_STEP": CubicStep(stroke=0.0003, start=0.01, end=0.058), "DURATION": 0.06, "STEP": 2e-3,
     "BESIDE": CubicStep(stroke=0.0028, start=0.01, end=0.16), "STEP_BESIDE": 1e-2,
@@ -55,16 +49,6 @@ def _once(cases: Mapping[str, Scenario], chosen: Options, coarser: float) -> dic
     return {name: found[name.partition(", steps / ")[0]] for name in cases}
 
 
-def _once_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Timed]:
-    found = {}
-    for name, case in cases.items():
-        began = time.process_time()
-        run = simulate(case)
-        seconds = time.process_time() - began
-        found[name] = Timed(with_coarser([run, run, run]), seconds, seconds)
-    return found
-
-
 def written(
     study: str, form: str, folder: Path, machines: int | None = None, subject: Subject | None = None
 ) -> Path:
@@ -75,7 +59,6 @@ def written(
         if form == ROUGH:
             patch.setattr(runs, "run_cases", partial(_once, coarser=COARSER.get(study, 1.0)))
             patch.setitem(style.STYLE, "savefig.dpi", 60)
-            patch.setattr(scene_detail, "run_timed", _once_timed)
         chosen = Options(folder, at_once(), machines=machines)
         STUDIES[study](replace(chosen, subject=subject) if subject else chosen)
     return folder

@@ -19,13 +19,13 @@ from studies.contact_laws import run as study
 from studies.contact_laws.free_impact import delivered_restitution, free_impact
 from support_exudyn import Result, simulate
 from support_exudyn.files import machines
-from tests.studies.forms import ONLY_SLOW, ROUGH, on_the_whole_form, written
+from tests.studies.forms import ONLY_WHOLE, ROUGH, written
 from user_forces import FrictionLaw, Frictionless, ImpactVelocity, NormalLaw
 
 ASKED = (0.1, 0.5, 0.9)  # restitutions
 
 
-@pytest.fixture(scope="module", params=ONLY_SLOW)
+@pytest.fixture(scope="module", params=ONLY_WHOLE)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The study with fewer restitutions."""
     with pytest.MonkeyPatch.context() as patch:
@@ -64,7 +64,6 @@ def test_every_law_moves_the_machine_and_is_tried_in_impacts() -> None:
     assert textbook == [ImpactVelocity(floor=1e-3), ImpactVelocity(floor=0.1)]
 
 
-@on_the_whole_form
 def test_restitution_cases_are_named_as_agreed_and_right(
     numbers: dict[tuple[str, str], dict[str, Any]],
 ) -> None:

@@ -26,12 +26,12 @@ from studies.scene_detail.scenes import (
 from support_exudyn import Estimate, recommend
 from support_exudyn.simulation.evidence.table import EvidenceTable, check_replaceable, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, comparisons
-from tests.studies.forms import ONLY_SLOW, on_the_whole_form, written
+from tests.studies.forms import ONLY_WHOLE, written
 
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
-@pytest.fixture(scope="module", params=ONLY_SLOW)
+@pytest.fixture(scope="module", params=ONLY_WHOLE)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written("scene_detail", request.param, tmp_path_factory.mktemp("results"))
 
@@ -42,7 +42,6 @@ def numbers(out: Path) -> Numbers:
     return {(n["name"], n["case"]): n for n in summary["numbers"]}
 
 
-@on_the_whole_form
 def test_every_number_is_finite_and_has_an_error(numbers: Numbers) -> None:
     for number in numbers.values():
         assert math.isfinite(number["value"])
@@ -83,7 +82,6 @@ def test_added_and_taken_scenes_differ_by_one_element() -> None:
             assert len(differing(scene)) == 1, scene.name
 
 
-@on_the_whole_form
 def test_what_changes_nothing_is_said_to_be_below_the_error(numbers: Numbers, out: Path) -> None:
     # a rigid jack holds the tail beam as the shield beam does; space is symmetric
     for name in (f"{PLAINEST} + tail beam, rigid jack", f"{PLAINEST} + space"):

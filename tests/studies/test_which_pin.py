@@ -19,7 +19,7 @@ from studies.which_pin.posture import loads, mean_shift
 from studies.which_pin.tables import in_order, rankings
 from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
 from support_exudyn.mechanics.initial_eccentricity import eccentric
-from tests.studies.forms import ONLY_SLOW, on_the_whole_form, written
+from tests.studies.forms import ONLY_WHOLE, written
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 from user_forces.values.value import InputError
 
@@ -30,7 +30,7 @@ SUPPORT = reference_support()
 Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
-@pytest.fixture(scope="module", params=ONLY_SLOW)
+@pytest.fixture(scope="module", params=ONLY_WHOLE)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written("which_pin", request.param, tmp_path_factory.mktemp("results"))
 
@@ -64,7 +64,6 @@ def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis
         )
 
 
-@on_the_whole_form
 @pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
 def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Numbers, friction: float) -> None:
     whole = which_pin_cases.case_name(PINS, friction)
