@@ -120,7 +120,7 @@ def test_a_reference_says_how_wrong_it_is(name: str) -> None:
     assert times_the_goal(own) < 0.1, own
 
 
-@pytest.mark.parametrize("name", ["drop", "slider-crank"])
+@pytest.mark.parametrize("name", SCENES)
 def test_references_can_be_made_again(name: str) -> None:
     scene = SCENES[name]
     again = of_result(scene, simulate(tight_runs(scene)[0]))
