@@ -109,6 +109,7 @@ class LegCircuit:
         self._places = np.concatenate([np.flatnonzero(~booked), np.flatnonzero(booked)])
         free = int((~booked).sum())
         self._rows = np.empty((free, free + 1))
+        self._records_ahead = self.records.copy()  # room
         self.step = 0.0  # that is being tried [s]
         self._start: dict[str, Series] = {}  # what records were told at its start
         self.settles = False  # whether a static equilibrium is looked for
@@ -189,7 +190,8 @@ class LegCircuit:
 
     def gap_rates(self, span: float) -> Matrix:
         """Rates of all gaps [Pa/s], [m/s] where `gaps` were evaluated last; span: length of a step [s]."""
-        ahead, records, gaps = AHEAD * span, self.records.copy(), self.gaps.copy()
+        ahead, records, gaps = AHEAD * span, self._records_ahead, self.gaps.copy()
+        records.view(np.uint8)[:] = self.records.view(np.uint8)  # field by field it takes a fifth of a run
         records["length"] += ahead * records["rate"]
         records["inflow"] += ahead * records["inflow_rate"]
         evaluate_legs(records, self.pumps.copy(), gaps, self.solved + ahead * self._slope, self._slope.copy())
