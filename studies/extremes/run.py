@@ -304,5 +304,5 @@ def _known(verdict: Judgement) -> dict[str, object]:
     return {name: value for name, value in said if not isinstance(value, float) or math.isfinite(value)}
 
 
-study = Study("extremes", __doc__, work, seconds=530.0)
+study = Study("extremes", __doc__, work, seconds=830.0)
 main = study.main
