@@ -13,6 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 import user_forces as forces
+from studies.benchmarking.fresh_legs import Leg, pump, with_elements
 from studies.common import paper_machine
 from support_exudyn import (
     ClearancePin,
@@ -28,6 +29,7 @@ from support_exudyn import (
     OwnBody,
     RampedOpening,
     Reciprocating,
+    Roof,
     Scenario,
     SolverSettings,
     Steady,
@@ -37,6 +39,7 @@ from support_exudyn import (
     ravn_slider_crank,
     reference_support,
 )
+from support_exudyn.mechanics.oil_column import static_loads
 from support_exudyn.scenario.scenario_data import Accuracy
 from user_forces.normal.power_law import PowerLaw
 
@@ -57,6 +60,7 @@ RECORDS = 200  # of a run
 MOST_STEPS = 200_000  # of a run; none of these scenes is worth more
 REFERENCE_SHARE = 5  # each fifth scene is also run to the accuracy "reference"
 DRAWS = 100  # scenes that do not fit together are drawn again
+GRAVITY = (0.0, -9.81)  # [m/s^2]
 SPEED_OF_STROKE = 0.3  # [m/s], the fastest that columns extend
 
 
@@ -76,9 +80,9 @@ class Fresh:
         return ("draft", "standard", "reference") if share else ("draft", "standard")
 
 
-def fresh(seed: int, number: int) -> Fresh:
-    """The scene of a seed with this number, both from 0 on; kinds follow each other in turn."""
-    kind = list(KINDS)[number % len(KINDS)]
+def fresh(seed: int, number: int, kind: str = "") -> Fresh:
+    """The scene of a seed with this number, both from 0 on; of this kind, or of all of them in turn."""
+    kind = kind or list(KINDS)[number % len(KINDS)]
     random = np.random.default_rng([seed, number])
     for _ in range(DRAWS):
         try:
@@ -269,6 +273,44 @@ def _on_cylinders(random: np.random.Generator) -> Scenario:
     return replace(scene, duration=duration, record_period=duration / RECORDS, start="concentric")
 
 
+def _on_legs(random: np.random.Generator) -> Scenario:
+    """Columns of oil, or cylinders on a pump, with valves, hoses, air, seals.
+
+    A third of these scenes ask for the engine's formulation.
+    """
+    pins = {_some_pin(random, rear=0.6): _pin(random)} if random.uniform() < 0.6 else {}
+    loads = static_loads(reference_support().linkage(), GRAVITY)
+    columns: dict[str, Leg]
+    if random.uniform() < 0.5:
+        columns = {name: with_elements(random, _oil(random), load) for name, load in loads.items()}
+        scene = _scene(random, reference_support(), pins, 0.15, actuators=columns)
+    else:
+        base = _on_cylinders(random)
+        columns = {name: with_elements(random, leg, loads[name]) for name, leg in base.cylinders.items()}
+        shared = (
+            pump(random, base.cylinders["front_column"].system_pressure) if random.uniform() < 0.7 else None
+        )
+        scene = replace(base, pins=pins, actuators=columns, pump=shared)
+    if random.uniform() < 0.4:
+        scene = replace(scene, loads={"roof": _roof(random, scene.duration, sum(loads.values()))})
+    return replace(scene, formulation="redundant") if random.uniform() < 0.33 else scene
+
+
+def _roof(random: np.random.Generator, duration: float, weight: float) -> Roof:
+    """A roof that comes down between both columns, and presses with up to three times the weight [N]."""
+    linkage = reference_support().linkage()
+    x = [actuator.head_point[0] for actuator in linkage.actuators.values()]
+    stiffness, gap = _between(random, 1e7, 1e9), 1e-3
+    way = gap + weight * float(random.uniform(0.5, 3.0)) / stiffness
+    return Roof(
+        body="canopy",
+        point=(sum(x) / len(x), linkage.points["tip"].point[1]),
+        descent=CubicStep(stroke=way, start=0.0, end=0.9 * duration),
+        stiffness=stiffness,
+        gap=gap,
+    )
+
+
 def _under_block(random: np.random.Generator) -> Scenario:
     """A rock on the canopy, with and without a clearance pin, columns rigid or on oil."""
     machine = reference_support()
@@ -327,6 +369,7 @@ KINDS: Mapping[str, Callable[[np.random.Generator], Scenario]] = {
     "several pins": _several_pins,
     "oil columns": _on_oil,
     "cylinders": _on_cylinders,
+    "hydraulic legs": _on_legs,
     "falling block": _under_block,
     "tail beam": _tail_beam,
     "slider-crank": _crank,

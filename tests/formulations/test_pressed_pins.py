@@ -274,7 +274,7 @@ def test_formulations_agree_on_two_pins_in_series(way: str) -> None:
 def test_a_contact_pressed_on_again_has_the_mass_at_its_turn() -> None:
     # a drawn scene in which another pin begins to press in the step of the turn: with the mass at the end of
     # the step the force was off by 7e-4, with half the steps, too; measured 1.6e-5
-    scene = fresh(7, 209).scenario
+    scene = fresh(7, 209, "several pins").scenario
     exact = simulate(replace(scene, formulation="compiled", solver=SolverSettings(tolerance=1e-10)))
     force = simulate(replace(scene, formulation="redundant")).largest_force["rear_shield"]
     assert force == pytest.approx(exact.largest_force["rear_shield"], rel=1e-4)

@@ -44,6 +44,7 @@ def test_kinds_follow_each_other_and_are_what_they_say() -> None:
     assert all(len(one.clearance_pins) > 1 for one in kinds["several pins"])
     assert all(set(one.legs) == {"front_column", "rear_column"} for one in kinds["oil columns"])
     assert all(set(one.cylinders) == {"front_column", "rear_column"} for one in kinds["cylinders"])
+    assert all(all(leg.elements for leg in one.legs.values()) for one in kinds["hydraulic legs"])
     assert all(set(one.loads) == {"rock"} for one in kinds["falling block"])
     assert all(set(one.own_bodies) == {"tail_beam"} for one in kinds["tail beam"])
     assert all(one.linkage.cranks for one in kinds["slider-crank"])
