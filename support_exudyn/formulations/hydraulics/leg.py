@@ -45,6 +45,7 @@ from support_exudyn.formulations.hydraulics.records import (
 from support_exudyn.mechanics.trajectory import Series
 
 SEAT = 100.0  # a poppet's seat is so many times as stiff as its spring, and critically damped
+DRAINED = 0.1  # of the opening pressure, below which an open poppet passes less, and nothing without pressure
 OPEN = -1e300  # a gap that nothing closes
 CLOSED = 1e-12  # opening of an inlet, of either sign, that is rounding
 
@@ -233,13 +234,12 @@ def let_out(legs: Records, n: int, y: Series, slope: Series, gaps: Series) -> No
         if leg.poppet >= 0:
             lift, rate = y[leg.poppet], y[leg.poppet + 1]
             gaps[YIELD] = lift  # its seat gives a jolt; nothing happens where the spring gives way
-            flow = leg.slope * max(0.0, lift)
+            pressed = (p - leg.tank) / (DRAINED * leg.opens)
+            flow = leg.slope * max(0.0, lift) * min(1.0, max(0.0, pressed))
             k, d = leg.poppet_rate * leg.poppet_rate, leg.poppet_decay
             if lift < 0.0:
                 lift, d = SEAT * lift, 2.0 * math.sqrt(SEAT) * leg.poppet_rate
             slope[leg.poppet], slope[leg.poppet + 1] = rate, k * (p - leg.opens - lift) - d * rate
-            if p < leg.tank:
-                flow = 0.0
         else:
             flow = relief(leg.jumps, leg.open, p, leg.opens, leg.closes, leg.slope)
         moved, taken = flow * weight(law, p, modulus), flow * (p - leg.tank)

@@ -48,7 +48,8 @@ class Poppet(Value):
 
     s is its lift times k over the seat's area, a pressure: at rest it is that above the opening pressure, so
     that the valve at rest passes what it would without inertia. The seat is a hundred times as stiff as the
-    spring, and critically damped.
+    spring, and critically damped. A poppet that is still open when the pressure has fallen below a tenth of
+    p_open passes less in proportion, and nothing where there is no pressure above the tank's.
 
     Arguments:
         mass: m, of the poppet and a third of the spring [kg], > 0.

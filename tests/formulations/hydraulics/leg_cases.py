@@ -83,6 +83,12 @@ YIELDING = YieldValve(opening_pressure=8e6, rated_flow=4e-3, rated_overpressure=
 WITH_HYSTERESIS = replace(YIELDING, closing_pressure=5e6)
 RELIEVING = replace(YIELDING, opening_pressure=6e6, closing_pressure=4e6)
 WITH_POPPET = replace(YIELDING, poppet=Poppet(mass=0.5, stiffness=2e6, damping=300.0))
+WIDE_AND_SLOW = YieldValve(
+    opening_pressure=4e6,
+    rated_flow=4e-2,
+    rated_overpressure=1e6,
+    poppet=Poppet(mass=5.0, stiffness=1e5, damping=200.0),
+)
 AIR = TrappedAir(volume=2e-3)
 LINE = Line(volume=4e-3, nominal_flow=5e-3, nominal_drop=2e6)
 SEALS = SealFriction(coulomb=1.5e4, static=2.5e4, stribeck_speed=0.05, transition_speed=0.02)
@@ -142,6 +148,7 @@ CASES: dict[str, Scenario] = {
     "column, yield valve": on_column(-0.6, yield_valve=YIELDING),
     "column, hysteresis": on_column(-0.6, yield_valve=WITH_HYSTERESIS),
     "column, poppet": on_column(-0.6, yield_valve=WITH_POPPET),
+    "column, drained by its poppet": on_column(-0.6, yield_valve=WIDE_AND_SLOW),
     "column, cavity": on_column(0.4, vapour_pressure=VAPOUR),
     "column, air": on_column(-0.2, trapped_air=AIR),
     "column, line": on_column(-0.2, line=LINE, drive=LIFT),
@@ -159,6 +166,7 @@ CASES: dict[str, Scenario] = {
     "cylinder, yield valve": on_cylinder(-0.6, yield_valve=YIELDING),
     "cylinder, hysteresis": on_cylinder(-0.6, yield_valve=WITH_HYSTERESIS),
     "cylinder, poppet": on_cylinder(-0.6, yield_valve=WITH_POPPET),
+    "cylinder, drained by its poppet": on_cylinder(-0.6, yield_valve=WIDE_AND_SLOW),
     "cylinder, relief": on_cylinder(0.6, rod_relief=RELIEVING),
     "cylinder, cavity": on_cylinder(0.4, vapour_pressure=VAPOUR),
     "cylinder, air": on_cylinder(0.4, trapped_air=AIR, vapour_pressure=VAPOUR),

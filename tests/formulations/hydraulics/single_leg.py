@@ -297,7 +297,9 @@ class Leg:
         d[key] = rate
         if lifted:
             d[f"{key}r"] = square * (over - lift) - valve.poppet.damping / valve.poppet.mass * rate
-            return valve.slope * lift
+            tank = 0.0 if self.valve is None else self.valve.tank_pressure
+            pressed = (p - tank) / (0.1 * valve.opening_pressure)  # hardly any: the oil drains
+            return valve.slope * lift * min(1.0, max(0.0, pressed))
         d[f"{key}r"] = square * (over - SEAT * lift) - 2.0 * math.sqrt(SEAT * square) * rate
         return 0.0
 
