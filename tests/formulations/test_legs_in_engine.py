@@ -9,8 +9,9 @@ import pytest
 
 from support_exudyn import Held, HydraulicCylinder, RampedOpening, Result, Scenario, SolverSettings, simulate
 from support_exudyn.model.hydraulics.motion import EndStops
-from support_exudyn.model.hydraulics.valves import YieldValve
+from support_exudyn.model.hydraulics.valves import CheckValve, YieldValve
 from tests.cases.cylinder_cases import Ram, opened
+from tests.formulations.hydraulics import leg_cases
 
 CYLINDER = opened(RampedOpening(start=0.02, end=0.15, ramp=0.02, extent=1.0), damping=5e4)
 CHANNELS = ("jack.length", "ram.velocity_y", "jack.pressure", "jack.rod_pressure")
@@ -68,3 +69,20 @@ def test_stops_far_away_leave_a_plain_cylinder() -> None:
     far = replace(CYLINDER, end_stops=EndStops(lowest=-0.4, highest=0.9))
     plain, leg = lift(CYLINDER, "redundant"), lift(far, "redundant")
     assert error(leg, plain) < 2e-3
+
+
+@pytest.mark.parametrize("speed", [1e-5, -1e-5])
+def test_a_valve_that_opens_very_slowly_cuts_no_step_again_and_again(speed: float) -> None:
+    # less than rounding counts in a step, more in a hundred: the program once gave up
+    leg = replace(leg_cases.CYLINDER, check_valve=CheckValve(), line=leg_cases.LINE, trapped_air=leg_cases.AIR)
+    scene = replace(leg_cases.on_cylinder(speed), actuators={"leg0": leg}, duration=1e-3, record_period=1e-5)
+    run, known = (
+        simulate(replace(scene, formulation=one, step=1e-5, solver=SolverSettings(tolerance=1e-10)))
+        for one in ("redundant", "compiled")
+    )
+    assert run.counts.cut_steps <= 1
+    assert [one[1:] for one in run.oil_events["leg0"]] == [one[1:] for one in known.oil_events["leg0"]]
+    rise = known["leg0.pressure"] - known["leg0.pressure"][0]
+    np.testing.assert_allclose(
+        run["leg0.pressure"] - run["leg0.pressure"][0], rise, atol=1e-2 * np.abs(rise).max()
+    )

@@ -95,9 +95,12 @@ class LegEvents:
 
     def _passes(self, n: int, k: int, h: float, end: tuple[float, float]) -> float | None:
         """The fraction of the step at which a gap passes zero to the other side; None if it does not."""
-        side = -float(self._sides[n, k])
-        before = min(side * float(self._gaps[n, k]), -float(self._near[n, k]) * 1e-3)
-        return first_rise(DepthPath(before, side * float(self._rates[n, k]), side * end[0], side * end[1], h))
+        side, near = -float(self._sides[n, k]), float(self._near[n, k])
+        before, after = side * float(self._gaps[n, k]), side * end[0]
+        if before > 0.0 and after > near:  # it did steps ago, by less than counted then
+            return 0.0
+        path = DepthPath(min(before, -1e-3 * near), side * float(self._rates[n, k]), after, side * end[1], h)
+        return first_rise(path)
 
     def _pass(self, n: int, k: int, t: float) -> None:
         self._sides[n, k] = -self._sides[n, k]
