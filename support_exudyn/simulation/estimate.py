@@ -27,9 +27,9 @@ Measured: of 13 200 numbers of the scenes of `tests/simulation/test_accuracy.py`
 true error is 3.1 times the estimated one, and estimates are 12 times as large in the median. On 400 fresh
 scenes of `python -m studies.benchmarking.coverage --seed 21`, judged by references far closer than the errors
 claimed, 98.2 % of 30 700 numbers of the compiled formulation were covered, and 99.8 % of 8400 of the redundant
-one. The worst true error was 42 times the claimed one where a machine at rest shows nothing but rounding
-(6e-14 rad/s^2), else 14 times: 1e-5 of a force 14 us after a jump of the drive. The command tells it of any
-other seed.
+one. The worst true error was 14 times the claimed one: 1e-5 of a force 14 us after a jump of the drive. Of 52
+scenes on hydraulic legs of seed 3 97.6 % of 4900 numbers were covered, the worst true error was 6.2 times the
+claimed one. The command tells it of any other seed.
 """
 
 import math

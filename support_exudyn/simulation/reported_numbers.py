@@ -17,6 +17,9 @@ from user_forces.values.value import InputError, short
 Series = npt.NDArray[np.float64]
 NEWTON = 5.0  # tolerances of Newton's method that are left of a number at any step; 1.6 of an impact's speed
 ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
+# of gravity over the machine's size: the angular acceleration [rad/s^2] of which rounding is counted as a share
+# in a machine at rest, which has none of its own
+SLOW = 1e-3
 # of forces; the largest is of the magnitude, the extremes have their sign
 STATISTICS: Mapping[str, Callable[[Series], float]] = {
     "mean": np.mean,
@@ -93,7 +96,7 @@ def measures(
     found: dict[str, ReportedNumber] = {}
     left = left_by_newton(result.scenario)
     turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
-    fastest = max((largest(result[name]) for name in turning), default=0.0) if sized else 0.0
+    fastest = max([_slow(result.scenario), *(largest(result[name]) for name in turning)]) if sized else 0.0
     for name, channel in result.channels.items():
         if name.endswith(FORCE) and channel.is_determined:
             forces = result[name][chosen]
@@ -145,6 +148,12 @@ def measures(
                 )
         found.update(impact_numbers(result, pin, ONSETS))
     return found
+
+
+def _slow(scenario: Scenario) -> float:
+    """See `SLOW` [rad/s^2]."""
+    size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())
+    return SLOW * math.hypot(*scenario.gravity) / size if size > 0.0 else 0.0
 
 
 def impact_numbers(result: RecordedRun, pin: str, most: int) -> dict[str, ReportedNumber]:
