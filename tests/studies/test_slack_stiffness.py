@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 import pytest
 
+from studies.common.chapter import Chapter
 from studies.common.loose_supports import support
+from studies.common.options import Options
+from studies.slack_stiffness import cases as plan
+from studies.slack_stiffness import run as study
 from studies.slack_stiffness.cases import FRICTION, PushedSupport
 from studies.slack_stiffness.measures import Loop, kinematic_slack, participation, pin_shares
 from support_exudyn import simulate
@@ -65,3 +70,14 @@ def test_the_slack_of_a_support_is_that_of_virtual_work() -> None:
 def test_what_is_left_of_the_linkage() -> None:
     assert participation(0.01, 0.02) == pytest.approx(0.75)
     assert participation(0.01, 0.004) == 0.0
+
+
+@pytest.mark.slow
+def test_pushed_faster_the_study_makes_a_chapter(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        PushedSupport, "time", lambda case, quarters: plan.BEGIN + 0.1 * quarters * case.quarter
+    )
+    chapter = study.study(Options(out=tmp_path, workers=2))
+    assert isinstance(chapter, Chapter)
+    assert (tmp_path / "loops.png").is_file()
+    assert not any(text.strip() == "" for text in (chapter.answer, *chapter.findings))
