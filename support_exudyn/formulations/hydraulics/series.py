@@ -74,22 +74,22 @@ def leg_series(
     """
     if not legs.names:
         return {}
-    one = legs.records.copy()
-    found: Records = np.empty((time.size, len(legs.names)), one.dtype)
-    pumped: Records = np.empty((time.size, legs.pumps.size), legs.pumps.dtype)
-    stored, pumps, gaps = np.empty(time.size), legs.pumps.copy(), legs.gaps.copy()
-    slope = np.empty(states.shape[1])
+    one, pumps, gaps = legs.records.copy(), legs.pumps.copy(), legs.gaps.copy()
+    states, slope, stored = np.ascontiguousarray(states), np.empty(states.shape[1]), np.empty(time.size)
     inputs = {name: np.column_stack([told[leg][name] for leg in legs.names]) for name in TOLD}
     for name, values in inputs.items():
         one[name] = values[0]
-    evaluate_legs(one, pumps, gaps, np.ascontiguousarray(states[0]), slope)
+    evaluate_legs(one, pumps, gaps, states[0], slope)
+    # all at once: to fill a record field by field takes longer than to evaluate it
+    found: Records = np.empty((time.size, len(legs.names)), one.dtype)
+    pumped: Records = np.empty((time.size, legs.pumps.size), legs.pumps.dtype)
+    found[:], pumped[:] = one, pumps
+    for name, values in inputs.items():
+        found[name] = values
     opened = _opened(legs.names, one, time, events)
+    found["open"], found["rod_open"] = opened[..., 0], opened[..., 1]
     for i in range(time.size):
-        for name, values in inputs.items():
-            one[name] = values[i]
-        one["open"], one["rod_open"] = opened[i].T
-        stored[i] = evaluate_legs(one, pumps, gaps, np.ascontiguousarray(states[i]), slope)
-        found[i], pumped[i] = one, pumps
+        stored[i] = evaluate_legs(found[i], pumped[i], gaps, states[i], slope)
     series = {
         name: _of_leg(found[:, n], states, one[n], stored if n == 0 else np.zeros_like(stored))
         for n, name in enumerate(legs.names)
