@@ -40,7 +40,7 @@ def with_elements(random: np.random.Generator, leg: Leg, load: float) -> Leg:
         "yield_valve": (0.6, lambda: _valve(random, pressure)),
         "vapour_pressure": (0.6, lambda: BOILING),
         "trapped_air": (0.4, lambda: _air(random, leg, pressure)),
-        "line": (0.5, lambda: _line(random)),
+        "line": (0.5, lambda: hose(random)),
         "seal_friction": (0.3, lambda: _seals(random, load)),
         "end_stops": (0.3, lambda: _stops(random)),
         "setting_pressure": (0.2, lambda: pressure * float(random.uniform(0.9, 1.2))),
@@ -55,6 +55,15 @@ def with_elements(random: np.random.Generator, leg: Leg, load: float) -> Leg:
         found |= {"end_stops": _stops(random), "second_stage": _stage(random, leg)}
     made = replace(leg, **found)  # type: ignore[arg-type]
     return made if made.elements else replace(leg, vapour_pressure=BOILING)
+
+
+def hose(random: np.random.Generator) -> Line:
+    """Draw a hose of 3 to 30 l that takes 0.3 to 3 MPa at 200 l/min."""
+    return Line(
+        volume=between(random, 3e-3, 3e-2),
+        nominal_flow=200e-3 / 60.0,
+        nominal_drop=between(random, 3e5, 3e6),
+    )
 
 
 def pump(random: np.random.Generator, pressure: float) -> PumpStation:
@@ -89,14 +98,6 @@ def _air(random: np.random.Generator, leg: Leg, pressure: float) -> TrappedAir:
     exponent = float(random.uniform(1.0, 1.4))
     volume = between(random, 1e-3, 3e-2) * leg.bore_area * leg.oil_length
     return TrappedAir(volume=volume * (1.0 + pressure / ATMOSPHERE) ** (1.0 / exponent), exponent=exponent)
-
-
-def _line(random: np.random.Generator) -> Line:
-    return Line(
-        volume=between(random, 3e-3, 3e-2),
-        nominal_flow=200e-3 / 60.0,
-        nominal_drop=between(random, 3e5, 3e6),
-    )
 
 
 def _seals(random: np.random.Generator, load: float) -> SealFriction:

@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 import user_forces as forces
-from studies.benchmarking.fresh_legs import Leg, pump, with_elements
+from studies.benchmarking.fresh_legs import Leg, between, hose, pump, with_elements
 from studies.common import paper_machine
 from support_exudyn import (
     ClearancePin,
@@ -23,7 +23,6 @@ from support_exudyn import (
     Held,
     HydraulicCylinder,
     Inlet,
-    Line,
     Machine,
     OilColumn,
     OwnBody,
@@ -97,11 +96,6 @@ def fresh(seed: int, number: int, kind: str = "") -> Fresh:
 # --- what is drawn ---
 
 
-def _between(random: np.random.Generator, low: float, high: float) -> float:
-    """Draw a value, evenly by its logarithm."""
-    return float(low * (high / low) ** random.uniform())
-
-
 def _pick(random: np.random.Generator, items: Sequence[T]) -> T:
     """Draw one of some items."""
     return items[int(random.integers(len(items)))]
@@ -117,13 +111,13 @@ def _some_pin(random: np.random.Generator, rear: float = 0.0) -> str:
 def _contact(random: np.random.Generator, size: float, stiffness: float) -> forces.JournalContact:
     """Draw a pin's contact; size and stiffness of its bearing are multiples of those of the support."""
     bearing = forces.JournalBearing(
-        bore_radius=paper_machine.BORE_RADIUS * size, clearance=_between(random, 1e-4, 3e-3) * size
+        bore_radius=paper_machine.BORE_RADIUS * size, clearance=between(random, 1e-4, 3e-3) * size
     )
     law = _pick(random, LAWS)
     exponent = 1.5 if random.uniform() < 0.7 else float(random.uniform(1.0, 2.0))
     normal = law(
         stiffness=stiffness
-        * _between(random, 0.1, 5.0)
+        * between(random, 0.1, 5.0)
         * paper_machine.stiffness(1.5)
         * 1e-4 ** (1.5 - exponent),
         exponent=exponent,
@@ -137,7 +131,7 @@ def _damping_speed(random: np.random.Generator) -> forces.DampingSpeed:
     return (
         forces.IndentationVelocity()
         if random.uniform() < 0.6
-        else forces.ImpactVelocity(floor=_between(random, 1e-4, 1e-2))
+        else forces.ImpactVelocity(floor=between(random, 1e-4, 1e-2))
     )
 
 
@@ -147,11 +141,11 @@ def _friction(random: np.random.Generator) -> forces.FrictionLaw:
     coefficient = float(random.uniform(0.02, 0.4))
     if random.uniform() < 0.6:
         return _pick(random, RUBBING)(coefficient)
-    static = _between(random, 1e-4, 1e-3)
+    static = between(random, 1e-4, 1e-3)
     return forces.Ambrosio(
         sliding_coefficient=coefficient,
         static_speed=static,
-        dynamic_speed=static * _between(random, 3.0, 100.0),
+        dynamic_speed=static * between(random, 3.0, 100.0),
     )
 
 
@@ -197,7 +191,7 @@ def _scene(
     longest: float,
     **more: object,
 ) -> Scenario:
-    duration = _between(random, SHORTEST, longest)
+    duration = between(random, SHORTEST, longest)
     fields: dict[str, object] = {
         "machine": machine, "pins": pins, "duration": duration, "record_period": duration / RECORDS,
         "drive": _drive(random, duration), "solver": SolverSettings(most_steps=MOST_STEPS),
@@ -215,12 +209,8 @@ def _oil(
     return OilColumn(
         bore_area=bore_area(float(random.uniform(*bore)), columns),
         oil_length=float(random.uniform(*length)),
-        bulk_modulus=_between(random, 7e8, 2e9),
-        line=Line(
-            volume=_between(random, 3e-3, 3e-2),
-            nominal_flow=200e-3 / 60.0,
-            nominal_drop=_between(random, 3e5, 3e6),
-        ),
+        bulk_modulus=between(random, 7e8, 2e9),
+        line=hose(random),
     )
 
 
@@ -257,7 +247,7 @@ def _on_oil(random: np.random.Generator) -> Scenario:
 
 
 def _on_cylinders(random: np.random.Generator) -> Scenario:
-    duration = _between(random, SHORTEST, 0.12)
+    duration = between(random, SHORTEST, 0.12)
     begin, end = (duration * float(random.uniform(low, low + 0.5)) for low in (0.0, 0.5))
     ramp = 0.4 * max(end - begin, 0.02)
     extent = float(random.uniform(-1.0, 1.0))
@@ -266,7 +256,7 @@ def _on_cylinders(random: np.random.Generator) -> Scenario:
         RampedOpening(start=begin, end=end + 0.02, ramp=ramp, extent=extent),
     )
     cylinder = paper_machine.hydraulic_cylinders(_pick(random, inlets))["front_column"]
-    cylinder = replace(cylinder, bulk_modulus=_between(random, 7e8, 2e9))
+    cylinder = replace(cylinder, bulk_modulus=between(random, 7e8, 2e9))
     columns: dict[str, HydraulicCylinder] = {"front_column": cylinder, "rear_column": cylinder}
     pins = {paper_machine.CLEARANCE_PIN: _pin(random)} if random.uniform() < 0.8 else {}
     scene = _scene(random, reference_support(), pins, 0.3, actuators=columns, drive=Held())
@@ -300,7 +290,7 @@ def _roof(random: np.random.Generator, duration: float, weight: float) -> Roof:
     """A roof that comes down between both columns, and presses with up to three times the weight [N]."""
     linkage = reference_support().linkage()
     x = [actuator.head_point[0] for actuator in linkage.actuators.values()]
-    stiffness, gap = _between(random, 1e7, 1e9), 1e-3
+    stiffness, gap = between(random, 1e7, 1e9), 1e-3
     way = gap + weight * float(random.uniform(0.5, 3.0)) / stiffness
     return Roof(
         body="canopy",
@@ -320,10 +310,10 @@ def _under_block(random: np.random.Generator) -> Scenario:
     block = FallingBlock(
         body="canopy",
         point=(tip[0] + share * (hinge[0] - tip[0]), tip[1]),
-        mass=_between(random, 100.0, 3000.0),
+        mass=between(random, 100.0, 3000.0),
         height=float(random.uniform(0.0, 0.05)) + 1e-4,
         speed=float(random.uniform(0.5, 4.0)),
-        stiffness=_between(random, 1e8, 3e9),
+        stiffness=between(random, 1e8, 3e9),
         restitution=float(random.uniform(0.2, 0.9)),
     )
     pins = {_some_pin(random): _pin(random)} if random.uniform() < 0.6 else {}
@@ -343,7 +333,7 @@ def _tail_beam(random: np.random.Generator) -> Scenario:
 
 def _crank(random: np.random.Generator) -> Scenario:
     """A revolution or less, at 200 to 6000 revolutions a minute; half of these scenes are without weight."""
-    speed = 2.0 * math.pi / 60.0 * _between(random, 200.0, 6000.0)
+    speed = 2.0 * math.pi / 60.0 * between(random, 200.0, 6000.0)
     duration = float(random.uniform(0.1, 1.0)) * 2.0 * math.pi / speed
     scene = Scenario(
         machine=replace(ravn_slider_crank(), start_angle=float(random.uniform(0.0, 2.0 * math.pi))),
