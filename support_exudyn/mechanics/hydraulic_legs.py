@@ -55,11 +55,16 @@ class PreloadedLeg:
         if (stage := model.second_stage) is not None:
             pushes = model.bore_area * piston - rod_area * rod
             tube = (pushes + stage.rod_side_area * rod) / stage.bore_area
-        lowest = model.vapour_pressure
-        if lowest is not None and min(piston, rod, tube) < lowest:
+        lowest, chambers = model.vapour_pressure, {"piston side": piston}
+        if isinstance(model, HydraulicCylinder):
+            chambers["rod side"] = rod
+        if stage is not None:
+            chambers["tube"] = tube
+        least = min(chambers, key=lambda name: chambers[name])
+        if lowest is not None and chambers[least] < lowest:
             raise InputError(
-                f"actuators.{self.name}.vapour_pressure = {lowest} Pa: in the start posture the leg is pulled "
-                f"with {-self.load:.4g} N, for which a chamber would have {min(piston, rod, tube):.4g} Pa; "
+                f"actuators.{self.name}.vapour_pressure = {lowest} Pa: in the start posture the leg pushes "
+                f"with {self.load:.4g} N, for which its {least} would have {chambers[least]:.4g} Pa; "
                 "allowed: less than that, or a setting_pressure with a load that balances it"
             )
         self._check_air(piston)
@@ -72,6 +77,7 @@ class PreloadedLeg:
             return
         assert isinstance(model, OilColumn | HydraulicCylinder)  # `start_pressures` has looked
         room = model.bore_area * model.oil_length
+        room += model.hose_volume if isinstance(model, HydraulicCylinder) else 0.0
         if pressure <= -ATMOSPHERE or not air.at(pressure) < room:
             raise InputError(
                 f"actuators.{self.name}.trapped_air.volume = {air.volume} m^3: at the {pressure:.4g} Pa of the "

@@ -101,6 +101,10 @@ class CylinderAndRod(ActuatorModel):
         """Raise InputError if its drive cannot be drawn in so far [m]."""
         self.drive.check_extension(lowest, f"{name}.drive")
 
+    def check_elements(self, where: str) -> None:
+        """Raise InputError if what its drive consists of does not go together; where: its path."""
+        self.drive.check_elements(f"{where}.drive")
+
 
 class PartModel(Value, ABC):
     """How a part that a jack holds on its body is modelled."""

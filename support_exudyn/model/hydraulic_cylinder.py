@@ -236,13 +236,17 @@ class HydraulicCylinder(HydraulicLeg):
                 f"{self.tank_pressure} Pa"
             )
 
-    def check_elements(self, name: str) -> None:
-        """Raise InputError if elements do not go together; name: of the actuator."""
-        super().check_elements(name)
+    def check_elements(self, where: str) -> None:
+        """Raise InputError if elements do not go together; where: path of the cylinder."""
+        super().check_elements(where)
         if self.rod_relief is not None and self.rod_relief.poppet is not None:
-            raise InputError(
-                f"actuators.{name}.rod_relief.poppet: allowed: none; the rod side's valve opens at once"
-            )
+            raise InputError(f"{where}.rod_relief.poppet: allowed: none; the rod side's valve opens at once")
+        for name, valve in (("yield_valve", self.yield_valve), ("rod_relief", self.rod_relief)):
+            if valve is not None and valve.closes_at < self.tank_pressure:
+                raise InputError(
+                    f"{where}.tank_pressure = {self.tank_pressure} Pa: oil would come in through {name}, which "
+                    f"is open down to {valve.closes_at} Pa; allowed: at most that"
+                )
 
     @property
     def flow_factor(self) -> float:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 from support_exudyn.mechanics.channels import ALL_CHANNELS, check_patterns
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
-from support_exudyn.model.hydraulics.leg import HydraulicLeg
+from support_exudyn.model.hydraulics.lines import PumpStation
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.loads.load import ActingLoad, AnyLoad
@@ -114,8 +114,7 @@ def _check_actuators(scenario: ScenarioData, linkage: Linkage) -> None:
             )
         for one in scenario.space.parts_of_actuator(name) if scenario.dimensions == 3 else (name,):
             actuator.check_extension(scenario.drive_of(one).span(scenario.duration)[0], one)
-        if isinstance(actuator, HydraulicLeg):
-            actuator.check_elements(name)
+        actuator.check_elements(f"actuators.{name}")
         if isinstance(actuator, HydraulicCylinder):
             actuator.check_length(linkage.actuators[name].start_length, name)
             if name in scenario.drives:
@@ -123,15 +122,28 @@ def _check_actuators(scenario: ScenarioData, linkage: Linkage) -> None:
                     f"drives.{name}: is a HydraulicCylinder, which follows no drive; allowed: none, but "
                     f"actuators.{name}.inlet"
                 )
-    if scenario.pump is not None and not scenario.valved:
-        raise ValueError(
-            "pump = PumpStation: no actuator is a HydraulicCylinder, which alone draws from it; allowed: None"
-        )
+    for name, part in scenario.own_bodies.items():
+        part.jack.check_elements(f"parts.{name}.jack")
+    if scenario.pump is not None:
+        _check_pump(scenario, scenario.pump)
     if scenario.valved and not scenario.driven and scenario.drive != Held():
         raise ValueError(
             f"drive = {type(scenario.drive).__name__}: nothing follows it, for all actuators are "
             "HydraulicCylinder, which move by their inlet; allowed: Held()"
         )
+
+
+def _check_pump(scenario: ScenarioData, pump: PumpStation) -> None:
+    if not scenario.valved:
+        raise ValueError(
+            "pump = PumpStation: no actuator is a HydraulicCylinder, which alone draws from it; allowed: None"
+        )
+    for name, cylinder in scenario.valved.items():
+        if pump.pressure <= cylinder.tank_pressure:
+            raise ValueError(
+                f"pump.pressure = {pump.pressure} Pa: allowed: > actuators.{name}.tank_pressure = "
+                f"{cylinder.tank_pressure} Pa"
+            )
 
 
 def _check_drives(scenario: ScenarioData, linkage: Linkage) -> None:

@@ -4,10 +4,10 @@ from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import JUMP_ENERGY, WORK, Matrix, SceneArrays, Scratch, Vector
 from support_exudyn.formulations.compiled.masses import renew_mass
 from support_exudyn.formulations.compiled.motion import SINGULAR, divide, respond
-from support_exudyn.formulations.compiled.oil_events import begin_gaps
 from support_exudyn.formulations.compiled.recording import write_record
 from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.formulations.contact_events import STILL
+from support_exudyn.formulations.hydraulics.gaps import begin_sides
 
 
 @once
@@ -22,7 +22,7 @@ def begin_run(scene: SceneArrays, room: Scratch, y: Vector, rows: Matrix) -> boo
         renew_mass(scene, room, n, y)
     evaluate(scene, 0.0, y, room.slope, room.right)
     write_record(scene, 0.0, y, room.slope, rows[0])
-    begin_gaps(scene)
+    begin_sides(scene.legs, scene.gaps, scene.sides)
     for n in range(scene.courses.size):
         scene.courses[n].still = 0
     return least > SINGULAR

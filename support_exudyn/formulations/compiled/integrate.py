@@ -55,9 +55,9 @@ from support_exudyn.formulations.compiled.oil_events import (
     AT_ONCE,
     GAP,
     NONE,
-    TOO_FAR,
     first_gap,
     forget_beyond,
+    hidden_gap,
     keep_gaps,
     land_on_gap,
     pass_gap,
@@ -231,11 +231,13 @@ def integrate(
             overlook_cuts(now)
         n, what, low, high = first_event(scene, h, now, then, room.path, room.probe, room.slope)
         oil, leg, gap = first_gap(scene, room)
-        if decay > 0.0 and (what != NOTHING or oil != NONE):  # events are met by the explicit method
+        hidden = hidden_gap(scene, room, t, h) if scene.legs.size > 0 else 1.0
+        # events are met by the explicit method
+        if decay > 0.0 and (what != NOTHING or oil != NONE or hidden < 1.0):
             h = leave_stabilised(going, h)
             continue
-        if what == TOO_LONG or (oil == TOO_FAR and h > SHORT):
-            h *= SHORTEN
+        if what == TOO_LONG or (hidden < 1.0 and h > SHORT):
+            h *= SHORTEN if what == TOO_LONG else hidden
             continue
         if oil == AT_ONCE:
             if not pass_gap(scene, room, leg, gap, t, report):

@@ -4,6 +4,8 @@ Each is a gap that passes zero, see `hydraulics.records`. The force is continuou
 relief valve with hysteresis changes what it does. A step that passes a gap is made again so that it ends there.
 """
 
+import math
+
 from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import (
     EVALUATIONS,
@@ -14,28 +16,15 @@ from support_exudyn.formulations.compiled.arrays import (
     Scratch,
     Vector,
 )
-from support_exudyn.formulations.compiled.step import advance
+from support_exudyn.formulations.compiled.step import advance, close_joints, evaluate, within
+from support_exudyn.formulations.hydraulics.gaps import met
 from support_exudyn.formulations.hydraulics.leg import OPEN
-from support_exudyn.formulations.hydraulics.records import LOW, RELIEF, YIELD
+from support_exudyn.formulations.hydraulics.records import RELIEF, YIELD
 
-MET_PRESSURE, MET_LENGTH = 0.01, 1e-13  # [Pa], [m] from zero at which a gap is met
 LOOKS = 40  # for a gap, by false position
-NONE, GAP, AT_ONCE, TOO_FAR = range(4)  # what is found
-
-
-@compiled
-def met(k: int) -> float:
-    """How near to zero a gap is met."""
-    return MET_LENGTH if k >= LOW and k <= LOW + 3 else MET_PRESSURE
-
-
-@once
-def begin_gaps(scene: SceneArrays) -> None:
-    """At the start: on which side of zero each gap is, 0 for those that a leg does not have."""
-    for n in range(scene.gaps.shape[0]):
-        for k in range(scene.gaps.shape[1]):
-            gap = scene.gaps[n, k]
-            scene.sides[n, k] = 0.0 if gap == 0.0 else (1.0 if gap > 0.0 else -1.0)
+PARTS, NARROWER = 8, 16  # of a step that are looked at for a highest place; how often it is closed in then
+GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+NONE, GAP, AT_ONCE = range(3)  # what is found
 
 
 @compiled
@@ -51,15 +40,12 @@ def forget_beyond(scene: SceneArrays) -> None:
     """Begin a step: no gap has been passed."""
     for n in range(scene.gaps.shape[0]):
         for k in range(scene.gaps.shape[1]):
-            scene.beyond[n, k] = 0.0
+            scene.beyond[n, k] = -math.inf
 
 
 @once
 def first_gap(scene: SceneArrays, room: Scratch) -> tuple[int, int, int]:
-    """What happens first in legs in a step that has been tried: what, leg, gap.
-
-    A gap with hysteresis that has been passed in between, but not at the end, asks for a shorter step.
-    """
+    """What happens first in legs in a step that has been tried: what, leg, gap."""
     what, leg, gap, first = NONE, -1, -1, 2.0
     for n in range(scene.gaps.shape[0]):
         for k in range(scene.gaps.shape[1]):
@@ -68,11 +54,6 @@ def first_gap(scene: SceneArrays, room: Scratch) -> tuple[int, int, int]:
             if side == 0.0:
                 continue
             if end >= -near:
-                jumps = (k == YIELD and scene.legs[n].jumps != 0) or (
-                    k == RELIEF and scene.legs[n].rod_jumps != 0
-                )
-                if jumps and scene.beyond[n, k] > near:
-                    return TOO_FAR, n, k
                 continue
             jumped = min(room.gaps[n, k], scene.gaps[n, k]) == OPEN  # where an inlet opens or closes
             if begin <= near or jumped:
@@ -81,6 +62,54 @@ def first_gap(scene: SceneArrays, room: Scratch) -> tuple[int, int, int]:
             if at < first:
                 what, leg, gap, first = GAP, n, k, at
     return what, leg, gap
+
+
+@compiled
+def beyond_at(scene: SceneArrays, room: Scratch, n: int, k: int, t: float, h: float, x: float) -> float:
+    """How far a gap of leg n is on the other side at a fraction x of a step of h [s] from t."""
+    within(room.path, x, 0, room.probe.size, room.probe)
+    close_joints(scene, t + x * h, room.probe, room.right)
+    evaluate(scene, t + x * h, room.probe, room.slope, room.right)
+    return float(-scene.sides[n, k] * scene.gaps[n, k])
+
+
+@compiled
+def farthest(scene: SceneArrays, room: Scratch, n: int, k: int, t: float, h: float) -> float:
+    """The fraction of a step at which a gap is farthest on the other side; 1 if it does not get there."""
+    best, at = -math.inf, 1.0
+    for part in range(1, PARTS):
+        value = beyond_at(scene, room, n, k, t, h, part / PARTS)
+        if value > best:
+            best, at = value, part / PARTS
+    low, high = at - 1.0 / PARTS, at + 1.0 / PARTS
+    for _ in range(NARROWER):
+        one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+        if beyond_at(scene, room, n, k, t, h, one) > beyond_at(scene, room, n, k, t, h, two):
+            high = two
+        else:
+            low = one
+    at = 0.5 * (low + high)
+    return at if beyond_at(scene, room, n, k, t, h, at) > met(k) else 1.0
+
+
+@once
+def hidden_gap(scene: SceneArrays, room: Scratch, t: float, h: float) -> float:
+    """The fraction of a step at which a valve would have jumped that has come back by its end; 1 if none has.
+
+    A valve with hysteresis that opens, or closes, stays so: a pressure that is beyond for a moment matters. It
+    is looked for where it could be, by how far and how much the gap was at the stages of the step.
+    """
+    found = 1.0
+    for n in range(scene.gaps.shape[0]):
+        for k in (YIELD, RELIEF):
+            jumps = scene.legs[n].jumps if k == YIELD else scene.legs[n].rod_jumps
+            end, begin = scene.gaps[n, k] * scene.sides[n, k], room.gaps[n, k] * scene.sides[n, k]
+            most = scene.beyond[n, k]
+            if jumps == 0 or not end >= -met(k) or not max(begin, end) + 2.0 * most > 0.0:
+                continue
+            found = min(found, farthest(scene, room, n, k, t, h))
+            evaluate(scene, t + h, room.end, room.slope, room.right)
+    return found
 
 
 @once

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from support_exudyn.formulations.hydraulics.gaps import ABSENT, MET_PRESSURE
 from support_exudyn.formulations.hydraulics.leg import SEAT
 from support_exudyn.formulations.hydraulics.records import BOOKED, GAPS, LEG, LINEAR, LOG, PUMP, Records
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
@@ -72,7 +73,7 @@ def fill_legs(legs: Sequence[PreloadedLeg], pump: PumpStation | None, first: int
         if record["poppet"] >= 0:  # it rests on its seat, or on its spring
             above = leg.start_pressures.piston - record["opens"]
             start[record["poppet"] - first] = above if above > 0.0 else above / SEAT
-    gaps = np.zeros((len(legs), GAPS))
+    gaps = np.full((len(legs), GAPS), ABSENT)
     return Legs(tuple(leg.name for leg in legs), records, pumps, gaps, start.size, start)
 
 
@@ -181,14 +182,14 @@ def _relief_valves(record: Any, model: HydraulicLeg, piston: float, rod: float, 
             valve.slope,
         )
         record["jumps"] = valve.closes_at < valve.opening_pressure
-        record["open"] = float(piston > valve.opening_pressure)
+        record["open"] = float(piston > valve.opening_pressure + MET_PRESSURE)
         if (poppet := valve.poppet) is not None:
             record["poppet"] = states.take(2)
             record["poppet_rate"], record["poppet_decay"] = poppet.frequency, poppet.decay
     if isinstance(model, HydraulicCylinder) and (valve := model.rod_relief) is not None:
         record["rod_opens"], record["rod_closes"] = valve.opening_pressure, valve.closes_at
         record["rod_slope"], record["rod_jumps"] = valve.slope, valve.closes_at < valve.opening_pressure
-        record["rod_open"] = float(rod > valve.opening_pressure)
+        record["rod_open"] = float(rod > valve.opening_pressure + MET_PRESSURE)
 
 
 def _stops(record: Any, stops: EndStops | None, stage: str) -> None:

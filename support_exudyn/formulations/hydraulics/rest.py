@@ -1,6 +1,7 @@
 """Legs at rest, for a static equilibrium: oil stays inside, and tubes, lines and poppets come to rest."""
 
 from support_exudyn.formulations.compilation import compiled, entry
+from support_exudyn.formulations.hydraulics.gaps import MET_PRESSURE
 from support_exudyn.formulations.hydraulics.leg import SEAT, press_all
 from support_exudyn.formulations.hydraulics.records import Matrix, Records
 from support_exudyn.mechanics.trajectory import Series
@@ -64,8 +65,8 @@ def rest_legs(legs: Records, pumps: Records, gaps: Matrix, y: Series, slope: Ser
             rest_tube(legs, n, pumps, gaps, y, slope)
         else:
             rest_line(legs, n, pumps, gaps, y, slope)
-        leg.open = 1.0 if leg.pressure > leg.opens else 0.0
-        leg.rod_open = 1.0 if leg.rod_pressure > leg.rod_opens else 0.0
+        leg.open = 1.0 if leg.pressure > leg.opens + MET_PRESSURE else 0.0
+        leg.rod_open = 1.0 if leg.rod_pressure > leg.rod_opens + MET_PRESSURE else 0.0
         if leg.poppet >= 0:
             above = leg.pressure - leg.opens
             y[leg.poppet], y[leg.poppet + 1] = above if above > 0.0 else above / SEAT, 0.0

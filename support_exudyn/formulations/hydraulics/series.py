@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from support_exudyn.formulations.hydraulics.fill import Legs
+from support_exudyn.formulations.hydraulics.gaps import MET_PRESSURE
 from support_exudyn.formulations.hydraulics.leg import evaluate_legs
 from support_exudyn.formulations.hydraulics.records import (
     GAP_NAMES,
@@ -118,7 +119,7 @@ def _opened(
     valves = ("pressure", "opens", YIELD), ("rod_pressure", "rod_opens", RELIEF)
     for n, name in enumerate(names):
         for k, (pressure, opens, gap) in enumerate(valves):
-            found[:, n, k] = float(start[n][pressure] > start[n][opens])
+            found[:, n, k] = float(start[n][pressure] > start[n][opens] + MET_PRESSURE)
             for event in events.get(name, ()):
                 if event.what == GAP_NAMES[gap]:
                     found[time >= event.time, n, k] = float(event.begins)

@@ -22,6 +22,7 @@ from support_exudyn.mechanics.trajectory import LoadSeries, Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel, LoadedPoint
 from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
+from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
 from support_exudyn.model.to_space import at
 
 
@@ -41,7 +42,7 @@ def turning_axis(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any]:
 @singledispatch
 def load_series(load: ActingLoad, name: str, motion: SpatialMotion, time: Series) -> LoadSeries:
     """The load of this name at the records [s]; force and moment (n, 3) each, in the ground's axes."""
-    raise TypeError(f"loads.{name} = {type(load).__name__}: is neither a Load nor a MomentLoad")
+    raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
 
 
 @load_series.register
@@ -68,6 +69,19 @@ def _of_moment(load: MomentLoad, name: str, motion: SpatialMotion, time: Series)
     return LoadSeries(np.zeros_like(moment), moment, *_observed(load, seen))
 
 
+@load_series.register
+def _of_stretch(load: StretchLoad, name: str, motion: SpatialMotion, time: Series) -> LoadSeries:
+    del name
+    ends = [motion.point(load.body, at(point, load.lateral)) for point in load.points]
+    ways = [end.position[:, 1] - point[1] for end, point in zip(ends, load.points, strict=True)]
+    rates = [end.velocity[:, 1] for end in ends]
+    seen = [LoadedStretch(*one) for one in np.column_stack([time, *ways, *rates]).tolist()]
+    forces = np.array([load.forces(one) for one in seen]).reshape(-1, 2)
+    up = np.array([0.0, 1.0, 0.0])
+    moment = np.cross(ends[1].position - ends[0].position, forces[:, 1:] * up)
+    return LoadSeries(forces.sum(axis=1)[:, None] * up, moment, *_observed(load, seen))
+
+
 def _observed(load: ActingLoad, seen: list[Any]) -> tuple[Series, dict[str, Series]]:
     """Stored energy [J], and the values of its channels by name."""
     observed = [load.observed(one) for one in seen]
@@ -86,6 +100,10 @@ def add_load(
         origin = motion.point(against, at(load.origin, load.origin_lateral)).position
         push(forces, against, -series.force, origin)
         return
+    if isinstance(load, StretchLoad):  # its moment is about the first point
+        push(
+            forces, load.body, series.force, motion.point(load.body, at(load.points[0], load.lateral)).position
+        )
     for body, sign in ((load.body, 1.0), (against, -1.0)):
         if body != GROUND:
             forces[:, motion.index(body), 3:] += sign * series.moment

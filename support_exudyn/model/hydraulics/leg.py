@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC
+from abc import ABC, abstractmethod
 
 from support_exudyn.model.actuator_model import ActuatorModel
 from support_exudyn.model.hydraulics.lines import Line
@@ -66,16 +66,20 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
         """Names of the fields that make it more than its oil."""
         return tuple(name for name in ELEMENTS if getattr(self, name, None) is not None)
 
-    def check_elements(self, name: str) -> None:
-        """Raise InputError if they do not go together; name: of the actuator."""
+    @abstractmethod
+    def stiffness(self, extension: float) -> float:
+        """Stiffness of the closed oil [N/m] at an extension since the start [m]."""
+
+    def check_elements(self, where: str) -> None:
+        """Raise InputError if they do not go together; where: path of the leg."""
         lowest = self.vapour_pressure
         if lowest is not None and lowest <= -ATMOSPHERE:
             raise InputError(
-                f"actuators.{name}.vapour_pressure = {lowest} Pa: allowed: > -{ATMOSPHERE} Pa, which is no "
+                f"{where}.vapour_pressure = {lowest} Pa: allowed: > -{ATMOSPHERE} Pa, which is no "
                 "pressure at all"
             )
         if self.second_stage is not None and self.end_stops is None:
             raise InputError(
-                f"actuators.{name}.end_stops = None: allowed with a second stage: stops of the outer one, "
+                f"{where}.end_stops = None: allowed with a second stage: stops of the outer one, "
                 "whose lowest place releases the foot valve"
             )

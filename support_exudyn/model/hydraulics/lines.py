@@ -1,6 +1,10 @@
 """Between pump and leg: the line to it, and the pump that all legs share."""
 
+from __future__ import annotations
+
 from typing import ClassVar
+
+from pydantic import model_validator
 
 from support_exudyn.model.hydraulics.sharing import Shared
 from user_forces.values.units import CubicMetres, CubicMetresPerSecond, Pascals
@@ -57,3 +61,11 @@ class PumpStation(Value):
     pressure_range: Pascals[Positive] = 1e6
     line_volume: CubicMetres[Positive] = 0.02
     bulk_modulus: Pascals[Positive] = 1e9
+
+    @model_validator(mode="after")
+    def _has_a_range_below_its_pressure(self) -> PumpStation:
+        if self.pressure_range >= self.pressure:
+            raise ValueError(
+                f"pressure_range = {self.pressure_range} Pa: allowed: < pressure = {self.pressure} Pa"
+            )
+        return self

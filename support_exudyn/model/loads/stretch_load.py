@@ -9,7 +9,7 @@ from typing_extensions import Self
 
 from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.units import Metres
-from user_forces.values.value import Vector2, value
+from user_forces.values.value import Real, Vector2, value
 
 COINCIDE = 1e-9  # [m] up to which two points are one
 
@@ -40,9 +40,11 @@ class StretchLoad(ActingLoad, ABC):
     Arguments:
         body: name of the body.
         points: both ends of the stretch, start posture [m].
+        lateral: how far to the right of the machine's plane it is in space [m]; without effect in the plane.
     """
 
     points: Metres[tuple[Vector2, Vector2]]
+    lateral: Metres[Real] = 0.0
 
     @model_validator(mode="after")
     def _has_a_length(self) -> Self:

@@ -214,7 +214,8 @@ class FaceConnector(PinConnector):
         def force(
             mbs: Any, t: float, item: int, displacement: list[float], rotation: list[float], *others: Any
         ) -> list[float]:
-            half, scale = 0.5 * rotation[2], displacement_scale(rotation[2])
+            half = 0.5 * rotation[2]
+            scale = displacement_scale(rotation[2]) if self.at is Attachment.MIDDLE else 1.0
             apart = Relative(scale * displacement[0], scale * displacement[1], 0.0, 0.0)
             along, (_, y, *_) = in_slot(self.at, apart, half)
             fx, fy, moment = slot_directions(self.at, along, 1.0, 0.0, half)[0]

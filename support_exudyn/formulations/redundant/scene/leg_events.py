@@ -12,6 +12,7 @@ import math
 import numpy as np
 
 from support_exudyn.formulations.contact_events import BEYOND, SHARE, DepthPath, first_rise
+from support_exudyn.formulations.hydraulics.gaps import begin_sides
 from support_exudyn.formulations.hydraulics.leg import OPEN
 from support_exudyn.formulations.hydraulics.records import GAP_NAMES, HIGH_2, LOW
 from support_exudyn.formulations.redundant.scene.leg_circuit import LegCircuit
@@ -39,8 +40,8 @@ class LegEvents:
         self.landing, self.wants_cut = math.inf, False
 
     def start(self) -> None:
-        """The run begins: on which side of zero each gap is, 0 for those that a leg does not have."""
-        self._sides = np.sign(self.circuit.gaps)
+        """The run begins: on which side of zero each gap is."""
+        begin_sides(self.circuit.records, self.circuit.gaps, self._sides)
         self.keep()
 
     def keep(self) -> None:
