@@ -97,6 +97,22 @@ def test_left_mirrors_right() -> None:
         np.testing.assert_allclose(left[what], right[what], atol=1e-6 * size)
 
 
+@pytest.mark.parametrize("slope", [0.0, 0.6, 1.3])
+def test_a_settled_start_leaves_a_sloping_block_where_it_is(slope: float) -> None:
+    height, slow = 0.1, 1.3  # of the fall [m], of the time it takes
+    fall = math.sqrt(2.0 * height / 9.81)
+    rock = block(body="canopy", point=TIP, mass=700.0, height=height, speed=0.0, slope=slope, stiffness=1e9)
+    result = simulate(
+        support(
+            drive=Held(), duration=slow * fall, step=5e-4, loads={"rock": rock}, dimensions=3, start="settled"
+        )
+    )
+    assert result["rock.y"][0] == pytest.approx(rock.centre[1], abs=1e-12)
+    blow = result.onsets["rock"][0]
+    assert blow.time == pytest.approx(fall, rel=1e-9)
+    assert blow.speed == pytest.approx(9.81 * fall * math.cos(slope), rel=1e-6)
+
+
 def test_every_bounce_delivers_its_restitution() -> None:
     # a heavy roller on an axis along the machine, struck beside it: it hardly gives way
     axis = Bearing(

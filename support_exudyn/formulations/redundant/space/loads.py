@@ -84,15 +84,22 @@ def _add_moment(load: MomentLoad, name: str, builder: EngineBuilder) -> LoadItem
 @add_load.register
 def _add_stretch(load: StretchLoad, name: str, builder: EngineBuilder) -> LoadItem:
     mbs, places = builder.mbs, [at(point, load.lateral) for point in load.points]
-    origin = builder.marker(load.against(name), places[0])
-    first, second = (builder.marker(load.body, place) for place in places)
+    origin, first = (_with_axes(builder, body, places[0]) for body in (load.against(name), load.body))
     function = _spread(load)
     connector = mbs.AddObject(
         ObjectConnectorRigidBodySpringDamper(
             markerNumbers=[origin, first], springForceTorqueUserFunction=function
         )
     )
-    return StretchItem(mbs, load, connector, function, (first, second))
+    return StretchItem(mbs, load, connector, function, (first, builder.marker(load.body, places[1])))
+
+
+def _with_axes(builder: EngineBuilder, body: str, point: Vector3) -> Any:
+    """A marker that has axes, too, at a point of the start posture."""
+    plain = builder.new_marker(body, point)
+    return builder.mbs.AddMarker(
+        MarkerBodyRigid(bodyNumber=plain.bodyNumber, localPosition=plain.localPosition)
+    )
 
 
 def _spread(load: StretchLoad) -> Callable[..., list[float]]:
