@@ -54,6 +54,13 @@ class Width(Value):
         )
 
 
+FILE_KEYS = {  # by field of `Width`: the table in a machine's file
+    "spreads": "width_mm.bodies",
+    "pairs": "width_mm.pairs",
+    "actuators": "width_mm.columns",
+    "lengths": "width_mm.pins",
+    "points": "width_mm.points",
+}
 LEFT, RIGHT = "left", "right"
 SIDES = {LEFT: -1.0, RIGHT: 1.0}
 Copy = tuple[str, float, float]  # suffix of its name, z [m], share
@@ -117,7 +124,8 @@ def _check(linkage: Linkage, width: Width, pairs: Mapping[str, float]) -> None:
     for name in linkage.bodies:
         if width.spreads.get(name, 0.0) <= 0.0:
             raise InputError(
-                f"width.spreads.{name}: missing; allowed: > 0, without which nothing resists its roll"
+                f"width.spreads.{name}: missing; in a machine's file: {FILE_KEYS['spreads']}.{name}; allowed: "
+                "> 0, without which nothing resists its roll"
             )
     for name, actuator in linkage.actuators.items():
         for body in (actuator.foot, actuator.head):

@@ -10,22 +10,20 @@ import numpy as np
 from support_exudyn.machines.check.shield import FINE
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
+from support_exudyn.machines.strength.beside import beside_the_middle
 from support_exudyn.machines.strength.buckling import buckling_loads
-from support_exudyn.machines.strength.off_middle import SpatialStatics
 from support_exudyn.machines.strength.pins import pin_data, stresses, without_data
-from support_exudyn.machines.strength.results import Buckling, OffMiddle, PinLoad, StandReport, SupportForce
+from support_exudyn.machines.strength.results import Buckling, PinLoad, StandReport, SupportForce
 from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, RoofStatics
 from support_exudyn.machines.strength.strength_data import CylinderStrength, StrengthData
 from support_exudyn.machines.strength.tipping import tipping_of
 from support_exudyn.machines.strength.used_postures import UsedPosture, legs_of, used_postures
-from support_exudyn.model.linkage import Linkage
 from user_forces.values.value import InputError
 
 __all__ = ["FACTORS", "FRICTION", "StandReport", "stand"]
 
 FACTORS = (1.0, 1.2)  # on the yield forces; the second of EN 1804-1, 4.3.2
 FRICTION = 0.2  # of the roof on the canopy, assumed
-ASIDE = 0.25  # of the canopy's width: how far beside the middle a roof force is looked at, assumed
 EVERY = 5  # of the FINE postures: those in which forces are told
 PLACES = 81  # on the canopy, for the curve of the force over it
 
@@ -65,7 +63,13 @@ def stand(data: MachineData) -> StandReport:
         unknown_pins=without_data(data, linkage.pins),
         buckling=buckling,
         unbuckled=unbuckled,
-        off_middle=_off_middle(data, strength, [told[0], told[len(told) // 2], told[-1]], legs),
+        off_middle=beside_the_middle(
+            data,
+            strength,
+            [told[0], told[len(told) // 2], told[-1]],
+            pushes(strength.cylinders, legs),
+            limits(strength.cylinders, legs),
+        ),
         tipping=None if strength.base is None else [tipping_of(one.linkage, strength.base) for one in told],
         wander=max(tips) - min(tips) if four_bar else None,
         assumed=list(_assumed(data, strength)),
@@ -234,52 +238,6 @@ def _buckling(
             raise InputError(f"strength.cylinders.{name}.{error}") from None
         found[name] = Buckling(length, one.push / one.count, euler, johnson)
     return found, untold
-
-
-def _off_middle(
-    data: MachineData, strength: StrengthData, told: Sequence[UsedPosture], legs: Sequence[str]
-) -> list[OffMiddle] | str:
-    width = data.machine.widths()
-    spread = width.spreads.get(strength.canopy) if width else None
-    if not spread:
-        return "no lateral dimensions of the canopy are known"
-    aside = ASIDE * math.sqrt(12.0) * spread
-    return [
-        one
-        for posture in told
-        if (one := _one_off_middle(data, strength, posture.linkage, legs, aside)) is not None
-    ] or "no roof force balances the legs"
-
-
-def _one_off_middle(
-    data: MachineData, strength: StrengthData, linkage: Linkage, legs: Sequence[str], aside: float
-) -> OffMiddle | None:
-    flat = RoofStatics(linkage, strength.canopy)
-    roof = flat.balancing(pushes(strength.cylinders, legs))
-    if roof is None or roof.force <= 0.0:
-        return None
-    space = SpatialStatics(data.machine.in_space(linkage), strength.canopy, flat.contact.height)
-    pushing = flat.pushes(roof)
-    twisted, centred = (space.twist(roof, z, pushing, "moments") for z in (aside, 0.0))
-    bent = space.twist(roof, aside, pushing, "forces")
-
-    def largest(vectors: Mapping[str, np.ndarray]) -> dict[str, float]:
-        return {
-            pin: max(float(np.linalg.norm(vectors[name])) for name in space.linkage.parts_of_pin(pin))
-            for pin in linkage.pins
-        }
-
-    return OffMiddle(
-        height=flat.contact.height,
-        aside=aside,
-        nominal=roof.force,
-        moment=roof.force * aside,
-        pins=largest(twisted.bearings),
-        centred=largest(centred.bearings),
-        tilts=largest(bent.moments),
-        links=[name for name, pin in linkage.pins.items() if strength.canopy not in (pin.first, pin.second)],
-        legs_alone=space.legs_alone(roof.x, aside, limits(strength.cylinders, legs)),
-    )
 
 
 def _assumed(data: MachineData, strength: StrengthData) -> Iterator[str]:

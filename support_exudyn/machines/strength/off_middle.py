@@ -122,7 +122,7 @@ class SpatialStatics:
         cost = np.zeros(balance.shape[1])
         cost[-1] = -1.0
         found = linprog(cost, A_eq=balance, b_eq=-self.weight / size, bounds=[*bounds, (0.0, None)])
-        return 0.0 if found.x is None else float(found.x[-1]) * size
+        return 0.0 if found.x is None else max(float(found.x[-1]), 0.0) * size
 
     def _on_canopy(self, bearing: str) -> bool:
         one = self.linkage.bearings[bearing]
