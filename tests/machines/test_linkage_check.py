@@ -358,3 +358,20 @@ def test_the_shipped_crank_rocker_is_told_as_it_is() -> None:
     assert data["turns_right_round"] is True
     assert [one["what"] for one in data["points"]] == ["turns back", "turns back"]
     assert math.degrees(data["transmission_angles"][0]["least_rad"]) == pytest.approx(38.62, abs=0.01)
+
+
+@pytest.mark.parametrize("length", [0.7, 1.1, 1.6, 1.9, 2.3])
+def test_a_mass_on_an_upright_guide_over_a_jack_has_no_dead_centre(length: float) -> None:
+    linkage = Linkage(
+        bodies={"head": Body(mass=1e4, inertia=100.0, centre=(0.0, length))},
+        slides={"upright": Slide(body="head", point=(0.0, length), direction=0.5 * math.pi)},
+        actuators={
+            "jack": LinearActuator(foot=GROUND, head="head", foot_point=(0.0, 0.0), head_point=(0.0, length))
+        },
+    )
+    report = checked(linkage)
+    assert report.warnings == []
+    (way,) = report.ways
+    assert way.ends == way.goal == pytest.approx((-0.3 * length, 0.3 * length))
+    assert not way.locks
+    check_figure(report)  # it has no pins, whose forces would be drawn

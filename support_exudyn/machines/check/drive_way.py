@@ -187,7 +187,7 @@ def _march(
     """Travel and coordinates, step by step as far as the linkage closes on the same way."""
     moved, reached, along = start, 0.0, None
     for number in range(1, steps + 1 if goal else 0):
-        wanted, before = goal * number / steps, moved
+        wanted, before = goal * (number / steps), moved  # the last is the goal to the bit
         moved, share = moved_on(conditions, before, {drive: reached}, {drive: wanted}, along)
         along = moved - before
         if share < 1.0:

@@ -98,8 +98,9 @@ def _curves(
     columns = next((n for n in (3, 2) if n * max(map(len, most), default=0) < WORDS), 1)
     lines = -(-len(most) // columns)
     axes.set_ylim(min(0.0, low) - room, max(0.0, high) + room + (0.1 + 0.12 * lines) * (high - min(0.0, low)))
-    legend = axes.legend(loc="upper left", ncols=columns, fontsize=7, columnspacing=1.0, handlelength=2.2)
-    legend.set_in_layout(False)
+    if most:
+        legend = axes.legend(loc="upper left", ncols=columns, fontsize=7, columnspacing=1.0, handlelength=2.2)
+        legend.set_in_layout(False)
     axes.set(title=title, ylabel=f"{what} [{unit}]")
     _abscissa(axes, way)
 
