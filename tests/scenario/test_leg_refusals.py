@@ -1,0 +1,135 @@
+"""Hydraulic legs whose elements contradict each other are refused, wherever in a scenario a leg stands."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from support_exudyn import (
+    CylinderAndRod,
+    EndStops,
+    HydraulicCylinder,
+    OilColumn,
+    OwnBody,
+    PumpStation,
+    Scenario,
+    SecondStage,
+    TrappedAir,
+    YieldValve,
+    simulate,
+)
+from support_exudyn.model.actuator_model import ActuatorModel
+from support_exudyn.model.hydraulics.leg import HydraulicLeg
+from tests.cases.run_cases import support
+from tests.formulations.hydraulics.leg_cases import Uprights
+from user_forces import InputError
+
+COLUMN = OilColumn(bore_area=0.1, oil_length=0.73, bulk_modulus=1.4e9)
+CYLINDER = HydraulicCylinder(
+    bore_area=0.11,
+    rod_side_area=0.027,
+    oil_length=0.6,
+    rod_side_length=0.8,
+    bulk_modulus=1.7e9,
+    system_pressure=28e6,
+    nominal_flow=5e-3,
+)
+STAGE = SecondStage(
+    bore_area=0.06,
+    oil_length=0.4,
+    stops=EndStops(lowest=-0.003, highest=0.5),
+    tube_mass=600.0,
+    nominal_flow=8e-3,
+)
+MASS = 2e4  # [kg] on a leg
+
+
+def two_bodies(drive: OilColumn) -> CylinderAndRod:
+    return CylinderAndRod(
+        cylinder_mass=100.0,
+        cylinder_centre=0.4,
+        cylinder_inertia=10.0,
+        rod_mass=80.0,
+        rod_centre=0.4,
+        rod_inertia=9.0,
+        drive=drive,
+    )
+
+
+def standing(leg: ActuatorModel, **changes: Any) -> Scenario:
+    return Scenario(machine=Uprights(masses=(MASS,)), actuators={"leg0": leg}, duration=0.02, **changes)
+
+
+def relief(opening: float, closing: float | None = None) -> YieldValve:
+    return YieldValve(
+        opening_pressure=opening, rated_flow=0.004, rated_overpressure=1e6, closing_pressure=closing
+    )
+
+
+@pytest.mark.parametrize(
+    ("leg", "where"),
+    [(lambda one: one, "actuators.leg0"), (two_bodies, "actuators.leg0.drive")],
+    ids=["column", "drive of two bodies"],
+)
+def test_columns_are_looked_at_wherever_they_stand(leg: Any, where: str) -> None:
+    with pytest.raises(InputError, match=rf"{where}\.vapour_pressure = -200000.0 Pa: allowed: > -101325"):
+        standing(leg(replace(COLUMN, vapour_pressure=-2e5)))
+    with pytest.raises(InputError, match=rf"{where}\.end_stops = None: allowed with a second stage"):
+        standing(leg(replace(COLUMN, second_stage=STAGE)))
+    standing(leg(replace(COLUMN, vapour_pressure=-99e3)))
+
+
+def test_a_jack_on_oil_is_looked_at() -> None:
+    (part,) = support().machine.jacks
+    with pytest.raises(InputError, match=rf"parts\.{part}\.jack\.vapour_pressure = -200000.0 Pa"):
+        support(parts={part: OwnBody(jack=replace(COLUMN, vapour_pressure=-2e5))})
+
+
+@pytest.mark.parametrize(
+    ("valve", "name", "down_to"),
+    [
+        ({"yield_valve": relief(3e6)}, "yield_valve", 3e6),
+        ({"rod_relief": relief(9e6, 1e6)}, "rod_relief", 1e6),
+    ],
+)
+def test_no_valve_lets_oil_in_from_the_tank(valve: dict[str, YieldValve], name: str, down_to: float) -> None:
+    with pytest.raises(InputError, match=rf"tank_pressure = 5000000.0 Pa: .*{name}.* {down_to} Pa; allowed"):
+        standing(replace(CYLINDER, tank_pressure=5e6, **valve))
+    standing(replace(CYLINDER, tank_pressure=down_to, **valve))
+
+
+def test_a_pump_has_more_pressure_than_its_range_and_the_tank() -> None:
+    with pytest.raises(InputError, match=r"pressure_range = 5000000.0 Pa: allowed: < pressure = 1000000.0 Pa"):
+        PumpStation(flow=7.5e-3, pressure=1e6, pressure_range=5e6)
+    pump = PumpStation(flow=7.5e-3, pressure=2e6)
+    with pytest.raises(InputError, match=r"pump\.pressure = 2000000.0 Pa: allowed: > actuators\.leg0\.tank"):
+        standing(replace(CYLINDER, tank_pressure=5e6), pump=pump)
+    standing(replace(CYLINDER, tank_pressure=1e6), pump=pump)
+
+
+def test_what_would_boil_at_the_start_is_named_with_its_own_pressure() -> None:
+    # 20 t on 0.1 m^2: 1.962 MPa under the piston; a column has no rod side
+    with pytest.raises(
+        InputError, match=r"pushes with 1\.96\de\+05 N, .* piston side would have 1\.96\de\+06 Pa"
+    ):
+        simulate(standing(replace(COLUMN, vapour_pressure=3e6)))
+    simulate(standing(replace(COLUMN, vapour_pressure=5e5)))
+    with pytest.raises(InputError, match="its rod side would have 0 Pa"):
+        simulate(standing(replace(CYLINDER, vapour_pressure=5e5)))
+
+
+def test_air_has_room_in_the_hose_as_well() -> None:
+    pressure, bore, length = MASS * 9.81 / 0.11, 0.11, 0.6
+    air = TrappedAir(volume=1.0)
+    share = 1.0 / air.at(pressure)  # of air at the atmosphere, for 1 m^3 there
+    fits = TrappedAir(volume=share * (bore * length + 0.5 * 0.02))
+    simulate(standing(replace(CYLINDER, hose_volume=0.02, trapped_air=fits)))
+    with pytest.raises(InputError, match="no room for oil is left"):
+        simulate(standing(replace(CYLINDER, hose_volume=0.001, trapped_air=fits)))
+
+
+def test_a_leg_that_is_neither_column_nor_cylinder_is_none() -> None:
+    with pytest.raises(InputError, match="is a kind of values; allowed: HydraulicCylinder, OilColumn"):
+        HydraulicLeg()  # type: ignore[abstract]
