@@ -175,21 +175,31 @@ def _support_force(
         name: (one.setting_pressure or 0.0) * one.area * (name in legs) for name, one in cylinders.items()
     }
     rams = len(legs) < len(cylinders)
-    contact = smooth.contact
+    contact, unfelt = smooth.contact, smooth.unfelt_at
+    span = smooth.span(at_yield)
     known = all(cylinders[name].setting_pressure is not None for name in legs)
     return SupportForce(
         stroke=stroke,
         contact=contact,
-        setting=smooth.balancing(setting) if known else None,
-        yielding=smooth.balancing(at_yield),
-        rubbed={mu: one.balancing(at_yield) for mu, one in statics.items() if mu != 0.0},
+        setting=_held(smooth, setting) if known else None,
+        yielding=_held(smooth, at_yield),
+        least=span[0] if span else None,
+        rubbed={mu: _held(one, at_yield) for mu, one in statics.items() if mu != 0.0},
         pull=smooth.balancing(pushes(cylinders, legs, rams=-1.0)) if rams else None,
         push=smooth.balancing(pushes(cylinders, legs, rams=1.0)) if rams else None,
         over=[
             (x, smooth.largest_at(x, within)) for x in np.linspace(contact.rear, contact.front, PLACES).tolist()
         ],
-        largest=max(smooth.corners(within), key=lambda roof: roof.force, default=RoofForce(0.0, contact.rear)),
+        largest=max(smooth.corners(within), key=lambda roof: roof.force, default=RoofForce(0.0, contact.rear))
+        if unfelt is None
+        else RoofForce(math.inf, unfelt),
     )
+
+
+def _held(statics: RoofStatics, at: Mapping[str, float]) -> RoofForce | None:
+    """What two actuators hold with their pushes; of a single one the largest of all places on the canopy."""
+    span = statics.span(at)
+    return span[1] if span else statics.balancing(at)
 
 
 def _pin_load(
@@ -199,6 +209,8 @@ def _pin_load(
     cylinders = data.strength.cylinders
 
     def worst(frictions: Sequence[float], factor: float) -> float:
+        if any(one.unbounded(pin) for mu in frictions for one in statics[mu]):
+            return math.inf
         within = limits(cylinders, legs, factor)
         return max(
             float(np.hypot(*one.pins(corner)[pin]))
@@ -208,8 +220,17 @@ def _pin_load(
         )
 
     def nominal(factor: float) -> float:
-        found = [(one, one.balancing(pushes(cylinders, legs, factor))) for one in statics[0.0]]
-        return max((float(np.hypot(*one.pins(roof)[pin])) for one, roof in found if roof), default=math.nan)
+        at_yield = pushes(cylinders, legs, factor)
+        found = [
+            (one, roof)
+            for one in statics[0.0]
+            for roof in (one.span(at_yield) or [one.balancing(at_yield)])
+            if roof is not None
+        ]
+        if any(math.isinf(roof.force) and one.unbounded(pin) for one, roof in found):
+            return math.inf
+        forces = [np.hypot(*one.pins(roof)[pin]) for one, roof in found if math.isfinite(roof.force)]
+        return max(map(float, forces), default=math.nan)
 
     known = pin_data(data, pin)
     smooth = {factor: worst([0.0], factor) for factor in FACTORS}
@@ -218,9 +239,13 @@ def _pin_load(
     if known is not None:
         eyes, diameter, _ = known
         told = stresses(eyes, diameter, smooth[FACTORS[1]]), stresses(eyes, diameter, rubbed[FACTORS[1]])
-    return PinLoad(
-        {factor: nominal(factor) for factor in FACTORS}, smooth, rubbed, told, known is not None and known[2]
-    )
+    alike = {factor: nominal(factor) for factor in FACTORS}
+    return PinLoad(_bounded(alike), _bounded(smooth), _bounded(rubbed), told, known is not None and known[2])
+
+
+def _bounded(loads: Mapping[float, float]) -> dict[float, float]:
+    """Forces, NaN for those without bound."""
+    return {factor: force if math.isfinite(force) else math.nan for factor, force in loads.items()}
 
 
 def _buckling(

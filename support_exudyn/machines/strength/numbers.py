@@ -79,6 +79,7 @@ def _support(one: SupportForce) -> dict[str, Any]:
         "canopy_x_m": [one.contact.rear, one.contact.front],
         "setting": _roof(one.setting),
         "yield": _roof(one.yielding),
+        "yield_where_a_single_leg_holds_least": _roof(one.least),
         "yield_with_friction": {f"{mu:g}": _roof(roof) for mu, roof in one.rubbed.items()},
         "yield_rams_pull": _roof(one.pull),
         "yield_rams_push": _roof(one.push),

@@ -65,12 +65,15 @@ def _cylinders(report: StandReport) -> Iterator[str]:
 def _support(report: StandReport) -> Iterator[str]:
     rams = len(report.legs) < len(report.cylinders)
     free = ", rams at rest" if rams else ""
+    single = len(report.cylinders) == 1
     yield f"2 support force, legs alike at setting or yield{free} [plain: virtual work, less weight]"
-    last = ("ram pulls kN", "ram pushes kN") if rams else ()
+    last = ("ram pulls kN", "ram pushes kN") if rams else ("least kN", "at mm") if single else ()
     rubs = tuple(f"mu {mu:+g} kN" for mu in report.forces[0].rubbed)
     rows: list[Row] = [("roof mm", "set kN", "yield kN", "place mm", "place %", *rubs, *last)]
     for one in _some(report.forces):
         ends = (_force(one.pull), _force(one.push)) if rams else ()
+        if single:
+            ends = (_force(one.least), _place(one, one.least)[0])
         rows.append(
             (
                 _mm(one.contact.height),
@@ -83,6 +86,11 @@ def _support(report: StandReport) -> Iterator[str]:
         )
     yield from _table(rows)
     yield "  place: of the resultant at yield, from the rear end of the canopy; mu: the roof rubs, + forward"
+    if single:
+        yield (
+            "  one leg leaves the place open: told is where on the canopy it holds most; least: where it holds "
+            "least"
+        )
     rated, said = report.rated
     found = [
         roof.force
@@ -94,9 +102,13 @@ def _support(report: StandReport) -> Iterator[str]:
         yield "  no roof force balances all legs together"
         return
     most = max(found)
+    share = _share(most, rated)
+    if single:
+        least = min((one.least.force for one in report.forces if one.least), default=math.nan)
+        share = f"by the place {_share(least, rated)} to {share}"
     yield (
         f"  rule EN 1804-1, 4.3.1 (as the roof converges, at most {OVER:g} of the rated force): "
-        f"{most / rated:.3f} of {_kn(rated)} kN{'' if said else ' (assumed)'}: {_met(most <= OVER * rated)} on "
+        f"{share} of {_kn(rated)} kN{'' if said else ' (assumed)'}: {_met(most <= OVER * rated)} on "
         "a slow roof; what valves add at its speed only a run tells"
     )
 
@@ -123,6 +135,9 @@ def _pins(report: StandReport) -> Iterator[str]:
     yield from _table(rows)
     yield "  alike: legs alike, smooth roof; any: any force of it the cylinders hold; rubs: so, rough roof"
     yield "  then safeties against yield of pin and eyes at 1.2 x any, and the least of them at 1.2 x rubs"
+    endless = [name for name, one in report.pins.items() if math.isnan(one.rubbed[1.0])]
+    if endless:
+        yield f"  without bound, as no leg feels a roof force right on it: {', '.join(endless)}"
     judged = {name: one.stresses for name, one in report.pins.items() if one.stresses is not None}
     for word, place in (("roof without friction", 0), (f"friction {FRICTION:g}", 1)):
         fails = [
@@ -237,7 +252,12 @@ def _place(one: SupportForce, roof: RoofForce | None) -> tuple[str, str]:
     if roof is None:
         return "-", "-"
     along = roof.x - one.contact.rear
-    return _mm(along), f"{100.0 * along / (one.contact.front - one.contact.rear):.1f}"
+    share = along / (one.contact.front - one.contact.rear)
+    return _mm(along), f"{round(100.0 * share, 1) + 0.0:.1f}"
+
+
+def _share(force: float, rated: float) -> str:
+    return f"{force / rated:.3f}" if math.isfinite(force) else "any multiple"
 
 
 def _loads(one: PinLoad) -> Iterator[str]:
@@ -268,7 +288,7 @@ def _kn(force: float) -> str:
 
 
 def _mm(length: float) -> str:
-    return f"{1e3 * length:.0f}" if abs(length) >= 0.1 else f"{1e3 * length:.1f}"
+    return f"{1e3 * length:.0f}" if abs(length) >= 0.1 else f"{round(1e3 * length, 1) + 0.0:.1f}"
 
 
 def _table(rows: Sequence[Sequence[str]]) -> Iterator[str]:

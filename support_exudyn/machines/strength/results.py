@@ -15,10 +15,14 @@ from support_exudyn.machines.strength.tipping import Tipping
 class SupportForce:
     """Support force in one posture, all legs at a pressure and rams without force; None where none balances.
 
+    A single leg leaves the place of the roof force open. All are then the largest over the places of the
+    canopy, infinite where the leg does not feel the roof.
+
     Arguments:
         stroke: of the legs from the start on [m].
         contact: where the roof lies.
         setting: at the setting pressure, None without one. yielding: at the yield pressure.
+        least: at the yield pressure of a single leg, where it holds the least; None of two.
         rubbed: at the yield pressure with the roof's friction, by its coefficient.
         pull, push: at the yield pressure with rams at their largest pull and push; None without rams.
         over: places x [m] on the canopy, each with the largest force there that opens no valve
@@ -30,6 +34,7 @@ class SupportForce:
     contact: RoofContact
     setting: RoofForce | None
     yielding: RoofForce | None
+    least: RoofForce | None
     rubbed: Mapping[float, RoofForce | None]
     pull: RoofForce | None
     push: RoofForce | None
@@ -44,7 +49,8 @@ class PinLoad:
     Arguments:
         nominal: largest with all legs at yield, rams without force, a roof that does not rub; by the factor on
             the yield force.
-        worst: largest under any roof force on the canopy that the cylinders hold, likewise by factor.
+        worst: largest under any roof force on the canopy that the cylinders hold, likewise by factor; NaN if
+            it has no bound, as a roof force loads the pin that no cylinder feels.
         rubbed: the same with a roof that rubs either way.
         stresses: of `worst` and `rubbed` at 1.2 times yield; None where too little is known of the pin.
         assumed: whether its eyes are.

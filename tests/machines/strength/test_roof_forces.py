@@ -66,15 +66,40 @@ def test_a_leg_under_a_beam(
     expected = (push * up * leg_at - mass * G * 0.5 * length) / (at * length)
     found = statics.largest_at(at * length, {"leg": Limits(0.0, push)})
     assert found == pytest.approx(max(expected, 0.0), rel=1e-9, abs=1e-9 * push)
-    balancing = statics.balancing({"leg": push})
-    assert balancing is not None
-    assert balancing.x == pytest.approx(0.5 * length)
-    assert balancing.force == pytest.approx(expected * at / 0.5, rel=1e-9, abs=1e-9 * push)
+    # one leg leaves the place open: least at the tip, without bound on the hinge, which alone carries it there
+    assert statics.balancing({"leg": push}) is None
+    assert statics.unfelt_at == pytest.approx(0.0, abs=1e-9)
+    assert statics.unbounded("hinge")
+    span = statics.span({"leg": push})
+    if span is None:
+        assert expected <= 0.0
+        return
+    least, most = span
+    assert least.x == pytest.approx(length)
+    assert least.force == pytest.approx(expected * at, rel=1e-9, abs=1e-9 * push)
+    assert most.force == math.inf
     # the hinge presses the beam down by what the leg lifts more than weight and roof press
-    hinge = statics.pins(balancing)["hinge"]
+    hinge = statics.pins(least)["hinge"]
     size = 1e-9 * (push + mass * G)
-    assert hinge[1] == pytest.approx(balancing.force + mass * G - push * up, abs=size)
+    assert hinge[1] == pytest.approx(least.force + mass * G - push * up, abs=size)
     assert hinge[0] == pytest.approx(-push * up * lean, abs=size)
+
+
+@given(x=st.floats(0.0, 1.0), push=st.floats(4e5, 1e7))
+def test_a_single_leg_holds_no_more_and_no_less_than_its_span(x: float, push: float) -> None:
+    data = shipped("velenje_shield")
+    statics = RoofStatics(data.machine.linkage(), "shield")
+    least, most = statics.span({"leg": push}) or pytest.fail("is held")
+    assert statics.unfelt_at is None
+    assert not any(statics.unbounded(pin) for pin in statics.linkage.pins)
+    at = (1.0 - x) * statics.contact.rear + x * statics.contact.front
+    found = statics.largest_at(at, {"leg": Limits(0.0, push)})
+    assert least.force * (1.0 - 1e-9) <= found <= most.force * (1.0 + 1e-9)
+    # at both ends the leg gives its push
+    for roof in (least, most):
+        assert roof.x in (statics.contact.rear, statics.contact.front)
+        assert statics.pushes(roof)["leg"] == pytest.approx(push, rel=1e-9)
+    assert most.force > 1.5 * least.force
 
 
 # --- virtual work, by finite differences of the posture ---
