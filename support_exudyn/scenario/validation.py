@@ -190,7 +190,7 @@ def _check_loads_in_space(scenario: ScenarioData) -> None:
         where = f"machine.loads.{name}" if name in own and name not in scenario.loads else f"loads.{name}"
         for what, body in (("body", load.body), ("other", load.against(name))):
             if body != GROUND and body not in single:
-                allowed = [one for one in scenario.linkage.bodies if one in single]
+                allowed = [one for one in scenario.unloaded.bodies if one in single]
                 raise ValueError(
                     f"{where}.{what} = {body!r}: there are two of it in space, which is not covered; "
                     f"allowed with dimensions = 3: {', '.join(allowed)}"

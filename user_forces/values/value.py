@@ -113,7 +113,7 @@ class Value:
         Raises InputError of a class that only groups others, and of one that `value` has not made: nothing
         could be read back.
         """
-        if (ABC in cls.__bases__ and not _has_fields(cls)) or inspect.isabstract(cls):
+        if only_groups(cls):
             if _is_made(cls) or ABC in cls.__bases__:
                 raise InputError(f"{cls.__name__}: is a kind of values; allowed: {_names(kinds_of(cls))}")
             _check_whole(cls)
@@ -174,7 +174,12 @@ def kinds_of(cls: type[Value]) -> dict[str, type[Value]]:
 
 def is_kind_of(kind: type[Value], cls: type[Value]) -> bool:
     """Whether a class is under another, and values can be made of it."""
-    return issubclass(kind, cls) and _has_fields(kind) and not inspect.isabstract(kind)
+    return issubclass(kind, cls) and _has_fields(kind) and not only_groups(kind)
+
+
+def only_groups(cls: type) -> bool:
+    """Whether a class only groups others: it lacks methods of theirs, or derives from ABC itself."""
+    return ABC in cls.__bases__ or inspect.isabstract(cls)
 
 
 def _has_fields(cls: Any) -> bool:

@@ -45,6 +45,7 @@ from user_forces.normal.law import Impact, LoadError
 
 FIRST_STEP = 1e-5  # [s]
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
+STEEP = ' Very small hoses and very steep valves need fewer with `formulation = "redundant"`.'
 AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then it cannot be interrupted, and tells no progress
 CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed far out of its place."
 MOST_IMPACTS = 100_000
@@ -189,7 +190,7 @@ def _failure(going: _Run) -> Failure:
     state["impacts"] = float(report[IMPACTS])
     code = going.code
     if code == TOO_MANY_STEPS:
-        reason, advice = f"more than {scenario.solver.most_steps} steps", FEWER_STEPS
+        reason, advice = f"more than {scenario.solver.most_steps} steps", FEWER_STEPS + (STEEP if scenario.legs else "")
     elif code == TOO_MANY_IMPACTS:
         reason, advice = f"more than {MOST_IMPACTS} impacts", NOTHING_RESTS
     elif code == TOO_MANY_OIL_EVENTS:

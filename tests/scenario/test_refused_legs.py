@@ -1,4 +1,4 @@
-"""Hydraulic legs whose elements contradict each other are refused, wherever in a scenario a leg stands."""
+"""What a scenario cannot have: legs whose elements contradict each other, kinds that only group others."""
 
 from __future__ import annotations
 
@@ -22,9 +22,11 @@ from support_exudyn import (
 )
 from support_exudyn.model.actuator_model import ActuatorModel
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
+from support_exudyn.model.loads.load import AnyLoad
 from tests.cases.run_cases import support
 from tests.formulations.hydraulics.leg_cases import Uprights
 from user_forces import InputError
+from user_forces.values.value import kinds_of
 
 COLUMN = OilColumn(bore_area=0.1, oil_length=0.73, bulk_modulus=1.4e9)
 CYLINDER = HydraulicCylinder(
@@ -133,3 +135,9 @@ def test_air_has_room_in_the_hose_as_well() -> None:
 def test_a_leg_that_is_neither_column_nor_cylinder_is_none() -> None:
     with pytest.raises(InputError, match="is a kind of values; allowed: HydraulicCylinder, OilColumn"):
         HydraulicLeg()  # type: ignore[abstract]
+
+
+def test_what_only_groups_others_is_no_kind_of_load() -> None:
+    with pytest.raises(InputError, match="AnyLoad: is a kind of values; allowed: AppliedForce, "):
+        AnyLoad(body="canopy")
+    assert "AnyLoad" not in kinds_of(AnyLoad)
