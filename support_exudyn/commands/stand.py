@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from support_exudyn.commands.command_line import add_json, answer, folder, say
 from support_exudyn.files.machines import SHIPPED
 from support_exudyn.files.scenarios.scenario_file import read_machine_in
+from support_exudyn.files.toml.reading import in_millimetres
 from user_forces.values.value import InputError
+
+NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+IN_MM = re.compile(rf"(?<![\w])(stroke|floor|length) = ({NUMBER}) mm\b")
+NEWTONS = re.compile(rf"(?<![\w.])({NUMBER})(?: to ({NUMBER}))? N(?![\w^*])")
 
 if TYPE_CHECKING:
     from support_exudyn.machines.strength import StandReport
@@ -42,7 +48,7 @@ def run(given: argparse.Namespace) -> None:
     try:
         report = stand(data)
     except InputError as error:
-        raise InputError(f"{given.machine}: {error}") from None
+        raise InputError(f"{given.machine}: {_in_file_units(str(error))}") from None
     figures = _drawn(given, report) if given.figure else []
     if given.json:
         answer({**numbers(report), "figures": [str(one) for one in figures]})
@@ -51,6 +57,16 @@ def run(given: argparse.Namespace) -> None:
         say(line)
     for one in figures:
         say(str(one))
+
+
+def _in_file_units(message: str) -> str:
+    """What `stand` refuses in SI, told by the keys of a machine's file, with their units."""
+    message = NEWTONS.sub(lambda found: " to ".join(_kn(one) for one in found.groups() if one) + " kN", message)
+    return IN_MM.sub(r"\1_mm = \2", in_millimetres(message))
+
+
+def _kn(newtons: str) -> str:
+    return f"{1e-3 * float(newtons):.6g}"
 
 
 def _drawn(given: argparse.Namespace, report: StandReport) -> list[Path]:

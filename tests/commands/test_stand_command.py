@@ -26,7 +26,7 @@ def test_numbers_are_one_object_in_si(capsys: pytest.CaptureFixture[str]) -> Non
     told = json.loads(capsys.readouterr().out)
     assert told["rated_force_N"] == 18e6
     assert len(told["postures"]) == 21
-    assert told["postures"][0]["yield"]["force_N"] == pytest.approx(17.77e6, rel=1e-3)
+    assert told["postures"][0]["yield"]["force_N"] == pytest.approx(17.774e6, rel=1e-4)
     assert told["pins"]["rear_base"]["stresses"]["safeties"]["bearing"] > 1.0
     assert told["figures"] == []
 
@@ -63,3 +63,70 @@ def test_what_cannot_be_told_is_said_in_a_line(tmp_path: Path, capsys: pytest.Ca
         assert said.err.startswith("error: ")
         assert why in said.err
         assert len(said.err.splitlines()) == 1
+
+
+SECTION = """
+[strength.cylinders.front_column]
+bore_mm = 200
+yield_pressure_MPa = 40
+setting_pressure_MPa = 30
+stages = [{ outer_diameter_mm = 250, length_mm = 900 }, { outer_diameter_mm = 190, length_mm = 2000 }]
+
+[strength.cylinders.rear_column]
+bore_mm = 200
+yield_pressure_MPa = 40
+
+[strength.base]
+rear_mm = -100
+front_mm = 2000
+width_mm = 1000
+mass_kg = 2000
+centre_mm = [900, 250]
+floor_mm = -50
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (
+            "setting_pressure_MPa = 30",
+            "setting_pressure_MPa = 50",
+            "setting_pressure = 50 MPa: allowed: at most yield_pressure = 40 MPa",
+        ),
+        ("floor_mm = -50", "floor_mm = 5000", "strength.base.floor_mm = 5000: the common centre of mass is 1"),
+        (
+            "length_mm = 900 }",
+            "length_mm = 5000 }",
+            "strength.cylinders.front_column.stages[0].length_mm = 5000: the cylinder is ",
+        ),
+        (
+            "length_mm = 2000 }",
+            "length_mm = 200 }",
+            "stages: together 1100 mm long, and the cylinder has to be ",
+        ),
+        ("stroke_mm = 600", "stroke_mm = 3000", "ours.toml: stroke_mm = 3000: the columns cannot close"),
+    ],
+)
+def test_refusals_speak_by_keys_and_units_of_the_file(
+    old: str, new: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["stand", str(written(tmp_path, text=OURS + SECTION))]) == 0
+    capsys.readouterr()
+    path = written(tmp_path, old, new, text=OURS + SECTION)
+    assert main(["stand", str(path)]) != 0
+    told = capsys.readouterr().err
+    assert said in told
+    for unit in (" m ", " m:", " Pa", " N "):
+        assert unit not in told.replace("\n", " ")
+
+
+def test_a_weight_that_no_pressure_holds_is_told_in_kilonewtons(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (OURS + SECTION).replace("yield_pressure_MPa = 40", "yield_pressure_MPa = 0.001")
+    assert main(["stand", str(written(tmp_path, text=text.replace("setting_pressure_MPa = 30", "")))]) != 0
+    told = capsys.readouterr().err
+    assert "they push front_column 0 to 0.0628319 kN, rear_column 0 to 0.0628319 kN" in told
+    assert "mm high" in told
+    assert " N" not in told

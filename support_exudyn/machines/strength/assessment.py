@@ -15,8 +15,13 @@ from support_exudyn.machines.strength.buckling import buckling_loads
 from support_exudyn.machines.strength.pins import pin_data, stresses, without_data
 from support_exudyn.machines.strength.results import Buckling, PinLoad, StandReport, SupportForce
 from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, RoofStatics
-from support_exudyn.machines.strength.strength_data import CylinderStrength, StrengthData
-from support_exudyn.machines.strength.tipping import tipping_of
+from support_exudyn.machines.strength.strength_data import (
+    EYE_YIELD,
+    PIN_YIELD,
+    CylinderStrength,
+    StrengthData,
+)
+from support_exudyn.machines.strength.tipping import cylinder_masses, tipping_of
 from support_exudyn.machines.strength.used_postures import UsedPosture, legs_of, used_postures
 from user_forces.values.value import InputError
 
@@ -70,12 +75,12 @@ def stand(data: MachineData) -> StandReport:
             pushes(strength.cylinders, legs),
             limits(strength.cylinders, legs),
         ),
-        tipping=None if strength.base is None else [tipping_of(one.linkage, strength.base) for one in told],
+        tipping=None
+        if strength.base is None
+        else [tipping_of(one.linkage, strength.base, cylinder_masses(data, one.linkage)) for one in told],
         wander=max(tips) - min(tips) if four_bar else None,
         assumed=list(_assumed(data, strength)),
-        sources=[
-            f"{name}: {' '.join(said.split())}" for name, said in data.sources.items() if name == "strength"
-        ],
+        sources=list(_sources(data)),
     )
 
 
@@ -240,7 +245,14 @@ def _pin_load(
         eyes, diameter, _ = known
         told = stresses(eyes, diameter, smooth[FACTORS[1]]), stresses(eyes, diameter, rubbed[FACTORS[1]])
     alike = {factor: nominal(factor) for factor in FACTORS}
-    return PinLoad(_bounded(alike), _bounded(smooth), _bounded(rubbed), told, known is not None and known[2])
+    return PinLoad(
+        _bounded(alike),
+        _bounded(smooth),
+        _bounded(rubbed),
+        stresses=told,
+        yields=known and known[0].yields,
+        assumed=known is not None and known[2],
+    )
 
 
 def _bounded(loads: Mapping[float, float]) -> dict[float, float]:
@@ -267,15 +279,44 @@ def _buckling(
 
 def _assumed(data: MachineData, strength: StrengthData) -> Iterator[str]:
     """What was assumed because nothing says it."""
+    linkage = data.machine.linkage()
     yield (
         "the roof lies between rearmost and foremost joint or traced point of the canopy, as high as the "
         f"highest; rough: friction {FRICTION:g} either way"
     )
     yield "pins and cylinders without play and friction; legs only push, as rams without a rod do"
-    eyes = [
-        name for name in data.machine.linkage().pins if (known := pin_data(data, name)) is not None and known[2]
-    ]
-    if eyes:
+    known = {name: one for name in linkage.pins if (one := pin_data(data, name)) is not None}
+    if eyes := [name for name, (_, _, assumed) in known.items() if assumed]:
         yield f"eyes of {', '.join(eyes)}: one of half the pin's length between two of a quarter"
+    steels = {
+        "pins": f"35CrMo, which yields at {1e-6 * PIN_YIELD:.0f} MPa",
+        "eyes": f"S355, which yields at {1e-6 * EYE_YIELD:.0f} MPa in plates of 16 to 40 mm, thicker at less",
+    }
+    unsaid = {
+        "pins": [name for name, (pin, *_) in known.items() if pin.pin_yield_stress is None],
+        "eyes": [name for name, (pin, *_) in known.items() if pin.eye_yield_stress is None],
+    }
+    for word, names in unsaid.items():
+        if names:
+            of = "" if len(names) == len(linkage.pins) else f" of {', '.join(names)}"
+            yield f"{word}{of}: of {steels[word]}"
+    weightless = [name for name in linkage.actuators if name not in data.actuators]
+    if strength.base is not None and weightless:
+        yield f"cylinders of {', '.join(weightless)}: masses not known, left out of section 7"
     if strength.rated_force is None:
         yield "rated force: pushes of all legs at their yield pressure, added up"
+
+
+def _sources(data: MachineData) -> Iterator[str]:
+    """Where it all comes from: the source of the section, then those of cylinders and pins, each once."""
+    own = data.sources.get("strength", "")
+    if own:
+        yield f"strength: {' '.join(own.split())}"
+    said: dict[tuple[str, str], list[str]] = {}
+    for place, one in data.sourced.items():
+        kind, _, inner = place.removeprefix("strength.").partition(".")
+        if place.startswith("strength.") and kind in ("cylinders", "pins") and one.source not in ("", own):
+            name, _, key = inner.partition(".")
+            said.setdefault((key, one.source), []).append(name)
+    for (key, source), names in said.items():
+        yield f"{key} of {', '.join(names)}: {' '.join(source.split())}"

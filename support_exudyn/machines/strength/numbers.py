@@ -98,6 +98,8 @@ def _pin(one: PinLoad) -> dict[str, Any]:
         "any_roof_force_with_friction_N": by_factor(one.rubbed),
         "stresses": None if one.stresses is None else _stresses(one.stresses[0]),
         "stresses_with_friction": None if one.stresses is None else _stresses(one.stresses[1]),
+        "yield_stress_of_pin_Pa": None if one.yields is None else one.yields[0],
+        "yield_stress_of_eyes_Pa": None if one.yields is None else one.yields[1],
         "eyes_are_assumed": one.assumed,
     }
 

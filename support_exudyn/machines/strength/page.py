@@ -14,6 +14,7 @@ from support_exudyn.machines.strength.roof_forces import RoofForce
 
 Row = tuple[str, ...]
 WIDTH = 100  # letters of a line
+WEAK = 0.8  # of the rated force: what is less is said in words, assumed
 ROWS = 5  # postures that are told
 OVER = 1.2  # EN 1804-1, 4.3.1: times the rated force, at most
 FINE_KN = 1e4  # [N]: smaller forces are told with decimals
@@ -111,6 +112,8 @@ def _support(report: StandReport) -> Iterator[str]:
         f"{share} of {_kn(rated)} kN{'' if said else ' (assumed)'}: {_met(most <= OVER * rated)} on "
         "a slow roof; what valves add at its speed only a run tells"
     )
+    if most < WEAK * rated:
+        yield f"  the support reaches only {most / rated:.2f} of its rated force, and no rule asks for more"
 
 
 def _over(report: StandReport) -> Iterator[str]:
@@ -135,6 +138,7 @@ def _pins(report: StandReport) -> Iterator[str]:
     yield from _table(rows)
     yield "  alike: legs alike, smooth roof; any: any force of it the cylinders hold; rubs: so, rough roof"
     yield "  then safeties against yield of pin and eyes at 1.2 x any, and the least of them at 1.2 x rubs"
+    yield from _yields(report)
     endless = [name for name, one in report.pins.items() if math.isnan(one.rubbed[1.0])]
     if endless:
         yield f"  without bound, as no leg feels a roof force right on it: {', '.join(endless)}"
@@ -145,9 +149,23 @@ def _pins(report: StandReport) -> Iterator[str]:
         ]
         if judged:
             said = f"NOT met by {', '.join(fails)}" if fails else "met"
-            yield f"  4.3.2, {word}: {said}, as far as pins and eyes go, by elastic stresses"
+            yield (
+                f"  4.3.2, {word}: {said}, judged by {len(judged)} of {len(report.pins)} pins and their eyes, "
+                "elastic stresses"
+            )
     if report.unknown_pins:
         yield f"  not told for want of bore or length: {', '.join(report.unknown_pins)}"
+
+
+def _yields(report: StandReport) -> Iterator[str]:
+    """The yield stresses on which the safeties rest."""
+    alike: dict[tuple[float, float], list[str]] = {}
+    for name, one in report.pins.items():
+        if one.yields is not None:
+            alike.setdefault(one.yields, []).append(name)
+    for (pin, eyes), names in alike.items():
+        of = "" if len(alike) == 1 else f" of {', '.join(names)}"
+        yield f"  yield stress{of}: pin {1e-6 * pin:.0f} MPa, eyes {1e-6 * eyes:.0f} MPa"
 
 
 def _buckled(report: StandReport) -> Iterator[str]:
@@ -155,7 +173,6 @@ def _buckled(report: StandReport) -> Iterator[str]:
     if report.buckling:
         rows: list[Row] = [("", "length mm", "yield kN", "Euler kN", "Johnson kN", "safety", "at 1.2 x yield")]
         for name, one in report.buckling.items():
-            least = one.euler if one.johnson is None else min(one.euler, one.johnson)
             rows.append(
                 (
                     name,
@@ -163,11 +180,17 @@ def _buckled(report: StandReport) -> Iterator[str]:
                     _kn(one.force),
                     _kn(one.euler),
                     "-" if one.johnson is None else _kn(one.johnson),
-                    f"{least / one.force:.2f}",
-                    f"{least / (FACTORS[1] * one.force):.2f}",
+                    f"{one.least / one.force:.2f}",
+                    f"{one.least / (FACTORS[1] * one.force):.2f}",
                 )
             )
         yield from _table(rows)
+    for name, one in report.buckling.items():
+        safety = one.least / one.force
+        if safety < FACTORS[1]:
+            at = "its yield force" if safety < 1.0 else f"{FACTORS[1]:g} x its yield force"
+            least = safety if safety < 1.0 else safety / FACTORS[1]
+            yield f"  {name} buckles below {at}: safety {least:.2f}, below 1"
     for name, why in report.unbuckled.items():
         yield f"  {name}: not told, {why}"
 

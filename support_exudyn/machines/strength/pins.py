@@ -46,10 +46,11 @@ def stresses(pin: PinStrength, diameter: float, force: float) -> PinStresses:
     shear = one / (2.0 * 0.25 * math.pi * diameter**2)
     moment = one * (pin.middle + 2.0 * pin.outer + 4.0 * pin.gap) / 8.0
     bending = moment / (math.pi * diameter**3 / 32.0)
+    pin_yield, eye_yield = pin.yields
     allowed = {
-        "bearing": (pin.eye_yield_stress, bearing),
-        "shear": (pin.pin_yield_stress / math.sqrt(3.0), shear),
-        "bending": (pin.pin_yield_stress, bending),
+        "bearing": (eye_yield, bearing),
+        "shear": (pin_yield / math.sqrt(3.0), shear),
+        "bending": (pin_yield, bending),
     }
     safeties = {name: limit / stress if stress > 0.0 else math.inf for name, (limit, stress) in allowed.items()}
     return PinStresses(force, bearing, shear, bending, safeties)

@@ -53,6 +53,7 @@ class PinLoad:
             it has no bound, as a roof force loads the pin that no cylinder feels.
         rubbed: the same with a roof that rubs either way.
         stresses: of `worst` and `rubbed` at 1.2 times yield; None where too little is known of the pin.
+        yields: yield stresses of pin and eyes [Pa] against which it is judged; None where too little is known.
         assumed: whether its eyes are.
     """
 
@@ -60,6 +61,7 @@ class PinLoad:
     worst: Mapping[float, float]
     rubbed: Mapping[float, float]
     stresses: tuple[PinStresses, PinStresses] | None
+    yields: tuple[float, float] | None
     assumed: bool
 
 
@@ -76,6 +78,11 @@ class Buckling:
     force: float
     euler: float
     johnson: float | None
+
+    @property
+    def least(self) -> float:
+        """The load at which it fails [N]."""
+        return self.euler if self.johnson is None else min(self.euler, self.johnson)
 
 
 @dataclass(frozen=True)

@@ -85,8 +85,8 @@ class CylinderStrength(Value):
             raise ValueError(f"rod = {self.rod:.10g} m: allowed: below bore = {self.bore:.10g} m")
         if self.setting_pressure is not None and self.setting_pressure > self.yield_pressure:
             raise ValueError(
-                f"setting_pressure = {self.setting_pressure:.10g} Pa: allowed: at most yield_pressure = "
-                f"{self.yield_pressure:.10g} Pa"
+                f"setting_pressure = {1e-6 * self.setting_pressure:.10g} MPa: allowed: at most yield_pressure "
+                f"= {1e-6 * self.yield_pressure:.10g} MPa"
             )
         return self
 
@@ -118,8 +118,8 @@ class PinStrength(Value):
         middle: width of the middle eye [m], > 0.
         outer: width of each outer eye [m], > 0.
         gap: between the middle eye and an outer one [m], >= 0; 0 by default.
-        pin_yield_stress: of the pin [Pa], > 0; that of tempered 35CrMo (GB/T 3077) by default.
-        eye_yield_stress: of the eyes [Pa], > 0; that of S355 plates (EN 10025-2) by default.
+        pin_yield_stress: of the pin [Pa], > 0; None: not known, see `yields`.
+        eye_yield_stress: of the eyes [Pa], > 0; None: not known, see `yields`.
     """
 
     middle: Metres[Positive]
@@ -127,8 +127,16 @@ class PinStrength(Value):
     gap: Metres[NonNegative] = 0.0
     count: Count = 1
     diameter: Metres[Positive] | None = None
-    pin_yield_stress: Pascals[Positive] = PIN_YIELD
-    eye_yield_stress: Pascals[Positive] = EYE_YIELD
+    pin_yield_stress: Pascals[Positive] | None = None
+    eye_yield_stress: Pascals[Positive] | None = None
+
+    @property
+    def yields(self) -> tuple[float, float]:
+        """Yield stresses of pin and eyes [Pa].
+
+        If not known, those of tempered 35CrMo (GB/T 3077), and of S355 plates of 16 to 40 mm (EN 10025-2).
+        """
+        return self.pin_yield_stress or PIN_YIELD, self.eye_yield_stress or EYE_YIELD
 
 
 @value

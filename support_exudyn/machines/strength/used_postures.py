@@ -41,15 +41,19 @@ def used_postures(data: MachineData, count: int) -> list[UsedPosture]:
     if isinstance(machine, FourBarShield):
         stroke = data.stroke if data.stroke is not None else usual_stroke(machine)
         closed = kinetics_of(linkage)
+        try:
+            found = stations(machine, stroke, count)
+        except InputError as error:
+            raise InputError(str(error).replace("column extension = ", "stroke = ", 1)) from None
         return [
-            UsedPosture(one.stroke, laid_out(closed, moved_by(machine, linkage, one.posture)))
-            for one in stations(machine, stroke, count)
+            UsedPosture(one.stroke, laid_out(closed, moved_by(machine, linkage, one.posture))) for one in found
         ]
     legs = legs_of(linkage)
     if data.stroke is None or not legs:
         return [UsedPosture(0.0, linkage)]
     conditions = conditions_of(linkage)
-    at, reached, found = np.zeros(3 * len(linkage.bodies)), 0.0, []
+    at, reached = np.zeros(3 * len(linkage.bodies)), 0.0
+    postures: list[UsedPosture] = []
     for goal in np.linspace(0.0, data.stroke, count).tolist():
         at, share = moved_on(conditions, at, dict.fromkeys(legs, reached), dict.fromkeys(legs, goal))
         if share < 1.0:
@@ -58,8 +62,8 @@ def used_postures(data: MachineData, count: int) -> list[UsedPosture]:
                 f"{reached + share * (goal - reached):.4g} m"
             )
         reached = goal
-        found.append(UsedPosture(goal, laid_out(conditions.kinetics, at / conditions.arms)))
-    return found
+        postures.append(UsedPosture(goal, laid_out(conditions.kinetics, at / conditions.arms)))
+    return postures
 
 
 def legs_of(linkage: Linkage) -> tuple[str, ...]:
