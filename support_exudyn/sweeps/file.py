@@ -9,14 +9,12 @@ import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
-from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
 from support_exudyn.files import machines
-from support_exudyn.files.machines.read import read_machine, shipped
+from support_exudyn.files.machines.read import shipped
 from support_exudyn.files.scenarios.scenario_file import scenario_of
-from support_exudyn.files.toml.faults import nearest
 from support_exudyn.files.toml.text import load_toml, parsed, text_of, toml_text
 from support_exudyn.files.whole_file import missing_file
 from support_exudyn.scenario.scenario import Scenario
@@ -34,6 +32,7 @@ from support_exudyn.sweeps.plan import (
     latin_hypercube,
     side_by_side,
 )
+from support_exudyn.sweeps.stated import MACHINE, STATED, STRENGTH, of_strength, stated_ranges
 from user_forces.values.value import InputError, short
 
 METHODS = ("grid", "list", "latin_hypercube")
@@ -44,8 +43,6 @@ RANGE, NORMAL = (
     "{from = 0.0, to = 0.3, steps = 4}",
     '{distribution = "normal", mean = 0.9, std = 0.02}',
 )
-MACHINE = "machine"
-STATED = "stated range"  # in place of a range: that which the machine's file gives its numbers
 Table = dict[str, Any]
 
 
@@ -67,8 +64,8 @@ def read_sweep(path: str | Path) -> Plan:
             name: _varied(item, f"vary.{name!r}", path.parent) for name, item in asked.items() if item != STATED
         }
         patterns = [name for name in asked if name not in said]
-        stated = _stated(patterns, data.get("method", "grid"), table, folder)
-        varied = {  # what is said of a key itself goes before what the machine's file states
+        stated = stated_ranges(patterns, data.get("method", "grid"), table, where, folder) if patterns else {}
+        varied = {  # what is said of a key itself goes before what a file states
             name: one
             for name, one in stated.items()
             if not any(f"{name}.".startswith(f"{key}.") for key in said.keys() - {MACHINE})
@@ -98,30 +95,6 @@ def _scenario(data: Table, path: Path) -> tuple[Table, str, Path]:
         )
     file = path.parent / given
     return load_toml(file, named=True), str(file), file.parent
-
-
-def _stated(patterns: list[str], method: Any, table: Table, folder: Path) -> dict[str, Range]:
-    """The ranges that the machine's file states for its numbers, by keys that fit one of some patterns."""
-    if not patterns:
-        return {}
-    given = table.get(MACHINE)
-    if not isinstance(given, str):
-        raise InputError(f"vary.{patterns[0]!r} = {STATED!r}: allowed where the machine is named by its file")
-    if method != "latin_hypercube":
-        raise InputError(f"vary.{patterns[0]!r} = {STATED!r}: allowed with method = 'latin_hypercube'")
-    ranges = {
-        f"{MACHINE}.{key}": Range(one.low, one.high)
-        for key, one in read_machine(given, folder).sourced.items()
-        if one.low is not None and one.high is not None
-    }
-    fitting = {pattern: {key for key in ranges if fnmatchcase(key, pattern)} for pattern in patterns}
-    for pattern, keys in fitting.items():
-        if not keys:
-            raise InputError(
-                f"vary.{pattern!r} = {STATED!r}: {given} states a range for no such number; "
-                f"{nearest(pattern, ranges)}"
-            )
-    return {key: one for key, one in ranges.items() if key in set().union(*fitting.values())}
 
 
 def _points(data: Table, varied: Varied) -> list[Point]:
@@ -196,7 +169,7 @@ def _flat(table: Table, before: str = "") -> list[tuple[str, Any]]:
         else:
             raise InputError(
                 f"vary.{name!r} = {_said(item)}: allowed: a list of values, or a range such as "
-                f"{RANGE}, or {NORMAL}; {_quoted(STATED)} for numbers of the machine's file"
+                f"{RANGE}, or {NORMAL}; {_quoted(STATED)} for numbers whose file states one"
             )
     return found
 
@@ -360,6 +333,9 @@ def maker(table: Table, where: str, folder: Path, names: tuple[str, ...]) -> Fro
         raise InputError(
             f"{where}: machine = {short(given)}: allowed where fields of it vary: a machine, by its file"
         )
+    for name in of_machine:
+        if keys_of(name)[:2] == [MACHINE, STRENGTH]:
+            raise of_strength(name)
     file = folder / given
     if not given.endswith(".toml"):
         shipped(given)  # refuses what there is none of

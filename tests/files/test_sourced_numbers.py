@@ -1,4 +1,4 @@
-"""Numbers of machine files that say their range and their source, and those that say them wrongly."""
+"""Numbers of machine and scenario files that say range and source, and those that say them wrongly."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from jsonschema import Draft7Validator, Draft202012Validator
 
-from support_exudyn.__main__ import main
+from support_exudyn import simple_scenario
+from support_exudyn.files import ScenarioFile, scenario_file_of, scenario_schema
 from support_exudyn.files.machines import SHIPPED, load_machine, machine_schema, read_machine
 from support_exudyn.files.machines.read import _of_text
 from support_exudyn.files.toml.text import parsed, toml_text
@@ -103,11 +104,80 @@ def test_a_source_may_be_one_of_the_file(tmp_path: Path) -> None:
     assert load_machine(path).sourced["masses_kg.rear_link"].source == "by us, in spring"
 
 
-def test_files_of_scenarios_have_no_such_numbers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = tmp_path / "a.toml"
-    path.write_text('machine = "reference"\nduration_s = { value = 1, source = "a" }\n', encoding="utf-8")
-    assert main(["run", str(path)]) == 1
-    assert "duration_s = a table: allowed: a number > 0" in capsys.readouterr().err
+SCENE = """
+machine = "reference"
+duration_s = 1
+accuracy = 1e-3
+gravity_m_per_s2 = [0.1, -9.81]
+solver.impact_steps = 512
+drive = { mode = 1, stroke_mm = 40, start_s = 0.1, end_s = 0.9 }
+pins.rear_base = { clearance_mm = 1.5, stiffness_N_per_m_to_n = 1e10, friction = 0.2, bore_radius_mm = 65.5 }
+
+[actuators.rear_column]
+type = "OilColumn"
+bore_area_mm2 = 98174.77
+oil_length_mm = 500
+bulk_modulus_MPa = 1960
+"""
+
+
+def scene(text: str) -> ScenarioFile:
+    return scenario_file_of(parsed(text, "a.toml"), "a.toml", Path())
+
+
+@pytest.mark.parametrize(
+    ("key", "number", "low", "high"),
+    [
+        ("duration_s", "1", "0.95", "2"),
+        ("accuracy", "1e-3", "1e-4", "1e-2"),
+        ("gravity_m_per_s2.0", "0.1", "0", "0.2"),
+        ("solver.impact_steps", "512", "128", "1024"),
+        ("drive.stroke_mm", "40", "30", "50"),
+        ("pins.rear_base.clearance_mm", "1.5", "0.5", "2.5"),
+        ("pins.rear_base.stiffness_N_per_m_to_n", "1e10", "1e9", "1e11"),
+        ("pins.rear_base.friction", "0.2", "0", "0.3"),  # may be a table of another kind, a law
+        ("actuators.rear_column.oil_length_mm", "500", "300", "800"),
+    ],
+)
+def test_numbers_of_scenarios_may_say_range_and_source(key: str, number: str, low: str, high: str) -> None:
+    last = "[" if key.endswith(".0") else f"{key.rpartition('.')[2]} = "
+    assert SCENE.count(last + number) == 1
+    table = f'{{ value = {number}, from = {low}, to = {high}, source = "a drawing" }}'
+    text = SCENE.replace(last + number, last + table)
+    found = scene(text)
+    assert found.scenario == scene(SCENE).scenario
+    assert found.sourced == {key: SourcedNumber(Decimal(number), Decimal(low), Decimal(high), "a drawing")}
+    assert scene(SCENE).sourced == {}
+    assert not list(Draft202012Validator(scenario_schema()).iter_errors(plain(parsed(text, ""))))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (
+            "= 500",
+            "= { value = 900, from = 300, to = 800 }",
+            "oil_length_mm.value = 900: allowed: from 300 to 800",
+        ),
+        ("= 500", "= { value = -1 }", "oil_length_mm.value = -1: allowed: > 0"),
+        ("= 500", "= { valeu = 1 }", "oil_length_mm.valeu: unknown key; did you mean value?"),
+        ("= 1e-3", '= { value = "draft" }', "accuracy.value = 'draft': allowed: a number"),
+        ("friction = 0.2", "friction = { value = -1 }", "friction.value = -1: allowed: >= 0"),
+        ("stiffness_N_per_m_to_n", "stiffness", "stiffness: a number needs its unit in the key"),
+    ],
+)
+def test_what_is_wrong_with_a_number_of_a_scenario_is_told(old: str, new: str, said: str) -> None:
+    text = SCENE.replace(old, new).replace("stiffness = 1e10", "stiffness = { value = 1e10 }")
+    with pytest.raises(InputError) as caught:
+        scene(text)
+    assert said in str(caught.value)
+    assert "a.toml: " in str(caught.value)
+
+
+def test_numbers_from_python_may_say_a_range_too() -> None:
+    known = {"duration_s": {"value": 0.1, "from": 0.05, "to": 0.3}, "gravity_m_per_s2": (0, {"value": -1.62})}
+    found = simple_scenario("reference", **known)
+    assert (found.duration, found.gravity) == (0.1, (0.0, -1.62))
 
 
 def test_check_tells_each_with_range_and_source(tmp_path: Path) -> None:

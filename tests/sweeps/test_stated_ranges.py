@@ -1,4 +1,4 @@
-"""A sweep draws from the ranges that a machine's file states for its numbers."""
+"""A sweep draws from the ranges that the files of machine and scenario state for their numbers."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.files import read_scenario
+from support_exudyn.files import load_toml, read_scenario, toml_text
+from support_exudyn.files.machines import read_machine
 from support_exudyn.sweeps import read_sweep
 from support_exudyn.sweeps.key import key
 from tests.machine_files import OURS
@@ -83,11 +84,15 @@ def test_what_is_said_of_a_key_goes_before_what_the_file_states(tmp_path: Path) 
     ("vary", "head", "said"),
     [
         ('"machine.*" = "stated range"', "", r"allowed with method = 'latin_hypercube'"),
-        ('"machine.masses_kg.front_link" = "stated range"', None, r"ours.toml states a range for no such"),
+        (
+            '"machine.masses_kg.front_link" = "stated range"',
+            None,
+            r"no range is stated for such a number in .*a.toml and ours.toml",
+        ),
         ('"machine.masses_kg.canpy" = "stated range"', None, r"did you mean machine.masses_kg.canopy"),
-        ('duration_s = "stated range"', None, r"states a range for no such number"),
+        ('duration_s = "stated range"', None, r"as \{value = 1960, from = 1500, to = 2200\}"),
         ('machine = ["a.toml"]\n"machine.*" = "stated range"', None, r"vary.'machine' and vary"),
-        ('"machine.*" = "told"', None, '"stated range" for numbers of the machine'),
+        ('"machine.*" = "told"', None, '"stated range" for numbers whose file states one'),
     ],
 )
 def test_what_cannot_be_drawn_is_told(vary: str, head: str | None, said: str, tmp_path: Path) -> None:
@@ -100,4 +105,121 @@ def test_a_machine_without_a_file_states_nothing(tmp_path: Path) -> None:
     path = write(tmp_path, '"machine.*" = "stated range"')
     (tmp_path / "a.toml").write_text('duration_s = 1\n[machine]\ntype = "SlidingPin"\n', encoding="utf-8")
     with pytest.raises(InputError, match=r"'stated range': allowed where the machine is named by its file"):
+        read_sweep(path)
+
+
+# --- numbers that no run depends on ---
+
+
+def on_reference(folder: Path, vary: str, method: str = 'method = "latin_hypercube"\nsamples = 3') -> Path:
+    (folder / "a.toml").write_text('machine = "reference"\nduration_s = 0.5\n', encoding="utf-8")
+    path = folder / "sweep.toml"
+    path.write_text(f'scenario = "a.toml"\n{method}\n[vary]\n{vary}\n', encoding="utf-8")
+    return path
+
+
+def test_a_wildcard_leaves_out_the_strength_of_a_machine(tmp_path: Path) -> None:
+    names = set(read_sweep(on_reference(tmp_path, '"machine.*" = "stated range"')).names)
+    stated = {f"machine.{key}" for key, one in read_machine("reference").sourced.items() if one.low is not None}
+    assert {name for name in stated if name.startswith("machine.strength.")} == stated - names
+    assert stated - names
+
+
+@pytest.mark.parametrize(
+    ("vary", "method"),
+    [
+        ('"machine.strength.*" = "stated range"', None),
+        ('"machine.*.bore_mm" = "stated range"', None),
+        ('"machine.*" = "stated range"\n"machine.strength.*" = "stated range"', None),
+        ('"machine.strength.base.mass_kg" = [100, 200]', ""),
+        ('machine."strength".base.mass_kg = { from = 100, to = 200 }', None),
+    ],
+)
+def test_strength_is_refused_where_it_is_named(vary: str, method: str | None, tmp_path: Path) -> None:
+    path = on_reference(tmp_path, vary) if method is None else on_reference(tmp_path, vary, method)
+    with pytest.raises(InputError, match=r"no run depends on \[strength\].*`support-exudyn stand` alone reads"):
+        read_sweep(path)
+
+
+# --- numbers of a scenario's file ---
+
+LEG = """
+[actuators.leg]
+type = "HydraulicCylinder"
+bore_area_mm2 = 98175
+rod_side_area_mm2 = 15080
+oil_length_mm = { value = 500, from = 300, to = 800, source = "assumed" }
+rod_side_length_mm = { value = 600, source = "assumed" }
+bulk_modulus_MPa = { value = 1960, from = 1500, to = 2200 }
+system_pressure_MPa = 31.5
+nominal_flow_l_per_min = 400
+nominal_drop_MPa = 3
+
+[loads.roof]
+type = "Roof"
+body = "canopy"
+point_mm = [{ value = 900, from = 850, to = 950 }, 1785]
+stiffness_kN_per_mm = 1000
+damping_s_per_m = 1
+descent = { type = "CubicStep", stroke_mm = 30, start_s = 0.1, end_s = 0.7 }
+"""
+OF_SCENARIO = {
+    "actuators.front_column.oil_length_mm": (300, 800),
+    "actuators.front_column.bulk_modulus_MPa": (1500, 2200),
+    "loads.roof.point_mm.0": (850, 950),
+}
+
+
+def with_leg(folder: Path, vary: str, head: str = 'machine = "reference"\nduration_s = 0.5') -> Path:
+    path = on_reference(folder, vary)
+    (folder / "a.toml").write_text(head + LEG.replace("leg", "front_column"), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("vary", "drawn"),
+    [
+        ('"actuators.*" = "stated range"', [*OF_SCENARIO][:2]),
+        ('actuators.front_column."*" = "stated range"', [*OF_SCENARIO][:2]),
+        ('"loads.*" = "stated range"', [*OF_SCENARIO][2:]),
+        ('"*.front_column.bulk_modulus_MPa" = "stated range"', [*OF_SCENARIO][1:2]),
+        ('"actuators.*" = "stated range"\n"loads.*" = "stated range"', [*OF_SCENARIO]),
+    ],
+)
+def test_numbers_of_a_scenario_are_drawn_from_its_ranges(vary: str, drawn: list[str], tmp_path: Path) -> None:
+    plan = read_sweep(with_leg(tmp_path, vary))
+    assert sorted(plan.names) == sorted(drawn)
+    for name in drawn:
+        low, high = OF_SCENARIO[name]
+        parts = sorted(int(3 * (float(point[name]) - low) / (high - low)) for point in plan.points)
+        assert parts == [0, 1, 2]  # one in each third
+    for point in plan.points:  # the same as where the numbers are written by hand
+        table = load_toml(tmp_path / "a.toml")
+        for name in drawn:
+            first, second, key, *rest = name.split(".")
+            where = table[first][second][key] if rest else table[first][second]
+            where[int(rest[0]) if rest else key] = point[name]
+        (tmp_path / "b.toml").write_text(toml_text(table), encoding="utf-8")
+        assert plan.scenario(point) == read_scenario(tmp_path / "b.toml")
+
+
+def test_what_is_missing_because_it_varies_hides_no_range(tmp_path: Path) -> None:
+    vary = '"actuators.*" = "stated range"\nduration_s = [0.5, 1.0]'
+    plan = read_sweep(with_leg(tmp_path, vary, head='machine = "reference"'))
+    assert sorted(plan.names) == sorted([*[*OF_SCENARIO][:2], "duration_s"])
+    assert {plan.scenario(point).duration for point in plan.points} == {0.5, 1.0}
+
+
+def test_ranges_of_machine_and_scenario_are_drawn_together(tmp_path: Path) -> None:
+    plan = read_sweep(with_leg(tmp_path, '"*" = "stated range"'))
+    assert set(OF_SCENARIO) < set(plan.names)
+    assert "machine.parts.canopy.0.mass_kg" in plan.names
+    assert not [name for name in plan.names if "strength" in name]
+
+
+def test_what_is_wrong_with_a_range_is_told_where_it_is_named(tmp_path: Path) -> None:
+    path = with_leg(tmp_path, '"actuators.front_column.bulk_modulus_MPa" = "stated range"')
+    scenario = tmp_path / "a.toml"
+    scenario.write_text(scenario.read_text("utf-8").replace("from = 1500", "from = 2500"), encoding="utf-8")
+    with pytest.raises(InputError, match=r"bulk_modulus_MPa.from = 2500: allowed: <= to = 2200"):
         read_sweep(path)

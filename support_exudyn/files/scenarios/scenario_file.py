@@ -30,6 +30,7 @@ from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.sourced import SourcedNumber
 from user_forces.values.value import InputError, Value, value
 
 OTHER_FILES = {  # by a key that they have
@@ -67,7 +68,8 @@ class ScenarioFile:
 
     scenario: what is run. name, description: of people, for people. errors: whether it is run with estimated
     errors, see `simulate`. assumed: of the machine, because its file does not say it, in sentences. bore_radii:
-    that the machine's file says of its pins [m].
+    that the machine's file says of its pins [m]. sourced: numbers of the file that say their range or their
+    source, by their dotted keys, such as "actuators.leg.bulk_modulus_MPa", in the units of these.
     """
 
     scenario: Scenario
@@ -76,6 +78,7 @@ class ScenarioFile:
     errors: bool = False
     assumed: tuple[str, ...] = ()
     bore_radii: Mapping[str, float] = field(default_factory=dict)
+    sourced: Mapping[str, SourcedNumber] = field(default_factory=dict)
 
 
 def read_scenario(path: str | Path) -> Scenario:
@@ -114,7 +117,7 @@ def read_machine_in(path: str | Path) -> MachineData:
     faults = Faults(str(path))
     table = without_places({"machine": table["machine"]}, faults, path.parent)
     faults.check()
-    found = read_machine_of(table, faults, path.parent)
+    found = read_machine_of(table, faults, path.parent, {})
     faults.check()
     if found is None:
         raise InputError(f"{path}: machine: cannot be read")
@@ -134,9 +137,15 @@ def scenario_of(table: Mapping[str, Any], where: str, folder: Path) -> Scenario:
     return scenario_file_of(table, where, folder).scenario
 
 
-def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> ScenarioFile:
-    """All that a table says. Arguments and errors as of `scenario_of`."""
+def scenario_file_of(
+    table: Mapping[str, Any], where: str, folder: Path, sourced: dict[str, SourcedNumber] | None = None
+) -> ScenarioFile:
+    """All that a table says. Arguments and errors as of `scenario_of`.
+
+    sourced: takes the numbers that say their range or their source, also where others are wrong or missing.
+    """
     faults = Faults(where)
+    sourced = {} if sourced is None else sourced
     table = without_places(table, faults, folder)
     faults.check()  # without these classes more would be wrong that is not
     head = Reader(faults).value(ScenarioHead, {key: table[key] for key in HEAD if key in table}, ())
@@ -146,18 +155,24 @@ def scenario_file_of(table: Mapping[str, Any], where: str, folder: Path) -> Scen
         raise InputError(f"{where}: {other}")
     if rest.get("type", "Scenario") != "Scenario":
         faults.wrong(("type",), rest["type"], '"Scenario", or to leave it out')
-    machine = read_machine_of(rest, faults, folder)
-    scenario = _scenario(rest, faults, folder, machine)
+    machine = read_machine_of(rest, faults, folder, sourced)
+    scenario = _scenario(rest, faults, folder, machine, sourced)
     faults.check()
     assumed, bores = (machine.assumed, machine.bore_radii) if machine else ((), {})
-    return ScenarioFile(scenario, head.name, head.description, head.errors, assumed, bores)
+    return ScenarioFile(scenario, head.name, head.description, head.errors, assumed, bores, sourced)
 
 
-def _scenario(table: dict[str, Any], faults: Faults, folder: Path, machine: MachineData | None) -> Any:
+def _scenario(
+    table: dict[str, Any],
+    faults: Faults,
+    folder: Path,
+    machine: MachineData | None,
+    sourced: dict[str, SourcedNumber],
+) -> Any:
     """A scenario, or FAILED."""
     forms = ShortForms(folder, machine)
     shorts = {Pin: forms.pin, Guide: forms.guide, ActuatorModel: forms.actuator, Drive: forms.drive}
-    reader = Reader(faults, {**shorts, Machine: forms.machine})
+    reader = Reader(faults, {**shorts, Machine: forms.machine}, sourced)
     apart = forms.drives(reader, table)
     if apart:
         table = {**table, "drives": forms.without_file(table["drives"])}
@@ -198,7 +213,7 @@ def scenario_schema() -> dict[str, Any]:
 
     What only a whole scenario can tell (whether the machine has such a pin) is left to the reader.
     """
-    schemas = Schemas()
+    schemas = Schemas(sourced=True)
     about = f"path of a machine's file from the folder of this one on, or one of {', '.join(SHIPPED)}"
     schemas.besides[Machine] = [{"type": "string", "description": about}]
     schemas.besides[Pin] = [_short(schemas.table(ShortPin)), _ideal(schemas, IdealPin)]

@@ -25,6 +25,7 @@ from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.guides import IdealGuide
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin
+from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Metres, Seconds
 from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, value
 
@@ -85,13 +86,18 @@ class DrivesFile(Value):
     between: Literal["smooth", "linear"] = TableDrive.between
 
 
-def read_machine_of(table: Mapping[str, Any], faults: Faults, folder: Path) -> MachineData | None:
-    """The machine that a scenario's table names or holds; None, with the reason among the faults."""
+def read_machine_of(
+    table: Mapping[str, Any], faults: Faults, folder: Path, sourced: dict[str, SourcedNumber] | None = None
+) -> MachineData | None:
+    """The machine that a scenario's table names or holds; None, with the reason among the faults.
+
+    sourced: of numbers of a table, see `Reader`.
+    """
     given = table.get("machine")
     if isinstance(given, str):
         return _from_file(given, faults, folder)
     if isinstance(given, dict):
-        found = Reader(faults).item({"group": GroupShape((Machine,))}, given, ("machine",))
+        found = Reader(faults, sourced=sourced).item({"group": GroupShape((Machine,))}, given, ("machine",))
         return None if isinstance(found, Failed) else MachineData(found)
     if isinstance(given, (Machine, MachineData)):  # made by a program, see `simple_scenario`
         return MachineData(given) if isinstance(given, Machine) else given

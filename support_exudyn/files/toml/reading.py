@@ -15,7 +15,9 @@ from support_exudyn.files.toml.shapes import (
     GroupShape,
     Shape,
     allowed,
+    either,
     field_shapes,
+    options,
 )
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Unit
@@ -136,9 +138,9 @@ class Reader:
             return FAILED
         if "group" in shape:
             return self._group(shape, item, place)
+        if self.sourced is not None and _says_more(shape, item):
+            return self._sourced(self.sourced, _numeric(shape), item, place, unit, ending)
         if not is_for(shape, item):
-            if self.sourced is not None and isinstance(item, dict) and is_for(shape, 0):
-                return self._sourced(self.sourced, shape, item, place, unit, ending)
             return self._refused(shape, item, place, unit, ending)
         match shape:
             case {"anyOf": several}:
@@ -209,7 +211,7 @@ class Reader:
                 self.faults.wrong((*place, "value"), table["value"], f"from {said(low)} to {said(high)}")
         if len(self.faults.lines) > before:
             return FAILED
-        written = {key: Decimal(table[key]) for key in numbers}
+        written = {key: Decimal(str(table[key])) for key in numbers}
         found[dotted_key(place)] = SourcedNumber(
             written["value"], written.get("from"), written.get("to"), source
         )
@@ -321,9 +323,23 @@ def _unknown(key: str, shapes: Mapping[str, FieldShape], also: Iterable[str]) ->
     return of[near[0]] if near else key, f"unknown key; {guess}allowed: {usual or 'none'}"
 
 
+def _says_more(shape: Shape, item: Any) -> bool:
+    """Whether an item is the table of a number; one of another kind, which may be there, says its type."""
+    if not isinstance(item, dict) or not is_for(shape, 0):
+        return False
+    return not is_for(shape, item) or ("value" in item and "type" not in item)
+
+
+def _numeric(shape: Shape) -> Shape:
+    """The shape of a number, where that is among what may be."""
+    return either([one for one in options(shape) if one.get("type") in ("number", "integer")])
+
+
 def _holds_number(item: Any) -> bool:
     if isinstance(item, list):
         return any(map(_holds_number, item[:100]))
+    if isinstance(item, dict):
+        return "type" not in item and _holds_number(item.get("value"))
     return isinstance(item, (int, Decimal)) and not isinstance(item, bool)
 
 
