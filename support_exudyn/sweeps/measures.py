@@ -1,7 +1,8 @@
 """The numbers of a run that a sweep notes."""
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
@@ -34,6 +35,7 @@ TIMES: Mapping[str, Callable[[np.ndarray], int]] = {  # of extremes: which recor
 WORDS = (*STATISTICS, *TIMES)
 OF_SIGNED = ("max", "max_time")  # of a magnitude the greatest is the largest
 WILD = "*?["
+OF_IMPACTS = re.compile(r"(?P<stem>.+)\.(largest_force|largest_force_time|onset_[1-9]\d*\.(time|speed))")
 
 
 def numbers(result: Result, record: Record) -> dict[str, StoredNumber]:
@@ -74,7 +76,8 @@ def check_numbers(scenario: Scenario, names: Iterable[str]) -> None:
             raise InputError(
                 f"numbers: {short(name)}: no such number; {guess}allowed: a channel and one of "
                 f"{', '.join(WORDS)}, such as 'pin.rear_base.force.mean', patterns of such, "
-                "pin.NAME.largest_force, pin.NAME.largest_force_time, pin.NAME.onset_1.time"
+                "pin.NAME.largest_force, pin.NAME.largest_force_time, pin.NAME.onset_1.time, and so of a "
+                "falling block: NAME.largest_force"
             )
         if channel not in scenario.channel_definitions:
             known = [*scenario.channel_definitions]
@@ -86,17 +89,18 @@ def check_numbers(scenario: Scenario, names: Iterable[str]) -> None:
 
 
 def _is_of_impacts(name: str, scenario: Scenario) -> bool:
-    """Whether this may be of a clearance pin, pin.NAME.onset_1.time, or of a corner, guide.NAME.CORNER.*."""
-    parts = name.split(".")
-    joints: Mapping[str, tuple[Collection[str], int]] = {
-        "pin": (scenario.linkage.pins, 2),
-        "guide": (scenario.linkage.slides, 3),
-    }
-    known, first = joints.get(parts[0], ((), 0))
-    what = parts[first:]
-    return ".".join(parts[1:2]) in known and (
-        what in (["largest_force"], ["largest_force_time"]) or (len(what) == 2 and what[0].startswith("onset_"))
-    )
+    """Whether this may be of the impacts of a clearance pin, of a corner in a guide, or of a falling block."""
+    found = OF_IMPACTS.fullmatch(name)
+    if found is None:
+        return False
+    kind, *rest = found["stem"].split(".")
+    if kind == "pin" and scenario.dimensions == 3:  # of either side, pin.front_base_left, and their edges
+        return 1 <= len(rest) <= 2 and rest[0] in {*scenario.linkage.pins, *scenario.space.bearings}
+    if kind == "pin":
+        return len(rest) == 1 and rest[0] in scenario.linkage.pins
+    if kind == "guide":
+        return len(rest) == 2 and rest[0] in scenario.linkage.slides
+    return found["stem"] in scenario.blocks
 
 
 def _matching(
