@@ -124,6 +124,7 @@ def work(chosen: Options) -> StudyOutcome:
         "plan": plan,
         "found": found,
         "count": len(blows),
+        "compared": {pins: len(ratios(found, "rise", group, with_ideal_pins)) for pins, group in loose.items()},
         "machines": machines,
         "middle": {
             pins: Blow(machines[0], "tip", *MIDDLE, pins, valve=True).name for pins in PINS
