@@ -190,7 +190,10 @@ def _failure(going: _Run) -> Failure:
     state["impacts"] = float(report[IMPACTS])
     code = going.code
     if code == TOO_MANY_STEPS:
-        reason, advice = f"more than {scenario.solver.most_steps} steps", FEWER_STEPS + (STEEP if scenario.legs else "")
+        reason, advice = (
+            f"more than {scenario.solver.most_steps} steps",
+            FEWER_STEPS + (STEEP if scenario.legs else ""),
+        )
     elif code == TOO_MANY_IMPACTS:
         reason, advice = f"more than {MOST_IMPACTS} impacts", NOTHING_RESTS
     elif code == TOO_MANY_OIL_EVENTS:
