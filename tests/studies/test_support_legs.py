@@ -9,7 +9,7 @@ import pytest
 
 from studies.common.support_legs import PAIRS, legs_data, support_legs
 from support_exudyn import bore_area, simulate
-from support_exudyn.files import load_toml, read_scenario_file
+from support_exudyn.files import load_toml, read_scenario_file, scenario_file_of
 from support_exudyn.sweeps.file import read_sweep
 from user_forces import InputError
 
@@ -67,12 +67,19 @@ def test_a_support_under_a_converging_roof_yields_at_its_pressure() -> None:
     assert 1.0 < roof.max() / printed.rated < 1.2  # EN 1804-1, 4.3.1
 
 
-def test_the_sweep_over_legs_draws_within_their_ranges() -> None:
-    varied = load_toml(SWEEP)["vary"]
-    assert len(read_sweep(SWEEP).points) == 24
+def test_the_sweep_over_legs_draws_from_their_ranges() -> None:
+    table = load_toml(SWEEP)
+    assert table["vary"]["actuators.*"] == "stated range"
     about = legs_data().about("reference")
-    for key, one in varied.items():
+    scenario = scenario_file_of(table["scenario"], str(SWEEP), SWEEP.parent)
+    for key, one in scenario.sourced.items():
         known = about["cylinder." + key.split(".", 2)[2]]
-        assert known.low is not None
-        assert known.high is not None
-        assert float(known.low) <= float(one["from"]) < float(one["to"]) <= float(known.high), key
+        assert (one.value, one.low, one.high) == (known.value, known.low, known.high), key
+    explicit = {key: one for key, one in table["vary"].items() if one != "stated range"}
+    for key, one in explicit.items():
+        known = about["cylinder." + key.split(".", 2)[2]]
+        assert (one["from"], one["to"]) == (known.low, known.high), key
+    plan = read_sweep(SWEEP)
+    assert set(plan.names) == scenario.sourced.keys() | explicit.keys()
+    assert len(plan.points) == 24
+    assert all(plan.scenario(point).actuators for point in plan.points)  # none is refused
