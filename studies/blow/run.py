@@ -160,5 +160,5 @@ def work(chosen: Options) -> StudyOutcome:
     return StudyOutcome(reported, words, drawings, sheets, kept)
 
 
-study = Study("blow", __doc__, work, seconds=240.0)
+study = Study("blow", __doc__, work, seconds=340.0)
 main = study.main

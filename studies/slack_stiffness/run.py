@@ -131,5 +131,5 @@ def work(chosen: Options) -> StudyOutcome:
     return StudyOutcome(reported, words, drawings, sheets, kept)
 
 
-study = Study("slack_stiffness", __doc__, work, seconds=150.0)
+study = Study("slack_stiffness", __doc__, work, seconds=400.0)
 main = study.main
