@@ -6,10 +6,12 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
 
 from studies.common import paper_machine
 from support_exudyn import (
@@ -101,6 +103,34 @@ def test_a_sloping_face_is_struck_along_its_normal() -> None:
         assert 0.5 * deepest < -result["rock.gap"].min() < deepest
         push, carried = result["rock.force"], result["rock_guide.force"]
         np.testing.assert_allclose(carried, push * math.sin(slope), atol=1e-6 * push.max())
+
+
+def test_the_weight_takes_part_of_what_is_given_back_as_in_scipy() -> None:
+    mass, stiffness, e, g = 1500.0, 1e10, 0.5, 9.81
+    rock = block(mass=mass, height=0.3, stiffness=stiffness, restitution=e)
+    speeds = [one.speed for one in simulate(on_the_held(rock, duration=0.9, solver=EXACT)).onsets["rock"]]
+    damped = brentq(lambda c: c * (1.0 + e) - math.log((1.0 + c) / (1.0 - c * e)), 1e-3, (1.0 - 1e-12) / e)
+
+    def lift_off(speed: float) -> float:
+        """Speed [m/s] at which the block leaves a face that stands still, its weight acting."""
+
+        def rates(t: float, y: np.ndarray) -> list[float]:
+            force = stiffness * max(y[0], 0.0) ** 1.5 * max(0.0, 1.0 + damped * y[1] / speed)
+            return [y[1], g - force / mass]
+
+        def apart(t: float, y: np.ndarray) -> float:
+            return float(y[0]) if t > 0.0 else 1.0
+
+        apart.terminal, apart.direction = True, -1.0  # type: ignore[attr-defined]
+        # at the start it touches, and moves in
+        run = solve_ivp(rates, (0.0, 1.0), [1e-15, speed], "DOP853", events=apart, rtol=1e-12, atol=1e-15)
+        return -float(run.y[1, -1])
+
+    assert [two / one for one, two in pairwise(speeds[:5])] == pytest.approx(
+        [0.493, 0.483, 0.458, 0.381], abs=5e-4
+    )
+    assert speeds[0] == pytest.approx(math.sqrt(2.0 * g * 0.3), rel=1e-9)
+    assert speeds[1:4] == pytest.approx([lift_off(speed) for speed in speeds[:3]], rel=1e-5)
 
 
 def test_impulse_and_duration_are_those_of_the_closed_forms() -> None:

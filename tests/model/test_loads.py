@@ -22,6 +22,7 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
+from support_exudyn.model.loads.load import AnyLoad
 from support_exudyn.scenario.timescales import timescales
 from tests.cases.run_cases import loose_support
 from tests.roof_cases import (
@@ -39,6 +40,7 @@ from tests.roof_cases import (
     thrown,
 )
 from user_forces import InputError, Value
+from user_forces.values.value import kinds_of
 
 DESCENTS: list[Drive] = [Held(), Steady(rate=0.3), CubicStep(stroke=0.1, start=0.2, end=1.2)]
 descents = st.sampled_from(DESCENTS)
@@ -222,3 +224,9 @@ def test_steps_follow_the_descent() -> None:
 
 def test_a_ram_without_a_load_has_no_times() -> None:
     assert timescales(Scenario(machine=Ram(), duration=0.1)).resting == math.inf
+
+
+def test_what_only_groups_others_is_no_kind_of_load() -> None:
+    with pytest.raises(InputError, match="AnyLoad: is a kind of values; allowed: AppliedForce, "):
+        AnyLoad(body="canopy")
+    assert "AnyLoad" not in kinds_of(AnyLoad)

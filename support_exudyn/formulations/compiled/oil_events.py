@@ -96,8 +96,8 @@ def farthest(scene: SceneArrays, room: Scratch, n: int, k: int, t: float, h: flo
 def hidden_gap(scene: SceneArrays, room: Scratch, t: float, h: float) -> float:
     """The fraction of a step at which a valve would have jumped that has come back by its end; 1 if none has.
 
-    A valve with hysteresis that opens, or closes, stays so: a pressure that is beyond for a moment matters. It
-    is looked for where it could be, by how far and how much the gap was at the stages of the step.
+    A valve with hysteresis that opens, or closes, stays so: a pressure that is beyond for a moment matters.
+    Looked at are gaps that were nearer to zero at a stage of the step than half of the larger one at its ends.
     """
     found = 1.0
     for n in range(scene.gaps.shape[0]):
