@@ -23,7 +23,7 @@ from support_exudyn.mechanics.pin_channels import pin_channels
 from support_exudyn.mechanics.trajectory import CylinderSeries, Series
 from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
-from support_exudyn.model.linkage import Body, Linkage
+from support_exudyn.model.linkage import Body, Linkage, TracePoint
 from support_exudyn.model.loads.load import ActingLoad, LoadChannel
 from support_exudyn.model.pins import IdealPin, Pin
 from user_forces.values.value import InputError
@@ -69,12 +69,20 @@ def channel_definitions(
         *map(block_channels, blocks),
         _of_energy(stored, bool(loads), bool(cylinders) or bool(legs)),
     ]
+    # a traced centre of mass may have the name of its body, as its place is the same
+    centres = {name for name, one in linkage.points.items() if _is_centre(linkage, name, one)}
+    same = {f"{name}.{axis}" for name in centres for axis in "xy"}
     found: ChannelDefinitions = {}
     for part in parts:
-        if twice := found.keys() & part.keys():
+        if twice := (found.keys() & part.keys()) - same:
             raise InputError(f"{min(twice)}: two parts have a channel of this name; allowed: names that differ")
         found |= part
     return found
+
+
+def _is_centre(linkage: Linkage, name: str, point: TracePoint) -> bool:
+    """Whether a traced point is the centre of mass of the body of the same name."""
+    return point.body == name and point.point == linkage.bodies[name].centre
 
 
 def _of_body(name: str, body: Body, i: int) -> ChannelDefinitions:
