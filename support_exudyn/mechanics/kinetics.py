@@ -76,8 +76,9 @@ class Kinetics:
         for slide in self.linkage.slides.values():
             rows += self._guided(position, slide)
         for gear in self.linkage.gears.values():
-            first, second = (self.turning(position.size, body) for body in (gear.first, gear.second))
-            rows.append(second - gear.ratio * first)
+            wheels = gear.first, gear.second, gear.carrier or GROUND
+            first, second, carrier = (self.turning(position.size, body) for body in wheels)
+            rows.append(second - gear.ratio * first - (1.0 - gear.ratio) * carrier)
         return np.array(rows).reshape(-1, position.size)
 
     def _guided(self, position: Matrix, slide: Slide) -> list[Matrix]:

@@ -49,7 +49,10 @@ def missing(
         turned = carrier - turn(closed, position, slide.body)
         short += [math.sin(angle) * x - math.cos(angle) * y, turned][: slide.conditions]
     for gear in linkage.gears.values():
-        short.append(gear.ratio * turn(closed, position, gear.first) - turn(closed, position, gear.second))
+        first, second, carrier = (
+            turn(closed, position, body) for body in (gear.first, gear.second, gear.carrier or GROUND)
+        )
+        short.append(gear.ratio * (first - carrier) - (second - carrier))
     return np.array(short)
 
 

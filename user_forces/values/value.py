@@ -31,6 +31,7 @@ from typing_extensions import Self, dataclass_transform
 from user_forces.values import places
 from user_forces.values.names import Named, no_attribute
 from user_forces.values.texts import InputError as InputError
+from user_forces.values.texts import check_names as check_names
 from user_forces.values.texts import cleaned as cleaned
 from user_forces.values.texts import short as short
 

@@ -33,7 +33,7 @@ from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import GROUND, Crank, Linkage, TracePoint
 from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.units import Metres, Radians, RadiansPerSecond
-from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
+from user_forces.values.value import InputError, Positive, Real, Value, Vector2, check_names, value
 
 NAMED = (  # whose channels begin with the names of their parts
     "bodies", "traced_points", "actuators", "guides", "gears", "springs", "torsion_springs", "torques",
@@ -190,6 +190,8 @@ class LinkageFile(Value):
 
     def _check_names(self, linkage: Linkage) -> None:
         """Raise InputError where something is said of what is not there, or two things share a name."""
+        for what in ("drawing", "pins", "cranks", *NAMED):
+            check_names(what, getattr(self, what))
         of_pins = {"bore_radius_mm": self.bore_radius, "width_mm.pins": self.width.get("pins", {})}
         for where, named in of_pins.items():
             _check_known(where, named, linkage.pins, "pin")

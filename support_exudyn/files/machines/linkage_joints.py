@@ -69,10 +69,13 @@ class LinkageGearData(Value):
     Arguments:
         bodies: first and second, which pins or guides hold in their places.
         ratio: [-], not 0; negative for gears that mesh outside, 1 for equal angles.
+        carrier: the body that carries both axes, against which the turns count; by default the body, or the
+            ground, on which pins hold both wheels.
     """
 
     bodies: tuple[str, str]
     ratio: Real = 1.0
+    carrier: str | None = None
 
 
 @value
@@ -171,7 +174,8 @@ class DrawnPoints:
     def gear(self, name: str, data: LinkageGearData) -> Gear:
         """A pair of gears."""
         first, second = (self.moving(one, f"gears.{name}.bodies") for one in data.bodies)
-        return Gear(first=first, second=second, ratio=data.ratio)
+        carrier = None if data.carrier is None else self.body(data.carrier, f"gears.{name}.carrier")
+        return Gear(first=first, second=second, ratio=data.ratio, carrier=carrier)
 
     def actuator(self, name: str, data: LinkageActuatorData) -> LinearActuator:
         """An actuator."""

@@ -31,6 +31,7 @@ from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.sourced import SourcedNumber
+from user_forces.values.units import ANGLES, LENGTHS
 from user_forces.values.value import InputError, Value, value
 
 OTHER_FILES = {  # by a key that they have
@@ -170,7 +171,7 @@ def _scenario(
     sourced: dict[str, SourcedNumber],
 ) -> Any:
     """A scenario, or FAILED."""
-    forms = ShortForms(folder, machine)
+    forms = ShortForms(folder, machine, table)
     shorts = {Pin: forms.pin, Guide: forms.guide, ActuatorModel: forms.actuator, Drive: forms.drive}
     reader = Reader(faults, {**shorts, Machine: forms.machine}, sourced)
     apart = forms.drives(reader, table)
@@ -191,7 +192,15 @@ def scenario_text(scenario: Scenario, name: str = "", description: str = "", err
     Raises InputError if it holds a value of a class that files have no form for.
     """
     head = table_of(ScenarioHead(name=name, description=description, errors=errors), says_type=False)
-    table = {key: item for key, item in table_of(scenario, says_type=False).items() if item != {}}
+    table = table_of(scenario, says_type=False)
+    linkage = scenario.machine.linkage()
+    table["drives"] = {
+        name: table_of(one, endings=ANGLES if name in linkage.cranks else LENGTHS)
+        for name, one in scenario.drives.items()
+    }
+    turning = {name in linkage.cranks for name in linkage.driven if name not in scenario.drives}
+    table["drive"] = table_of(scenario.drive, endings=ANGLES if True in turning else LENGTHS)
+    table = {key: item for key, item in table.items() if item != {}}
     return toml_text({key: item for key, item in head.items() if item} | table)
 
 

@@ -37,9 +37,10 @@ PIECE = _record("", "begin half")
 # kinds: see PIN and so on. ratio: of a gear. length, angle: at the start
 JOINT = _record("kind row first second course conditions", "length angle ratio")
 PIN, ACTUATOR, CRANK, SLIDE, GEAR = range(5)
-# two bodies and what its rate takes of theirs; first: of the row in the factors | what C a has to be,
-# multiplier, what is left of the position, and the rate that it has to have
-ROW = _record("body other first", "x y t ox oy ot wanted held off rate")
+# two bodies and what its rate takes of theirs, and the carrier of a gear, of which the rate takes the turn;
+# first: of the row in the factors | what C a has to be, multiplier, what is left of the position, and the rate
+# that it has to have
+ROW = _record("body other carrier first", "x y t ox oy ot carrier_t wanted held off rate")
 # rows that share a body, i >= j; which of the bodies of each it is
 PAIR = _record("i j side other", "")
 # journal `second` in bore `first`, both points. slot: corner between walls, or ONE_SIDED of one wall alone.

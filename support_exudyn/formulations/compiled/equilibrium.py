@@ -107,6 +107,8 @@ def balance(
             left[i] -= row.ox * size
             left[i + 1] -= row.oy * size
             left[i + 2] -= row.ot * size
+        if row.carrier >= 0:
+            left[3 * row.carrier + 2] -= row.carrier_t * size
         left[count + n] = -row.off
 
 
@@ -162,6 +164,8 @@ def linearised(
         if row.other >= 0:
             i = 3 * row.other
             slope[i, count + n], slope[i + 1, count + n], slope[i + 2, count + n] = -row.ox, -row.oy, -row.ot
+        if row.carrier >= 0:
+            slope[3 * row.carrier + 2, count + n] = -row.carrier_t
 
 
 class _Search:

@@ -212,6 +212,7 @@ class _Joint(NamedTuple):
     length: float = 0.0
     angle: float = 0.0
     ratio: float = 0.0
+    carrier: int = -1  # a third body, of a gear
 
 
 def _held(scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Mapping[str, int]) -> list[_Joint]:
@@ -237,7 +238,8 @@ def _held(scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Map
         found.append(_Joint(arrays.SLIDE, carrier, guided, bodies, slide.conditions, angle=slide.direction))
     for gear in linkage.gears.values():
         bodies = number[gear.second], number[gear.first]
-        found.append(_Joint(arrays.GEAR, bodies[1], bodies[0], bodies, 1, ratio=gear.ratio))
+        carrier = number[gear.carrier or GROUND]
+        found.append(_Joint(arrays.GEAR, bodies[1], bodies[0], bodies, 1, ratio=gear.ratio, carrier=carrier))
     return found
 
 
@@ -249,7 +251,8 @@ def _joints(
     The order is that of Cuthill and McKee, reversed: factors then have next to nothing outside of a band.
     """
     held = _held(scenario, build, rigid, course)
-    touch = np.array([[bool({*one.bodies} & {*other.bodies} - {-1}) for other in held] for one in held])
+    moved = [{*one.bodies, one.carrier} - {-1} for one in held]
+    touch = np.array([[bool(one & other) for other in moved] for one in moved])
     order = reverse_cuthill_mckee(csr_array(touch), symmetric_mode=True).tolist() if held else []
     first, row = dict[int, int](), 0
     for n in order:
@@ -274,14 +277,15 @@ def _rows(joints: Records, held: Sequence[_Joint]) -> tuple[Records, Records, Ma
     rows = np.zeros(sum(one.rows for one in held), arrays.ROW)
     for joint, one in zip(joints, held, strict=True):
         for k in range(one.rows):
-            rows[joint["row"] + k]["body"], rows[joint["row"] + k]["other"] = one.bodies
-    bodies = [(int(row["body"]), int(row["other"])) for row in rows]
+            row = rows[joint["row"] + k]
+            row["body"], row["other"], row["carrier"] = *one.bodies, one.carrier
+    bodies = [(int(row["body"]), int(row["other"]), int(row["carrier"])) for row in rows]
     pairs = [
         (i, j, side, other)
         for i, mine in enumerate(bodies)
         for j, theirs in enumerate(bodies[: i + 1])
-        for side in (0, 1)
-        for other in (0, 1)
+        for side in range(3)
+        for other in range(3)
         if mine[side] == theirs[other] >= 0
     ]
     for i in range(len(rows)):

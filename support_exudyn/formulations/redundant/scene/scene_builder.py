@@ -8,12 +8,17 @@ from functools import cached_property, partial, singledispatchmethod
 from typing import Any
 
 import exudyn
+import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyRigid,
     MarkerNodeCoordinate,
+    MarkerNodeCoordinates,
+    MarkerObjectODE2Coordinates,
     NodePointGround,
     NodeRigidBody2D,
     ObjectConnectorCoordinate,
+    ObjectConnectorCoordinateVector,
+    ObjectGenericODE2,
     ObjectJointPrismatic2D,
     ObjectJointRevolute2D,
     ObjectRigidBody2D,
@@ -48,6 +53,8 @@ from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
+
+TURN = np.array([0.0, 0.0, 1.0])  # takes the angle out of a body's coordinates
 
 
 class PlaneBuilder(EngineBuilder):
@@ -182,12 +189,23 @@ class PlaneBuilder(EngineBuilder):
         )
 
     def add_gear(self, gear: Gear) -> None:
-        """Add what holds the turns of two bodies in proportion."""
-        markers = [
-            self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=self.bodies[body].node, coordinate=2))
-            for body in (gear.second, gear.first)
-        ]
-        self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers, factor1=gear.ratio))
+        """Add what holds the turns of two bodies against their carrier in proportion."""
+        shares = {gear.first: gear.ratio, gear.carrier: 1.0 - gear.ratio}
+        turning = {self.bodies[body].node: share for body, share in shares.items() if body in self.bodies}
+        # an object without mass gathers both coordinates, for a connector takes those of two objects
+        massless = np.zeros((3 * len(turning), 3 * len(turning)))
+        gathered = self.mbs.AddObject(ObjectGenericODE2(nodeNumbers=[*turning], massMatrix=massless))
+        second = MarkerNodeCoordinates(nodeNumber=self.bodies[gear.second].node)
+        self.mbs.AddObject(
+            ObjectConnectorCoordinateVector(
+                markerNumbers=[
+                    self.mbs.AddMarker(MarkerObjectODE2Coordinates(objectNumber=gathered)),
+                    self.mbs.AddMarker(second),
+                ],
+                scalingMarker0=np.kron([*turning.values()], TURN)[None],
+                scalingMarker1=TURN[None],
+            )
+        )
 
     @singledispatchmethod
     def add_load(self, load: ActingLoad, name: str) -> LoadItem:
