@@ -155,6 +155,8 @@ def factor(scene: SceneArrays) -> float:
         else:
             u, v, w = two.ox, two.oy, two.ot
         square[pair.i, pair.j] += body.light * (x * u + y * v) + body.light_turn * t * w
+    if scene.repeats.shape[0] > 0:
+        return invert_repeated(scene)
     least = 1.0
     for i in range(count):
         first = scene.rows[i].first
@@ -175,9 +177,85 @@ def factor(scene: SceneArrays) -> float:
     return least
 
 
+@compiled
+def invert_repeated(scene: SceneArrays) -> float:
+    """Write in place of C M^-1 C^T, some of whose rows repeat others, the inverse of what is left without them.
+
+    Rows are taken in the order of what is left of them, by the method of Gauss and Jordan; those that remain at
+    the end give `SceneArrays.repeats`, each with those that it follows from. Returns the least share that was
+    left of a row that was taken.
+    """
+    count, repeats = scene.rows.size, scene.repeats.shape[0]
+    square, own = scene.square, scene.spare
+    for i in range(count):
+        for j in range(scene.rows[i].first, i):
+            square[j, i] = square[i, j]
+        for j in range(scene.rows[i].first):
+            square[i, j] = square[j, i] = 0.0
+        own[i] = square[i, i]
+    least = 1.0
+    for _ in range(count - repeats):
+        best, most = -1, 0.0
+        for i in range(count):
+            if own[i] > 0.0 and square[i, i] > most * own[i]:
+                best, most = i, square[i, i] / own[i]
+        if best < 0:
+            return 0.0
+        least = min(least, most)
+        own[best] = 0.0
+        pivot, square[best, best] = square[best, best], 1.0
+        for j in range(count):
+            square[best, j] /= pivot
+        for i in range(count):
+            if i != best:
+                factor, square[i, best] = square[i, best], 0.0
+                for j in range(count):
+                    square[i, j] -= factor * square[best, j]
+    n = 0
+    for i in range(count):
+        if own[i] > 0.0:
+            for j in range(count):
+                scene.repeats[n, j] = -square[j, i] if own[j] == 0.0 else 0.0
+                square[i, j] = square[j, i] = 0.0
+            scene.repeats[n, i] = 1.0
+            n += 1
+    for n in range(repeats):  # perpendicular to each other and of length 1, counted by `counts`
+        for k in range(n + 1):
+            product = 0.0
+            for j in range(count):
+                product += scene.repeats[n, j] * scene.repeats[k, j] / scene.counts[j] ** (2 if k == n else 1)
+            for j in range(count):
+                if k == n:
+                    scene.repeats[n, j] /= scene.counts[j] * math.sqrt(product)
+                else:
+                    scene.repeats[n, j] -= product * scene.repeats[k, j] * scene.counts[j]
+    return least
+
+
+@compiled
+def divide_repeated(scene: SceneArrays, right: Vector) -> None:
+    """See `divide`, where rows repeat others: of all x that fit the least, counted by `SceneArrays.counts`."""
+    found, counts = scene.spare, scene.counts
+    for i in range(right.size):
+        found[i] = 0.0
+        for j in range(right.size):
+            found[i] += scene.square[i, j] * right[j]
+    for n in range(scene.repeats.shape[0]):
+        product = 0.0
+        for i in range(right.size):
+            product += scene.repeats[n, i] * found[i] / counts[i]
+        for i in range(right.size):
+            found[i] -= product * scene.repeats[n, i] * counts[i]
+    for i in range(right.size):
+        right[i] = found[i]
+
+
 @inlined
 def divide(scene: SceneArrays, right: Vector) -> None:
     """Solve C M^-1 C^T x = right by the factors; x stands in `right` afterwards."""
+    if scene.repeats.shape[0] > 0:
+        divide_repeated(scene, right)
+        return
     count = scene.rows.size
     square = scene.square
     for i in range(count):

@@ -18,6 +18,7 @@ from support_exudyn.formulations.compiled.courses import Courses, TimeFunction, 
 from support_exudyn.formulations.compiled.written import load_source
 from support_exudyn.formulations.hydraulics.fill import Legs, fill_legs
 from support_exudyn.formulations.time_grid import record_times
+from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
@@ -122,6 +123,8 @@ def model_of(scenario: Scenario) -> Model:
     bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
     rubbing = _rubbing(scenario, build, joints)
+    counts = np.ones(len(rows))
+    counts[order] = scenario.held.counts
     scene = SceneArrays(
         bodies=_bodies(scenario),
         points=_points(build, linkage),
@@ -132,6 +135,9 @@ def model_of(scenario: Scenario) -> Model:
         rows=rows,
         pairs=pairs,
         square=square,
+        repeats=np.zeros((repeated_count(scenario.held)[0], len(rows))),
+        counts=counts,
+        spare=np.zeros(len(rows)),
         contacts=contacts,
         oil=oil_records,
         cylinders=cylinder_records,

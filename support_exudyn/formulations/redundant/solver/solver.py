@@ -87,6 +87,7 @@ class SolverRun:
             + sum(pin.rounding for pin in scene.compliant_pins.values())
             + scene.legs.rounding,
             bool(self.cylinders),
+            scene.repeats,
         )
         self.locates = scenario.solver.locate
         self.impact_steps = scenario.solver.impact_steps
