@@ -8,6 +8,7 @@ velocities dv and the impulses L under generalised impulses b and a change c of 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,6 +22,7 @@ from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, Slide
 from user_forces.values.value import Vector2
 
 Matrix = npt.NDArray[np.float64]
+STAND_IN = 0.01  # of mass times the square of the longest arm
 REPEATED = 1e-9  # of the largest singular value: below, rows repeat each other
 
 
@@ -62,6 +64,16 @@ class Kinetics:
         rows = self.rows(np.zeros(3 * len(self.bodies)))
         only_turns = ~np.any(np.delete(rows, np.s_[2::3], axis=1), axis=1)
         return np.where(only_turns, self.size, 1.0)
+
+    @cached_property
+    def stand_in(self) -> Matrix:
+        """What stands in for the inertia of point masses where one is divided by it (n,) [kg m^2], else 0."""
+        found = np.zeros(3 * len(self.bodies))
+        for name, item in self.bodies.items():
+            if item.body.inertia == 0.0:
+                arms = [math.dist(place, item.body.centre) for body, place in joints_of(self.linkage) if body == name]
+                found[item.first + 2] = STAND_IN * item.body.mass * (max(arms, default=0.0) or self.size) ** 2
+        return found
 
     def mass(self) -> Matrix:
         """Diagonal of the mass matrix, shape (n,)."""

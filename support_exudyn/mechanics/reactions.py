@@ -31,6 +31,8 @@ STILL = 1e-6  # [m/s], [rad/s] below which they go on by less: what is left then
 # Beside bodies of next to no mass what heavy ones add to the square of the rows is lost to rounding: the second
 # round makes up for it.
 ROUNDS = 2
+# Those in which point masses are given back what stands in for their inertia end once that has settled.
+MOST_ROUNDS, SETTLED = 30, 1e-13
 SAMPLES = 5  # records at which it is looked how many rows repeat others
 
 
@@ -182,13 +184,13 @@ def equations(motion: BodyMotion, held: HeldJoints, driven: Series) -> Equations
         held: what is held.
         driven: second derivatives of what drives move, (n, actuators and cranks) [m/s^2], [rad/s^2].
     """
-    bodies = motion.linkage.bodies.values()
-    mass = np.array([part for body in bodies for part in (body.mass, body.mass, body.inertia)])
+    kinetics = kinetics_of(motion.linkage)
     wanted = -turning(motion, held)
     wanted[:, held.driven] += driven
-    rows, size = matrix(motion, held), kinetics_of(motion.linkage).size
+    rows, mass = matrix(motion, held), kinetics.mass() + kinetics.stand_in
     turns = ~rows[:, :, np.arange(mass.size) % 3 != 2].any(axis=(0, 2))
-    return Equations(rows, wanted, lambda forces: forces / mass, np.where(turns, size, 1.0))
+    counts = np.where(turns, kinetics.size, 1.0)
+    return Equations(rows, wanted, lambda forces: forces / mass, counts, kinetics.stand_in)
 
 
 class Equations:
@@ -199,11 +201,18 @@ class Equations:
         wanted: C a, (n, rows).
         lightness: gives M^-1 f for forces f on all coordinates, (n, ..., coordinates).
         counts: factor of each row (rows,) [m], see `Kinetics.counts`, where rows may repeat each other.
+        stand_in: what of M stands in for the inertia of point masses (coordinates,), see `Kinetics.stand_in`.
     """
 
     def __init__(
-        self, rows: Series, wanted: Series, lightness: Callable[[Series], Series], counts: Series | None = None
+        self,
+        rows: Series,
+        wanted: Series,
+        lightness: Callable[[Series], Series],
+        counts: Series | None = None,
+        stand_in: Series | float = 0.0,
     ) -> None:
+        self._stand_in = stand_in
         self._rows, self._wanted, self._lightness = rows, wanted, lightness
         self._square = rows @ np.swapaxes(lightness(rows), 1, 2)  # C M^-1 C^T
         self._inverse: Series | None = None
@@ -213,12 +222,15 @@ class Equations:
     def solve(self, forces: Series) -> tuple[Series, Series]:
         """Accelerations (n, coordinates) and L (n, rows) under forces on all coordinates."""
         held = np.zeros(self._wanted.shape)
-        acceleration = self._lightness(forces)
-        for _ in range(ROUNDS):
+        acceleration, given = self._lightness(forces), np.zeros_like(forces)
+        for rounds in range(1, MOST_ROUNDS + 1):
             missing = np.einsum("nrk,nk->nr", self._rows, acceleration) - self._wanted
             held += self._respond(missing)
-            left = forces - np.einsum("nrk,nr->nk", self._rows, held)
+            given = self._stand_in * acceleration  # the moment that gives back what stands in
+            left = forces + given - np.einsum("nrk,nr->nk", self._rows, held)
             acceleration = self._lightness(left)
+            if rounds >= ROUNDS and np.all(np.abs(self._stand_in * acceleration - given) <= SETTLED * np.abs(given)):
+                break
         return acceleration, held
 
     def _respond(self, missing: Series) -> Series:
@@ -232,6 +244,8 @@ class Equations:
 
 def _repeats(rows: Series) -> int:
     """How many rows repeat others at all records (n, rows, coordinates); some of these are looked at."""
+    if not rows.size:
+        return 0
     some = rows[np.linspace(0, len(rows) - 1, SAMPLES).astype(int)]
     values = np.linalg.svd(some / np.linalg.norm(some, axis=(1, 2), keepdims=True), compute_uv=False)
     return int(rows.shape[1] - np.count_nonzero(values > REPEATED, axis=1).max())

@@ -12,6 +12,7 @@ import math
 from support_exudyn.formulations.compilation import compiled, inlined, once
 from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
 
+SETTLED = 1e-13  # of moments that are found together with accelerations: they change by no more than this share
 SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
 
 
@@ -321,11 +322,8 @@ def push_point(scene: SceneArrays, point: int, fx: float, fy: float) -> None:
 
 
 @inlined
-def solve(scene: SceneArrays, right: Vector) -> None:
-    """Write multipliers and accelerations under the forces that act on the bodies; `right` is overwritten."""
-    for n in range(scene.bodies.size):
-        body = scene.bodies[n]
-        body.ax, body.ay, body.a = body.light * body.fx, body.light * body.fy, body.light_turn * body.m
+def miss(scene: SceneArrays, right: Vector) -> None:
+    """Write by how much the accelerations of the bodies miss what the joints demand."""
     for n in range(scene.rows.size):
         row = scene.rows[n]
         total = -row.wanted
@@ -336,17 +334,62 @@ def solve(scene: SceneArrays, right: Vector) -> None:
             body = scene.bodies[row.other]
             total += row.ox * body.ax + row.oy * body.ay + row.ot * body.a
         right[n] = total
+
+
+@inlined
+def take(scene: SceneArrays, n: int, size: float) -> None:
+    """Take M^-1 C^T L off the accelerations of the bodies, for a multiplier of one row."""
+    row = scene.rows[n]
+    if row.body >= 0:
+        body = scene.bodies[row.body]
+        body.ax -= body.light * row.x * size
+        body.ay -= body.light * row.y * size
+        body.a -= body.light_turn * row.t * size
+    if row.other >= 0:
+        body = scene.bodies[row.other]
+        body.ax -= body.light * row.ox * size
+        body.ay -= body.light * row.oy * size
+        body.a -= body.light_turn * row.ot * size
+
+
+@inlined
+def solve(scene: SceneArrays, right: Vector) -> None:
+    """Write multipliers and accelerations under the forces that act on the bodies; `right` is overwritten."""
+    for n in range(scene.bodies.size):
+        body = scene.bodies[n]
+        body.ax, body.ay, body.a = body.light * body.fx, body.light * body.fy, body.light_turn * body.m
+        body.given = 0.0
+    miss(scene, right)
     divide(scene, right)
     for n in range(scene.rows.size):
-        row = scene.rows[n]
-        row.held = right[n]
-        if row.body >= 0:
-            body = scene.bodies[row.body]
-            body.ax -= body.light * row.x * row.held
-            body.ay -= body.light * row.y * row.held
-            body.a -= body.light_turn * row.t * row.held
-        if row.other >= 0:
-            body = scene.bodies[row.other]
-            body.ax -= body.light * row.ox * row.held
-            body.ay -= body.light * row.oy * row.held
-            body.a -= body.light_turn * row.ot * row.held
+        scene.rows[n].held = right[n]
+        take(scene, n, right[n])
+    for _ in range(1, scene.rounds):
+        if not refine(scene, right):
+            break
+
+
+@compiled
+def refine(scene: SceneArrays, right: Vector) -> bool:
+    """Correct multipliers and accelerations by what the equations are open by; whether that may help further.
+
+    Beside light bodies the factors lose digits. A point mass has in them the inertia `stand_in`, which has no
+    moment: it is given back by one, from the acceleration before.
+    """
+    changed = largest = 0.0
+    for n in range(scene.bodies.size):
+        body = scene.bodies[n]
+        given = body.stand_in * body.a
+        changed = max(changed, abs(given - body.given))
+        largest = max(largest, abs(given))
+        body.given = given
+        body.ax, body.ay = body.light * body.fx, body.light * body.fy
+        body.a = body.light_turn * (body.m + given)
+    for n in range(scene.rows.size):
+        take(scene, n, scene.rows[n].held)
+    miss(scene, right)
+    divide(scene, right)
+    for n in range(scene.rows.size):
+        scene.rows[n].held += right[n]
+        take(scene, n, right[n])
+    return largest == 0.0 or changed > SETTLED * largest
