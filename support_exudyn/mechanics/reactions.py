@@ -221,15 +221,16 @@ class Equations:
 
     def solve(self, forces: Series) -> tuple[Series, Series]:
         """Accelerations (n, coordinates) and L (n, rows) under forces on all coordinates."""
-        held = np.zeros(self._wanted.shape)
-        acceleration, given = self._lightness(forces), np.zeros_like(forces)
+        held, acceleration = np.zeros(self._wanted.shape), np.zeros_like(forces)
         for rounds in range(1, MOST_ROUNDS + 1):
-            missing = np.einsum("nrk,nk->nr", self._rows, acceleration) - self._wanted
-            held += self._respond(missing)
             given = self._stand_in * acceleration  # the moment that gives back what stands in
             left = forces + given - np.einsum("nrk,nr->nk", self._rows, held)
-            acceleration = self._lightness(left)
-            if rounds >= ROUNDS and np.all(np.abs(self._stand_in * acceleration - given) <= SETTLED * np.abs(given)):
+            missing = np.einsum("nrk,nk->nr", self._rows, self._lightness(left)) - self._wanted
+            change = self._respond(missing)
+            held += change
+            acceleration = self._lightness(left - np.einsum("nrk,nr->nk", self._rows, change))
+            changed = np.abs(self._stand_in * acceleration - given)
+            if rounds >= ROUNDS and np.all(changed <= SETTLED * np.abs(given).max(initial=0.0)):
                 break
         return acceleration, held
 

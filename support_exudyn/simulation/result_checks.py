@@ -180,6 +180,8 @@ def turned_over(channels: Mapping[str, Channel]) -> float:
 def joints_apart(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None = None) -> Series | None:
     """Largest distance of what ideal pins, rigid actuators and guides hold together, at the records (n,) [m].
 
+    That of a crank from where its drive wants it is counted at the size of the linkage.
+
     None for runs in space. motion: of all bodies, where it is known already.
     """
     run = outcome.trajectory
@@ -201,6 +203,10 @@ def joints_apart(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None
                 extensions[id(drive)] = of_depth(drive.extension, time)
             wanted = actuator.start_length + extensions[id(drive)]
             gaps = np.maximum(gaps, (np.sqrt(x * x + y * y) - wanted) ** 2)
+    size = scenario.held.size
+    for name, crank in linkage.cranks.items():
+        turned = motion.turn(crank.body) - of_depth(scenario.drive_of(name).extension, time)
+        gaps = np.maximum(gaps, (size * turned) ** 2)
     for slide in scenario.guided_linkage.slides.values():
         x, y = _apart(motion, (slide.body, slide.point), (slide.against, slide.point))
         along = slide.direction + motion.turn(slide.against)

@@ -9,6 +9,7 @@ import numpy as np
 
 from support_exudyn.machines.check.drive_way import TURN, DriveWay, Moved, way_of
 from support_exudyn.machines.check.freedoms import (
+    SHARED,
     Movement,
     RepeatedConditions,
     floating,
@@ -255,9 +256,7 @@ def _goal(linkage: Linkage, drive: str, stroke: float | None) -> tuple[float, fl
 
 
 def _repeats(one: RepeatedConditions) -> str:
-    return one.said() + (
-        "" if one.driven else "; how they share a force is not determined by ideal, rigid parts"
-    )
+    return one.said() + ("" if one.driven else f"; {SHARED}")
 
 
 def _freedoms(
