@@ -26,12 +26,9 @@ except ImportError:  # Windows
     _fcntl = None  # type: ignore[assignment]
 
 fcntl: Any = _fcntl
-SECONDS = {"closed_forms": 8, "compiled": 17}  # that compiling takes on a quiet machine of 2020
+SECONDS = {"compiled": 17}  # that compiling takes on a quiet machine of 2020
 COMPILED = ("compiled", "hydraulics")  # folders with compiled functions
 CONSTANTS_OF = (contact_events, contact, oil)  # modules of which compiled functions use constants
-ALLOCATES = (
-    ".closed_forms."  # entries there make arrays; elsewhere all functions are given those that they fill
-)
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -111,7 +108,7 @@ def _inner(function: Function, **options: bool) -> Function:
 
 
 def _kept(function: Function) -> Function:
-    options = {"nogil": True} | ({} if ALLOCATES in function.__module__ else UNCOUNTED)
+    options = {"nogil": True} | (UNCOUNTED)
     try:
         dispatcher: Any = numba.njit(cache=True, error_model="numpy", **options)(function)
         kept = _is_kept_only_while_unchanged(dispatcher)

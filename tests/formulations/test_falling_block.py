@@ -133,7 +133,7 @@ def test_the_weight_takes_part_of_what_is_given_back_as_in_scipy() -> None:
     assert speeds[1:4] == pytest.approx([lift_off(speed) for speed in speeds[:3]], rel=1e-5)
 
 
-def test_impulse_and_duration_are_those_of_the_closed_forms() -> None:
+def test_impulse_and_duration_are_those_of_the_formulas() -> None:
     rock = block(restitution=1.0)
     scene = replace(weightless(rock), record_period=2e-5, step=2e-5)
     result = simulate(scene)

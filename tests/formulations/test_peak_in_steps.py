@@ -15,7 +15,7 @@ from support_exudyn.formulations.redundant.clearance.clearance_pin import Cleara
 from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 from support_exudyn.formulations.redundant.clearance.pin_motion import Course
 from tests.cases.run_cases import PIN, paper_contact, support
-from tests.closed_forms import simulate_compiled, simulate_redundant
+from tests.compiled_runs import simulate_compiled, simulate_redundant
 from user_forces import Flores, IndentationVelocity
 from user_forces.contact import ContactForce
 from user_forces.lawful import LawError

@@ -36,7 +36,6 @@ WAYS: Mapping[str, Mapping[str, Any]] = {
     "symbolic": {"solver": SolverSettings(backend="symbolic")},
     "space": {"dimensions": 3},
     "compiled": {"formulation": "compiled", "actuators": {"front_column": OIL, "rear_column": OIL}},
-    "closed forms": {"formulation": "compiled"},
     "accuracy": {"accuracy": "draft"},
 }
 
@@ -194,9 +193,7 @@ class Branching(Spring):
         return 0.5 * self.stiffness * depth * depth if depth > 0.0 else 0.0
 
 
-@pytest.mark.parametrize(
-    "way", sorted(WAYS.keys() - {"compiled", "closed forms"})
-)  # which refuse what cannot be compiled
+@pytest.mark.parametrize("way", sorted(WAYS.keys() - {"compiled"}))  # which refuse what cannot be compiled
 def test_an_elastic_part_that_branches_is_one(way: str) -> None:
     assert not isinstance(simulate(with_clearance(Branching(), **WAYS[way]), throw=False), Failure)
 

@@ -25,7 +25,6 @@ from support_exudyn import (
     UniformSpeed,
     simulate,
 )
-from support_exudyn.formulations.compiled import closed_forms
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.sweeps.parallel_runs import run_all
@@ -102,20 +101,14 @@ def test_a_compiled_run_is_interrupted_between_its_pauses() -> None:
     assert same(simulate(scenario), before)
 
 
-@pytest.mark.parametrize("form", ["general", "closed forms"])
 @pytest.mark.parametrize("at_once", [1, 37])
-def test_pauses_of_a_compiled_run_change_nothing(
-    monkeypatch: pytest.MonkeyPatch, at_once: int, form: str
-) -> None:
-    if form == "general":
-        monkeypatch.setattr(closed_forms, "covers", lambda scenario: False)
+def test_pauses_of_a_compiled_run_change_nothing(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
     drive = UniformSpeed(stroke=0.01, start=0.02, end=0.06)  # whose speed jumps twice
     scenario = replace(PLANE, formulation="compiled", drive=drive, duration=0.1)
     before = simulate(scenario)
     assert len(before.impulses) == 2
     assert len(before.onsets[PIN]) > 2
-    where = "compiled.run" if form == "general" else "compiled.closed_forms.run"
-    module = importlib.import_module(f"support_exudyn.formulations.{where}")
+    module = importlib.import_module("support_exudyn.formulations.compiled.run")
     monkeypatch.setattr(module, "AT_ONCE", at_once)
     told: list[float] = []
     paused = simulate(scenario, progress=told.append)

@@ -188,7 +188,7 @@ BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0015)
         Liu(bearing=BEARING, length=0.1, effective_modulus=1.1e11, restitution=0.6),
     ],
 )
-def test_other_laws_deliver_their_closed_forms(law: Any) -> None:
+def test_other_laws_deliver_their_formulas(law: Any) -> None:
     expected = law.delivered_restitution(1.2) if isinstance(law, KelvinVoigt) else law.delivered_restitution
     result = simulate(scenario(law))
     # a force that jumps at the impact costs some accuracy: 2e-5

@@ -3,7 +3,6 @@
 import numpy as np
 
 from support_exudyn.formulations import change_points
-from support_exudyn.formulations.compiled import closed_forms
 from support_exudyn.formulations.compiled.arrays import (
     ACCEPTED,
     CLAMPED,
@@ -133,13 +132,6 @@ class _Run:
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:
     """Run a scenario. Raises SimulationError if it cannot be finished."""
-    if closed_forms.covers(scenario):
-        return closed_forms.run(scenario, progress)
-    return run_general(scenario, progress)
-
-
-def run_general(scenario: Scenario, progress: Progress) -> Outcome:
-    """Run a scenario by the equations of any linkage. Raises SimulationError if it cannot be finished."""
     going = _Run(model_of(scenario))
     going.go(progress)
     if going.code == FINISHED and not np.isfinite(going.rows.sum()):
