@@ -16,7 +16,12 @@ MANY = 40
 
 
 def engine_settings(
-    chosen: SolverSettings, duration: float, unknowns: int, rounding: float = 0.0, cylinders: bool = False
+    chosen: SolverSettings,
+    duration: float,
+    unknowns: int,
+    rounding: float = 0.0,
+    cylinders: bool = False,
+    repeats: bool = False,
 ) -> Any:
     """The engine's settings for a run of this duration [s] with so many coordinates and multipliers.
 
@@ -26,6 +31,8 @@ def engine_settings(
     begins: no residual becomes small there, but increments do. And the rows of pressures are not scaled by the
     step as those of motions are: with a Jacobian of another step iterations end at a wrong place. So they are
     judged by increments, with a new Jacobian for each.
+    repeats: whether constraints repeat each other. Of the engine's linear solvers `EigenDense` alone, which looks
+    for pivots, runs those.
     """
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration
@@ -48,7 +55,9 @@ def engine_settings(
     integration.newton.useModifiedNewton = chosen.newton == "modified" and not cylinders
     integration.newton.residualMode = 1 if cylinders else 0
     integration.newton.modifiedNewtonContractivity = 0.1  # renew the Jacobian early: a fifth faster here
-    if unknowns > MANY:
+    if repeats:
+        settings.linearSolver.solverType = exudyn.LinearSolverType.EigenDense
+    elif unknowns > MANY:
         settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse
     settings.solution.file.write = False
     return settings

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
+from support_exudyn.mechanics.kinetics import REPEATED, Kinetics, Matrix, joints_of, kinetics_of
 from support_exudyn.mechanics.postures import CLOSED, ROUNDINGS, missing
-from support_exudyn.model.linkage import GROUND, Linkage, PinPlace
+from support_exudyn.model.linkage import GROUND, Linkage
 from user_forces.values.value import Vector2
 
 JOINTS = ("pins", "actuators", "cranks", "slides", "gears")  # fields of a linkage that hold its parts together
@@ -20,12 +20,13 @@ FARTHEST_STEP = 0.05  # of the drawing's size
 LARGEST_TURN = 0.2  # [rad] in a step
 CURVED = 0.25  # of what a step closes: by how much it may miss that
 SHORTEST = 2.0**-16  # share of what is open that a step closes
-REPEATED = 1e-9  # of the largest singular value: below, conditions repeat each other
 PRECISE, EVALUATIONS = 1e-10, 60  # of a search for the least gaps
 NEARLY = 1e-3  # of the drawing's size: gaps from which on Newton's method closes what can be closed
 LESS = 0.8  # of what was open before: if a step leaves more, rounding is reached
 STUCK = 1e-6  # of what is open: less is closed by no step
 LEAST_ARM = 0.1  # of the drawing's size: by this the turn of a small body is counted
+ASIDE = 1e-3  # of the machine's size: how far it is moved to see whether a freedom lasts
+ROUNDS = 8  # of Newton's method there
 
 
 @dataclass(frozen=True)
@@ -49,12 +50,10 @@ class Conditions:
         """Matrices of what holds it together."""
         return kinetics_of(self.linkage)
 
-    @cached_property
+    @property
     def size(self) -> float:
         """The larger of length and height of the drawing [m]."""
-        places = [body.centre for body in self.linkage.bodies.values()]
-        places += [place for _, place in joints_of(self.linkage)]
-        return max(float(np.ptp(np.array(places), axis=0).max()), 1e-9)
+        return self.kinetics.size
 
     @cached_property
     def arms(self) -> Matrix:
@@ -79,12 +78,10 @@ class Conditions:
                 shift[row] = math.cos(slide.direction) * y - math.sin(slide.direction) * x
         return shift
 
-    @cached_property
+    @property
     def counts(self) -> Matrix:
-        """Factor of each condition (m,) [m]: angles count by the size of the drawing."""
-        rows = self.kinetics.rows(np.zeros(3 * len(self.linkage.bodies)))
-        only_turns = ~np.any(np.delete(rows, np.s_[2::3], axis=1), axis=1)
-        return np.where(only_turns, self.size, 1.0)
+        """See `Kinetics.counts`."""
+        return self.kinetics.counts
 
     @cached_property
     def enough(self) -> float:
@@ -185,15 +182,38 @@ def nearest(conditions: Conditions, start: Matrix) -> Matrix:
     return best
 
 
-def joints_of(linkage: Linkage) -> list[tuple[str, Vector2]]:
-    """Bodies with the points at which something is joined to them, the ground among them."""
-    found = [(body, point) for one in linkage.pins.values() for body, point in _ends(one)]
-    for actuator in linkage.actuators.values():
-        found += [(actuator.foot, actuator.foot_point), (actuator.head, actuator.head_point)]
-    for slide in linkage.slides.values():
-        found += [(slide.body, slide.point), (slide.against, slide.point)]
-    return found
+def beside(conditions: Conditions, rates: Sequence[Matrix]) -> Matrix:
+    """Coordinates (n,) a little beside the start, on the ways in which a linkage can still move.
+
+    Arguments:
+        conditions: that hold.
+        rates: of each way, of all coordinates counted by `arms` (n,), the largest about 1.
+    """
+    moved = np.zeros(3 * len(conditions.linkage.bodies))
+    for one, share in zip(rates, np.linspace(1.0, 2.0, len(rates)), strict=True):
+        moved = moved + ASIDE * share * conditions.size * one
+    for _ in range(ROUNDS):
+        short = conditions.short(moved)
+        moved = moved + np.linalg.lstsq(conditions.rows(moved), short, rcond=REPEATED)[0]
+    return moved
 
 
-def _ends(pin: PinPlace) -> list[tuple[str, Vector2]]:
-    return [(pin.first, pin.first_point), (pin.second, pin.second_point)]
+def repeated_count(conditions: Conditions) -> tuple[int, bool]:
+    """How many conditions follow from the others, and whether more of them do so in the start posture alone.
+
+    The start posture is then a dead centre or a change point.
+    """
+    left, values, right = np.linalg.svd(conditions.rows(np.zeros(3 * len(conditions.linkage.bodies))))
+    rank = _rank(values)
+    repeats = len(left) - rank
+    if repeats == 0:
+        return 0, False
+    ways = [way / np.abs(way).max() for way in right[rank:]]
+    there = np.linalg.svd(conditions.rows(beside(conditions, ways)), compute_uv=False)
+    lasting = len(left) - _rank(there)
+    return lasting, lasting < repeats
+
+
+def _rank(values: Matrix) -> int:
+    """How many singular values (k,) are none of rounding."""
+    return int(np.count_nonzero(values > REPEATED * values.max(initial=0.0)))

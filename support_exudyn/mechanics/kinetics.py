@@ -8,8 +8,10 @@ velocities dv and the impulses L under generalised impulses b and a change c of 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -20,6 +22,8 @@ from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, Slide
 from user_forces.values.value import Vector2
 
 Matrix = npt.NDArray[np.float64]
+STAND_IN = 0.01  # of mass times the square of the longest arm
+REPEATED = 1e-9  # of the largest singular value: below, rows repeat each other
 
 
 def kinetics_of(
@@ -46,6 +50,30 @@ class Kinetics:
     bodies: dict[str, BodyItem]
     ideal: Sequence[str]
     actuators: Sequence[str]
+
+    @cached_property
+    def size(self) -> float:
+        """The larger of length and height of the linkage at its start [m]."""
+        places = [body.centre for body in self.linkage.bodies.values()]
+        places += [place for _, place in joints_of(self.linkage)]
+        return max(float(np.ptp(np.array(places), axis=0).max()), 1e-9)
+
+    @cached_property
+    def counts(self) -> Matrix:
+        """Factor of each row (m,) [m]: angles count by the size of the linkage, and moments by one over it."""
+        rows = self.rows(np.zeros(3 * len(self.bodies)))
+        only_turns = ~np.any(np.delete(rows, np.s_[2::3], axis=1), axis=1)
+        return np.where(only_turns, self.size, 1.0)
+
+    @cached_property
+    def stand_in(self) -> Matrix:
+        """What stands in for the inertia of point masses where one is divided by it (n,) [kg m^2], else 0."""
+        found = np.zeros(3 * len(self.bodies))
+        for name, item in self.bodies.items():
+            if item.body.inertia == 0.0:
+                arms = [math.dist(place, item.body.centre) for body, place in joints_of(self.linkage) if body == name]
+                found[item.first + 2] = STAND_IN * item.body.mass * (max(arms, default=0.0) or self.size) ** 2
+        return found
 
     def mass(self) -> Matrix:
         """Diagonal of the mass matrix, shape (n,)."""
@@ -150,20 +178,31 @@ class Kinetics:
     def respond(self, position: Matrix, impulse: Matrix, jump: Matrix | float) -> tuple[Matrix, Matrix]:
         """Change of velocities dv (n,) and impulses L (m,) under impulses b (n,) and a jump c (m,).
 
-        Of several at once, b (n, k) with c a number: (n, k) and (m, k).
+        Where rows repeat others, L is the least of all that fit, in the sense of `counts`. Of several impulses
+        at once, b (n, k) with c a number: (n, k) and (m, k).
         """
         rows = self.rows(position)
-        size, count = position.size, len(rows)
-        system = np.zeros((size + count, size + count))
+        again = self._repeats(rows)
+        size, count, border = position.size, len(rows), again.shape[1]
+        system = np.zeros((size + count + border, size + count + border))
         system[:size, :size] = np.diag(self.mass())
-        system[:size, size:] = rows.T
-        system[size:, :size] = rows
-        right = np.concatenate([impulse, np.broadcast_to(jump, (count, *impulse.shape[1:]))])
-        try:
-            solution = np.linalg.solve(system, right)
-        except np.linalg.LinAlgError:  # constraints that repeat each other
-            solution = np.linalg.lstsq(system, right, rcond=None)[0]
-        return solution[:size], solution[size:]
+        system[:size, size : size + count] = rows.T
+        system[size : size + count, :size] = rows
+        system[size : size + count, size + count :] = again
+        system[size + count :, size : size + count] = again.T
+        right = np.zeros((len(system), *impulse.shape[1:]))
+        right[:size], right[size : size + count] = impulse, jump
+        solution = np.linalg.solve(system, right)
+        return solution[:size], solution[size : size + count]
+
+    def _repeats(self, rows: Matrix) -> Matrix:
+        """Shares (m, k) of rows with which impulses cancel each other, as columns; none where all are needed."""
+        scaled = self.counts[:, None] * rows
+        scaled[:, 2::3] /= self.size
+        left, values, _ = np.linalg.svd(scaled, full_matrices=len(rows) > rows.shape[1])
+        rank = np.count_nonzero(values > REPEATED * values.max(initial=0.0))
+        shares: Matrix = left[:, rank:] / self.counts[:, None]
+        return shares
 
     def pin_inverse_mass(
         self, position: Matrix, name: str, pressed: Mapping[str, Matrix] = MappingProxyType({})
@@ -190,3 +229,17 @@ class Kinetics:
         rate = np.concatenate(rates)
         answers: Matrix = (rate @ self.respond(position, rate.T, 0.0)[0]).T
         return answers
+
+
+def joints_of(linkage: Linkage) -> list[tuple[str, Vector2]]:
+    """Bodies with the points at which something is joined to them, the ground among them."""
+    found = [(body, point) for one in linkage.pins.values() for body, point in _ends(one)]
+    for actuator in linkage.actuators.values():
+        found += [(actuator.foot, actuator.foot_point), (actuator.head, actuator.head_point)]
+    for slide in linkage.slides.values():
+        found += [(slide.body, slide.point), (slide.against, slide.point)]
+    return found
+
+
+def _ends(pin: PinPlace) -> list[tuple[str, Vector2]]:
+    return [(pin.first, pin.first_point), (pin.second, pin.second_point)]

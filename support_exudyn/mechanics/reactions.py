@@ -5,6 +5,9 @@ what drives do to the lengths and angles that are held, c:
 
     M a + C^T L = f,    C a = c'' - C' v
 
+Where rows of C repeat each other, many L do that, and rigid bodies cannot tell them apart. The least is taken: that
+of the smallest sum of squares, in which a moment counts by one over the size of the linkage.
+
 The engine's own multipliers and accelerations are differences of positions over the step's square, in which
 rounding shows at short steps. Nothing here is divided by a step.
 """
@@ -18,6 +21,7 @@ from itertools import accumulate, pairwise
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.kinetics import REPEATED, kinetics_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND, Crank, Gear, LinearActuator, PinPlace, Slide
 from user_forces.values.value import Vector2
@@ -27,6 +31,9 @@ STILL = 1e-6  # [m/s], [rad/s] below which they go on by less: what is left then
 # Beside bodies of next to no mass what heavy ones add to the square of the rows is lost to rounding: the second
 # round makes up for it.
 ROUNDS = 2
+# Those in which point masses are given back what stands in for their inertia end once that has settled.
+MOST_ROUNDS, SETTLED = 30, 1e-13
+SAMPLES = 5  # records at which it is looked how many rows repeat others
 
 
 @dataclass(frozen=True)
@@ -182,11 +189,13 @@ def equations(motion: BodyMotion, held: HeldJoints, driven: Series) -> Equations
         held: what is held.
         driven: second derivatives of what drives move, (n, actuators and cranks) [m/s^2], [rad/s^2].
     """
-    bodies = motion.linkage.bodies.values()
-    mass = np.array([part for body in bodies for part in (body.mass, body.mass, body.inertia)])
+    kinetics = kinetics_of(motion.linkage)
     wanted = -turning(motion, held)
     wanted[:, held.driven] += driven
-    return Equations(matrix(motion, held), wanted, lambda forces: forces / mass)
+    rows, mass = matrix(motion, held), kinetics.mass() + kinetics.stand_in
+    turns = ~rows[:, :, np.arange(mass.size) % 3 != 2].any(axis=(0, 2))
+    counts = np.where(turns, kinetics.size, 1.0)
+    return Equations(rows, wanted, lambda forces: forces / mass, counts, kinetics.stand_in)
 
 
 class Equations:
@@ -196,25 +205,72 @@ class Equations:
         rows: C, (n, rows, coordinates).
         wanted: C a, (n, rows).
         lightness: gives M^-1 f for forces f on all coordinates, (n, ..., coordinates).
+        counts: factor of each row (rows,) [m], see `Kinetics.counts`, where rows may repeat each other.
+        stand_in: what of M stands in for the inertia of point masses (coordinates,), see `Kinetics.stand_in`.
     """
 
-    def __init__(self, rows: Series, wanted: Series, lightness: Callable[[Series], Series]) -> None:
+    def __init__(
+        self,
+        rows: Series,
+        wanted: Series,
+        lightness: Callable[[Series], Series],
+        counts: Series | None = None,
+        stand_in: Series | float = 0.0,
+    ) -> None:
+        self._stand_in = stand_in
         self._rows, self._wanted, self._lightness = rows, wanted, lightness
         self._square = rows @ np.swapaxes(lightness(rows), 1, 2)  # C M^-1 C^T
+        self._inverse: Series | None = None
+        if counts is not None and (repeats := _repeats(rows * counts[:, None])):
+            self._inverse = least_inverse(self._square, counts, repeats)
 
     def solve(self, forces: Series) -> tuple[Series, Series]:
         """Accelerations (n, coordinates) and L (n, rows) under forces on all coordinates."""
-        held = np.zeros(self._wanted.shape)
-        acceleration = self._lightness(forces)
-        for _ in range(ROUNDS):
-            missing = np.einsum("nrk,nk->nr", self._rows, acceleration) - self._wanted
-            held += self._respond(missing)
-            left = forces - np.einsum("nrk,nr->nk", self._rows, held)
-            acceleration = self._lightness(left)
+        held, acceleration = np.zeros(self._wanted.shape), np.zeros_like(forces)
+        for rounds in range(1, MOST_ROUNDS + 1):
+            given = self._stand_in * acceleration  # the moment that gives back what stands in
+            left = forces + given - np.einsum("nrk,nr->nk", self._rows, held)
+            missing = np.einsum("nrk,nk->nr", self._rows, self._lightness(left)) - self._wanted
+            change = self._respond(missing)
+            held += change
+            acceleration = self._lightness(left - np.einsum("nrk,nr->nk", self._rows, change))
+            changed = np.abs(self._stand_in * acceleration - given)
+            if rounds >= ROUNDS and np.all(changed <= SETTLED * np.abs(given).max(initial=0.0)):
+                break
         return acceleration, held
 
     def _respond(self, missing: Series) -> Series:
+        if self._inverse is not None:
+            return np.asarray(np.einsum("nrs,ns->nr", self._inverse, missing))
         try:
             return np.asarray(np.linalg.solve(self._square, missing[..., None])[..., 0])
-        except np.linalg.LinAlgError:  # rows that repeat each other, as at a dead centre
+        except np.linalg.LinAlgError:  # at a dead centre
             return np.asarray(np.einsum("nrs,ns->nr", np.linalg.pinv(self._square, hermitian=True), missing))
+
+
+def _repeats(rows: Series) -> int:
+    """How many rows repeat others at all records (n, rows, coordinates); some of these are looked at."""
+    if not rows.size:
+        return 0
+    some = rows[np.linspace(0, len(rows) - 1, SAMPLES).astype(int)]
+    values = np.linalg.svd(some / np.linalg.norm(some, axis=(1, 2), keepdims=True), compute_uv=False)
+    return int(rows.shape[1] - np.count_nonzero(values > REPEATED, axis=1).max())
+
+
+def least_inverse(square: Series, counts: Series, repeats: int) -> Series:
+    """What gives the least L with C M^-1 C^T L = b from b, of matrices C M^-1 C^T with rows that repeat others.
+
+    Arguments:
+        square: C M^-1 C^T (n, rows, rows).
+        counts: factor of each row (rows,) [m].
+        repeats: how many rows repeat others.
+    """
+    own = np.sqrt(np.diagonal(square, axis1=1, axis2=2))[..., None]
+    values, vectors = np.linalg.eigh(square / (own * np.swapaxes(own, 1, 2)))
+    kept = vectors[..., repeats:] / own
+    some = (kept / values[:, None, repeats:]) @ np.swapaxes(kept, 1, 2)
+    nothing = np.linalg.qr(vectors[..., :repeats] / own / counts[:, None])[0]
+    least: Series = some - counts[:, None] * (
+        nothing @ (np.swapaxes(nothing, 1, 2) @ (some / counts[:, None]))
+    )
+    return least

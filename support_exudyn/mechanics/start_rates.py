@@ -28,7 +28,7 @@ def set_moving(linkage: Linkage, spins: Mapping[str, float]) -> Linkage:
     asked = np.array([kinetics.turning(still.size, body) for body in spins])
     rows = np.vstack([held, asked])
     rates = np.concatenate([np.zeros(len(held)), list(spins.values())])
-    light = 1.0 / np.sqrt(kinetics.mass())
+    light = 1.0 / np.sqrt(kinetics.mass() + kinetics.stand_in)
     velocity = light * np.linalg.lstsq(rows * light, rates, rcond=None)[0]
     wrong = np.abs(rows @ velocity - rates).max()
     if wrong > AT_ODDS * np.abs(rates).max():

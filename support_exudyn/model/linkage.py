@@ -18,7 +18,7 @@ from user_forces.values.units import (
     Radians,
     RadiansPerSecond,
 )
-from user_forces.values.value import Positive, Real, Value, Vector2, value
+from user_forces.values.value import NonNegative, Positive, Real, Value, Vector2, value
 
 GROUND = "ground"
 Moments = tuple[Real, Real, Real]
@@ -111,7 +111,7 @@ class Body(Value):
 
     Arguments:
         mass: [kg], > 0.
-        inertia: about the centre of mass [kg m^2], > 0.
+        inertia: about the centre of mass [kg m^2], >= 0 (0: a point mass, whose joints have to tell how it turns).
         centre: centre of mass [m].
         angle: orientation [rad] of the line by which the machine measures this body.
         velocity: of the centre of mass [m/s].
@@ -120,7 +120,7 @@ class Body(Value):
     """
 
     mass: Kilograms[Positive]
-    inertia: KilogramSquareMetres[Positive]
+    inertia: KilogramSquareMetres[NonNegative]
     centre: Metres[Vector2]
     angle: Radians[Real] = 0.0
     velocity: MetresPerSecond[Vector2] = (0.0, 0.0)

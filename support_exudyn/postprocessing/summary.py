@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, Formulation, formulation
+from support_exudyn.machines.check.freedoms import shared
 from support_exudyn.model.pins import ClearancePin, Pin
 from support_exudyn.postprocessing.figures.selection import inside
 from support_exudyn.postprocessing.figures.units import readable, said
@@ -78,6 +79,7 @@ def how(result: Result) -> list[Row]:
     return [
         ("formulation", f"{_formulation(result)}; {steps}"),
         ("accuracy", accuracy),
+        *(("not determined", sentence) for sentence in shared(scenario.held) if scenario.dimensions == 2),
         ("counts", ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in made if count)),
         ("wall time", said(result.wall_time, "s") + cost),
         ("made", f"{result.provenance.get('made_at', 'at a time unknown')} with {', '.join(versions)}"),

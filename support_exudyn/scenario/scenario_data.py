@@ -12,7 +12,9 @@ from pydantic import Field
 
 from support_exudyn.mechanics.block_contact import block_places
 from support_exudyn.mechanics.channels import ALL_CHANNELS, ChannelDefinition
+from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.mechanics.contact_places import ContactPlace, contact_places
+from support_exudyn.mechanics.continuation import conditions_of
 from support_exudyn.mechanics.initial_eccentricity import eccentric
 from support_exudyn.mechanics.leg_channels import leg_channels
 from support_exudyn.mechanics.plane_channels import channel_definitions
@@ -186,6 +188,18 @@ class ScenarioData(Value, ABC):
             return self.linkage
         slides = {name: slide for name, slide in self.linkage.slides.items() if name not in loose}
         return replace(self.linkage, slides=slides)
+
+    @cached_property
+    def held(self) -> Conditions:
+        """What constraints hold: ideal pins, rigid actuators, cranks, guides and gears."""
+        linkage = self.guided_linkage
+        kept = {
+            "pins": {name: linkage.pins[name] for name in self.held_pins},
+            "actuators": {
+                name: one for name, one in linkage.actuators.items() if name not in self.compliant_actuators
+            },
+        }
+        return conditions_of(replace(linkage, **kept))
 
     @cached_property
     def contact_places(self) -> dict[str, ContactPlace]:

@@ -4,6 +4,8 @@ import dataclasses
 import math
 from collections.abc import Collection, Mapping
 
+import numpy as np
+
 from support_exudyn.mechanics.channels import ALL_CHANNELS, check_patterns
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
@@ -14,6 +16,8 @@ from support_exudyn.model.loads.load import ActingLoad, AnyLoad
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.scenario_data import ScenarioData
 from user_forces.values.value import InputError, check_names
+
+TURNED = 1e-9  # least share by which a condition holds how a body turns
 
 
 def check(scenario: ScenarioData) -> None:
@@ -51,10 +55,25 @@ def check(scenario: ScenarioData) -> None:
         raise ValueError(
             f"record_period = {scenario.record_period} s: allowed: at most the duration, {scenario.duration} s"
         )
+    _check_point_masses(scenario)
     _check_actuators(scenario, linkage)
     _check_drives(scenario, linkage)
     if scenario.channels != ALL_CHANNELS:
         check_patterns(scenario.channel_definitions, scenario.channels)
+
+
+def _check_point_masses(scenario: ScenarioData) -> None:
+    """Raise ValueError if joints do not determine how point masses turn, whose own inertia does not either."""
+    held, names = scenario.held, list(scenario.linkage.bodies)
+    points = [name for name in names if scenario.linkage.bodies[name].inertia == 0.0]
+    turns = [3 * names.index(name) + 2 for name in points]
+    rows = held.rows(np.zeros(3 * len(names)))[:, turns]
+    if points and np.linalg.matrix_rank(rows, tol=TURNED) < len(points):
+        alone = [name for name, row in zip(points, rows.T, strict=True) if np.abs(row).max() < TURNED]
+        raise ValueError(
+            f"bodies.{(alone or points)[0]}: its inertia is 0, and no joint without clearance that lies away from its "
+            "centre of mass holds how it turns; allowed: an inertia > 0, or such a joint"
+        )
 
 
 def _check_guides(scenario: ScenarioData, linkage: Linkage) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from support_exudyn.formulations import change_points
 from support_exudyn.formulations.contract import Failure
 from support_exudyn.formulations.limits import DEEPEST, SOFT, too_deep
 from support_exudyn.mechanics.body_motion import BodyMotion
@@ -62,6 +63,7 @@ def _reasons(
             deepest, bearing = float(depth[at]), place.contact.bearing
             if deepest > DEEPEST * bearing.size:
                 yield Failure(too_deep(name, deepest, bearing), SOFT, float(time[at]), finer=True)
+    yield from _change_points(scenario, outcome)
     open_by, allowed = energy_open(scenario, channels)
     if (open_by > allowed).any():
         first = int(np.argmax(open_by > allowed))
@@ -76,6 +78,18 @@ def _reasons(
         first = int(np.argmax(gap > APART))
         reason = f"what is joined is {1e3 * gap.max():.3g} mm apart; allowed: {1e3 * APART:g} mm"
         yield Failure(reason, DRIFTED, float(time[first]), finer=True)
+
+
+def _change_points(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
+    """Whether forces have no limit in a change point or dead centre that the run has passed."""
+    run = outcome.trajectory
+    if not isinstance(run, Trajectory) or not run.position.size or not run.velocity.size:
+        return
+    motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
+    forces = {name: np.hypot(*force.T) for name, force in run.ideal_pins.items()}
+    forces |= {name: slide[:, 0] for name, slide in run.slides.items()}
+    if (found := change_points.passed(scenario, motion, run.time, forces)) is not None:
+        yield Failure(f"{found[1]}, where its forces have no limit", change_points.ADVICE, found[0])
 
 
 def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:
@@ -166,6 +180,8 @@ def turned_over(channels: Mapping[str, Channel]) -> float:
 def joints_apart(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None = None) -> Series | None:
     """Largest distance of what ideal pins, rigid actuators and guides hold together, at the records (n,) [m].
 
+    That of a crank from where its drive wants it is counted at the size of the linkage.
+
     None for runs in space. motion: of all bodies, where it is known already.
     """
     run = outcome.trajectory
@@ -187,6 +203,10 @@ def joints_apart(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None
                 extensions[id(drive)] = of_depth(drive.extension, time)
             wanted = actuator.start_length + extensions[id(drive)]
             gaps = np.maximum(gaps, (np.sqrt(x * x + y * y) - wanted) ** 2)
+    size = scenario.held.size
+    for name, crank in linkage.cranks.items():
+        turned = motion.turn(crank.body) - of_depth(scenario.drive_of(name).extension, time)
+        gaps = np.maximum(gaps, (size * turned) ** 2)
     for slide in scenario.guided_linkage.slides.values():
         x, y = _apart(motion, (slide.body, slide.point), (slide.against, slide.point))
         along = slide.direction + motion.turn(slide.against)

@@ -12,7 +12,7 @@ from support_exudyn.files.machines.parts import PartData
 from support_exudyn.model.linkage import GROUND, Body, Part, bar, lumped, turned_moments
 from support_exudyn.model.plane_geometry import direction, distance, minus, plus, rotated
 from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres
-from user_forces.values.value import InputError, Positive, Value, Vector2, value
+from user_forces.values.value import InputError, NonNegative, Positive, Value, Vector2, value
 
 
 @value
@@ -31,7 +31,8 @@ class LinkageBodyData(Value):
         points: of it, [x, y] [m] in its own frame, which begins at the first point of the bar and has x along
             the bar; without a bar it is any frame.
         centre: centre of mass [m], in the same frame.
-        inertia: about the centre of mass [kg m^2], > 0; without centre and parts that of a uniform bar.
+        inertia: about the centre of mass [kg m^2], >= 0 (0: a point mass); without centre and parts that of a
+            uniform bar.
         parts: of which it is made, in the same frame, in place of mass, centre and inertia.
     """
 
@@ -40,7 +41,7 @@ class LinkageBodyData(Value):
     length: Metres[Positive] | None = None
     points: Metres[Mapping[str, Vector2]] = field(default_factory=dict)
     centre: Metres[Vector2] | None = None
-    inertia: KilogramSquareMetres[Positive] | None = None
+    inertia: KilogramSquareMetres[NonNegative] | None = None
     parts: tuple[PartData, ...] = ()
 
 
@@ -98,8 +99,10 @@ def drawn_body(name: str, data: LinkageBodyData, drawn: Mapping[str, Vector2]) -
     known = drawn if points is None else points
     line = 0.0 if data.bar is None else direction(*(known[end] for end in data.bar))
     part, assumed = _mass(name, data, known)
-    if part.inertia <= 0.0:
-        raise InputError(f"{where}.inertia_kg_m2: missing; its parts are points in one place; allowed: > 0")
+    if part.inertia <= 0.0 and data.inertia is None:
+        raise InputError(
+            f"{where}.inertia_kg_m2: missing; its parts are points in one place; allowed: >= 0, 0 for a point mass"
+        )
     return DrawnBody(name, points, origin, angle, line, part, assumed)
 
 

@@ -25,9 +25,9 @@ def _record(whole: str, numbers: str) -> np.dtype[np.void]:
     return np.dtype([(name, N) for name in whole.split()] + [(name, F) for name in numbers.split()])
 
 
-# lightness: one over mass and inertia; weight; centre of mass at the start | direction, force, moment,
-# acceleration
-BODY = _record("", "light light_turn weight_x weight_y x0 y0 c s fx fy m ax ay a")
+# lightness: one over mass and inertia; of the latter that which stands in for a point mass's, 0 else; weight;
+# centre of mass at the start | direction, force, moment, acceleration, moment that gives back what stands in
+BODY = _record("", "light light_turn stand_in weight_x weight_y x0 y0 c s fx fy m ax ay a given")
 # arm: from the centre of mass at the start, of the ground the place itself | arm now, place, velocity
 POINT = _record("body", "arm_x arm_y rx ry x y vx vy")
 # a time course: its pieces in the segment; still: for a record before it begins, at a break at 0 s | its jump
@@ -75,6 +75,9 @@ RUBBING = _record("row body other constants", "law radius moment")
 class SceneArrays(NamedTuple):
     """All that an evaluation of the equations of motion takes. square: C M^-1 C^T and its factors.
 
+    repeats: of rows that repeat others, shares of all with which their multipliers cancel each other, (repeats,
+    rows). counts: factor of each row [m], see `Kinetics.counts`. spare: a number a row. rounds: in which multipliers and
+    accelerations are found, at most, see `motion.refine`.
     gaps, sides, beyond: of legs, what passes zero where something happens, on which side of it each is, and how
     far it has been on the other within a step, shape (legs, GAPS).
     """
@@ -88,6 +91,10 @@ class SceneArrays(NamedTuple):
     rows: Records
     pairs: Records
     square: Matrix
+    repeats: Matrix
+    counts: Vector
+    spare: Vector
+    rounds: int
     contacts: Records
     oil: Records
     cylinders: Records

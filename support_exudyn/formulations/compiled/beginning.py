@@ -3,7 +3,7 @@
 from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import JUMP_ENERGY, WORK, Matrix, SceneArrays, Scratch, Vector
 from support_exudyn.formulations.compiled.masses import renew_mass
-from support_exudyn.formulations.compiled.motion import SINGULAR, divide, respond
+from support_exudyn.formulations.compiled.motion import SINGULAR, solve
 from support_exudyn.formulations.compiled.recording import write_record
 from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.formulations.contact_events import STILL
@@ -34,7 +34,8 @@ def kinetic_energy(scene: SceneArrays, y: Vector) -> float:
     count, total = scene.bodies.size, 0.0
     for n in range(count):
         body, i = scene.bodies[n], 3 * (count + n)
-        total += 0.5 * ((y[i] ** 2 + y[i + 1] ** 2) / body.light + y[i + 2] ** 2 / body.light_turn)
+        inertia = 1.0 / body.light_turn - body.stand_in
+        total += 0.5 * ((y[i] ** 2 + y[i + 1] ** 2) / body.light + y[i + 2] ** 2 * inertia)
     return total
 
 
@@ -47,14 +48,21 @@ def jump(scene: SceneArrays, room: Scratch, t: float, y: Vector, jumps: Vector, 
     if not jumped:
         return
     evaluate(scene, t, y, room.slope, room.right)
-    for n in range(room.impulses.size):
-        room.impulses[n] = 0.0
+    for n in range(scene.bodies.size):
+        body = scene.bodies[n]
+        body.fx = body.fy = body.m = 0.0
+    for n in range(scene.rows.size):
+        scene.rows[n].wanted = 0.0
     for n in range(scene.joints.size):
         joint = scene.joints[n]
         if joint.course >= 0:
-            room.impulses[joint.row] = -jumps[joint.course]
-    divide(scene, room.impulses)
+            scene.rows[joint.row].wanted = jumps[joint.course]
+    solve(scene, room.right)  # impulses and changes of velocities in place of forces and accelerations
     before = kinetic_energy(scene, y)
-    respond(scene, room.impulses, y, 3 * scene.bodies.size)
+    for n in range(scene.bodies.size):
+        body, i = scene.bodies[n], 3 * (scene.bodies.size + n)
+        y[i], y[i + 1], y[i + 2] = y[i] + body.ax, y[i + 1] + body.ay, y[i + 2] + body.a
+    for n in range(scene.rows.size):
+        room.impulses[n] = scene.rows[n].held
     report[JUMP_ENERGY] = kinetic_energy(scene, y) - before
     y[WORK] += report[JUMP_ENERGY]

@@ -2,10 +2,8 @@
 
 from typing import NoReturn
 
-import numpy as np
-
 from support_exudyn.formulations.compiled.written import load_source
-from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
@@ -16,7 +14,6 @@ WRITTEN = (
     "laws and loads written with the functions of user_forces.expressions.scalar, `where` in place of `if`"
 )
 PINS: tuple[type[Pin], ...] = (IdealPin, ClearancePin, BushingPin)  # kinds of pins that it has records for
-REPEATED = 1e-9  # share of the largest singular value of all rows below which one of them repeats others
 
 
 def check(scenario: Scenario) -> None:
@@ -29,13 +26,8 @@ def check(scenario: Scenario) -> None:
     if scenario.solver.backend not in ("auto", "compiled"):
         _refuse("solver.backend", repr(scenario.solver.backend), "'auto', 'compiled'")
     _check_written(scenario)
-    rigid = [name for name in scenario.linkage.actuators if name not in scenario.compliant_actuators]
-    held = kinetics_of(scenario.guided_linkage, scenario.held_pins, rigid)
-    rows = held.rows(np.zeros(3 * len(scenario.linkage.bodies))) / np.sqrt(held.mass())
-    if rows.size:
-        values = np.linalg.svd(rows / np.linalg.norm(rows, axis=1)[:, None], compute_uv=False)
-        if len(rows) > rows.shape[1] or values[-1] < REPEATED * values[0]:
-            _refuse("machine", "joints that hold the same twice, or a dead centre", "joints that do not")
+    if repeated_count(scenario.held)[1]:
+        _refuse("machine", "its start posture is a dead centre", "one beside it")
 
 
 def _check_written(scenario: Scenario) -> None:

@@ -208,7 +208,7 @@ class _Search:
             left, x = self.left[: self.x.size], self.x
             linearised(self.scene, centring, self.volumes, self.y, x, self.left, self.other, self.slope)
             try:
-                change = np.linalg.solve(self.slope, -left)
+                change = self._change(left)
             except np.linalg.LinAlgError:
                 return False
             largest = float(np.abs(change[: self.count]).max(initial=0.0))
@@ -218,6 +218,18 @@ class _Search:
             if largest <= self.close:
                 return True
         return False
+
+    def _change(self, left: Vector) -> Vector:
+        """The step of Newton's method; of multipliers whose rows repeat others the least."""
+        repeats = len(self.scene.repeats)
+        if not repeats:
+            return np.asarray(np.linalg.solve(self.slope, -left))
+        size, count = self.x.size, self.count
+        again = np.linalg.svd(self.slope[count:size, :count])[0][:, -repeats:]
+        bordered = np.zeros((size + repeats, size + repeats))
+        bordered[:size, :size] = self.slope
+        bordered[count:size, size:], bordered[size:, count:size] = again, again.T
+        return np.asarray(np.linalg.solve(bordered, -np.concatenate([left, again.T @ self.x[count:]]))[:size])
 
 
 def settle(model: Model, y: Vector) -> None:

@@ -12,6 +12,7 @@ import math
 from support_exudyn.formulations.compilation import compiled, inlined, once
 from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
 
+SETTLED = 1e-13  # of moments that are found together with accelerations: they change by no more than this share
 SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
 
 
@@ -161,6 +162,8 @@ def factor(scene: SceneArrays) -> float:
         else:
             u, v, w = 0.0, 0.0, two.carrier_t
         square[pair.i, pair.j] += body.light * (x * u + y * v) + body.light_turn * t * w
+    if scene.repeats.shape[0] > 0:
+        return invert_repeated(scene)
     least = 1.0
     for i in range(count):
         first = scene.rows[i].first
@@ -181,9 +184,85 @@ def factor(scene: SceneArrays) -> float:
     return least
 
 
+@compiled
+def invert_repeated(scene: SceneArrays) -> float:
+    """Write in place of C M^-1 C^T, some of whose rows repeat others, the inverse of what is left without them.
+
+    Rows are taken in the order of what is left of them, by the method of Gauss and Jordan; those that remain at
+    the end give `SceneArrays.repeats`, each with those that it follows from. Returns the least share that was
+    left of a row that was taken.
+    """
+    count, repeats = scene.rows.size, scene.repeats.shape[0]
+    square, own = scene.square, scene.spare
+    for i in range(count):
+        for j in range(scene.rows[i].first, i):
+            square[j, i] = square[i, j]
+        for j in range(scene.rows[i].first):
+            square[i, j] = square[j, i] = 0.0
+        own[i] = square[i, i]
+    least = 1.0
+    for _ in range(count - repeats):
+        best, most = -1, 0.0
+        for i in range(count):
+            if own[i] > 0.0 and square[i, i] > most * own[i]:
+                best, most = i, square[i, i] / own[i]
+        if best < 0:
+            return 0.0
+        least = min(least, most)
+        own[best] = 0.0
+        pivot, square[best, best] = square[best, best], 1.0
+        for j in range(count):
+            square[best, j] /= pivot
+        for i in range(count):
+            if i != best:
+                factor, square[i, best] = square[i, best], 0.0
+                for j in range(count):
+                    square[i, j] -= factor * square[best, j]
+    n = 0
+    for i in range(count):
+        if own[i] > 0.0:
+            for j in range(count):
+                scene.repeats[n, j] = -square[j, i] if own[j] == 0.0 else 0.0
+                square[i, j] = square[j, i] = 0.0
+            scene.repeats[n, i] = 1.0
+            n += 1
+    for n in range(repeats):  # perpendicular to each other and of length 1, counted by `counts`
+        for k in range(n + 1):
+            product = 0.0
+            for j in range(count):
+                product += scene.repeats[n, j] * scene.repeats[k, j] / scene.counts[j] ** (2 if k == n else 1)
+            for j in range(count):
+                if k == n:
+                    scene.repeats[n, j] /= scene.counts[j] * math.sqrt(product)
+                else:
+                    scene.repeats[n, j] -= product * scene.repeats[k, j] * scene.counts[j]
+    return least
+
+
+@compiled
+def divide_repeated(scene: SceneArrays, right: Vector) -> None:
+    """See `divide`, where rows repeat others: of all x that fit the least, counted by `SceneArrays.counts`."""
+    found, counts = scene.spare, scene.counts
+    for i in range(right.size):
+        found[i] = 0.0
+        for j in range(right.size):
+            found[i] += scene.square[i, j] * right[j]
+    for n in range(scene.repeats.shape[0]):
+        product = 0.0
+        for i in range(right.size):
+            product += scene.repeats[n, i] * found[i] / counts[i]
+        for i in range(right.size):
+            found[i] -= product * scene.repeats[n, i] * counts[i]
+    for i in range(right.size):
+        right[i] = found[i]
+
+
 @inlined
 def divide(scene: SceneArrays, right: Vector) -> None:
     """Solve C M^-1 C^T x = right by the factors; x stands in `right` afterwards."""
+    if scene.repeats.shape[0] > 0:
+        divide_repeated(scene, right)
+        return
     count = scene.rows.size
     square = scene.square
     for i in range(count):
@@ -253,11 +332,8 @@ def push_point(scene: SceneArrays, point: int, fx: float, fy: float) -> None:
 
 
 @inlined
-def solve(scene: SceneArrays, right: Vector) -> None:
-    """Write multipliers and accelerations under the forces that act on the bodies; `right` is overwritten."""
-    for n in range(scene.bodies.size):
-        body = scene.bodies[n]
-        body.ax, body.ay, body.a = body.light * body.fx, body.light * body.fy, body.light_turn * body.m
+def miss(scene: SceneArrays, right: Vector) -> None:
+    """Write by how much the accelerations of the bodies miss what the joints demand."""
     for n in range(scene.rows.size):
         row = scene.rows[n]
         total = -row.wanted
@@ -270,20 +346,65 @@ def solve(scene: SceneArrays, right: Vector) -> None:
         if row.carrier >= 0:
             total += row.carrier_t * scene.bodies[row.carrier].a
         right[n] = total
+
+
+@inlined
+def take(scene: SceneArrays, n: int, size: float) -> None:
+    """Take M^-1 C^T L off the accelerations of the bodies, for a multiplier of one row."""
+    row = scene.rows[n]
+    if row.body >= 0:
+        body = scene.bodies[row.body]
+        body.ax -= body.light * row.x * size
+        body.ay -= body.light * row.y * size
+        body.a -= body.light_turn * row.t * size
+    if row.other >= 0:
+        body = scene.bodies[row.other]
+        body.ax -= body.light * row.ox * size
+        body.ay -= body.light * row.oy * size
+        body.a -= body.light_turn * row.ot * size
+    if row.carrier >= 0:
+        body = scene.bodies[row.carrier]
+        body.a -= body.light_turn * row.carrier_t * size
+
+
+@inlined
+def solve(scene: SceneArrays, right: Vector) -> None:
+    """Write multipliers and accelerations under the forces that act on the bodies; `right` is overwritten."""
+    for n in range(scene.bodies.size):
+        body = scene.bodies[n]
+        body.ax, body.ay, body.a = body.light * body.fx, body.light * body.fy, body.light_turn * body.m
+        body.given = 0.0
+    miss(scene, right)
     divide(scene, right)
     for n in range(scene.rows.size):
-        row = scene.rows[n]
-        row.held = right[n]
-        if row.body >= 0:
-            body = scene.bodies[row.body]
-            body.ax -= body.light * row.x * row.held
-            body.ay -= body.light * row.y * row.held
-            body.a -= body.light_turn * row.t * row.held
-        if row.other >= 0:
-            body = scene.bodies[row.other]
-            body.ax -= body.light * row.ox * row.held
-            body.ay -= body.light * row.oy * row.held
-            body.a -= body.light_turn * row.ot * row.held
-        if row.carrier >= 0:
-            body = scene.bodies[row.carrier]
-            body.a -= body.light_turn * row.carrier_t * row.held
+        scene.rows[n].held = right[n]
+        take(scene, n, right[n])
+    for _ in range(1, scene.rounds):
+        if not refine(scene, right):
+            break
+
+
+@compiled
+def refine(scene: SceneArrays, right: Vector) -> bool:
+    """Correct multipliers and accelerations by what the equations are open by; whether that may help further.
+
+    Beside light bodies the factors lose digits. A point mass has in them the inertia `stand_in`, which has no
+    moment: it is given back by one, from the acceleration before.
+    """
+    changed = largest = 0.0
+    for n in range(scene.bodies.size):
+        body = scene.bodies[n]
+        given = body.stand_in * body.a
+        changed = max(changed, abs(given - body.given))
+        largest = max(largest, abs(given))
+        body.given = given
+        body.ax, body.ay = body.light * body.fx, body.light * body.fy
+        body.a = body.light_turn * (body.m + given)
+    for n in range(scene.rows.size):
+        take(scene, n, scene.rows[n].held)
+    miss(scene, right)
+    divide(scene, right)
+    for n in range(scene.rows.size):
+        scene.rows[n].held += right[n]
+        take(scene, n, right[n])
+    return largest == 0.0 or changed > SETTLED * largest

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from support_exudyn.formulations import change_points
 from support_exudyn.formulations.compiled.arrays import (
     ACCEPTED,
     CLAMPED,
@@ -194,6 +195,8 @@ def _failure(going: _Run) -> Failure:
         reason, advice = broken
     elif empty := empty_legs(going.model.legs.names, going.model.scene.legs):
         reason, advice = empty, EMPTY
+    elif singular := change_points.ended_at(scenario, going.y[:count]):
+        reason, advice = singular, change_points.ADVICE
     elif code == DEAD_CENTRE:
         reason, advice = "the linkage is at a dead centre", CLOSES
     elif report[NOT_A_NUMBER]:

@@ -18,6 +18,7 @@ from support_exudyn.formulations.compiled.courses import Courses, TimeFunction, 
 from support_exudyn.formulations.compiled.written import load_source
 from support_exudyn.formulations.hydraulics.fill import Legs, fill_legs
 from support_exudyn.formulations.time_grid import record_times
+from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
@@ -31,6 +32,11 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.compilation.flat import asks_for_mass, friction_source, law_source
 from user_forces.lawful import LawError
 from user_forces.values.value import Vector2
+
+
+# Factors lose as many digits as the lightest body is lighter than the heaviest. So little is to be left of that.
+DIGIT, CLOSE = 1e-15, 1e-13
+MOST_ROUNDS = 30
 
 
 @dataclass(frozen=True)
@@ -122,6 +128,8 @@ def model_of(scenario: Scenario) -> Model:
     bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
     rubbing = _rubbing(scenario, build, joints)
+    counts = np.ones(len(rows))
+    counts[order] = scenario.held.counts
     scene = SceneArrays(
         bodies=_bodies(scenario),
         points=_points(build, linkage),
@@ -132,6 +140,10 @@ def model_of(scenario: Scenario) -> Model:
         rows=rows,
         pairs=pairs,
         square=square,
+        repeats=np.zeros((repeated_count(scenario.held)[0], len(rows))),
+        counts=counts,
+        spare=np.zeros(len(rows)),
+        rounds=_rounds(scenario),
         contacts=contacts,
         oil=oil_records,
         cylinders=cylinder_records,
@@ -182,11 +194,23 @@ def _bodies(scenario: Scenario) -> Records:
     """Bodies with their weight."""
     found = np.zeros(len(scenario.linkage.bodies), arrays.BODY)
     gx, gy = scenario.gravity
-    for record, body in zip(found, scenario.linkage.bodies.values(), strict=True):
-        record["light"], record["light_turn"] = 1.0 / body.mass, 1.0 / body.inertia
+    stand_in = scenario.held.kinetics.stand_in[2::3].tolist()
+    for record, body, inertia in zip(found, scenario.linkage.bodies.values(), stand_in, strict=True):
+        record["light"], record["light_turn"] = 1.0 / body.mass, 1.0 / (body.inertia + inertia)
+        record["stand_in"] = inertia
         record["weight_x"], record["weight_y"] = body.mass * gx, body.mass * gy
         record["x0"], record["y0"] = body.centre
     return found
+
+
+def _rounds(scenario: Scenario) -> int:
+    """In how many rounds multipliers and accelerations are found, see `motion.refine`."""
+    held = scenario.held
+    if held.kinetics.stand_in.any():
+        return MOST_ROUNDS
+    felt = held.kinetics.mass() / held.arms**2
+    lost = DIGIT * float(felt.max() / felt.min())
+    return min(max(1, math.ceil(math.log(CLOSE) / math.log(lost))), MOST_ROUNDS) if lost < 1.0 else MOST_ROUNDS
 
 
 def _points(build: _Builder, linkage: Linkage) -> Records:

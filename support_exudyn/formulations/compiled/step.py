@@ -25,6 +25,7 @@ from support_exudyn.formulations.compiled.forces import (
 )
 from support_exudyn.formulations.compiled.hydraulics import press_legs
 from support_exudyn.formulations.compiled.motion import (
+    SETTLED,
     SINGULAR,
     divide,
     factor,
@@ -64,8 +65,7 @@ INNER = np.array(
         69997945 / 29380423,
     ]
 )
-RUBBINGS = 30  # rounds in which friction of ideal pins and their forces are found together,
-SETTLED = 1e-13  # until they change by no more than this share
+RUBBINGS = 30  # rounds in which friction of ideal pins and their forces are found together
 CLOSED = 1e-13  # [m], [rad]: joints that are open by less are closed, within rounding
 ROUNDS = 4  # of the projection
 
@@ -157,10 +157,11 @@ def close_joints(scene: SceneArrays, t: float, y: Vector, right: Vector) -> None
         before = worst
         divide(scene, right)
         respond(scene, right, y, 0)
-    for k in range(rows):
-        right[k] = rate_of(scene, k, y, count) - scene.rows[k].rate
-    divide(scene, right)
-    respond(scene, right, y, count)
+    for _ in range(min(scene.rounds, ROUNDS)):
+        for k in range(rows):
+            right[k] = rate_of(scene, k, y, count) - scene.rows[k].rate
+        divide(scene, right)
+        respond(scene, right, y, count)
 
 
 @compiled

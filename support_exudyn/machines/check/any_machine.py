@@ -9,6 +9,7 @@ import numpy as np
 
 from support_exudyn.machines.check.drive_way import TURN, DriveWay, Moved, way_of
 from support_exudyn.machines.check.freedoms import (
+    SHARED,
     Movement,
     RepeatedConditions,
     floating,
@@ -25,9 +26,8 @@ from support_exudyn.machines.check.transmission import (
     transmission_angles,
 )
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.mechanics.closing import REPEATED, Conditions
+from support_exudyn.mechanics.closing import Conditions, beside
 from support_exudyn.mechanics.continuation import conditions_of
-from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.value import InputError
@@ -36,8 +36,6 @@ STEPS, TOLD = 180, 12  # postures to each end of a way, and rows of its table le
 STEPS_OF_SEVERAL, TOLD_OF_SEVERAL = 60, 6  # the same where several parts are driven
 SHARE = 0.3  # of an actuator's length: its stroke either way if nothing is said
 OPEN = 1e-9  # of the machine's size: gap at the start that is told
-ASIDE = 1e-3  # of the machine's size: how far it is moved to see whether a freedom lasts
-ROUNDS = 8  # of Newton's method there
 
 
 @dataclass(frozen=True)
@@ -144,9 +142,9 @@ def _find(data: MachineData, stroke: float | None) -> _Found:
     conditions = conditions_of(linkage)
     start = np.zeros(3 * len(linkage.bodies))
     loose = movements(conditions, start)
-    beside = _beside(conditions, loose)
-    singular = len(movements(conditions, beside)) < len(loose)
-    again = repeated(conditions, beside if singular else start)
+    aside = beside(conditions, [one.rates * conditions.arms for one in loose])
+    singular = len(movements(conditions, aside)) < len(loose)
+    again = repeated(conditions, aside if singular else start)
     several, tried = len(driven) > 1, stroke or data.stroke
     steps, told = (STEPS_OF_SEVERAL, TOLD_OF_SEVERAL) if several else (STEPS, TOLD)
     ways = []
@@ -258,9 +256,7 @@ def _goal(linkage: Linkage, drive: str, stroke: float | None) -> tuple[float, fl
 
 
 def _repeats(one: RepeatedConditions) -> str:
-    return one.said() + (
-        "" if one.driven else "; how they share a force is not determined by ideal, rigid parts"
-    )
+    return one.said() + ("" if one.driven else f"; {SHARED}")
 
 
 def _freedoms(
@@ -292,17 +288,6 @@ def _freedoms(
             f"{len(loose)} {verb} left with all driven parts held: {ways}; no static forces; does a pin, a "
             "crank or an actuator miss?"
         )
-
-
-def _beside(conditions: Conditions, loose: Sequence[Movement]) -> Matrix:
-    """Coordinates (n,) a little beside the start, on the ways in which it can still move."""
-    moved = np.zeros(3 * len(conditions.linkage.bodies))
-    for one, share in zip(loose, np.linspace(1.0, 2.0, len(loose)), strict=True):
-        moved = moved + ASIDE * share * conditions.size * one.rates * conditions.arms
-    for _ in range(ROUNDS):
-        short = conditions.short(moved)
-        moved = moved + np.linalg.lstsq(conditions.rows(moved), short, rcond=REPEATED)[0]
-    return moved
 
 
 def _way_facts(way: DriveWay) -> Iterator[str]:

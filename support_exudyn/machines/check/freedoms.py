@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.mechanics.closing import Conditions
+from support_exudyn.mechanics.closing import Conditions, repeated_count
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import GROUND, Linkage
 
@@ -17,6 +17,10 @@ ZERO = 1e-9  # of conditions and movements, whose numbers are about 1
 SEEN = 1e-6  # of the fastest: what moves less stands still
 FIELDS = {"slides": "guides"}  # what files call a field of the linkage
 DRIVEN = ("actuators", "cranks")
+SHARED = (
+    "how they share a force is not determined by ideal, rigid parts: reported are the least forces that fit; a bushing "
+    "or clearance in one of them determines it"
+)
 
 
 @dataclass(frozen=True)
@@ -101,6 +105,14 @@ def repeated(conditions: Conditions, moved: Matrix) -> list[RepeatedConditions]:
             )
         )
     return found
+
+
+def shared(conditions: Conditions) -> list[str]:
+    """Joints whose forces rigid bodies do not determine as a linkage moves, each group in a sentence."""
+    if not repeated_count(conditions)[0]:
+        return []
+    start = np.zeros(3 * len(conditions.linkage.bodies))
+    return [f"{one.said()}; {SHARED}" for one in repeated(conditions, start)]
 
 
 def floating(linkage: Linkage) -> list[list[str]]:

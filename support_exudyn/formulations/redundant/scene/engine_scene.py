@@ -69,6 +69,11 @@ class EngineScene(ABC):
     cylinders: Mapping[str, CylinderItem]
     legs: EngineLegs
 
+    @property
+    def repeats(self) -> bool:
+        """Whether constraints of the model repeat each other."""
+        return False
+
     def release(self) -> None:
         """Let go of the engine's model: what its user functions know would never be freed."""
         mbs: Any = self.mbs

@@ -25,6 +25,7 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
+from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.pressed_pins import EffectiveMasses, inverse_masses, normal, struck_together
@@ -72,6 +73,11 @@ class Scene(EngineScene):
     def closed_kinetics(self) -> Kinetics:
         """Masses and constraints as matrices with all pins ideal and all actuators rigid."""
         return Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins), tuple(self.linkage.actuators))
+
+    @property
+    def repeats(self) -> bool:
+        """See `EngineScene`."""
+        return repeated_count(self.scenario.held)[0] > 0
 
     def inverse_masses(self, name: str, state: Any = CURRENT) -> EffectiveMasses:
         """How a clearance pin's journal answers impulses, by itself and with the other pins as pressed."""

@@ -110,6 +110,8 @@ def _solve(scene: EngineScene) -> None:
     settings.solution.file.write = False
     settings.staticSolver.verboseMode = 0
     settings.staticSolver.loadStepDuration = AT_THE_START
+    if scene.repeats:
+        settings.linearSolver.solverType = exudyn.LinearSolverType.EigenDense
     newton = settings.staticSolver.newton
     newton.residualMode, newton.relativeTolerance = BY_CHANGES, 1e-10
     newton.absoluteTolerance = max(CLOSE, ROUNDINGS * math.ulp(scene.scenario.linkage.farthest))

@@ -1,5 +1,8 @@
 """Why a run could not go on, in words: reason and advice."""
 
+import numpy as np
+
+from support_exudyn.formulations import change_points
 from support_exudyn.formulations.contract import ENGINE_ADVICE, explained, first_line
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from user_forces.lawful import UNLAWFUL, LawError
@@ -40,7 +43,15 @@ def why(error: Exception, scene: EngineScene, ahead: float) -> tuple[str, str]:
         return first_line(cause), ADVICE
     if cause is not None:
         raise cause from None
-    return unlawful(scene, ahead) or (explained(error), ENGINE_ADVICE)
+    return unlawful(scene, ahead) or singular(scene) or (explained(error), ENGINE_ADVICE)
+
+
+def singular(scene: EngineScene) -> tuple[str, str] | None:
+    """Reason and advice if a linkage has come to a change point or dead centre."""
+    position = scene.mbs.systemData.GetODE2Coordinates()
+    order = np.concatenate([np.arange(item.first, item.first + 3) for item in scene.bodies.values()])
+    reason = change_points.ended_at(scene.scenario, position[order])
+    return (reason, change_points.ADVICE) if reason else None
 
 
 def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:

@@ -26,6 +26,7 @@ from support_exudyn.formulations.redundant.solver.refusals import (
     ADVICE,
     FEWER_STEPS,
     STEEP,
+    singular,
     state_of,
     unlawful,
     why,
@@ -87,6 +88,7 @@ class SolverRun:
             + sum(pin.rounding for pin in scene.compliant_pins.values())
             + scene.legs.rounding,
             bool(self.cylinders),
+            scene.repeats,
         )
         self.locates = scenario.solver.locate
         self.impact_steps = scenario.solver.impact_steps
@@ -145,7 +147,7 @@ class SolverRun:
             raise SimulationError(self._failure(*why(error, self.scene, self._ahead))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
             advice = f"{ADVICE} {STEEP}" if self.newton.failures.of_step and self._has_friction() else ADVICE
-            told = unlawful(self.scene, self._ahead) or ("the solver gave up", advice)
+            told = unlawful(self.scene, self._ahead) or singular(self.scene) or ("the solver gave up", advice)
             raise SimulationError(self._failure(*told))
         return Counts(
             steps=self.steps,

@@ -1,0 +1,132 @@
+"""Whether a run comes to a change point or dead centre, in which rigid bodies do not determine its forces.
+
+There one condition more than elsewhere follows from the others: the least singular value of the conditions that
+still says something, s, vanishes. What forces the joints carry then has no limit, F = c/s, unless the load happens to
+be one that c = 0 belongs to, as where a symmetric linkage swings through its change point.
+"""
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from support_exudyn.machines.check.dead_centres import in_line
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.closing import Conditions, repeated_count
+from support_exudyn.mechanics.kinetics import Matrix
+from support_exudyn.mechanics.postures import turn
+from support_exudyn.mechanics.reactions import HeldJoints, matrix
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.scenario.scenario import Scenario
+
+SINGULAR = 1e-5  # of the largest singular value: below, a condition says nothing
+NEAR = 0.2  # of the largest singular value of a dip that is looked into
+UNBOUNDED = 0.25  # share of a force that grows as one over what is left of a condition: it has no limit
+SPIKE = 10.0  # times the forces beside it: what a record in the point itself shows is none
+CLOSE = 1e-3  # of the largest singular value: where a run ends so near to a point it is the reason
+SAMPLES = 2000  # records at least that are looked at, of many
+FOUND = 1e-9  # of the time between two records
+ADVICE = (
+    "Rigid bodies do not determine the forces there: give one joint a clearance or a bushing, or let the drive stop "
+    "before."
+)
+
+
+def values_of(conditions: Conditions, position: Series) -> Series:
+    """Singular values of the conditions at positions (n, 3 bodies), as shares of the largest, (n, k)."""
+    linkage = conditions.linkage
+    motion = BodyMotion(linkage, position, position, position)
+    joints = (linkage.pins, linkage.actuators, linkage.cranks, linkage.slides, linkage.gears)
+    rows = matrix(motion, HeldJoints(*(list(kind.values()) for kind in joints)))
+    values: Series = np.linalg.svd(conditions.counts[:, None] * rows / conditions.arms, compute_uv=False)
+    return values / np.maximum(values[:, :1], math.ulp(0.0))
+
+
+def words(conditions: Conditions, position: Matrix) -> str:
+    """That a posture is a change point, with what lies in line and where the driven parts stand."""
+    moved = position * conditions.arms
+    rows = conditions.rows(moved)
+    why = in_line(conditions, moved, rows)[0] if len(rows) >= rows.shape[1] else ""
+    linkage, kinetics = conditions.linkage, conditions.kinetics
+    stands = [
+        f"{name} at {_degrees(linkage.bodies[crank.body].angle + turn(kinetics, position, crank.body)):g} degrees"
+        for name, crank in linkage.cranks.items()
+    ]
+    return "the linkage is at a change point or dead centre" + "".join(
+        f" ({said})" for said in (", ".join(stands), why) if said
+    )
+
+
+def _degrees(angle: float) -> float:
+    """An angle [rad] in degrees from 0 to 360, to three decimals."""
+    return round(math.degrees(angle), 3) % 360.0
+
+
+def ended_at(scenario: Scenario, position: Matrix) -> str:
+    """Words if a run has ended next to a change point or dead centre; else none.
+
+    position: of all bodies where it has ended, in the order of the linkage (3 bodies,).
+    """
+    if scenario.dimensions == 3 or not np.isfinite(position).all():
+        return ""
+    conditions = scenario.held
+    values = values_of(conditions, position[None])[0]
+    last = len(conditions.counts) - repeated_count(conditions)[0] - 1
+    return words(conditions, position) if 0 <= last < len(values) and values[last] < CLOSE else ""
+
+
+def passed(scenario: Scenario, motion: BodyMotion, time: Series, forces: Mapping[str, Series]) -> tuple[float, str] | None:
+    """When a run has passed the first change point in which forces have no limit [s], and words; None if none.
+
+    Arguments:
+        motion: of all bodies at the records.
+        time: of the records (n,) [s].
+        forces: magnitudes of the forces in joints (n,) [N], by name.
+    """
+    conditions = scenario.held
+    last = len(conditions.counts) - repeated_count(conditions)[0] - 1
+    if len(time) < 3 or not forces or not 0 <= last < motion.position.shape[1]:
+        return None
+    some = slice(None, None, max(1, len(time) // SAMPLES))
+    time, motion = time[some], BodyMotion(motion.linkage, motion.position[some], motion.velocity[some], motion.velocity)
+    left = values_of(conditions, motion.position)[:, last]
+    largest = np.max([force[some] for force in forces.values()], axis=0)
+    dips = np.flatnonzero((left[1:-1] <= left[:-2]) & (left[1:-1] < left[2:]) & (left[1:-1] < NEAR)) + 1
+    for n in dips.tolist():
+        at, position, least = _least(conditions, motion, time, n, last)
+        if least < SINGULAR and _unbounded(left, largest, n):
+            return at, words(conditions, position)
+    return None
+
+
+def _least(conditions: Conditions, motion: BodyMotion, time: Series, n: int, last: int) -> tuple[float, Matrix, float]:
+    """Where a condition says least about record n: time [s], position (3 bodies,), and what is left of it."""
+    from scipy.interpolate import CubicHermiteSpline  # slow to import
+    from scipy.optimize import minimize_scalar
+
+    some = slice(n - 1, n + 2)
+    way = CubicHermiteSpline(time[some], motion.position[some], motion.velocity[some])
+    best = (float(time[n]), motion.position[n], float(values_of(conditions, motion.position[n : n + 1])[0, last]))
+    for low, high in ((time[n - 1], time[n]), (time[n], time[n + 1])):
+        found = minimize_scalar(
+            lambda t: float(values_of(conditions, way(t)[None])[0, last]),
+            bounds=(low, high),
+            method="bounded",
+            options={"xatol": FOUND * (high - low)},
+        )
+        if found.fun < best[2]:
+            best = (float(found.x), way(found.x), float(found.fun))
+    return best
+
+
+def _unbounded(left: Series, largest: Series, n: int) -> bool:
+    """Whether forces grow as one over what is left of a condition towards record n, or leap there."""
+    near = [m for m in (n - 1, n + 1) if left[m] > SINGULAR]
+    if largest[n] > SPIKE * max(largest[n - 1], largest[n + 1]) or not near:
+        return True
+    for one, other in ((n - 1, n - 2), (n + 1, n + 2)):
+        if one in near and 0 <= other < len(left) and left[other] > left[one]:
+            share = (largest[one] - largest[other]) / (1.0 / left[one] - 1.0 / left[other]) / left[one]
+            if share > UNBOUNDED * largest[one]:
+                return True
+    return False
