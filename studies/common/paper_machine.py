@@ -74,6 +74,7 @@ ACCURACY = 1e-6  # of the runs that studies make: nothing is left open in what t
 STEP = 1e-3  # [s] of scenarios before an accuracy chooses
 
 SIZES_MM = (0.5, 1.0, 1.5, 2.0)  # the paper's clearances
+CLEARANCE_MM = 1.5  # of its section 3
 
 # printed values
 STIFFNESS = {0.5: 861300.557, 1.0: 859629.849, 1.5: 857942.947, 2.0: 856239.607}  # Table 2, N/mm^1.5
