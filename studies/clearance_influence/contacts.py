@@ -1,7 +1,7 @@
 """The contact of pin and bore: the paper's, two spheres, against a pin that touches along its length.
 
-The rise with the paper's clearance by each contact, with friction and without; nothing else differs. Runs of the
-paper's contact are those of the rest of the study.
+The rise with the paper's clearance by each contact, with friction and without; nothing else differs. Runs of
+the paper's contact are those of the rest of the study.
 """
 
 from collections.abc import Mapping, Sequence

@@ -6,16 +6,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.common import paper_machine, rise
-from studies.common.paper_machine import CLEARANCE_MM, CLEARANCE_PIN, case_name
 from studies.common.panels import WINDOWS, fit_height, legend, letters, time_ticks
+from studies.common.paper_machine import CLEARANCE_MM, CLEARANCE_PIN, case_name, ideal_name, ideal_of
 from studies.common.study import LivePanels
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
 FRICTION = paper_machine.SLIDING_COEFFICIENT
-IDEAL, IDEAL_DRY = "ideal, mu_d = 0", f"ideal, mu_d = {FRICTION:g}"
+IDEAL, IDEAL_DRY = (ideal_name(friction) for friction in (0.0, FRICTION))
 SMOOTH, DRY = (case_name(CLEARANCE_MM, friction) for friction in (0.0, FRICTION))
-IDEAL_OF = {SMOOTH: IDEAL, DRY: IDEAL_DRY}  # the ideal pin with the same friction
 CASES = (IDEAL, SMOOTH, IDEAL_DRY, DRY)
 CURVES = {  # colour, width, dashes and label, the largest fluctuation undermost
     DRY: (style.WITH_CLEARANCE, 0.9, "-", f"{CLEARANCE_MM} mm, friction {FRICTION}"),
@@ -71,7 +70,7 @@ def _split_figure(results: Mapping[str, Result], channel: str, scale: float, lab
     drawing = Figure(figsize=style.size(170, 115))
     panels = drawing.subplot_mosaic([["dry", "smooth"], ["rise", "rise"]])
     for axes, case in ((panels["dry"], DRY), (panels["smooth"], SMOOTH)):
-        _draw(axes, results, channel, scale, case, IDEAL_OF[case])
+        _draw(axes, results, channel, scale, case, ideal_of(case))
         axes.set(xlabel="time [s]", ylabel=label, xlim=(0.0, 5.0))
         _mark_peak(axes, results[case], channel, scale, label)
     limits = [limit for name in ("dry", "smooth") for limit in panels[name].get_ylim()]

@@ -9,16 +9,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 
 from studies.clearance_influence import contacts
-from studies.clearance_influence.figures import (
-    CASES,
-    DRY,
-    IDEAL,
-    IDEAL_DRY,
-    IDEAL_OF,
-    LIVE,
-    SMOOTH,
-    figures,
-)
+from studies.clearance_influence.figures import CASES, DRY, IDEAL, IDEAL_DRY, LIVE, SMOOTH, figures
 from studies.common import paper_machine, rise
 from studies.common.chapter import Tile
 from studies.common.numbers import (
@@ -36,7 +27,7 @@ from studies.common.numbers import (
     short,
 )
 from studies.common.options import Options
-from studies.common.paper_machine import CLEARANCE_MM
+from studies.common.paper_machine import CLEARANCE_MM, ideal_of
 from studies.common.runs import impacts, run_cases
 from studies.common.study import Study, StudyOutcome
 from studies.common.subject import paper_subject
@@ -96,8 +87,8 @@ def measure(results: Mapping[str, Result]) -> list[Number]:
     ]
     for case, result in results.items():
         numbers += _rise_numbers(case, result)
-        if case in IDEAL_OF:
-            numbers += _comparison_numbers(case, result, results[IDEAL_OF[case]])
+        if case in (SMOOTH, DRY):
+            numbers += _comparison_numbers(case, result, results[ideal_of(case)])
             numbers += _impact_numbers(case, result)
         numbers += _energy_numbers(case, result)
     return numbers
@@ -198,7 +189,7 @@ def _row(name: str, row: Mapping[str, Number]) -> tuple[str, ...]:
     any_case = f"{CLEARANCE_MM} mm"
     cells = [cell(row.get(case)) for case in CASES]
     if any_case in row:
-        cells = [cell(row[any_case]) if case in IDEAL_OF else "" for case in CASES]
+        cells = [cell(row[any_case]) if case in (SMOOTH, DRY) else "" for case in CASES]
     of_paper = next((n for n in row.values() if n.paper is not None), None)
     return name.replace("_", " "), next(iter(row.values())).unit, *cells, printed(of_paper)
 

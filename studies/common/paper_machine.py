@@ -88,6 +88,16 @@ def case_name(clearance_mm: float, sliding_coefficient: float) -> str:
     return f"{clearance_mm:.1f} mm, mu_d = {sliding_coefficient:g}"
 
 
+def ideal_name(sliding_coefficient: float) -> str:
+    """What studies call a case with the ideal pin."""
+    return f"ideal, mu_d = {sliding_coefficient:g}"
+
+
+def ideal_of(case: str) -> str:
+    """The case with the ideal pin of the same friction, with which a case is compared."""
+    return f"ideal,{case.partition(',')[2]}"
+
+
 def bearing(clearance_mm: float, bore_radius: float = BORE_RADIUS) -> JournalBearing:
     """The rear-link pin with this radial clearance; bore_radius: [m]."""
     return JournalBearing(bore_radius=bore_radius, clearance=clearance_mm / 1e3)

@@ -75,7 +75,7 @@ def _words(
         "ideal": ideal,
         "with_clearance": with_clearance,
         "softest": "oil" if "oil" in plan.columns else "rigid",
-        "drive": plan.drive("mode 1", plan.actuators[0]),
+        "drive": plan.drive("mode 1", plan.leading[0]),
         "impulses": [name for name, case in found if name.startswith("impulse") and case == _struck(plan)],
         "value": value,
         "heat": {mode: heat(mode) for mode in MODES} if "cylinder" in plan.columns else {},

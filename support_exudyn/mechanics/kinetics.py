@@ -8,6 +8,7 @@ velocities dv and the impulses L under generalised impulses b and a change c of 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -101,6 +102,16 @@ class Kinetics:
         for name, slide in self.linkage.slides.items():
             owners += [("slides", name) for _ in range(slide.conditions)]
         return [*owners, *(("gears", name) for name in self.linkage.gears)]
+
+    def joint_impulses(self, impulses: Matrix) -> dict[str, float]:
+        """Magnitudes of the impulses [N s] of pins and guides among those of all rows, see `Impulse.joints`."""
+        found: dict[str, float] = {}
+        for (part, name), impulse in zip(self.owners(), impulses.tolist(), strict=True):
+            if part == "pins":
+                found[f"pin.{name}"] = math.hypot(found.get(f"pin.{name}", 0.0), impulse)
+            elif part == "slides":
+                found.setdefault(name, abs(impulse))  # its second row is that of a moment
+        return found
 
     def turning(self, size: int, body: str) -> Matrix:
         """The row that gives a body's angular velocity; that of the ground is none."""
