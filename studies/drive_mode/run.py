@@ -15,7 +15,7 @@ from studies.common.words import TextTable
 from studies.drive_mode import assumed, cases, tables
 from studies.drive_mode.cases import MODES, ModePlan, case_name, naive_peaks
 from studies.drive_mode.figures import LIVE, figures
-from studies.drive_mode.measures import measure
+from studies.drive_mode.measures import START, STOP, measure
 from support_exudyn import Result
 
 
@@ -72,6 +72,8 @@ def _words(
         "plan": plan,
         "found": found,
         "case_name": case_name,
+        "START": START,
+        "STOP": STOP,
         "ideal": ideal,
         "with_clearance": with_clearance,
         "softest": "oil" if "oil" in plan.columns else "rigid",

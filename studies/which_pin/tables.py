@@ -227,9 +227,9 @@ def key_table(plan: PinPlan, found: Found) -> TextTable:
 
 
 def force_table(plan: PinPlan, found: Found, friction: float) -> TextTable:
-    """Mean forces with each clearance pin; ideal: all pins, with the same friction."""
-    ideal = plan.ideal_name(plan.pins, friction)
-    cases = [ideal, *(plan.case_name(pins, friction) for pins in [*((pin,) for pin in plan.pins), plan.pins])]
+    """Mean forces with each clearance pin, with all of them, and with all ideal and the same friction."""
+    sets = [*((pin,) for pin in plan.pins), plan.pins]
+    cases = [*(plan.case_name(pins, friction) for pins in sets), plan.ideal_name(plan.pins, friction)]
     rows = []
     for kind in ("mean_force", "rms_force", "largest_force"):
         for name in plan.forces.values():

@@ -6,33 +6,37 @@ from collections.abc import Iterator
 from support_exudyn.simulation.recorded_run import RecordedRun
 
 NO_PEAK = "impulse, no finite peak"
-PEAKS = ("largest", "largest_time", "min", "min_time", "max", "max_time")  # statistics that are then refused
+# statistics that are then refused: extremes, and the deviation, in which the square of an impulse would stand
+ENDLESS = ("largest", "largest_time", "min", "min_time", "max", "max_time", "std")
 ROUNDING = 1e-9  # share of the largest impulse of an instant that others are rounded by
 
 
 def impulses_of(run: RecordedRun, channel: str, after: float, until: float) -> list[float]:
     """Impulses [N s] or [N m s] of the joint, actuator or crank of a channel of forces, between two times [s].
 
-    Those of pins and guides are magnitudes. None for a channel of something else, and where nothing jumps.
+    Those of pins and guides are magnitudes; of a pair in space those of both sides are added. None for a
+    channel of something else, and where nothing jumps.
     """
     stem, _, quantity = channel.rpartition(".")
     if not quantity.startswith(("force", "moment")):
         return []
+    sides = (stem, f"{stem}_left", f"{stem}_right")
     found = []
     for impulse in run.impulses:
         of_all = {**impulse.actuators, **impulse.cranks, **impulse.joints}
         least = ROUNDING * max(map(abs, of_all.values()), default=0.0)
-        if after <= impulse.time <= until and abs(of_all.get(stem, 0.0)) > least:
-            found.append(of_all[stem])
+        own = sum(of_all.get(side, 0.0) for side in sides)
+        if after <= impulse.time <= until and abs(own) > least:
+            found.append(own)
     return found
 
 
 def refused(run: RecordedRun, after: float, until: float) -> dict[str, str]:
-    """Names of the peaks of forces that have no limit between two times [s], and why they are refused."""
+    """Names of the numbers of forces that have no limit between two times [s], and why they are refused."""
     return {
         f"{name}.{word}": f"{NO_PEAK}; allowed: {name}.impulse_1 [N s]"
         for name in struck(run, after, until)
-        for word in PEAKS
+        for word in ENDLESS
     }
 
 

@@ -149,15 +149,15 @@ def measures(
                     "s", _time_at_any_step(pin), missed=_other_impacts(pin), settles=False
                 )
         found.update(impact_numbers(result, pin, ONSETS))
-    return _without_endless_peaks(found, result, after, until)
+    return _without_endless(found, result, after, until)
 
 
-def _without_endless_peaks(
+def _without_endless(
     found: Mapping[str, ReportedNumber], result: RecordedRun, after: float, until: float
 ) -> dict[str, ReportedNumber]:
-    """The numbers with impulses in place of the peaks that have no limit, see `impulses`."""
-    no_peak = impulses.refused(result, after, until)
-    kept = {name: kind for name, kind in found.items() if name not in no_peak}
+    """The numbers with impulses in place of those that have no limit, see `impulses`."""
+    no_limit = impulses.refused(result, after, until)
+    kept = {name: kind for name, kind in found.items() if name not in no_limit}
     for name in impulses.struck(result, after, until):
         for n in range(len(impulses.impulses_of(result, name, after, until))):
             measure = partial(impulses.nth_impulse, channel=name, n=n, after=after, until=until)

@@ -86,8 +86,8 @@ class Result(RecordedRun):
         and the first three impacts.
 
         Where velocities jump, as of rigid actuators with a sudden drive, the forces of ideal pins and rigid
-        actuators have no finite peak: `largest`, `min` and `max` are refused, and their impulses
-        (`pin.NAME.force.impulse_1` [N s]) stand in their place. Means and `std` leave the impulse out.
+        actuators have no finite peak: `largest`, `min`, `max` and `std` are refused, and their impulses
+        (`pin.NAME.force.impulse_1` [N s]) stand in their place. Means leave the impulse out.
 
         Errors are those of the steps, and of extremes also what may lie between the records; that a mean over
         few records is not the mean over time is not among them.
