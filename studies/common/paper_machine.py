@@ -74,6 +74,7 @@ ACCURACY = 1e-6  # of the runs that studies make: nothing is left open in what t
 STEP = 1e-3  # [s] of scenarios before an accuracy chooses
 
 SIZES_MM = (0.5, 1.0, 1.5, 2.0)  # the paper's clearances
+CLEARANCE_MM = 1.5  # of its section 3
 
 # printed values
 STIFFNESS = {0.5: 861300.557, 1.0: 859629.849, 1.5: 857942.947, 2.0: 856239.607}  # Table 2, N/mm^1.5
@@ -85,6 +86,16 @@ MEAN_ACCELERATION = {0.5: 0.0030, 1.0: -0.0515, 1.5: -0.2733, 2.0: -0.3219}  # s
 def case_name(clearance_mm: float, sliding_coefficient: float) -> str:
     """What studies call a case with clearance."""
     return f"{clearance_mm:.1f} mm, mu_d = {sliding_coefficient:g}"
+
+
+def ideal_name(sliding_coefficient: float) -> str:
+    """What studies call a case with the ideal pin."""
+    return f"ideal, mu_d = {sliding_coefficient:g}"
+
+
+def ideal_of(case: str) -> str:
+    """The case with the ideal pin of the same friction, with which a case is compared."""
+    return f"ideal,{case.partition(',')[2]}"
 
 
 def bearing(clearance_mm: float, bore_radius: float = BORE_RADIUS) -> JournalBearing:

@@ -67,9 +67,9 @@ def _run(plan: ModePlan, pin: str, modulus: float, hoses: str) -> Scenario:
         name: replace(column, bulk_modulus=modulus, line=HOSES[hoses])
         for name, column in paper_machine.oil_columns().items()
     }
-    loose = {} if ideal else {paper_machine.CLEARANCE_PIN: _joint(plan, pin)}
+    pins = base.pins if ideal else {paper_machine.CLEARANCE_PIN: _joint(plan, pin)}
     return replace(
-        base, drive=drive, duration=START + AFTER, actuators=columns, pins=loose, channels=(rise.FORCE,)
+        base, drive=drive, duration=START + AFTER, actuators=columns, pins=pins, channels=(rise.FORCE,)
     )
 
 

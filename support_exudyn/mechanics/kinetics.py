@@ -131,6 +131,16 @@ class Kinetics:
             owners += [("slides", name) for _ in range(slide.conditions)]
         return [*owners, *(("gears", name) for name in self.linkage.gears)]
 
+    def joint_impulses(self, impulses: Matrix) -> dict[str, float]:
+        """Magnitudes of the impulses [N s] of pins and guides among those of all rows, see `Impulse.joints`."""
+        found: dict[str, float] = {}
+        for (part, name), impulse in zip(self.owners(), impulses.tolist(), strict=True):
+            if part == "pins":
+                found[f"pin.{name}"] = math.hypot(found.get(f"pin.{name}", 0.0), impulse)
+            elif part == "slides":
+                found.setdefault(name, abs(impulse))  # its second row is that of a moment
+        return found
+
     def turning(self, size: int, body: str) -> Matrix:
         """The row that gives a body's angular velocity; that of the ground is none."""
         row = np.zeros(size)

@@ -176,13 +176,15 @@ class Impulse:
     """A jump of velocities at an instant.
 
     time: [s]. actuators: impulse of each rigid actuator [N s], positive in compression. energy: given to the
-    bodies by it [J]. cranks: angular impulse on each crank [N m s].
+    bodies by it [J]. cranks: angular impulse on each crank [N m s]. joints: magnitudes of the impulses of ideal
+    pins and guides [N s], by what the name of their force begins with, such as pin.rear_base.
     """
 
     time: float
     actuators: dict[str, float]
     energy: float
     cranks: dict[str, float] = field(default_factory=dict)
+    joints: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

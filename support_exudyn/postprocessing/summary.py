@@ -15,6 +15,7 @@ from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.horizon import agreed
+from support_exudyn.simulation.impulses import impulses_of
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.reported_numbers import FORCE, measures
 from support_exudyn.simulation.result import Result
@@ -235,10 +236,12 @@ def of_channels(result: Result, names: Iterable[str], after: float, until: float
         values = [found[word] for word in ("min", "mean", "max")]
         size = max(map(abs, values))
         unit = readable(found["unit"], size)
-        told = (
+        least, mean, greatest = (
             f"{unit.scale * (value if abs(value) > ROUNDING * size else 0.0):.{DIGITS}g}" for value in values
         )
-        rows.append((name, unit.name, *told, found["meaning"]))
+        if impulses_of(result, name, after, until):
+            least = greatest = "impulse"  # which has no finite peak
+        rows.append((name, unit.name, least, mean, greatest, found["meaning"]))
     return rows
 
 

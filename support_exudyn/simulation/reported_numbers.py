@@ -3,6 +3,7 @@
 import math
 import numbers
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy.typing as npt
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.extremes import largest, missed
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation import impulses
 from support_exudyn.simulation.recorded_run import RecordedRun
 from user_forces.values.value import InputError, short
 
@@ -147,7 +149,20 @@ def measures(
                     "s", _time_at_any_step(pin), missed=_other_impacts(pin), settles=False
                 )
         found.update(impact_numbers(result, pin, ONSETS))
-    return found
+    return _without_endless(found, result, after, until)
+
+
+def _without_endless(
+    found: Mapping[str, ReportedNumber], result: RecordedRun, after: float, until: float
+) -> dict[str, ReportedNumber]:
+    """The numbers with impulses in place of those that have no limit, see `impulses`."""
+    no_limit = impulses.refused(result, after, until)
+    kept = {name: kind for name, kind in found.items() if name not in no_limit}
+    for name in impulses.struck(result, after, until):
+        for n in range(len(impulses.impulses_of(result, name, after, until))):
+            measure = partial(impulses.nth_impulse, channel=name, n=n, after=after, until=until)
+            kept[f"{name}.impulse_{n + 1}"] = ReportedNumber("N s", measure)
+    return kept
 
 
 def _slow(scenario: Scenario) -> float:

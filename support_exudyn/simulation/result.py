@@ -23,6 +23,7 @@ from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent
 from support_exudyn.scenario.presentation import presenter
 from support_exudyn.scenario.recorded_channels import Channel
+from support_exudyn.simulation import impulses
 from support_exudyn.simulation.data_frames import to_pandas, to_xarray
 from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
 from support_exudyn.simulation.horizon import horizon
@@ -84,6 +85,10 @@ class Result(RecordedRun):
         of the run and when it is (`pin.NAME.largest_force` and `largest_force_time`, not only of the records)
         and the first three impacts.
 
+        Where velocities jump, as of rigid actuators with a sudden drive, the forces of ideal pins and rigid
+        actuators have no finite peak: `largest`, `min`, `max` and `std` are refused, and their impulses
+        (`pin.NAME.force.impulse_1` [N s]) stand in their place. Means leave the impulse out.
+
         Errors are those of the steps, and of extremes also what may lie between the records; that a mean over
         few records is not the mean over time is not among them.
         """
@@ -91,7 +96,7 @@ class Result(RecordedRun):
         kinds = measures(self, after, until)
         known = errors(kinds, self, self.fall)
         found = {name: Estimate(kind.measure(self), known[name], kind.unit) for name, kind in kinds.items()}
-        return Named(found, "number")
+        return Named(found, "number", impulses.refused(self, after, until))
 
     @cached_property
     def fall(self) -> float:

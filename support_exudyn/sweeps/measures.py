@@ -11,6 +11,7 @@ import numpy as np
 from support_exudyn.mechanics.extremes import largest, missed
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import errors
+from support_exudyn.simulation.impulses import ENDLESS, impulses_of
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import ReportedNumber, inside, measures
 from support_exudyn.simulation.result import Result
@@ -110,6 +111,8 @@ def _matching(
         channel, _, statistic = pattern.rpartition(".")
         if pattern in usual:
             return {pattern: usual[pattern]}
+        if statistic in ENDLESS and impulses_of(result, channel, record.after, record.until):
+            return {name: kind for name, kind in usual.items() if name.startswith(f"{channel}.impulse_")}
         if channel in result.channels and statistic in WORDS:
             return {pattern: _kind(result, channel, statistic, record)}
         return {}
@@ -119,6 +122,8 @@ def _matching(
             name = f"{channel}.{statistic}"
             if _is_magnitude(channel) and statistic in OF_SIGNED:
                 continue
+            if statistic in ENDLESS and impulses_of(result, channel, record.after, record.until):
+                continue  # it has no limit; its impulses are among the usual numbers
             if channel != "time" and name not in found and fnmatchcase(name, pattern):
                 found[name] = _kind(result, channel, statistic, record)
     return found

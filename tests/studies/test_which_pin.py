@@ -24,7 +24,7 @@ from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, 
 from user_forces.values.value import InputError
 
 PINS = tuple(reference_support().linkage().pins)
-DRY, SMOOTH = which_pin_cases.FRICTIONS
+FRICTIONS = DRY, SMOOTH = 0.25, 0.0
 SUPPORT = reference_support()
 
 Numbers = dict[tuple[str, str], dict[str, Any]]
@@ -45,14 +45,14 @@ def alone(numbers: Numbers, name: str, friction: float) -> dict[str, float]:
     return {pin: numbers[name, which_pin_cases.case_name((pin,), friction)]["value"] for pin in PINS}
 
 
-@pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
+@pytest.mark.parametrize("friction", FRICTIONS)
 def test_front_links_pins_move_the_tip_most_and_the_hinge_hardly(numbers: Numbers, friction: float) -> None:
     effects = alone(numbers, "mean_tip_shift_forward", friction)
     # a link between two pins is pressed alike at both ends: those differ by 1 %, links by a quarter
     assert in_order(effects) == "front_base = front_shield > rear_base = rear_shield > shield_canopy"
 
 
-@pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
+@pytest.mark.parametrize("friction", FRICTIONS)
 @pytest.mark.parametrize("axis", ["tip_shift_forward", "tip_shift_up", "canopy_tilt"])
 def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis: str, friction: float) -> None:
     for pins in (*((pin,) for pin in PINS), PINS):
@@ -64,7 +64,7 @@ def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis
         )
 
 
-@pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
+@pytest.mark.parametrize("friction", FRICTIONS)
 def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Numbers, friction: float) -> None:
     whole = which_pin_cases.case_name(PINS, friction)
     shift = sum(alone(numbers, "mean_tip_shift_forward", friction).values())

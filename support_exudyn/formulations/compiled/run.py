@@ -35,6 +35,7 @@ from support_exudyn.formulations.contract import Failure, Progress, SimulationEr
 from support_exudyn.formulations.hydraulics.fill import empty_legs
 from support_exudyn.formulations.hydraulics.records import GAP_NAMES
 from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Outcome
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.hydraulic_cylinder import Inlet
@@ -127,7 +128,10 @@ class _Run:
         """Keep the impulses by which velocities have jumped at t [s]."""
         found = {name: -float(self.room.impulses[row]) for name, row in self.model.driven_rows.items()}
         cranks = {name: found.pop(name) for name in self.scenario.linkage.cranks}
-        self.impulses.append(Impulse(t, found, float(self.report[JUMP_ENERGY]), cranks))
+        rigid = tuple(name for name in self.model.driven_rows if name not in cranks)
+        kinetics = kinetics_of(self.scenario.guided_linkage, self.scenario.held_pins, rigid)
+        joints = kinetics.joint_impulses(self.room.impulses[self.model.order])
+        self.impulses.append(Impulse(t, found, float(self.report[JUMP_ENERGY]), cranks, joints))
 
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:

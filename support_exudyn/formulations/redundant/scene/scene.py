@@ -150,6 +150,7 @@ class Scene(EngineScene):
             dict(zip(self.rigid_actuators, driven, strict=False)),
             float(0.5 * (mass * after) @ after - 0.5 * (mass * before) @ before),
             dict(zip(self.cranks, driven[len(self.rigid_actuators) :], strict=True)),
+            kinetics.joint_impulses(impulses),
         )
 
     def align(self, time: float) -> float:

@@ -1,5 +1,6 @@
 """The model of a scenario in space, ready for the solver; `scene_builder` makes it."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -26,7 +27,14 @@ from support_exudyn.formulations.redundant.space.sections import ends
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.contact_state import InverseMass
 from support_exudyn.mechanics.pressed_pins import NEAR, EffectiveMasses, held, normal
-from support_exudyn.mechanics.space.constraints import BearingEnd, Constraint, all_rows, independent, matrix
+from support_exudyn.mechanics.space.constraints import (
+    SHIFTS,
+    BearingEnd,
+    Constraint,
+    all_rows,
+    independent,
+    matrix,
+)
 from support_exudyn.mechanics.space.kinetics import SpatialKinetics
 from support_exudyn.mechanics.space.motion import COORDINATES, SpatialMotion, motion_of, parameter_rates
 from support_exudyn.mechanics.space.reactions import reactions
@@ -232,7 +240,16 @@ class SpatialScene(EngineScene):
             },
             float(0.5 * after @ mass @ after - 0.5 * before @ mass @ before),
             {},
+            self._joint_impulses(struck),
         )
+
+    def _joint_impulses(self, struck: Series) -> dict[str, float]:
+        """See `Impulse.joints`; struck: impulses of all rows [N s], [N m s]."""
+        found: dict[str, float] = {}
+        for row, impulse in zip(self.all_rows, struck.tolist(), strict=True):
+            if row.kind in SHIFTS and self.linkage.bearings[row.name].pin not in self.scenario.clearance_pins:
+                found[f"pin.{row.name}"] = math.hypot(found.get(f"pin.{row.name}", 0.0), impulse)
+        return found
 
     def reset_memory(self) -> None:
         """See `EngineScene`."""

@@ -31,7 +31,15 @@ from support_exudyn.formulations.redundant.space.sections import ends, sections
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg, preloaded_legs
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
-from support_exudyn.mechanics.space.constraints import BearingEnd, Kind, all_rows, frame_of, independent, matrix
+from support_exudyn.mechanics.space.constraints import (
+    SHIFTS,
+    BearingEnd,
+    Kind,
+    all_rows,
+    frame_of,
+    independent,
+    matrix,
+)
 from support_exudyn.mechanics.space.motion import COORDINATES, motion_of, parameter_rates
 from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.linkage import GROUND
@@ -41,7 +49,6 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
 from user_forces.values.value import Vector3
 
-SHIFTS: tuple[Kind, ...] = ("across_1", "across_2", "along")
 TILTS: tuple[Kind, ...] = ("tilt_1", "tilt_2")
 
 
