@@ -16,7 +16,7 @@ from typing import Protocol, cast
 
 from support_exudyn.commands.command_line import CommandParser, Parser, mendable, say
 from support_exudyn.formulations.contract import told
-from user_forces.values.texts import InputError, short
+from user_forces.values.texts import InputError
 
 NAMES = {  # of commands, each with a line of what it does
     "init": "write a commented set of files to start from: machine, scenarios, sweep",
@@ -109,8 +109,8 @@ def add_imports(parser: argparse.ArgumentParser, name: str = "imports") -> None:
         action="append",
         default=[],
         metavar="FILE",
-        help="import this Python file or module first, for you trust it: files may then name its laws, machines, "
-        "drives, loads; without it no file runs Python; repeatable",
+        help="import this Python file or module first, for you trust it: files may then name its laws, "
+        "machines, drives, loads; without it no file runs Python; repeatable",
     )
 
 
@@ -136,11 +136,10 @@ def import_modules(names: Iterable[str]) -> None:
     """Import modules by file or name. Raises InputError that names what cannot be imported."""
     from support_exudyn.files.own_modules import trusted
 
-    for name in names:
-        try:
-            trusted(name)
-        except InputError as error:
-            raise InputError(f"--import {error}") from error.__cause__
+    try:
+        trusted(*names)
+    except InputError as error:
+        raise InputError(f"--import {error}") from error.__cause__
 
 
 @contextmanager

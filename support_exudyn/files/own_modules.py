@@ -1,7 +1,7 @@
 """Modules of the user's own: they are imported because the user names them, never because a file does.
 
-A file that is read runs no Python. A scenario's file names a class by its place, "my_laws.py:MyLaw"; the file of
-a run notes the module of each such class. Both hold for modules that `trusted` or the user's own program has
+A file that is read runs no Python. A scenario's file names a class by its place, "my_laws.py:MyLaw"; the file
+of a run notes the module of each such class. Both hold for modules that `trusted` or the user's own program has
 imported. Without its module a run still has its numbers: a `NotImported` stands where the value was.
 """
 
@@ -12,7 +12,7 @@ from dataclasses import fields, make_dataclass
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, NoReturn
 
 from user_forces.values.value import InputError, Value, cleaned, kinds_of, known_class, known_classes, short
 
@@ -30,18 +30,17 @@ def trusted(*names: str | Path) -> None:
 
     Raises InputError that names the file or module if there is none, or if it cannot be imported.
     """
-    for name in map(str, names):
-        try:
-            _import(name)
-        except InputError as error:
-            raise InputError(f"{short(name)}: {error}") from None
+    for name in names:
+        _import(str(name))
 
 
 def _import(name: str) -> None:
-    """Import a module by its file or by its name. Raises InputError that says what is wrong."""
+    """Import a module by its file or by its name."""
     path = Path(name).resolve() if name.endswith(ENDING) else None
     if path is not None and not path.is_file():
-        raise InputError("there is no such file; allowed: a file of Python, or the name of a module")
+        raise InputError(
+            f"{short(name)}: there is no such file; allowed: a file of Python, or the name of a module"
+        )
     folder, called = (Path.cwd(), name) if path is None else _place_of(path)
     if str(folder) not in sys.path:
         sys.path.append(str(folder))  # at the end: no file beside the module stands for a library
@@ -50,12 +49,14 @@ def _import(name: str) -> None:
     except ModuleNotFoundError as error:
         missing = "no such module" if error.name in (called, called.partition(".")[0]) else str(error)
         raise InputError(
-            f"{missing}; allowed: a file, or a module in the working directory or installed"
+            f"{short(name)}: {missing}; allowed: a file, or a module in the working directory or installed"
         ) from None
     except Exception as error:  # whatever a user's module does wrong
-        raise InputError(f"{type(error).__name__}: {error}") from error
+        raise InputError(f"{short(name)}: {type(error).__name__}: {error}") from error
     if path not in (None, file_of(module)):
-        raise InputError(f"{called} is the name of another module already; allowed: a file of another name")
+        raise InputError(
+            f"{short(name)}: {called} is the name of another module already; allowed: a file of another name"
+        )
 
 
 def _place_of(path: Path) -> tuple[Path, str]:
@@ -77,8 +78,8 @@ def refusal(name: str, module: str, path: Path | str) -> str:
     """Why the class of a module that is not imported is not known, and what to do."""
     place = cleaned(str(path)) or f"{cleaned(module)}, a module without a file"
     return (
-        f"{short(name)} is a class of {place}, which is not imported: files run no Python by themselves; if you "
-        f"trust it: --import {cleaned(str(path)) or 'FILE'} on the command line, "
+        f"{short(name)} is a class of {place}, which is not imported: files run no Python by themselves; if "
+        f"you trust it: --import {cleaned(str(path)) or 'FILE'} on the command line, "
         f"support_exudyn.trusted({str(path) or 'FILE'!r}) in Python"
     )
 
@@ -122,6 +123,10 @@ def modules_of(data: Any) -> dict[str, dict[str, str]]:
 # --- values of classes that are not imported ---
 
 
+class _NotThereError(InputError, AttributeError):
+    """What is asked of a value whose class is not imported: for `hasattr` it is not there."""
+
+
 class NotImported(Value):
     """A value of a class that is not imported: its fields are there, what it does is refused.
 
@@ -137,15 +142,21 @@ class NotImported(Value):
         """The new value; there is no check that could be made."""
         return object.__new__(cls)
 
+    _why = ""  # before the value has its own, as while it is copied
+
     def __init__(self, why: str, fields: Mapping[str, Any]) -> None:
         vars(self).update(fields, _why=why)
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):  # what Python asks for by itself
-            raise AttributeError(name)
-        raise InputError(self._why)
+        del name
+        raise _NotThereError(self._why)
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        """Refuse: there is no law to evaluate."""
+        self.refuse()
+
+    def refuse(self) -> NoReturn:
+        """Raise InputError that says which module is not imported, and what to do."""
         raise InputError(self._why)
 
     def __eq__(self, other: object) -> bool:

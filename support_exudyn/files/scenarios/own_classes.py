@@ -1,4 +1,4 @@
-"""Classes of one's own that a file names by where they are, "my_laws:MyLaw" or "my_laws.py:MyLaw"; none is imported here."""
+"""Classes of one's own that a file names by where they are, "my_laws.py:MyLaw"; none is imported here."""
 
 import re
 import sys
@@ -17,7 +17,7 @@ NAMED = re.compile(r"(?P<module>[^:]+):(?P<name>\w+)")
 
 
 def without_places(table: Mapping[str, Any], faults: Faults, folder: Path) -> dict[str, Any]:
-    """A table whose classes of one's own are named by their names alone; their modules must be imported already.
+    """A table whose classes of one's own are named by their names alone, if their modules are imported.
 
     Arguments:
         table: of a file. faults: takes what is wrong with them.
