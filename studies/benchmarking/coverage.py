@@ -155,7 +155,7 @@ def groups(rows: Sequence[CoveredRun]) -> Iterator[tuple[str, str, Share]]:
 def coverage_sheet(rows: Sequence[CoveredRun]) -> Sheet:
     """Lay out the table of kinds and accuracies."""
     header = (
-        "scenes", "accuracy", "runs", "refused", "met", "numbers", "set apart", "covered [%]",
+        "scenes", "accuracy", "runs", "refused", "met", "numbers", "left out", "covered [%]",
         "worst true / claimed", "median claimed / true",
     )  # fmt: skip
     lines = tuple(
@@ -164,8 +164,9 @@ def coverage_sheet(rows: Sequence[CoveredRun]) -> Sheet:
         for kind, accuracy, one in groups(rows)
     )  # fmt: skip
     caption = (
-        "Set apart: numbers whose references are not far closer than the error claimed. Asked for, of all: at "
-        f"least {GOAL_COVERED:.0%} covered, worst below {GOAL_RATIO:g}, median at most {GOAL_OVERSTATED:g}."
+        "Left out: numbers without a reference ten times closer than the error claimed or the distance. "
+        f"Asked for, of all: at least {GOAL_COVERED:.0%} covered, worst below {GOAL_RATIO:g}, median at most "
+        f"{GOAL_OVERSTATED:g}."
     )
     return Sheet("Errors claimed and true, on fresh scenes", header, lines, caption, left=2)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from studies.common.subject import Subject, own_subject, paper_subject
 from support_exudyn.commands.command_line import count, folder, warn
+from support_exudyn.commands.parser import add_imports, import_modules
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
@@ -54,6 +55,7 @@ def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
     )
     own = "your machine or scenario in place of the paper's: a TOML file, or a shipped machine's name"
     add("--machine", type=folder, metavar="FILE", help=own)
+    add_imports(parser)
     add("--pin", metavar="PIN", help="the pin of your machine that gets clearance (rear_base)")
     add("--quick", action="store_true", help="has no effect: there is one form, as fast as the quick one was")
 
@@ -67,6 +69,7 @@ def read_options(given: argparse.Namespace) -> Options:
         warn("--quick has no effect: there is one form of every study, as fast as the quick one was")
     if given.machine is None and given.pin is not None:
         raise InputError(f"--pin {given.pin}: allowed: together with --machine FILE")
+    import_modules(given.imports)
     subject = own_subject(given.machine, given.pin) if given.machine else paper_subject()
     if subject.is_slow:
         only = "only the redundant formulation covers it: minutes where --list tells seconds"

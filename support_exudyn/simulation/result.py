@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import math
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -16,7 +17,7 @@ import numpy as np
 
 from support_exudyn.files.free_memory import available
 from support_exudyn.files.hdf5 import Inside, check_checksum, checksum_block, file_image, write_texts
-from support_exudyn.files.own_modules import import_modules_of, modules_of
+from support_exudyn.files.own_modules import modules_of, refusals, without_modules
 from support_exudyn.files.series.own_runs import RUN
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.contact_state import Onset
@@ -198,10 +199,12 @@ class Result(RecordedRun):
 
     @staticmethod
     def load(path: str | Path) -> Result:
-        """Read what `save` wrote; modules of one's own that it needs are imported from where they were.
+        """Read what `save` wrote. Modules of one's own are not imported: see `support_exudyn.trusted`.
 
-        Raises InputError if the file is not a whole result file, or was changed, or if a module that it needs
-        is not there; OSError if it cannot be opened at all.
+        A law without its module stands as text in the scenario, and a warning says what to do.
+
+        Raises InputError if the file is not a whole result file, or was changed, or if nothing can be read
+        without its modules; OSError if it cannot be opened at all.
         """
         if not Path(path).exists():
             raise missing_file(path, "files that Result.save has written")
@@ -213,20 +216,23 @@ class Result(RecordedRun):
             raise InputError(
                 f"{path}: is {other.format(path=path)}; allowed: files that Result.save has written"
             )
-        data = contents(path, available())
+        data, missing = contents(path, available()), dict[str, str]()
         try:
             check_checksum(data, FORMAT)
             with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
                 whole = Inside(file, len(data))
                 if "own_classes" in whole.attributes:
-                    import_modules_of(whole.data("own_classes"))
-                return _read(whole)
+                    missing = refusals(whole.data("own_classes"))
+                result = _read(whole, missing)
         except InputError as error:  # of a value that is not known or does not fit
-            raise InputError(f"{path}: {error}") from None
+            raise InputError(f"{path}: {'; '.join(missing.values()) or error}") from None
         except DAMAGES as error:
             raise InputError(
                 f"{path}: not a result file of this program, or damaged ({cleaned(str(error))})"
             ) from None
+        for sentence in missing.values():
+            warnings.warn(f"{path}: {sentence}", stacklevel=2)
+        return result
 
 
 def with_digest(image: bytearray) -> tuple[bytes, bytearray]:
@@ -266,18 +272,19 @@ def _write(group: h5py.Group, result: Result, scenario: Mapping[str, Any]) -> No
         _write(group["coarser"], result.coarser, result.coarser.scenario.plain)
 
 
-def _read(group: Inside) -> Result:
+def _read(group: Inside, missing: Mapping[str, str]) -> Result:
+    """The run of a group. missing: refusals of the classes that are not imported, by name."""
     onsets = group.inside("onsets").series() if "onsets" in group else {}
     channels = {
         name: Channel(data.values, data.text("unit"), data.text("meaning"))
         for name, data in group.inside("channels").series().items()
     }
     _check_channels(channels)
-    coarser = _read(group.inside("coarser")) if "coarser" in group else None
+    coarser = _read(group.inside("coarser"), missing) if "coarser" in group else None
     if coarser is not None:
         _check_coarser(channels, coarser.channels)
     return Result(
-        scenario=Value.from_data(group.data("scenario")),
+        scenario=Value.from_data(without_modules(group.data("scenario"), missing)),
         channels=channels,
         onsets={name: _onsets(name, data.values) for name, data in onsets.items()},
         largest_force={name: float(data.attributes["largest_force_N"]) for name, data in onsets.items()},

@@ -238,7 +238,7 @@ def _value_of(data: Any, depth: int) -> Any:
         near = ", ".join(get_close_matches(kind if isinstance(kind, str) else "", known, NEAR, 0.0))
         raise InputError(
             f"type = {short(kind)}: not a known type; allowed: those of {len(known)} classes, such as {near}; "
-            "one's own have to be imported first, on a command line by --import MODULE"
+            "one's own have to be imported first, on a command line by --import FILE"
         )
     return found(**{_name(k): _rebuilt(v, depth + 1) for k, v in data.items() if k != "type"})
 

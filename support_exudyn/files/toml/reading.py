@@ -258,7 +258,7 @@ class Reader:
             return group.usual
         if not isinstance(name, str) or name not in group.kinds:
             known = nearest(name if isinstance(name, str) else "", group.kinds)
-            said_kinds = f"{known}; classes of one's own: --import MODULE"
+            said_kinds = f"{known}; classes of one's own: --import FILE"
             self.faults.add((), f"{said_place((*place, 'type'))} = {said(name)}: {said_kinds}")
             return None
         return group.kinds[name]

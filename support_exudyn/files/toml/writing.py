@@ -4,6 +4,7 @@ from collections.abc import Collection, Mapping
 from decimal import Decimal
 from typing import Any
 
+from support_exudyn.files.own_modules import NotImported
 from support_exudyn.files.toml.shapes import FieldShape, Shape, field_shapes, options
 from user_forces.values.units import Unit
 from user_forces.values.value import InputError, Value
@@ -14,8 +15,10 @@ def table_of(value: Value, says_type: bool = True, endings: Collection[str] = ()
 
     says_type: whether the table has its `type`. endings: units that are preferred to the usual ones.
 
-    Raises InputError if a class declares a field that files have no form for.
+    Raises InputError if a class declares a field that files have no form for, or is not imported.
     """
+    if isinstance(value, NotImported):
+        value.refuse()
     cls = type(value)
     found: dict[str, Any] = {"type": cls.__name__} if says_type else {}
     for field in field_shapes(cls).values():
