@@ -80,5 +80,9 @@ def error_weights(model: Model, y: Vector, tolerance: float) -> Vector:
     for record, place in zip(model.scene.contacts, scenario.contact_places.values(), strict=True):
         if record["state"] >= 0:
             found[record["state"]] = abs(place.contact.friction(0.0, 1.0, SMALL)) / SMALL
+    rubs = (*scenario.friction_pins.values(), *scenario.friction_guides.values())
+    for record, joint in zip(model.scene.rubbing, rubs, strict=True):
+        if record["state"] >= 0 and joint.friction is not None:
+            found[record["state"]] = abs(joint.friction(0.0, 1.0, SMALL)) / SMALL
     found[-LOSSES:] = 1.0 / (mass * speed**2)
     return np.asarray(found / tolerance)

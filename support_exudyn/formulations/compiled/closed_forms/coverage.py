@@ -29,7 +29,8 @@ def covers(scenario: Scenario) -> bool:
         return False
     one_drive = all(drive == scenario.drive for drive in scenario.drives.values())
     rigid = all(isinstance(actuator, RigidActuator) for actuator in scenario.actuators.values())
-    plain = not (scenario.acting_loads or scenario.blocks or scenario.own_bodies or scenario.friction_pins)
+    rubs = scenario.friction_pins or scenario.friction_guides
+    plain = not (scenario.acting_loads or scenario.blocks or scenario.own_bodies or rubs)
     held = all(guide.holds for guide in scenario.guides.values())
     loose = [name for name, pin in scenario.pins.items() if not pin.holds]
     clearance = scenario.clearance_pins
