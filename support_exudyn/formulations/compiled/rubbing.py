@@ -21,6 +21,8 @@ def begin_rubbing(scene: SceneArrays, y: Vector) -> None:
     """Write the direction and the speed along guides, and apply the friction of the evaluation before."""
     for n in range(scene.rubbing.size):
         one = scene.rubbing[n]
+        if not math.isfinite(one.force):  # of a trial that was too long
+            one.force = one.moment = 0.0
         if one.kind != BOLT:
             angle = one.angle + turn_of(y, one.other)
             first, second = scene.points[one.first], scene.points[one.second]

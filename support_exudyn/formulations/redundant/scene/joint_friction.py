@@ -84,6 +84,11 @@ class JointFriction(ABC):
     def apply(self, forces: Series, motion: BodyMotion, reactions: Series, friction: Series) -> None:
         """Add a friction force over time (n,) [N] to the forces on all coordinates (n, 3 b)."""
 
+    def start(self, rates: Series) -> None:
+        """Take the state of the law that belongs to steady slip in the start posture, for rates (n,)."""
+        self._slip = self.slip((0.0, 0.0), 0.0 * rates, rates)
+        self.deflection = self.law.steady_deflection(self._slip)
+
     def begin_try(self, step: float) -> None:
         """A step of this length [s] is tried."""
         self._step = step
@@ -173,7 +178,7 @@ class PinFriction(JointFriction):
 
     def add(self, forces: Series, carried: Carried, rates: Series) -> None:
         """See `JointFriction`."""
-        moment = self.radius * self.size(carried, self.slip(carried, rates, rates), 0.0)
+        moment = self.radius * self.size(carried, self.slip(carried, rates, rates), self.deflection)
         for first, sign in zip(self._bodies, (-1.0, 1.0), strict=True):
             if first is not None:
                 forces[first + 2] += sign * moment
@@ -242,7 +247,7 @@ class GuideFriction(JointFriction):
 
     def add(self, forces: Series, carried: Carried, rates: Series) -> None:
         """See `JointFriction`."""
-        size = self.size(carried, self.slip(carried, 0.0 * rates, rates), 0.0)
+        size = self.size(carried, self.slip(carried, 0.0 * rates, rates), self.deflection)
         ax, ay = math.cos(self.slide.direction), math.sin(self.slide.direction)
         moment = self.guide.lever(-carried[0]) * size
         for n, (x, y), sign in zip(self._bodies, self._arms, (-1.0, 1.0), strict=True):

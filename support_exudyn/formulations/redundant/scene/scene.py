@@ -184,6 +184,8 @@ class Scene(EngineScene):
         later, earlier = (kinetics.rows(position + h * velocity) for h in (small, -small))
         turning = (earlier - later) @ velocity / (2.0 * small)  # accelerations that the constraints ask for
         owners = kinetics.owners()
+        for friction in self.frictions.values():
+            friction.start(velocity)
         force = kinetics.weight(self.scenario.gravity)
         multipliers = data.GetAECoordinates(INITIAL)
         for _ in range(FRICTION_ROUNDS):
