@@ -31,6 +31,7 @@ from support_exudyn.model.plane_geometry import minus
 from user_forces.friction.law import FrictionLaw
 from user_forces.lawful import PROBED, LawError
 
+PATIENCE = 20  # steps
 Carried = tuple[float, float]  # both multipliers of a joint; the second is 0 of a guide without a moment
 
 
@@ -45,13 +46,16 @@ class JointFriction(ABC):
 
     conditions = 2  # how many multipliers the joint has
     owner: tuple[str, str]  # of its rows, see `Kinetics.owners`
+    sign = 1.0  # of the first multiplier of these rows against the engine's
 
     def __init__(self, mbs: Any, law: FrictionLaw, first: str, second: str) -> None:
         self._data = mbs.systemData
         self.law = law
         self.first, self.second = first, second
         self.calls = 0
-        self.lagged = False  # whether the force is that at the end of the last step
+        self.lagged = False  # whether the force is always that at the end of the last step,
+        self._lags = False  # and whether in the step that is tried; for how many more steps it is,
+        self._lagging, self._patience = 0, PATIENCE  # and will be after the next failure
         self.deflection = 0.0  # state of the law at the end of the last step [m]
         self._slip = self._step = 0.0  # slip then [m/s], length of the step that is tried [s]
         self._kept = 0.0, 0.0  # what the joint carried then
@@ -89,13 +93,18 @@ class JointFriction(ABC):
         self._slip = self.slip((0.0, 0.0), 0.0 * rates, rates)
         self.deflection = self.law.steady_deflection(self._slip)
 
-    def begin_try(self, step: float) -> None:
-        """A step of this length [s] is tried."""
+    def begin_try(self, step: float, repeated: bool) -> None:
+        """A step of this length [s] is tried; once Newton's method has failed, with the force of the last for a while."""
         self._step = step
+        if repeated and not self._lagging:
+            self._lagging = self._patience
+            self._patience *= 2
+        self._lags = self.lagged or self._lagging > 0
 
     def accept(self) -> None:
         """Keep what the joint carries, its slip and the state of the law at the end of a step."""
         self._kept = self._present()
+        self._lags, self._lagging = self.lagged, max(0, self._lagging - 1)
         slip = self._slip_now(self._kept)
         self.deflection = self._moved(slip)
         self._slip, self._step = slip, 0.0
@@ -141,12 +150,12 @@ class JointFriction(ABC):
         return float(self.law.next_deflection(self.deflection, 0.5 * (self._slip + slip), self._step))
 
     def _carried(self) -> Carried:
-        return self._kept if self.lagged else self._present()
+        return self._kept if self._lags else self._present()
 
     def _present(self) -> Carried:
         multipliers = self._data.GetAECoordinates()
         second = float(multipliers[self._multiplier + 1]) if self.conditions == 2 else 0.0
-        return float(multipliers[self._multiplier]), second
+        return self.sign * float(multipliers[self._multiplier]), second
 
     def _spin(self, rates: Series) -> float:
         """The spin of the second body against the first [rad/s]."""
@@ -215,7 +224,7 @@ class GuideFriction(JointFriction):
         super().__init__(mbs, guide.friction, slide.against, slide.body)
         self.owner = "slides", name
         self.guide, self.slide = guide, slide
-        self.conditions = slide.conditions
+        self.conditions, self.sign = slide.conditions, -1.0
         self._arms = (0.0, 0.0), (0.0, 0.0)  # of the point from the centres of both bodies at the start [m]
         self._force = 0.0  # as the engine last asked for it [N]
         mbs.AddObject(

@@ -195,6 +195,7 @@ class Scene(EngineScene):
                 row, first = owners.index(friction.owner), self.multiplier_of(friction)
                 held = reactions[row : row + friction.conditions]
                 multipliers[first : first + held.size] = held
+                multipliers[first] *= friction.sign
                 friction.add(force, (float(held[0]), float(held[1]) if held.size == 2 else 0.0), velocity)
         data.SetAECoordinates(multipliers, INITIAL)
 

@@ -202,7 +202,8 @@ class SolverRun:
 
     def _before_try(self, mbs: Any, t: float) -> bool:
         """Prepare every attempt at a step that would end at t."""
-        if self.trying:
+        again = self.trying
+        if again:
             self.repeated = True
             if self.legs.wants_cut or any(pin.wants_cut for pin in self.pins):
                 self.cut_steps += 1
@@ -214,7 +215,7 @@ class SolverRun:
         step = float(self.solver.it.currentStepSize)
         self.legs.begin_try(step)
         for friction in self.frictions:
-            friction.begin_try(step)
+            friction.begin_try(step, again)
         if self.pins:
             for pin in self.pins:
                 pin.begin_try(step)
