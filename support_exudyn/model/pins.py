@@ -81,7 +81,7 @@ class IdealPin(Pin):
     With friction a moment radius * law(radius * spin, pin force) acts against the turning of the two bodies.
 
     Arguments:
-        friction: a law without a state; None: none at all.
+        friction: law of the friction in the pin; None: none at all.
         radius: of the pin's surface [m], > 0; given together with friction.
     """
 
@@ -94,8 +94,6 @@ class IdealPin(Pin):
             raise ValueError(
                 f"friction = {self.friction}, radius = {self.radius}: allowed: both, or None for both"
             )
-        if self.friction is not None and self.friction.has_state:
-            raise ValueError(f"friction = {type(self.friction).__name__}: allowed: laws without a state")
         return self
 
     @property

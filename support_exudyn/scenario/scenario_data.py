@@ -28,7 +28,7 @@ from support_exudyn.model.actuators import (
     with_cylinder_and_rod,
 )
 from support_exudyn.model.drives.drive import Drive, Held
-from support_exudyn.model.guides import Guide
+from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.hydraulics.lines import PumpStation
@@ -336,6 +336,12 @@ class ScenarioData(Value, ABC):
         """The ideal pins that have friction, by name."""
         ideal = {name: pin for name, pin in self.pins.items() if isinstance(pin, IdealPin)}
         return {name: pin for name, pin in ideal.items() if pin.friction is not None}
+
+    @property
+    def friction_guides(self) -> dict[str, IdealGuide]:
+        """The ideal guides that have friction, by name."""
+        ideal = {name: guide for name, guide in self.guides.items() if isinstance(guide, IdealGuide)}
+        return {name: guide for name, guide in ideal.items() if guide.friction is not None}
 
     @cached_property
     def hydraulics(self) -> dict[str, HydraulicLeg]:

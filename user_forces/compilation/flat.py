@@ -218,17 +218,18 @@ def _unwritten(law: object, error: TypeError) -> str:
 
 
 def friction_source(friction: FrictionLaw) -> tuple[str, list[float]]:
-    """A friction law without a state as such a function: `depth` is the normal force [N], the rest but `slip`
-    is not looked at, and it gives the friction force [N].
+    """A friction law as such a function: `depth` is the normal force [N], of the rest only `slip` and `deflection`
+    count. It gives the friction force [N], and writes the rate of the deflection [m/s] of a law with a state into out[0].
 
     Raises UnwrittenLawError, with the name of the law, if there is no such source.
     """
-    formulas, (normal, _, slip, *_) = lines(LAW_ARGUMENTS)
+    formulas, (normal, _, slip, _, _, deflection) = lines(LAW_ARGUMENTS)
     try:
-        force = friction(slip, normal)
+        force = friction(slip, normal, deflection)
+        rest = [friction.deflection_rate(deflection, slip)] if friction.has_state else []
     except TypeError as error:
         raise UnwrittenLawError(_unwritten(friction, error)) from error
-    return function_source(LAW_ARGUMENTS, formulas, force, [])
+    return function_source(LAW_ARGUMENTS, formulas, force, rest)
 
 
 def function_source(

@@ -9,6 +9,7 @@ from typing_extensions import Self
 from user_forces.expressions.scalar import sign
 from user_forces.values.value import NonNegative, Value, value
 
+LONG = 1.0  # [s], in which a deflection becomes that of steady slip
 MOMENT = 1e-10  # [s], in which no bristle moves by more than a share of 1e-4 of its way
 
 
@@ -43,6 +44,10 @@ class FrictionLaw(Value, ABC):
     def deflection_rate(self, deflection: float, slip: float) -> float:
         """Rate of the deflection [m/s]: what `next_deflection` makes of a step that tends to nothing."""
         return (self.next_deflection(deflection, slip, MOMENT) - deflection) / MOMENT
+
+    def steady_deflection(self, slip: float) -> float:
+        """Deflection [m] of a slip [m/s] that has lasted long: with it a joint starts that moves at the start."""
+        return self.next_deflection(0.0, slip, LONG)
 
     def swing_time(self, mass: float, normal_force: float) -> float:
         """One over the angular frequency [s] at which a mass [kg] that sticks swings under a normal force [N].

@@ -19,6 +19,8 @@ from support_exudyn.files.scenarios.short_laws import (
 )
 from support_exudyn.files.toml.shapes import GroupShape, Names
 from support_exudyn.model.guides import ClearanceGuide, Gaps, Guide, IdealGuide
+from support_exudyn.model.simple_laws import friction_of
+from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
 from user_forces.normal.damping_speed import DampingSpeed
@@ -36,8 +38,8 @@ class ShortGuide(Value):
 
     Arguments:
         clearance: gap between block and wall at the start [m], >= 0, on either side; or gaps to the upper and
-            the lower wall; 0 is an ideal guide, whatever else is said. Upper is the side to which a quarter
-            turn counterclockwise leads from the direction of the guide.
+            the lower wall; 0 is an ideal guide, which keeps its friction and shape and ignores all else. Upper
+            is the side to which a quarter turn counterclockwise leads from the direction of the guide.
         block: length and height of the block [m], > 0; the machine's file may say it for the guide.
         pin_radius: of a round pin in place of a block [m], > 0; for guides that let turn.
         restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
@@ -82,9 +84,12 @@ class ShortGuide(Value):
 
     def guide(self, block: tuple[float, float] | None = None) -> Guide:
         """The guide in full; block: length and height of the machine's file [m], if this has none."""
-        if self.clearance in (0.0, (0.0, 0.0)):  # as at the end of a sweep over clearances
-            return IdealGuide()
         shape = self.block or (None if self.pin_radius else block)
+        if self.clearance in (0.0, (0.0, 0.0)):  # as at the end of a sweep over clearances
+            friction = friction_of(friction_in_short(self.friction, self.friction_law))
+            if isinstance(friction, Frictionless):
+                return IdealGuide()
+            return IdealGuide(friction=friction, block=shape, pin_radius=self.pin_radius)
         if shape is None and self.pin_radius is None:
             raise InputError(
                 "block_mm: missing, and the machine's file says none for this guide; "

@@ -22,8 +22,10 @@ from support_exudyn.files.scenarios.short_laws import (
 from support_exudyn.files.toml.shapes import GroupShape, Names
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
-from support_exudyn.model.pins import CYLINDERS, ClearancePin, Stiffness, on_cylinders
+from support_exudyn.model.pins import CYLINDERS, ClearancePin, IdealPin, Stiffness, on_cylinders
+from support_exudyn.model.simple_laws import friction_of
 from user_forces.backing import in_series, pin_stiffness
+from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
 from user_forces.normal.damping_speed import DampingSpeed
@@ -40,7 +42,8 @@ class ShortPin(Value):
     """A pin with clearance, in few words.
 
     Arguments:
-        clearance: radial, bore radius minus journal radius [m], >= 0; 0 is an ideal pin, whatever else is said.
+        clearance: radial, bore radius minus journal radius [m], >= 0; 0 is an ideal pin, which keeps its friction
+            at the radius of the bore and ignores all else.
         bore_radius: [m], > 0; the machine's file may say it for the pin.
         restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
         friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.
@@ -92,6 +95,23 @@ class ShortPin(Value):
                 )
         return self
 
+    def ideal(self, bore_radius: float | None) -> IdealPin:
+        """The pin without clearance; bore_radius: of the machine's file [m], if this has none."""
+        friction = friction_of(friction_in_short(self.friction, self.friction_law))
+        if isinstance(friction, Frictionless):
+            return IdealPin()
+        return IdealPin(friction=friction, radius=self._radius(bore_radius))
+
+    def _radius(self, bore_radius: float | None) -> float:
+        """Radius of the bore [m], of this or else of the machine's file. Raises InputError without either."""
+        radius = bore_radius if self.bore_radius is None else self.bore_radius
+        if radius is None:
+            raise InputError(
+                "bore_radius_mm: missing, and the machine's file says none for this pin; "
+                "allowed: > 0, here or there"
+            )
+        return radius
+
     def pin(
         self,
         bore_radius: float | None = None,
@@ -104,12 +124,7 @@ class ShortPin(Value):
             bore_radius, length: of the machine's file [m], if this has none.
             links: stiffness [N/m] of the links that the pin joins, of a material.
         """
-        radius = bore_radius if self.bore_radius is None else self.bore_radius
-        if radius is None:
-            raise InputError(
-                "bore_radius_mm: missing, and the machine's file says none for this pin; "
-                "allowed: > 0, here or there"
-            )
+        radius = self._radius(bore_radius)
         if self.clearance >= radius:  # which the class says in metres
             raise InputError(
                 f"clearance_mm = {1e3 * self.clearance:g}: leaves no journal in a bore of bore_radius_mm = "

@@ -68,8 +68,14 @@ LOAD = _record("point origin kind constants course courses", "law first second f
 # what a load is told of its own courses, and where in `SceneArrays.out`
 FIRST_COURSE, COURSES_OF_LOAD = 4, 8
 BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")
-# friction of an ideal pin, of which `row` is the first row
-RUBBING = _record("row body other constants", "law radius moment")
+# friction of an ideal pin (BOLT) or guide (GUIDED; BLOCK with a moment), of which `row` is the first row; points
+# `first` and `second` of a guide; state: of the friction law in y | direction and speed along a guide, slip, arm of
+# the friction force, the force and its moment, by how much the last round changed it, which share is still open
+BOLT, GUIDED, BLOCK = range(3)
+RUBBING = _record(
+    "kind row body other first second constants state",
+    "law radius half_length half_height angle ax ay speed slip lever force moment left open",
+)
 
 
 class SceneArrays(NamedTuple):

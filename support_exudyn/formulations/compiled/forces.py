@@ -296,7 +296,7 @@ def powers(scene: SceneArrays, y: Vector, slope: Vector) -> None:
         damping += scene.bushings[n].loss
     for n in range(scene.rubbing.size):
         one = scene.rubbing[n]
-        friction -= one.moment * (spin_of(scene, y, one.body) - spin_of(scene, y, one.other))
+        friction -= one.force * one.slip
     for n in range(scene.joints.size):
         joint = scene.joints[n]
         if joint.course >= 0:

@@ -50,7 +50,7 @@ class _Records:
         ]
         parts = np.split(rows, np.cumsum(sizes)[:-1], axis=1)
         self.time = rows[:, 0].copy()
-        self.state, self.acceleration, held, memory, courses, self.moments = parts[1:]
+        self.state, self.acceleration, held, memory, courses, self.friction = parts[1:]
         self.position, self.velocity = self.state[:, :count], self.state[:, count : 2 * count]
         self.held = held[:, model.order]  # as the linkage has them
         self.memory = memory.reshape(len(rows), scene.contacts.size, MEMORY)
@@ -110,6 +110,7 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         if DataNeeds.LOADS in needed
     }
     losses = found.state[:, -LOSSES:]
+    rubbed = dict(zip((*scenario.friction_pins, *scenario.friction_guides), found.friction.T, strict=True))
     return Trajectory(
         time=found.time,
         position=found.position,
@@ -117,7 +118,8 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         acceleration=found.acceleration,
         ideal_pins=pins,
         contacts=contacts,
-        friction_moments=dict(zip(scenario.friction_pins, found.moments.T, strict=True)),
+        friction_moments={name: pin.radius * rubbed[name] for name, pin in scenario.friction_pins.items()},
+        friction_forces={name: rubbed[name] for name in scenario.friction_guides},
         actuators={**{name: pushed[name] for name in rigid}, **actuators},
         cranks={name: pushed[name] for name in linkage.cranks},
         slides=slides,

@@ -66,7 +66,7 @@ def peak(
 def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Vector) -> None:
     """Write a record of what has been evaluated at t [s].
 
-    That is the state, accelerations, multipliers, what contacts remember, courses, moments of friction.
+    That is the state, accelerations, multipliers, what contacts remember, courses, friction of joints.
     """
     row[0] = t
     i, count = 1, 3 * scene.bodies.size
@@ -93,7 +93,7 @@ def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Ve
         row[i], row[i + 1] = scene.courses[k].value, scene.courses[k].rate
         i += 2
     for k in range(scene.rubbing.size):
-        row[i] = scene.rubbing[k].moment
+        row[i] = scene.rubbing[k].force
         i += 1
 
 

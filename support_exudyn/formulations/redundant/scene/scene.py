@@ -23,7 +23,7 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
     first_memory,
 )
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
-from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
+from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
@@ -49,7 +49,7 @@ class Scene(EngineScene):
     mbs: Any
     bodies: dict[str, BodyItem]
     ideal_pins: dict[str, IdealItem]
-    frictions: dict[str, PinFriction]  # of ideal pins
+    frictions: dict[str, JointFriction]  # of ideal pins and guides, "pins.NAME" and "guides.NAME"
     clearance_joints: dict[str, ClearanceJoint]
     compliant_pins: dict[str, CompliantItem]
     rigid_actuators: dict[str, ActuatorItem]
@@ -172,8 +172,13 @@ class Scene(EngineScene):
         """See `EngineScene`."""
         return self.kinetics.mass()
 
+    def multiplier_of(self, friction: JointFriction) -> int:
+        """The first multiplier of a joint with friction."""
+        kind, name = friction.owner
+        return int(self.ideal_pins[name].first if kind == "pins" else self.slides[name].first)
+
     def start_rubbing(self) -> None:
-        """Let friction of ideal pins know about their forces at the start, if it turns them then.
+        """Let friction of ideal joints know about their forces at the start, if anything moves then.
 
         The solver's first accelerations follow from forces of friction, which follow from those of the pins:
         without, the first step would be taken with none. Forces of clearance pins and oil are left out of it.
@@ -185,17 +190,20 @@ class Scene(EngineScene):
         kinetics, small = self.kinetics, 1e-6 / np.abs(velocity).max()
         later, earlier = (kinetics.rows(position + h * velocity) for h in (small, -small))
         turning = (earlier - later) @ velocity / (2.0 * small)  # accelerations that the constraints ask for
-        place = {name: 2 * n for n, name in enumerate(self.ideal_pins)}
+        owners = kinetics.owners()
+        for friction in self.frictions.values():
+            friction.start(velocity)
         force = kinetics.weight(self.scenario.gravity)
         multipliers = data.GetAECoordinates(INITIAL)
         for _ in range(FRICTION_ROUNDS):
             _, reactions = kinetics.respond(position, force, turning)
             force = kinetics.weight(self.scenario.gravity)
-            for name, friction in self.frictions.items():
-                pin = reactions[place[name] : place[name] + 2]
-                first = self.ideal_pins[name].first
-                multipliers[first : first + 2] = pin
-                friction.add_moment(force, float(np.hypot(*pin)), velocity)
+            for friction in self.frictions.values():
+                row, first = owners.index(friction.owner), self.multiplier_of(friction)
+                held = reactions[row : row + friction.conditions]
+                multipliers[first : first + held.size] = held
+                multipliers[first] *= friction.sign
+                friction.add(force, (float(held[0]), float(held[1]) if held.size == 2 else 0.0), velocity)
         data.SetAECoordinates(multipliers, INITIAL)
 
     def reset_memory(self) -> None:

@@ -20,7 +20,7 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
     first_memory,
 )
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
-from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
+from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
 from support_exudyn.formulations.redundant.space.block_face import BlockFace
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import ends
@@ -76,7 +76,7 @@ class SpatialScene(EngineScene):
     legs: EngineLegs
     driven: tuple[DrivenParts, ...]  # all actuators, by the drive that they follow
     compliant_pins: dict[str, CompliantItem] = field(default_factory=dict)  # not covered
-    frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: nor these
+    frictions: dict[str, JointFriction] = field(default_factory=dict)  # of ideal pins: nor these
     loads: dict[str, LoadItem] = field(default_factory=dict)
     weights: dict[str, Any] = field(default_factory=dict)  # loads of the engine, by body
     faces: dict[str, BlockFace] = field(default_factory=dict)  # of falling blocks
