@@ -202,6 +202,9 @@ class PlaneBuilder(EngineBuilder):
         massless = np.zeros((3 * len(turning), 3 * len(turning)))
         gathered = self.mbs.AddObject(ObjectGenericODE2(nodeNumbers=[*turning], massMatrix=massless))
         second = MarkerNodeCoordinates(nodeNumber=self.bodies[gear.second].node)
+        # this connector takes coordinates with their reference values, so these are taken off
+        angles = {body: one.angle for body, one in self.linkage.bodies.items()}
+        offset = angles[gear.second] - sum(share * angles.get(body or "", 0.0) for body, share in shares.items())
         self.mbs.AddObject(
             ObjectConnectorCoordinateVector(
                 markerNumbers=[
@@ -210,6 +213,7 @@ class PlaneBuilder(EngineBuilder):
                 ],
                 scalingMarker0=np.kron([*turning.values()], TURN)[None],
                 scalingMarker1=TURN[None],
+                offset=[offset],
             )
         )
 
