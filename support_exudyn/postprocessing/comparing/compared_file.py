@@ -18,6 +18,7 @@ from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.files.toml.faults import nearest
 from support_exudyn.postprocessing.comparing.compare_file import MappedColumn, MappedFile
+from support_exudyn.postprocessing.comparing.whole_turns import ANGLE, unwrapped
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -35,7 +36,8 @@ class ComparedFile:
     name: by which tables and figures call it. path: of it. kind: what it is, in words.
     run: with its errors, if it is one of this program. series: of it, by the names of the file.
     mapped: what is said of its columns; `shift` is added to its times [s].
-    notes: what a reader of the numbers has to know.
+    notes: what a reader of the numbers has to know. turns: full turns that are taken off angles [rad], by
+        channel.
     """
 
     name: str
@@ -46,6 +48,7 @@ class ComparedFile:
     mapped: MappedFile = AS_IT_IS
     notes: tuple[str, ...] = ()
     meanings: Mapping[str, str] = field(default_factory=dict)
+    turns: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def has_errors(self) -> bool:
@@ -81,7 +84,16 @@ class ComparedFile:
         return time + self.mapped.shift if self.mapped.shift else time
 
     def values(self, channel: str, unit: str) -> Values:
-        """Values of a channel in a unit, (n,). Raises InputError if its own is not known or of another kind."""
+        """Values of a channel in a unit, (n,); an angle that the file wraps is unwrapped.
+
+        Raises InputError if its own unit is not known or of another kind.
+        """
+        found = self._converted(channel, unit)
+        if unit == ANGLE and self.run is None:
+            found = unwrapped(found)
+        return found - self.turns[channel] if self.turns.get(channel) else found
+
+    def _converted(self, channel: str, unit: str) -> Values:
         column = self.column(channel)
         series = self.series[column.column]
         try:
