@@ -9,7 +9,7 @@ by factors L D L^T of the square matrix, within the envelope that the order of t
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, inlined, once
+from support_exudyn.formulations.compilation import compiled, inlined
 from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
 
 SETTLED = 1e-13  # of moments that are found together with accelerations: they change by no more than this share
@@ -138,7 +138,7 @@ def hold(scene: SceneArrays, y: Vector) -> None:
         row.ox, row.oy, row.ot = -ux, -uy, first.ry * ux - first.rx * uy - carried
 
 
-@once
+@compiled
 def factor(scene: SceneArrays) -> float:
     """Write C M^-1 C^T as its factors L, and 1 / D on the diagonal; the least share that is left of a row."""
     count = scene.rows.size
