@@ -212,7 +212,7 @@ def _scene(random: Random, linkage: Linkage, body: str, **fields: Any) -> Scenar
     weight = GRAVITY if random.uniform() < 0.5 else (0.0, 0.0)
     formulation = "redundant" if random.uniform() < 0.2 else "auto"
     record_period = duration / float(random.uniform(*RECORDS))
-    given = {
+    given: dict[str, Any] = {
         "gravity": weight,
         "formulation": formulation,
         "record_period": record_period,
