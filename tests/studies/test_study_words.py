@@ -44,7 +44,7 @@ def made_up(errors: float = 0.0) -> dict[tuple[str, str], Number]:
             ]
             whole = which_pin_tables.root_of_squares(singles) if name == RIPPLE else sum(singles)
             numbers.append(Number(name, which_pin_cases.case_name(PINS, friction), whole, unit, 0.0))
-        numbers.append(Number(name, which_pin_cases.IDEAL, 1.0, unit, 0.0))
+            numbers.append(Number(name, PLAN.ideal_name(PINS, friction), 1.0, unit, 0.0))
     return by_case(numbers)
 
 
