@@ -60,7 +60,7 @@ def _velocity_figure(results: Mapping[str, Result]) -> Figure:
     for letter, window in zip("bcd", WINDOWS.values(), strict=True):
         panels[0].axvspan(*window, color="#dddddd", zorder=0)
         panels[0].text(sum(window) / 2.0, 0.0, letter, ha="center", va="bottom", fontsize=7)
-    legend(drawing, panels[0], 4)
+    legend(drawing, panels[0], 2)
     letters(panels)
     return drawing
 
@@ -83,7 +83,7 @@ def _split_figure(results: Mapping[str, Result], channel: str, scale: float, lab
     fit_height(panels["rise"], (scale * r[channel][rise.between(r, *inside)] for r in results.values()))
     for axes in panels.values():
         time_ticks(axes, rise.PAPER)
-    legend(drawing, panels["rise"], 4)
+    legend(drawing, panels["rise"], 2)
     letters(list(panels.values()))
     return drawing
 

@@ -112,7 +112,7 @@ def panel_figure(subject: Subject, results: Results, channel: str, scale: float,
         axes.label_outer()
     for axes in panels[2:]:
         axes.set_xlabel("time [s]")
-    legend(drawing, panels[0], 4)
+    legend(drawing, panels[0], 2)
     letters(panels)
     return drawing
 
@@ -221,12 +221,13 @@ def trend_figure(subject: Subject, found: Found) -> Figure:
             if len(printed) == len(SIZES_MM):
                 axes.plot(SIZES_MM, printed, "x", color=style.PAPER, ms=5, label="paper")
             ideal = found[name, ideal_name(friction)]
-            axes.axhline(scale * ideal.value, color=colour, lw=0.8, ls=DASHED, label="ideal pin")
+            label = f"ideal, friction {friction:g}" if friction else "ideal, no friction"
+            axes.axhline(scale * ideal.value, color=colour, lw=0.8, ls=DASHED, label=label)
         axes.set(xticks=SIZES_MM, ylabel=label, xlabel="clearance [mm]")
         axes.margins(y=0.12)
         if name.startswith(FROM_ZERO):
             axes.set_ylim(0.0, None)
-    legend(drawing, panels[0], 5)
+    legend(drawing, panels[0], 3)
     letters(panels[: len(shown)])
     return drawing
 

@@ -7,11 +7,13 @@ import numpy as np
 
 import user_forces as forces
 from studies.common import paper_machine
+from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.subject import Subject, to_accuracy
 from studies.contact_laws import catalogue
 from studies.contact_laws.catalogue import CYLINDER_LAWS, POWER_LAWS
 from studies.contact_laws.free_impact import BORE_MASS, JOURNAL_MASS, one_dimensional_restitution
 from support_exudyn import ClearancePin, Scenario, SolverSettings
+from support_exudyn.model.pin_surroundings import contact_length
 from support_exudyn.simulation.automatic_settings import cheapest, settings_for
 
 ASKED = (0.05, *(n / 10 for n in range(1, 10)))  # e = 0.05, 0.1, 0.2 ... 0.9
@@ -22,7 +24,6 @@ IMPACT_STEPS = 96  # of the coarsest of three runs of a free impact; fewer tell 
 RISE_STEP, RISE_IMPACT_STEPS = 2e-3, 32  # [s]
 OWN_GOAL = 1e-2  # by which those of one's own machine are chosen
 LOOP_RESTITUTION = 0.5
-CLEARANCE_MM = 1.5
 RESTITUTION = paper_machine.RESTITUTION
 TEXTBOOK = {
     "lankarani_nikravesh, last impact, floor 1 mm/s": 1e-3,
@@ -91,11 +92,13 @@ class Joint:
     @cached_property
     def pin(self) -> ClearancePin:
         """The pin of the scenario, or one like the paper's; without friction."""
-        given = self.subject.given
-        size = CLEARANCE_MM if given is None else 1e3 * given.contact.bearing.clearance
-        pin = self.subject.with_clearance(size, 0.0).pins[self.subject.pin]
-        assert isinstance(pin, ClearancePin)
-        return pin
+        return self.subject.clearance_pin(self.subject.clearance_mm, 0.0)
+
+    @property
+    def length(self) -> float | None:
+        """Length of the pin's contact [m], as its law, its scenario or its machine has it; None: none does."""
+        own = getattr(self.pin.contact.normal, "length", self.pin.length)
+        return own or contact_length(self.subject.motion.machine, self.subject.pin)
 
     @property
     def clearance_mm(self) -> float:
@@ -117,7 +120,12 @@ class Joint:
         else:  # with which they are pressed as deep as the pin's own law by what it holds
             stiffness = self.load / own.resting_depth(self.load) ** 1.5
         normal = catalogue.normal_laws(
-            self.clearance_mm, self.restitution, bore_radius=bore, stiffness=stiffness, load=self.load
+            self.clearance_mm,
+            self.restitution,
+            bore_radius=bore,
+            stiffness=stiffness,
+            load=self.load,
+            length=self.length,
         )
         exact = normal["exact"]
         friction = catalogue.friction_laws(self.subject.friction)

@@ -133,7 +133,7 @@ def rise_table(numbers: Sequence[Number]) -> TextTable:
 def work(chosen: Options) -> StudyOutcome:
     """Free impacts, and the motion under every law."""
     subject = chosen.subject
-    ideal = run_cases({"ideal": subject.ideal}, chosen)["ideal"]
+    ideal = run_cases({"ideal": subject.ideal()}, chosen)["ideal"]
     joint = Joint(subject, subject.watched.mean(ideal, ideal[subject.watched.force]))
     laws = cases.impact_laws()
     impacts = {case: free_impact.free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
@@ -187,7 +187,7 @@ def _of_impacts(joint: Joint, numbers: Sequence[Number]) -> dict[str, object]:
         "impact": free_impact,
         "title": title,
         "row_title": row_title,
-        "pin_length": catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
+        "pin_length": joint.length or catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
         "bore_radius": joint.pin.contact.bearing.bore_radius,
         "offs": [_off(found, case) for of_law in _impacts(numbers).values() for case in of_law],
         "low": low,

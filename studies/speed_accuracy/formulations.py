@@ -35,7 +35,7 @@ def compared(options: Options) -> list[Compared]:
     """Statistics of the pin's force over the rise, ideal and with a small clearance and friction."""
     subject = options.subject
     cases = {
-        "ideal": subject.ideal,
+        "ideal, friction": subject.ideal(subject.friction),
         f"{SIZE_MM:g} mm, friction": subject.with_clearance(SIZE_MM, subject.friction),
     }
     solver = SolverSettings(impact_steps=IMPACT_STEPS)

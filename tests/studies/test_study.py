@@ -31,7 +31,7 @@ from studies.common.options import Options, add_options, read_options
 from studies.common.rise import Series
 from studies.common.runs import halvings, run_cases, run_with_errors, save_run
 from studies.common.study import output_folder
-from support_exudyn import CubicStep, Result, Scenario, Steady, ravn_slider_crank
+from support_exudyn import CubicStep, IdealPin, Result, Scenario, Steady, ravn_slider_crank
 from support_exudyn.commands.command_line import Parser, count
 from support_exudyn.files import save_scenario
 from support_exudyn.files.temporary import PREFIX
@@ -174,13 +174,15 @@ def test_a_scenario_of_ones_own_keeps_all_but_the_clearance_and_the_friction(tmp
     assert (subject.pin, subject.name, subject.is_paper) == (pin, "my support", False)
     assert (subject.watched.start, subject.watched.end) == (0.5, 1.5)
     assert subject.watched.force == f"pin.{pin}.force"
-    assert not subject.ideal.pins
-    loose = subject.with_clearance(0.7, 0.1)
+    assert subject.ideal().pins == {pin: IdealPin()}
+    loose, tight = subject.with_clearance(0.7, 0.1), subject.ideal(0.1).pins[pin]
     contact = loose.pins[pin].contact  # type: ignore[attr-defined]
     given = mine.pins[pin].contact  # type: ignore[attr-defined]
     assert contact.bearing == replace(given.bearing, clearance=0.7e-3)
     assert contact.normal == given.normal
     assert contact.friction.sliding_coefficient == 0.1
+    # the ideal pin that it is compared with has the same friction
+    assert tight == IdealPin(friction=contact.friction, radius=contact.bearing.bore_radius)
     assert (loose.drive, loose.duration) == (mine.drive, mine.duration)
 
 
