@@ -60,9 +60,9 @@ class Claim:
 
     where: abstract, section or conclusion. text: what is claimed. reading: what is measured, or why it is not
     measurable. paper: what it prints, if anything. judge: whether it holds on one machine, None if it is not
-    measurable. tell: our numbers on one machine. closed_form: needs no machine. on_oil: judged on the machines that
-    are run on oil. follows_from: name of a statement that contains this one. name: in a few words. figure, table:
-    what shows it, as study/stem and study/name; figure is empty if a table alone does.
+    measurable. tell: our numbers on one machine. closed_form: needs no machine. follows_from: name of a
+    statement that contains this one. name: in a few words. figure, table: what shows it, as study/stem and
+    study/name; figure is empty if a table alone does.
     """
 
     where: str
@@ -72,7 +72,6 @@ class Claim:
     tell: Tell = _nothing
     paper: str = ""
     closed_form: bool = False
-    on_oil: bool = False
     follows_from: str = ""
     name: str = ""
     figure: str = ""

@@ -1,8 +1,9 @@
 """Machines that could be the paper's, and machines as an engineer would build them: two hypercubes.
 
-Both draw the data that the paper does not print, see factors.toml. Machines of the first have all that is printed:
-the contact by Eq. 5, the rise of 500 mm in 2 s. The second repeats the first with the contact along the pin's
-length, heavier bodies and other times. A sample gives a value to every datum; machine, pin and drive follow.
+Both draw the data that the paper does not print, see factors.toml. Machines of the first have all that is
+printed: the contact by Eq. 5, the rise of 500 mm in 2 s. The second repeats the first with the contact along
+the pin's length, heavier bodies and other times. A sample gives a value to every datum; machine, pin and drive
+follow.
 """
 
 import inspect
@@ -32,9 +33,6 @@ Sample = Mapping[str, Choice]  # a value of every datum, by name
 
 REFERENCE_SCALE = 0.65  # of the support whose pivots the reference support has
 CONTACT = "contact"  # the datum by which both hypercubes differ: as printed, along the length
-COLUMNS = "columns"  # what a sample says besides: whether the machine is run on columns of oil, too
-RIGID, ON_OIL = "rigid", "rigid and oil"
-ON_OIL_EVERY = 3  # machine: a run on oil takes as long as several on rigid columns
 LOT = 40  # machines that are drawn together: each range has one of them in each of as many parts
 
 
@@ -42,8 +40,9 @@ LOT = 40  # machines that are drawn together: each range has one of them in each
 class Factor:
     """A datum that is drawn: a range from low to high, evenly or in powers, or a list of choices.
 
-    reference: of the reference support. unit: of the range. phrase: a choice in a sentence. second_only: drawn in
-    the second hypercube only, for the paper prints it or does not need it. second_high: end of the range there.
+    reference: of the reference support. unit: of the range. phrase: a choice in a sentence. second_only: drawn
+    in the second hypercube only, for the paper prints it or does not need it. second_high: end of the range
+    there.
     """
 
     name: str
@@ -119,16 +118,15 @@ FACTORS = tuple(
     for name in row.pop("names", [row.get("name")])
 )
 REFERENCE: dict[str, Choice] = {factor.name: factor.reference for factor in FACTORS} | {
-    CONTACT: paper_machine.PAPER,
-    COLUMNS: ON_OIL,
+    CONTACT: paper_machine.PAPER
 }
 
 
 def samples(number: int, seed: int, *, second: bool = False) -> list[dict[str, Choice]]:
     """The first machines of one of both hypercubes; more of them begin with the same ones.
 
-    They are drawn in lots, each a Latin hypercube over all data. Machines with the same number have the same data in
-    both hypercubes where the ranges are the same. One in ON_OIL_EVERY is run on columns of oil, too.
+    They are drawn in lots, each a Latin hypercube over all data. Machines with the same number have the same
+    data in both hypercubes where the ranges are the same.
     """
     if number < 1:
         raise InputError(f"machines = {number}: allowed: at least 1")
@@ -142,7 +140,6 @@ def samples(number: int, seed: int, *, second: bool = False) -> list[dict[str, C
         for shares in qmc.LatinHypercube(len(FACTORS), **generator).random(LOT):
             sample = {f.name: f.at(float(x), second=second) for f, x in zip(FACTORS, shares, strict=True)}
             sample[CONTACT] = paper_machine.CYLINDERS if second else paper_machine.PAPER
-            sample[COLUMNS] = RIGID if len(drawn) % ON_OIL_EVERY else ON_OIL
             drawn.append(sample)
     return drawn[:number]
 

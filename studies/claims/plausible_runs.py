@@ -1,20 +1,19 @@
 """Runs and measures of one machine.
 
-Seven scenes by the compiled formulation: the ideal pin and four clearances in drive mode 2, the ideal pin and 1.5 mm
-in mode 1, and, of one machine in some, both starts of mode 1 on columns of oil. The ideal pin has the friction of the
-pin with clearance. Every scene is run at two tolerances; the numerical error of a measure comes from the distance of
+Nine scenes by the compiled formulation: the ideal pin and four clearances in drive mode 2, the ideal pin and
+1.5 mm in mode 1 on rigid columns and on columns of oil. The ideal pin has the friction of the pin with
+clearance. Every scene is run at two tolerances; the numerical error of a measure comes from the distance of
 both runs and from that of fewer records.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import cast
 
 import numpy as np
 
 from studies.claims.evidence import Evidence, Measured
-from studies.claims.plausible import COLUMNS, ON_OIL, Sample, ideal_pin, machine, number, oil_columns, pin
+from studies.claims.plausible import Sample, ideal_pin, machine, number, oil_columns, pin
 from studies.common import paper_machine, rise
 from studies.common.numbers import Thinned, error_of_records
 from studies.common.runs import halvings, with_coarser
@@ -34,22 +33,23 @@ IDEAL = "ideal"
 CLEARANCES = tuple(f"{size:.1f} mm" for size in paper_machine.SIZES_MM)
 MODE_1, MODE_1_IDEAL = "1.5 mm, mode 1", "ideal, mode 1"
 OIL, OIL_IDEAL = "1.5 mm, mode 1, oil", "ideal, mode 1, oil"
-CASES = (IDEAL, *CLEARANCES, MODE_1_IDEAL, MODE_1)
-RECORDS = 1e-3  # time between records of a rise of 2 s; of a longer rise as many records [s]
+PARTNERS = {
+    **dict.fromkeys((IDEAL, *CLEARANCES), IDEAL),
+    **dict.fromkeys((MODE_1_IDEAL, MODE_1), MODE_1_IDEAL),
+    **dict.fromkeys((OIL_IDEAL, OIL), OIL_IDEAL),
+}  # the ideal pin's case by the case that is compared with it
+CASES = tuple(PARTNERS)
+RECORDS = 5e-4  # time between records of a rise of 2 s; of a longer rise as many records [s]
 TOLERANCE = 1e-6  # in the first of both runs
-OIL_START = 0.8  # when mode 1 starts on columns of oil [s]: the journal has to come to rest first
-OIL_AFTER = 0.4  # time that is measured after that start [s]
-OIL_RECORDS = 5e-4  # time between records: twice that may miss 1 % of a peak [s]
 THINNED = (2, 4, 5)  # every so many records are left for the error of records
 LARGEST = "largest_force"
 Values = dict[str, float]
 Data = dict[str, dict[str, list[float]]]  # case, name, [value, numerical error]
 
 
-def watched(sample: Sample, case: str) -> rise.Watched:
+def watched(sample: Sample) -> rise.Watched:
     """The pin, its link, and when the machine of a sample rises."""
-    start = OIL_START if case.endswith("oil") else rise.START
-    return rise.Watched(rise.PAPER.pin, rise.PAPER.body, start, start + number(sample, "stroke_time"))
+    return rise.Watched(rise.PAPER.pin, rise.PAPER.body, rise.START, rise.START + number(sample, "stroke_time"))
 
 
 def scenario(sample: Sample, case: str, support: HydraulicSupport) -> Scenario:
@@ -57,23 +57,20 @@ def scenario(sample: Sample, case: str, support: HydraulicSupport) -> Scenario:
 
     Raises InputError if the machine cannot rise by 500 mm.
     """
-    during = watched(sample, case)
-    clearance = None if case.startswith(IDEAL) else float(case.split()[0])
-    loose: Pin = ideal_pin(sample) if clearance is None else pin(sample, clearance, support)
+    during = watched(sample)
+    ideal = case.startswith(IDEAL)
+    loose: Pin = ideal_pin(sample) if ideal else pin(sample, float(case.split()[0]), support)
     drive = (UniformSpeed if "mode 1" in case else CubicStep)(start=during.start, end=during.end)
-    scene = Scenario(
+    return Scenario(
         machine=support,
         drive=drive,
         duration=during.end,
         record_period=RECORDS * (during.end / rise.END),
         pins={paper_machine.CLEARANCE_PIN: loose},
+        actuators=oil_columns(sample) if case.endswith("oil") else {},
         formulation="compiled",
         solver=SolverSettings(tolerance=TOLERANCE),
     )
-    if not case.endswith("oil"):
-        return scene
-    measured = during.start + OIL_AFTER
-    return replace(scene, duration=measured, record_period=OIL_RECORDS, actuators=oil_columns(sample))
 
 
 def measures(sample: Sample) -> Data:
@@ -81,18 +78,15 @@ def measures(sample: Sample) -> Data:
 
     Raises InputError or SimulationError if a case cannot be run.
     """
-    support = machine(sample)
-    cases = (*CASES, OIL_IDEAL, OIL) if sample[COLUMNS] == ON_OIL else CASES
-    scenes = {case: scenario(sample, case, support) for case in cases}
+    support, during = machine(sample), watched(sample)
+    scenes = {case: scenario(sample, case, support) for case in CASES}
     coarse = {case: simulate(scene) for case, scene in scenes.items()}
     fine = {case: simulate(scene.refined()) for case, scene in scenes.items()}
     thinned = {n: {case: cast(Result, Thinned(run, n)) for case, run in fine.items()} for n in THINNED}
-    found = {n: _measures(sample, runs) for n, runs in {0: coarse, 1: fine, **thinned}.items()}
+    found = {n: _measures(runs, during) for n, runs in {0: coarse, 1: fine, **thinned}.items()}
     return {
-        case: _with_errors(
-            [coarse[case], fine[case]], {n: each[case] for n, each in found.items()}, watched(sample, case)
-        )
-        for case in cases
+        case: _with_errors([coarse[case], fine[case]], {n: each[case] for n, each in found.items()}, during)
+        for case in CASES
     }
 
 
@@ -134,15 +128,10 @@ def evidence(data: Mapping[str, Mapping[str, Sequence[float]]]) -> Evidence:
     )
 
 
-def _measures(sample: Sample, runs: Mapping[str, Result]) -> dict[str, Values]:
+def _measures(runs: Mapping[str, Result], during: rise.Watched) -> dict[str, Values]:
     found = {}
     for case, run in runs.items():
-        during = watched(sample, case)
-        if case.endswith("oil"):
-            found[case] = _start_measures(run, during, during.start + OIL_AFTER - during.window)
-            continue
-        ideal = runs[MODE_1_IDEAL if "mode 1" in case else IDEAL]
-        found[case] = _start_measures(run, during) | _rise_measures(run, ideal, during)
+        found[case] = _run_measures(run, runs[PARTNERS[case]], during)
         if run.impulses:
             found[case]["impulse"] = _total(run.impulses[0])
     return found
@@ -153,23 +142,12 @@ def _total(impulse: Impulse) -> float:
     return sum(abs(value) for value in impulse.actuators.values())
 
 
-def _start_measures(run: Result, during: rise.Watched, end: float | None = None) -> Values:
-    """What the start enters, too [N]; end: until when the fluctuation is measured [s], the rise's by default."""
-    fluctuation = partial(during.rms_fluctuation, run, begin=during.start, end=end)
-    found = {
-        LARGEST: during.peak(during.force)(run),
-        "rms_from_start_force": fluctuation(run[during.force]),
-    }
-    for name, channel in (("speed", during.speed), ("acceleration", during.acceleration)):
-        found[f"rms_from_start_{name}"] = rise.DEGREES * fluctuation(run[channel])
-    return found
-
-
-def _rise_measures(run: Result, ideal: Result, during: rise.Watched) -> Values:
-    """Measures over the rise; forces in N, angles in degrees, lengths in mm."""
+def _run_measures(run: Result, ideal: Result, during: rise.Watched) -> Values:
+    """All measures of a run over the rise; forces in N, angles in degrees, lengths in mm."""
     inside = during.in_rise(run)
     time, speed = run.time[inside], rise.DEGREES * run[during.speed][inside]
     found = {
+        LARGEST: during.peak(during.force)(run),
         "mean_force": during.mean(run, run[during.force]),
         "std_force": during.spread(run, run[during.force]),
         "mean_acceleration": float((speed[-1] - speed[0]) / (time[-1] - time[0])),
@@ -182,6 +160,7 @@ def _rise_measures(run: Result, ideal: Result, during: rise.Watched) -> Values:
         ("acceleration", during.acceleration, rise.DEGREES),
     ):
         found[f"rms_{name}"] = scale * during.rms_fluctuation(run, run[channel])
+        found[f"rms_from_start_{name}"] = scale * during.rms_fluctuation(run, run[channel], during.start)
         if run is ideal:
             found[f"range_{name}"] = scale * float(np.ptp(run[channel][inside]))
         found[f"likeness_{name}"] = during.likeness(run, ideal, channel)

@@ -1,7 +1,8 @@
 """What is each of the paper's claims worth on machines that have all that the paper prints?
 
-Every statement of abstract, sections 3 to 5 and conclusions is judged on the reference support and on two hypercubes of
-machines: with what the paper prints, and with an engineer's contact, heavier bodies and other times.
+Every statement of abstract, sections 3 to 5 and conclusions is judged on the reference support and on two
+hypercubes of machines: with what the paper prints, and with an engineer's contact, heavier bodies and other
+times.
 """
 
 import csv
@@ -13,10 +14,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from studies.claims import hypercube
 from studies.claims.claim_list import CLAIMS
-from studies.claims.evidence import Evidence
 from studies.claims.figures import figures
 from studies.claims.hypercube import MachineRow
-from studies.claims.plausible import CONTACT, FACTORS, LOT, ON_OIL_EVERY, REFERENCE, Sample, samples
+from studies.claims.plausible import CONTACT, FACTORS, LOT, REFERENCE, Sample, samples
 from studies.claims.plausible_runs import CASES, TOLERANCE, evidence
 from studies.claims.verdicts import (
     KINDS,
@@ -24,7 +24,6 @@ from studies.claims.verdicts import (
     NOT_MEASURABLE,
     Machines,
     Ruling,
-    asked,
     independent,
     percent,
     rule,
@@ -78,7 +77,7 @@ def known(rows: Sequence[MachineRow], *, second: bool) -> Machines:
 
 
 def draw(chosen: Options) -> tuple[list[MachineRow], list[Ruling]]:
-    """Run as many machines as are asked for; by default MACHINES, and where all studies are run until few need more."""
+    """Run the chosen number of machines, MACHINES by default; with all studies until few need more."""
     number = chosen.machines or MACHINES
     while True:
         rows = _run(drawn(number), chosen)
@@ -128,8 +127,8 @@ def claim_table(rulings: Sequence[Ruling]) -> TextTable:
         shares = (_share(ruling), str(ruling.second))
         rows.append((str(n), text, ruling.kind, *shares, numbers, _error(ruling), claim.reading))
     header = (
-        "no.", "statement (where)", "verdict", "machines", "second hypercube", "reference support (paper)", "error",
-        "read as",
+        "no.", "statement (where)", "verdict", "machines", "second hypercube", "reference support (paper)",
+        "error", "read as",
     )  # fmt: skip
     return TextTable(header, tuple(rows), wide=True, width=220)
 
@@ -201,20 +200,15 @@ def write_machines(path: Path, rows: Sequence[MachineRow]) -> None:
 
     Machine 0 is the reference support.
     """
-    by_number = [
-        (n, claim) for n, claim in enumerate(CLAIMS, 1) if claim.judge is not None and not claim.closed_form
-    ]
+    judges = [(n, c.judge) for n, c in enumerate(CLAIMS, 1) if c.judge is not None and not c.closed_form]
     marks = {True: "holds", False: "fails", None: "undecided"}
     with whole_file(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         names = [*(factor.name for factor in FACTORS), CONTACT]
-        writer.writerow(["machine", *names, "failure", *(f"claim_{n}" for n, _ in by_number)])
+        writer.writerow(["machine", *names, "failure", *(f"claim_{n}" for n, _ in judges)])
         for n, row in enumerate(rows):
-            those = [] if row.measures is None else [(row.sample, evidence(row.measures))]
-            verdicts = [
-                marks[claim.judge(those[0][1])] if claim.judge and asked(claim, those) else ""
-                for _, claim in by_number
-            ]
+            known_of = None if row.measures is None else evidence(row.measures)
+            verdicts = [marks[judge(known_of)] if known_of else "" for _, judge in judges]
             writer.writerow([n, *(row.sample[name] for name in names), row.failure or "", *verdicts])
 
 
@@ -224,7 +218,7 @@ UNITS = {"force": "N", "speed": "deg/s", "acceleration": "deg/s^2", "impulse": "
 
 
 def measure(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> list[Number]:
-    """Verdicts, shares with their uncertainty, and the reference support's measures with their numerical errors."""
+    """Verdicts, shares with their uncertainty, and the reference support's measures with numerical errors."""
     left = float(sum(ruling.kind == NEEDS_MORE for ruling in rulings))  # which more machines may put elsewhere
     numbers = [
         Number("plausible_machines", case, float(len(known(rows[1:], second=second))), "1", 0.0)
@@ -301,7 +295,6 @@ def words(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, ob
         "factors": len(FACTORS),
         "cases": len(CASES),
         "tolerance": TOLERANCE,
-        "on_oil": ON_OIL_EVERY,
         "statements": len(rulings),
         "kinds": {kind: [n for n, ruling in numbered if ruling.kind == kind] for kind in KINDS},
         "independent": len(apart),

@@ -1,8 +1,8 @@
 """From judgements of many machines to verdicts.
 
-A statement holds if the share of machines on which it holds is at least 95 % with 95 % confidence, fails if that share
-is at most 5 %, and holds in part if the share is between both. Undecided machines, on which the numerical error exceeds
-what is compared, may be of either kind: the interval of the share reaches from none of them to all of them.
+A statement holds if the share of machines on which it holds is at least 95 % with 95 % confidence, fails if
+that share is at most 5 %, and holds in part if the share is between both. Undecided machines, on which the
+numerical error exceeds what is compared, may be of either kind: the interval of the share covers both.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,6 @@ from studies.claims.claim_list import Claim, Judge, Varied
 from studies.claims.conditions import dependence
 from studies.claims.evidence import Evidence, NotedEvidence, Verdict
 from studies.claims.plausible import Sample
-from studies.claims.plausible_runs import OIL
 
 HOLDS, IN_PART, FAILS, NEEDS_MORE, NOT_MEASURABLE = KINDS = (
     "holds", "in part", "fails", "needs more machines", "not measurable",
@@ -40,7 +39,7 @@ class Count(NamedTuple):
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Where the share of all machines lies with 95 % confidence (Wilson), whatever the undecided ones are."""
+        """Where the share of all machines lies with 95 % confidence (Wilson), undecided ones of either kind."""
         machines = sum(self)
         return wilson(self.holds, machines)[0], wilson(self.holds + self.undecided, machines)[1]
 
@@ -67,6 +66,9 @@ class Count(NamedTuple):
         return f"{percent(self.share)} % ({low} to {high}{left})"
 
 
+NO_MACHINES = Count()
+
+
 class AtThreshold(NamedTuple):
     """How machines judge a statement with a threshold."""
 
@@ -78,16 +80,16 @@ class AtThreshold(NamedTuple):
 class Ruling:
     """A statement and its verdict.
 
-    reference: on the reference support. first, second: the machines of both hypercubes. ours: our numbers on the
-    reference support. error: the largest numerical error of these numbers, as a share of the number; None for closed
-    forms and where nothing is measured. thresholds: the first hypercube with other thresholds, if the judge has one.
-    depends: the datum on which the verdict depends most, empty if on none beyond chance.
+    reference: on the reference support. first, second: the machines of both hypercubes. ours: our numbers on
+    the reference support. error: the largest numerical error of these numbers, as a share of the number; None
+    for closed forms and where nothing is measured. thresholds: the first hypercube with other thresholds, if
+    the judge has one. depends: the datum on which the verdict depends most, empty if on none beyond chance.
     """
 
     claim: Claim
     reference: Verdict = None
-    first: Count = Count()
-    second: Count = Count()
+    first: Count = NO_MACHINES
+    second: Count = NO_MACHINES
     ours: str = ""
     error: float | None = None
     thresholds: tuple[AtThreshold, ...] = ()
@@ -128,13 +130,6 @@ def wilson(holds: int, machines: int) -> tuple[float, float]:
     return float(found.low), float(found.high)
 
 
-def asked(claim: Claim, machines: Machines) -> Machines:
-    """The machines on which a statement is judged."""
-    if claim.closed_form:
-        return []
-    return [one for one in machines if OIL in one[1].measures] if claim.on_oil else machines
-
-
 def count(judge: Judge, machines: Machines) -> Count:
     """How many machines judge in which way."""
     verdicts = [judge(evidence) for _, evidence in machines]
@@ -148,19 +143,22 @@ def rule(claim: Claim, reference: Evidence, first: Machines, second: Machines = 
         return Ruling(claim)
     noted = NotedEvidence(reference.measures)
     ours = claim.tell(noted)
-    mine = asked(claim, first)
-    counted = count(judge, mine)
+    if claim.closed_form:
+        return Ruling(claim, judge(reference), ours=ours)
+    counted = count(judge, first)
     return Ruling(
         claim,
         judge(reference),
         counted,
-        count(judge, asked(claim, second)),
+        count(judge, second),
         ours,
         noted.largest_error,
-        tuple(AtThreshold(at, count(judge.at(at), mine)) for at in judge.shown)
+        tuple(AtThreshold(at, count(judge.at(at), first)) for at in judge.shown)
         if isinstance(judge, Varied)
         else (),
-        dependence([(s, v) for s, e in mine if (v := judge(e)) is not None]) if counted.kind == IN_PART else "",
+        dependence([(s, v) for s, e in first if (v := judge(e)) is not None])
+        if counted.kind == IN_PART
+        else "",
     )
 
 

@@ -22,8 +22,8 @@ class Options:
     out: folder for output. workers: number of processes, or the pool that all studies share. kept: folder of
     runs that are made once and kept, see `studies.common.runs`; None: none is. machines: number of plausible
     machines that claims draws; runs: number of scenes that extremes draws; with
-    any blow runs its small form; None: their own choice. thorough: whether all studies are run, so that there is
-    time for more machines. subject: the machine and pin that the study is about.
+    any blow runs its small form; None: their own choice. thorough: whether all studies are run, so that there
+    is time for more machines. subject: the machine and pin that the study is about.
     """
 
     out: Path
