@@ -55,8 +55,8 @@ class Tile:
 class JudgedClaim:
     """A statement of the paper and the verdict on it.
 
-    number: such as "12". where: section or figure of the paper. verdict: begins with "holds", "holds only",
-    "not supported" or "cannot be judged". why: in a sentence, with numbers. figure, table: what shows it, as
+    number: such as "12". where: section or figure of the paper. verdict: "holds", "in part", "fails", "needs
+    more machines" or "not measurable". why: in a sentence, with numbers. figure, table: what shows it, as
     "study/stem" and "study/name"; empty if nothing does.
     """
 

@@ -23,8 +23,8 @@ class Options:
     out: folder for output. workers: number of processes, or the pool that all studies share. kept: folder of
     runs that are made once and kept, see `studies.common.runs`; None: none is. machines: number of plausible
     machines that claims draws; runs: number of scenes that extremes draws; with
-    any blow runs its small form; None: their own choice. subject: the
-    machine and pin that the study is about.
+    any blow runs its small form; None: their own choice. thorough: whether all studies are run, so that there
+    is time for more machines. subject: the machine and pin that the study is about.
     """
 
     out: Path
@@ -32,6 +32,7 @@ class Options:
     kept: Path | None = None
     machines: int | None = None
     runs: int | None = None
+    thorough: bool = False
     subject: Subject = field(default_factory=paper_subject)
 
     def of_study(self, name: str, workers: Workers) -> "Options":
@@ -46,7 +47,7 @@ def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
     workers = partial(count, most=MOST_WORKERS)
     add("--workers", type=workers, default=os.cpu_count() or 1, metavar="N", help="processes (all cores)")
     machines = partial(count, most=MOST_MACHINES)
-    add("--machines", type=machines, metavar="N", help="plausible machines that claims draws")
+    add("--machines", type=machines, metavar="N", help="machines that claims draws (80; with --all more)")
     add(
         "--runs",
         type=partial(count, most=MOST_RUNS),

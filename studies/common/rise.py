@@ -94,11 +94,17 @@ def spread(time: Series, values: Series) -> float:
 
 
 def trend(run: MeasuredRun, values: Series, window: float = TREND_WINDOW) -> Series:
-    """Moving mean over a window [s], centred, shape (n,)."""
-    period = float(run.time[1] - run.time[0])
-    from scipy.ndimage import uniform_filter1d  # takes a while to import
+    """Moving mean over a window [s], centred, by the trapezoidal rule through the records, shape (n,).
 
-    return uniform_filter1d(values, 2 * round(0.5 * window / period) + 1, mode="nearest")
+    Beyond the first and the last record the values stay what they are there.
+    """
+    half = 0.5 * window / float(run.time[1] - run.time[0])  # of the window, in records
+    beyond = int(half) + 1
+    padded = np.pad(values, beyond, mode="edge")
+    integral = np.concatenate([[0.0], np.cumsum(0.5 * (padded[1:] + padded[:-1]))])
+    places, at = np.arange(padded.size), np.arange(values.size) + beyond
+    before, after = (np.interp(at + side, places, integral) for side in (-half, half))
+    return np.asarray((after - before) / (2.0 * half))
 
 
 def rearward_angle(run: MeasuredRun, column: str) -> Series:
