@@ -124,7 +124,7 @@ def rub(scene: SceneArrays, y: Vector, right: Vector) -> None:
             force = math.hypot(scene.rows[one.row].held, scene.rows[one.row + 1].held)
             spin = spin_of(scene, y, one.body) - spin_of(scene, y, one.other)
             constants = scene.constants[one.constants :]
-            size = call_law(one.law, force, 0.0, one.radius * spin, 0.0, 0.0, 0.0, constants, scene.out)
+            size = call_law(one.law, force, 0.0, one.radius * spin, 0.0, 0.0, constants, scene.out)
             moment = one.radius * size
             change = moment - one.moment
             one.moment = moment
