@@ -14,7 +14,6 @@ from studies.common.paper_machine import CONTACT_TITLES, CONTACTS
 from studies.common.subject import Subject, to_accuracy
 from studies.common.words import TextTable
 from support_exudyn import Result, Scenario
-from user_forces import IndentationVelocity
 
 SIZE_MM = 1.5
 SHOWN = {"mean": "mean_pin_force", "ripple": "rms_pin_force", "fall": "largest_pin_force_any_step"}
@@ -40,7 +39,7 @@ def scenarios(subject: Subject) -> dict[str, Scenario]:
 
 
 def _rise(subject: Subject, contact: str, friction: float) -> Scenario:
-    pin = paper_machine.clearance_joint(SIZE_MM, friction, contact=contact, damping_speed=IndentationVelocity())
+    pin = paper_machine.clearance_joint(SIZE_MM, friction, contact=contact)
     rise = to_accuracy(replace(subject.motion, pins={subject.pin: pin}))
     # what shakes is not known better than to some thousandths
     return replace(rise, accuracy="standard", channels=(f"pin.{subject.pin}.*",))

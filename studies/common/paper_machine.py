@@ -24,9 +24,7 @@ from user_forces import (
     STEEL,
     STEEL_35CRMO,
     Ambrosio,
-    DampingSpeed,
     Frictionless,
-    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -113,7 +111,7 @@ def normal_law(
         support: whose pin it is.
         law: of K depth^1.5, whose damping factor cylinders have, too.
         backing: stiffness of pin and link behind cylinders, times estimated.
-        given: restitution and damping_speed of the law.
+        given: restitution and rest velocity of the law.
     """
     if contact in HERTZ:
         made: NormalLaw = law(stiffness=HERTZ[contact](bearing, STEEL, STEEL_35CRMO), **given)
@@ -140,15 +138,11 @@ def normal_law(
     )
 
 
-LAST_IMPACT = ImpactVelocity(floor=1e-3)  # by whose speed the paper damps a contact that does not part
-
-
 def clearance_joint(
     clearance_mm: float,
     sliding_coefficient: float,
     bore_radius: float = BORE_RADIUS,
     contact: str = PAPER,
-    damping_speed: DampingSpeed = LAST_IMPACT,
 ) -> ClearancePin:
     """The rear-link pin as a clearance pin; the bore is in the base. bore_radius: [m]; contact: of CONTACTS."""
     of_pin = bearing(clearance_mm, bore_radius)
@@ -157,7 +151,6 @@ def clearance_joint(
         of_pin,
         reference_support(),
         restitution=RESTITUTION,
-        damping_speed=damping_speed,
     )
     friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
     return ClearancePin(contact=JournalContact(bearing=of_pin, normal=normal, friction=friction))

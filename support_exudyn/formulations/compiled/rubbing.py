@@ -46,7 +46,7 @@ def rubbed(scene: SceneArrays, y: Vector, one: Records, normal: float) -> float:
     """Friction force [N] of the law under a normal force [N], at the slip that stands in the record."""
     deflection = y[one.state] if one.state >= 0 else 0.0
     constants = scene.constants[one.constants :]
-    return float(call_law(one.law, normal, 0.0, one.slip, 0.0, 0.0, deflection, constants, scene.out))
+    return float(call_law(one.law, normal, 0.0, one.slip, 0.0, deflection, constants, scene.out))
 
 
 @compiled

@@ -145,7 +145,7 @@ class PlaneBuilder(EngineBuilder):
             connector,
             scene.pin_motion(name),
             bore_spin,
-            partial(scene.inverse_masses, name),
+            partial(scene.inverse_mass, name),
             self.scenario.solver,
         )
 
