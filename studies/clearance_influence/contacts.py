@@ -39,7 +39,7 @@ def scenarios(subject: Subject) -> dict[str, Scenario]:
 
 
 def _rise(subject: Subject, contact: str, friction: float) -> Scenario:
-    pin = paper_machine.clearance_joint(SIZE_MM, friction, contact=contact)
+    pin = paper_machine.clearance_joint(SIZE_MM, friction, contact=contact, law=paper_machine.PAPERS_LAW)
     rise = to_accuracy(replace(subject.motion, pins={subject.pin: pin}))
     # what shakes is not known better than to some thousandths
     return replace(rise, accuracy="standard", channels=(f"pin.{subject.pin}.*",))

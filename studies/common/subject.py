@@ -67,7 +67,9 @@ class Subject:
     def with_clearance(self, clearance_mm: float, sliding_coefficient: float) -> Scenario:
         """The run with this radial clearance in the pin, to the accuracy of studies."""
         if self.is_paper:
-            pin = paper_machine.clearance_joint(clearance_mm, sliding_coefficient, self.bore_radius)
+            pin = paper_machine.clearance_joint(
+                clearance_mm, sliding_coefficient, self.bore_radius, law=paper_machine.PAPERS_LAW
+            )
         elif self.given is None:
             short = ShortPin(clearance=clearance_mm / 1e3, friction=sliding_coefficient)
             pin = pin_in_machine(short, self.motion.machine, self.pin, self.bore_radius)

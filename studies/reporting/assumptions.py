@@ -59,7 +59,9 @@ def _part(name: str, part: Part) -> tuple[str, ...]:
 
 def contact_and_drive() -> TextTable:
     """Materials, bearing, laws and drive."""
-    contact = paper_machine.clearance_joint(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT).contact
+    contact = paper_machine.clearance_joint(
+        CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT, law=paper_machine.PAPERS_LAW
+    ).contact
     normal: Any = contact.normal
     friction: Any = contact.friction
     drive = CubicStep()

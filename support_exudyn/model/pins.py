@@ -26,7 +26,6 @@ from user_forces.materials import (
     internal_contact_stiffness,
 )
 from user_forces.normal.exact import Exact
-from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
 from user_forces.normal.law import NormalLaw
 from user_forces.normal.pin_in_bore import PinInBore, lends_damping
 from user_forces.values.units import Metres
@@ -158,8 +157,8 @@ class ClearancePin(Pin):
             bore_radius: [m], > clearance; `load_machine(NAME).bore_radii` has those of a machine.
             restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
             friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law.
-            law: class of the normal force, one that needs nothing but a stiffness and a restitution; `Exact` on
-                cylinders, `LankaraniNikravesh` else.
+            law: class of the normal force, one that needs nothing but a stiffness and a restitution; the default
+                `Exact` delivers the restitution.
             rest_velocity: smallest velocity that the damping is scaled with [m/s], > 0; the law's own if None.
             stiffness: "cylinders": the pin along its length, `PinInBore`; the rest are K of K depth^1.5:
                 "paper": Eq. 5 of the paper, two spheres; "internal": a sphere in a hollow sphere; or a number
@@ -188,8 +187,7 @@ class ClearancePin(Pin):
                 "allowed: to leave it out"
             )
         else:
-            chosen = law or LankaraniNikravesh
-            normal = _of_power(bearing, chosen, stiffness, restitution, rest_velocity, materials)
+            normal = _of_power(bearing, law or Exact, stiffness, restitution, rest_velocity, materials)
         return cls(
             contact=JournalContact(bearing=bearing, normal=normal, friction=friction_of(friction)),
             bore=bore,

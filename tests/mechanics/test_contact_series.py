@@ -17,9 +17,7 @@ from user_forces import Ambrosio, FrictionLaw, Frictionless, value
 from user_forces.contact import SlipHistory
 
 BASE = paper_contact(1.5, 0.0)
-NORMAL = replace(
-    BASE.normal, restitution=0.5
-)  # asks for the mass that moves
+NORMAL = replace(BASE.normal, restitution=0.5)  # asks for the mass that moves
 CLEARANCE = BASE.bearing.clearance
 
 

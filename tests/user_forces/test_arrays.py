@@ -144,10 +144,7 @@ def test_a_whole_contact(friction: FrictionLaw, rows: list[tuple[float, ...]]) -
     )
     # places are known to their last digit, and a damped force that jumps at the impact hangs on it
     expected = [
-        [
-            contact.force(near * x, near * y, *others, v, still)
-            for near in (1.0 - 2.0**-51, 1.0, 1.0 + 2.0**-51)
-        ]
+        [contact.force(near * x, near * y, *others, v, still) for near in (1.0 - 2.0**-51, 1.0, 1.0 + 2.0**-51)]
         for (x, y, *others), v in zip(given_motion.T.tolist(), speed.tolist(), strict=True)
     ]
     names = ["depth", "rate", "slip", "normal_force", "friction_force", "force_x", "force_y", "journal_arm"]

@@ -198,9 +198,7 @@ def test_impact_function_is_the_published_one(depth: float, rate: float, speed: 
     published = 1e5 * 1000.0**1.5 * (x1 - (x1 - depth)) ** 1.5 - damping * -rate
     # the difference of lengths of 1 m is rounded to 1e-16 m; sum of parts that may nearly cancel
     size = COMMON.elastic_force(depth) + 5e4 * abs(rate)
-    assert COMMON(depth, rate, speed) == pytest.approx(
-        published, abs=(1e-12 + 2e-16 / depth) * size
-    )
+    assert COMMON(depth, rate, speed) == pytest.approx(published, abs=(1e-12 + 2e-16 / depth) * size)
 
 
 def test_damping_rises_from_nothing_to_its_full_size() -> None:

@@ -49,9 +49,8 @@ class ShortPin(Value):
         friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.
         friction_law: one that needs a single coefficient, which `friction` is; Ambrosio's if nothing is said.
             Of one's own by its place, "my_laws.py:MyFriction".
-        law: of the normal force: one that needs a stiffness and a restitution only; if nothing is said Exact
-            with stiffness = "cylinders", else LankaraniNikravesh. Of one's own by its place,
-            "my_laws.py:MyLaw".
+        law: of the normal force: one that needs a stiffness and a restitution only; Exact if nothing is said.
+            Of one's own by its place, "my_laws.py:MyLaw".
         rest_velocity: smallest velocity that the damping is scaled with [m/s], > 0; the law's own by default.
         stiffness: "cylinders": the pin along its length; the rest are K of K depth^1.5: "paper": Eq. 5 of the
             paper, two spheres; "internal": a sphere in a hollow sphere; or a number [N/m^1.5], > 0. "cylinders"

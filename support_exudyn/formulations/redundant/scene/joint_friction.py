@@ -228,9 +228,7 @@ class GuideFriction(JointFriction):
         self._arms = (0.0, 0.0), (0.0, 0.0)  # of the point from the centres of both bodies at the start [m]
         self._force = 0.0  # as the engine last asked for it [N]
         mbs.AddObject(
-            ObjectConnectorCartesianSpringDamper(
-                markerNumbers=points, springForceUserFunction=self._resistance
-            )
+            ObjectConnectorCartesianSpringDamper(markerNumbers=points, springForceUserFunction=self._resistance)
         )
         if guide.pin_radius is not None:
             mbs.AddObject(
