@@ -157,8 +157,8 @@ class ClearancePin(Pin):
             bore_radius: [m], > clearance; `load_machine(NAME).bore_radii` has those of a machine.
             restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
             friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law.
-            law: class of the normal force, one that needs nothing but a stiffness and a restitution; the default
-                `Exact` delivers the restitution.
+            law: class of the normal force, one that needs nothing but a stiffness and a restitution; the
+                default `Exact` delivers the restitution.
             rest_velocity: smallest velocity that the damping is scaled with [m/s], > 0; the law's own if None.
             stiffness: "cylinders": the pin along its length, `PinInBore`; the rest are K of K depth^1.5:
                 "paper": Eq. 5 of the paper, two spheres; "internal": a sphere in a hollow sphere; or a number

@@ -42,8 +42,8 @@ class ShortPin(Value):
     """A pin with clearance, in few words.
 
     Arguments:
-        clearance: radial, bore radius minus journal radius [m], >= 0; 0 is an ideal pin, which keeps its friction
-            at the radius of the bore and ignores all else.
+        clearance: radial, bore radius minus journal radius [m], >= 0; 0 is an ideal pin, which keeps its
+            friction at the radius of the bore and ignores all else.
         bore_radius: [m], > 0; the machine's file may say it for the pin.
         restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
         friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.

@@ -51,7 +51,7 @@ def rubbed(scene: SceneArrays, y: Vector, one: Records, normal: float) -> float:
 
 @compiled
 def friction_force(scene: SceneArrays, y: Vector, one: Records) -> float:
-    """Friction force [N] under what the joint carries as it stands; writes the slip and the lever. See `IdealGuide`."""
+    """Friction force [N] under what the joint carries now, see `IdealGuide`; writes slip and lever."""
     held, spin = scene.rows[one.row].held, spin_of(scene, y, one.body) - spin_of(scene, y, one.other)
     if one.kind == BOLT:
         one.lever, one.slip = one.radius, one.radius * spin
@@ -69,7 +69,7 @@ def friction_force(scene: SceneArrays, y: Vector, one: Records) -> float:
 
 @once
 def rub(scene: SceneArrays, y: Vector, slope: Vector, right: Vector) -> None:
-    """Solve for friction and the forces of all joints together, and write the rates of states of friction laws."""
+    """Solve for friction and the forces of all joints together; write the rates of states of friction laws."""
     relaxed = 1.0
     for k in range(RUBBINGS):
         changed = largest = bend = square = 0.0

@@ -22,8 +22,8 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
     EngineScene,
     first_memory,
 )
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
+from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.contact_state import InverseMass

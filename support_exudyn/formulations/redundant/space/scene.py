@@ -18,8 +18,8 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
     EngineScene,
     first_memory,
 )
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
+from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.space.block_face import BlockFace
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import ends
