@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 
 from user_forces.contact import Contact
-from user_forces.normal.law import Impact
 from user_forces.values.value import InputError
 
 ROUNDING = 1e-9  # share of a force that a law may be off by from its own elastic part
@@ -19,7 +18,7 @@ ROUNDING = 1e-9  # share of a force that a law may be off by from its own elasti
 
 AT_REST = (1e-9, 1e-7, 1e-5, 1e-4)  # depths [m] at which laws are looked at before a run
 PROBED = (1.0, 1.001, 1.1)  # times the last depth and slip, where a run could not go on
-LIGHT = Impact(0.1, 1.0)
+SLOW = 0.1  # [m/s]
 UNLAWFUL = "Mend the law, drive or load: what it gives is no force that could be. Its numbers are told above."
 
 
@@ -37,7 +36,7 @@ def look_at_rest(contact: Contact, pin: str) -> None:
     for depth in AT_REST:
         try:
             force, energy = law.elastic_force(depth), law.elastic_energy(depth)
-            pressed = law(depth, 0.0, LIGHT)
+            pressed = law(depth, 0.0, SLOW)
         except InputError:  # deeper than the law is valid
             return
         except ArithmeticError as error:

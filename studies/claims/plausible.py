@@ -25,7 +25,7 @@ from support_exudyn import (
     bore_area,
     reference_support,
 )
-from user_forces import Ambrosio, ImpactVelocity, JournalContact
+from user_forces import Ambrosio, JournalContact
 from user_forces.values.value import InputError, Vector2
 
 Choice = str | float
@@ -209,7 +209,7 @@ def pin(sample: Sample, clearance_mm: float, support: HydraulicSupport) -> Clear
         POWER_LAWS[str(sample["law"])],
         number(sample, "backing"),
         restitution=number(sample, "restitution"),
-        damping_speed=ImpactVelocity(floor=number(sample, "rest_velocity")),
+        rest_velocity=number(sample, "rest_velocity"),
     )
     contact = JournalContact(bearing=bearing, normal=normal, friction=_friction(sample))
     return ClearancePin(contact=contact, bore="first" if sample["bore"] == "base" else "second")

@@ -39,7 +39,7 @@ def scenarios(subject: Subject) -> dict[str, Scenario]:
 
 
 def _rise(subject: Subject, contact: str, friction: float) -> Scenario:
-    pin = paper_machine.clearance_joint(CLEARANCE_MM, friction, contact=contact)
+    pin = paper_machine.clearance_joint(CLEARANCE_MM, friction, contact=contact, law=paper_machine.PAPERS_LAW)
     rise = to_accuracy(replace(subject.motion, pins={subject.pin: pin}))
     # friction-induced vibration is determined to some thousandths only
     return replace(rise, accuracy="standard", channels=(f"pin.{subject.pin}.*",))

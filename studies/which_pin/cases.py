@@ -14,7 +14,6 @@ from support_exudyn import ClearancePin, CubicStep, Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.simulation.automatic_settings import cheapest, settings_for
-from user_forces import IndentationVelocity
 from user_forces.values.value import InputError
 
 CONDITIONS = ((0.25, 1.5), (0.1, 1.5), (0.25, 0.5), (0.0, 1.5))  # friction and clearance [mm], single pins
@@ -37,14 +36,8 @@ OWN_GOAL = 1e-2  # by which the first steps of one's own machine are chosen
 def clearance_pin(
     friction: float, clearance_mm: float = CLEARANCE_MM, bore_radius: float = paper_machine.BORE_RADIUS
 ) -> ClearancePin:
-    """The paper's pin, with a damping that forgets how its contact once began; bore_radius: [m].
-
-    With the textbook's, which remembers it, a pin that was settled gently shakes eight times as much in the
-    same rise as one that was dropped: pins could not be compared.
-    """
-    return paper_machine.clearance_joint(
-        clearance_mm, friction, bore_radius, damping_speed=IndentationVelocity()
-    )
+    """The paper's pin; bore_radius: [m]."""
+    return paper_machine.clearance_joint(clearance_mm, friction, bore_radius)
 
 
 def case_name(

@@ -11,7 +11,7 @@ from support_exudyn.model.pins import IdealPin
 def joint_slips(
     motion: BodyMotion, pins: Mapping[str, IdealPin], guides: Mapping[str, IdealGuide]
 ) -> Iterator[Series]:
-    """Slips (n,) [m/s] of ideal pins with friction, then of guides; of a pin in a slot without its own turning."""
+    """Slips (n,) [m/s] of ideal pins with friction, then of guides; of pins in slots without their turning."""
     for name, pin in pins.items():
         place = motion.linkage.pins[name]
         yield (pin.radius or 0.0) * (motion.spin(place.second) - motion.spin(place.first))

@@ -26,7 +26,6 @@ from user_forces.contact import FaceContact, SlotContact
 from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.materials import STEEL, STEEL_35CRMO, Material, plane_contact_stiffness
-from user_forces.normal.damping_speed import DampingSpeed
 from user_forces.normal.exact import Exact
 from user_forces.normal.law import NormalLaw
 from user_forces.slot import Slot
@@ -197,7 +196,7 @@ class ClearanceGuide(Guide):
         restitution: float | None = None,
         friction: float | FrictionLaw = 0.0,
         law: type[NormalLaw] = Exact,
-        damping_speed: DampingSpeed | None = None,
+        rest_velocity: float | None = None,
         stiffness: float | None = None,
         corner_radius: float | None = None,
         wall_material: Material = STEEL,
@@ -213,7 +212,7 @@ class ClearanceGuide(Guide):
             restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
             friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law.
             law: class of the normal force, one that needs nothing but a stiffness and a restitution.
-            damping_speed: what the damping of the law is scaled with; the law's own default if None.
+            rest_velocity: smallest velocity that the damping is scaled with [m/s], > 0; the law's own if None.
             stiffness: K of K depth^1.5 [N/m^1.5], > 0; by default Hertz's of a sphere on a plane.
             corner_radius: of that sphere [m], > 0; by default the pin's, or a tenth of the block's height.
             wall_material, block_material: for the stiffness.
@@ -238,7 +237,7 @@ class ClearanceGuide(Guide):
         given = {"stiffness": stiffness} if "stiffness" in fields_of(law) else {}
         return cls(
             gaps=both,
-            normal=law_with(law, given, restitution, damping_speed),
+            normal=law_with(law, given, restitution, rest_velocity),
             friction=friction_of(friction),
             block=block,
             pin_radius=pin_radius,

@@ -22,7 +22,6 @@ from support_exudyn import (
 from support_exudyn.mechanics.kinetics import kinetics_of
 from tests.cases.run_cases import PIN, loose_support
 from tests.roof_cases import DAMPED, MASS, ON_OIL, OVER_THE_COLUMNS, TOP, Ram
-from user_forces import IndentationVelocity
 from user_forces.values.value import InputError, Vector2
 
 MEGANEWTON = 1e6
@@ -84,7 +83,7 @@ def test_actuators_and_pins_carry_what_statics_say(actuators: dict[str, object],
 
 def test_a_support_can_start_settled_under_it() -> None:
     base = loose_support().pins[PIN].contact
-    pin = ClearancePin(contact=replace(base, normal=replace(base.normal, damping_speed=IndentationVelocity())))
+    pin = ClearancePin(contact=replace(base, normal=replace(base.normal)))
     load = pressing(start=0.0, end=0.0)
     result = pressed(load, pins={PIN: pin}, actuators=ON_OIL, start="settled", drive=Held(), duration=0.05)
     # at rest at once: what is left of the static solver's tolerance

@@ -29,8 +29,6 @@ from tests.compiled_runs import (
 from user_forces import (
     Ambrosio,
     Frictionless,
-    ImpactVelocity,
-    IndentationVelocity,
     JournalContact,
     LankaraniNikravesh,
 )

@@ -25,7 +25,7 @@ from support_exudyn import (
 )
 from support_exudyn.model.loads.load import LoadedPoint, Powers
 from tests.cases.run_cases import CRANK_SPEED, PIN, slider_crank, support
-from user_forces import FrictionLaw, Impact, JournalBearing, JournalContact, NormalLaw, value
+from user_forces import FrictionLaw, JournalBearing, JournalContact, NormalLaw, value
 from user_forces.expressions.scalar import tanh, where
 from user_forces.values.value import Vector2
 
@@ -46,7 +46,7 @@ class Spring(NormalLaw):
 
     stiffness: float = 1e9
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return self.stiffness * depth
 
     def elastic_force(self, depth: float) -> float:
@@ -58,19 +58,19 @@ class Spring(NormalLaw):
 
 @value
 class NoNumber(Spring):
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return where(depth > 2e-5, math.nan, self.stiffness * depth)
 
 
 @value
 class Endless(Spring):
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return where(depth > 2e-5, math.inf, self.stiffness * depth)
 
 
 @value
 class WrongSign(Spring):
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return -self.stiffness * depth
 
 
@@ -82,7 +82,7 @@ class Pulling(WrongSign):
 
 @value
 class Driving(Spring):
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return self.stiffness * depth * (1.0 - 0.03 * rate)
 
 
@@ -150,7 +150,7 @@ def test_a_law_is_refused(normal: NormalLaw, friction: FrictionLaw | None, said:
 
 @value
 class AlwaysEndless(Spring):
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return self.stiffness * depth + math.inf
 
 
@@ -168,7 +168,7 @@ class NoEnergy(Spring):
 
 @value
 class Failing(Spring):
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return self.stiffness * depth * (rate / rate)
 
 

@@ -32,7 +32,7 @@ from tests.cases.run_cases import (
     support,
 )
 from tests.cases.run_cases import SLIDER_PIN as SLIDER
-from user_forces import Ambrosio, Hertz, Impact, JournalContact, KelvinVoigt, LoadError, LuGre, NormalLaw, value
+from user_forces import Ambrosio, Hertz, JournalContact, KelvinVoigt, LoadError, LuGre, NormalLaw, value
 
 CLEARANCE = 1.5e-3
 RADIUS, ROD = 0.05, 0.12  # of the slider-crank [m]
@@ -183,10 +183,10 @@ class Weak(Hertz):
     def resting_depth(self, force: float) -> float:
         raise LoadError(f"Weak: force = {force} N: allowed: less")
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         if depth > 1e-6:
             raise LoadError("Weak: too deep")
-        return super().__call__(depth, rate, impact)
+        return super().__call__(depth, rate, impact_velocity)
 
 
 def test_a_law_that_cannot_hold_the_load_is_left_to_the_run() -> None:

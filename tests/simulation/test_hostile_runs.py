@@ -31,7 +31,7 @@ from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact
 from tests.hostile import Interruption, posix_only
 from tests.processes import soon_started
-from user_forces import Impact, LankaraniNikravesh, value
+from user_forces import LankaraniNikravesh, value
 
 PROMPT = 2.0  # [s] of work, within which an interruption is asked to come out
 LONG = 1000.0  # [s] that the machine is simulated for: minutes of work
@@ -146,9 +146,9 @@ class Calls:
 class Interrupting(LankaraniNikravesh):
     """Is interrupted while it is asked for its force."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         Calls.count()
-        return super().__call__(depth, rate, impact)
+        return super().__call__(depth, rate, impact_velocity)
 
     def elastic_force(self, depth: float) -> float:
         Calls.count()
@@ -212,10 +212,10 @@ def test_an_interruption_waits_for_an_import_to_end(monkeypatch: pytest.MonkeyPa
 class Killing(LankaraniNikravesh):
     """Has its process killed once the journal is deep in an impact; laws are looked at before at rest."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         if depth > 1e-5 and rate > 0.0:
             os.kill(os.getpid(), signal.SIGKILL)
-        return super().__call__(depth, rate, impact)
+        return super().__call__(depth, rate, impact_velocity)
 
 
 @posix_only

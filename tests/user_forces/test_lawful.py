@@ -15,7 +15,6 @@ from tests.often import often
 from user_forces import (
     Ambrosio,
     Frictionless,
-    Impact,
     JournalBearing,
     JournalContact,
     LoadError,
@@ -78,7 +77,7 @@ class Spring(NormalLaw):
 
     stiffness: float = 1e9
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return self.stiffness * depth
 
     def elastic_force(self, depth: float) -> float:
@@ -155,14 +154,14 @@ def test_cutting_keeps_what_is_no_number(cut: Callable[[float, float], float]) -
 class Deep(Spring):
     """No number beyond a depth."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return where(depth > 1e-5, math.nan, 1e9 * depth)
 
 
 class Branching(Spring):
     """The same, for numbers only."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return math.nan if depth > 1e-5 else 1e9 * depth
 
 

@@ -10,6 +10,8 @@ from user_forces.expressions.scalar import sign
 from user_forces.values.value import NonNegative, Value, value
 
 LONG = 1.0  # [s], in which a deflection becomes that of steady slip
+SLIPS = tuple(1e-9 * 10.0 ** (0.025 * n) for n in range(401))  # [m/s] at which a law is evaluated
+HALVINGS = 40
 MOMENT = 1e-10  # [s], in which no bristle moves by more than a share of 1e-4 of its way
 
 
@@ -46,8 +48,25 @@ class FrictionLaw(Value, ABC):
         return (self.next_deflection(deflection, slip, MOMENT) - deflection) / MOMENT
 
     def steady_deflection(self, slip: float) -> float:
-        """Deflection [m] of a slip [m/s] that has lasted long: with it a joint starts that moves at the start."""
+        """Deflection [m] of a slip [m/s] that has lasted long: that of a joint which moves at the start."""
         return self.next_deflection(0.0, slip, LONG)
+
+    @property
+    def largest_coefficient(self) -> float:
+        """Largest ratio of friction to normal force at any of SLIPS, of a law without a state."""
+        return max(abs(self(slip, 1.0)) for slip in SLIPS)
+
+    def slip_speed(self, share: float) -> float:
+        """Smallest slip [m/s] with this share of the largest coefficient; 0 of a law with a state."""
+        wanted = 0.0 if self.has_state else share * self.largest_coefficient
+        if wanted == 0.0:
+            return 0.0
+        first = next(n for n, slip in enumerate(SLIPS) if abs(self(slip, 1.0)) >= wanted)
+        low, high = SLIPS[max(0, first - 1)], SLIPS[first]
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if abs(self(middle, 1.0)) >= wanted else (middle, high)
+        return high
 
     def swing_time(self, mass: float, normal_force: float) -> float:
         """One over the angular frequency [s] at which a mass [kg] that sticks swings under a normal force [N].

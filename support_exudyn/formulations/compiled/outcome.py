@@ -156,17 +156,10 @@ def _told(
 
 
 def _memories(model: Model, found: _Records, n: int) -> Series:
-    """What a contact remembers at the records as PinMemory's fields, shape (n, 9)."""
-    closed, velocity, xx, xy, yy = found.memory[:, n].T
+    """What a contact remembers at the records as PinMemory's fields, shape (n, 6)."""
+    closed, velocity = found.memory[:, n].T
     still = np.zeros_like(closed)
     state = int(model.scene.contacts[n]["state"])
     deflection = found.state[:, state] if state >= 0 else still
-    named = {
-        "in_contact": closed,
-        "impact_velocity": velocity,
-        "deflection": deflection,
-        "inverse_mass_xx": xx,
-        "inverse_mass_xy": xy,
-        "inverse_mass_yy": yy,
-    }
+    named = {"in_contact": closed, "impact_velocity": velocity, "deflection": deflection}
     return np.column_stack([named.get(name, still) for name in PinMemory._fields])

@@ -81,13 +81,7 @@ def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Ve
     i += scene.rows.size
     for k in range(scene.contacts.size):
         one = scene.contacts[k]
-        row[i], row[i + 1], row[i + 2], row[i + 3], row[i + 4] = (
-            one.closed,
-            one.impact_velocity,
-            one.xx,
-            one.xy,
-            one.yy,
-        )
+        row[i], row[i + 1] = one.closed, one.impact_velocity
         i += MEMORY
     for k in range(scene.courses.size):
         row[i], row[i + 1] = scene.courses[k].value, scene.courses[k].rate

@@ -45,12 +45,12 @@ def rubbed(scene: SceneArrays, y: Vector, one: Records, normal: float) -> float:
     """Friction force [N] of the law under a normal force [N], at the slip that stands in the record."""
     deflection = y[one.state] if one.state >= 0 else 0.0
     constants = scene.constants[one.constants :]
-    return float(call_law(one.law, normal, 0.0, one.slip, 0.0, 0.0, deflection, constants, scene.out))
+    return float(call_law(one.law, normal, 0.0, one.slip, 0.0, deflection, constants, scene.out))
 
 
 @compiled
 def friction_force(scene: SceneArrays, y: Vector, one: Records) -> float:
-    """Friction force [N] under what the joint carries as it stands; writes the slip and the lever. See `IdealGuide`."""
+    """Friction force [N] under what the joint carries now, see `IdealGuide`; writes slip and lever."""
     held, spin = scene.rows[one.row].held, spin_of(scene, y, one.body) - spin_of(scene, y, one.other)
     if one.kind == BOLT:
         one.lever, one.slip = one.radius, one.radius * spin
@@ -68,7 +68,7 @@ def friction_force(scene: SceneArrays, y: Vector, one: Records) -> float:
 
 @once
 def rub(scene: SceneArrays, y: Vector, slope: Vector, right: Vector) -> None:
-    """Solve for friction and the forces of all joints together, and write the rates of states of friction laws."""
+    """Solve for friction and the forces of all joints together; write the rates of states of friction laws."""
     relaxed = 1.0
     for k in range(RUBBINGS):
         changed = largest = bend = square = 0.0

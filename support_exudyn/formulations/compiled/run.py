@@ -42,7 +42,7 @@ from support_exudyn.model.hydraulic_cylinder import Inlet
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.expressions.scalar import maximum
 from user_forces.lawful import UNLAWFUL, LawError, look
-from user_forces.normal.law import Impact, LoadError
+from user_forces.normal.law import LoadError
 
 FIRST_STEP = 1e-5  # [s]
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
@@ -218,8 +218,7 @@ def _broken_law(going: _Run) -> tuple[str, str] | None:
         contact = going.scenario.contact_places[name].contact
         depth, rate, slip = (float(record[f"asked_{what}"]) for what in ("depth", "rate", "slip"))
         try:
-            impact = Impact(float(record["impact_velocity"]), float(record["asked_mass"]))
-            asked = contact.normal(depth, rate, impact)
+            asked = contact.normal(depth, rate, float(record["impact_velocity"]))
             normal, elastic = maximum(asked, 0.0), contact.normal.elastic_force(depth)
             friction = contact.friction(slip, normal, float(record["asked_deflection"]))
             look(contact, depth, rate, slip, normal, friction, elastic, name)

@@ -30,7 +30,7 @@ from support_exudyn.model.loads.load import Load
 from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.model.pins import IdealPin
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.compilation.flat import asks_for_mass, friction_source, law_source
+from user_forces.compilation.flat import friction_source, law_source
 from user_forces.lawful import LawError
 from user_forces.values.value import Vector2
 
@@ -333,10 +333,7 @@ def _contact(record: Any, place: ContactPlace, build: _Builder, linkage: Linkage
     # distance of the contact point from the bore's centre at no depth, less the clearance in a slot
     record["radius"] = bearing.contact_arms(0.0)[1] if bearing.is_slot else bearing.contact_arms(0.0)[0]
     record["angle"] = place.axes(linkage)
-    record["forgets"] = contact.normal.forgets
-    record["renews"] = contact.normal.forgets or asks_for_mass(contact)
     record["state"] = states if contact.friction.has_state else -1
-    record["xx"] = record["yy"] = 1.0
     return states + contact.friction.has_state
 
 

@@ -1,9 +1,10 @@
 """Dry friction in ideal pins and guides: as large as the force that the joint carries allows.
 
-    pin: moment = radius law(radius spin, pin force),    guide: force = law(slip, force across), see `IdealGuide`
+    pin: moment = radius law(radius spin, pin force)
+    guide: force = law(slip, force across), see `IdealGuide`
 
-The engine's constraint gives the force, its spring-dampers take the friction. Newton's iterations solve for both
-together as long as forces change smoothly. In the short steps of impacts, and after jumps of the drive, the
+The engine's constraint gives the force, its spring-dampers take the friction. Newton's iterations solve for
+both together as long as forces change smoothly. In the short steps of impacts, and after jumps of the drive, the
 multipliers of its iterates are far off, and what depends on them throws it off for good: beside clearance pins,
 and with drives that jump, the force is that at the end of the last step, an error of first order.
 """
@@ -82,7 +83,7 @@ class JointFriction(ABC):
 
     @abstractmethod
     def series(self, reactions: Series, motion: BodyMotion, deflection: Series) -> Series:
-        """Friction force over time (n,) [N], from the multipliers (n, conditions) and the state of the law (n,)."""
+        """Friction force over time (n,) [N], from the multipliers (n, conditions) and the law's state (n,)."""
 
     @abstractmethod
     def apply(self, forces: Series, motion: BodyMotion, reactions: Series, friction: Series) -> None:
@@ -94,7 +95,7 @@ class JointFriction(ABC):
         self.deflection = self.law.steady_deflection(self._slip)
 
     def begin_try(self, step: float, repeated: bool) -> None:
-        """A step of this length [s] is tried; once Newton's method has failed, with the force of the last for a while."""
+        """A step of this length [s] is tried; for a while after a failure with the force of the last step."""
         self._step = step
         if repeated and not self._lagging:
             self._lagging = self._patience
@@ -121,8 +122,8 @@ class JointFriction(ABC):
             found = self.size(carried, slip, self.deflection)
             if all(map(math.isfinite, carried)) and not math.isfinite(found):
                 raise LawError(
-                    f"{name}: {type(self.law).__name__} gives a friction force of {found:g} N at {slip:.6g} m/s and "
-                    f"{math.hypot(*carried):.6g} N"
+                    f"{name}: {type(self.law).__name__} gives a friction force of {found:g} N at {slip:.6g} m/s "
+                    f"and {math.hypot(*carried):.6g} N"
                 )
 
     def look(self, name: str) -> None:
@@ -228,9 +229,7 @@ class GuideFriction(JointFriction):
         self._arms = (0.0, 0.0), (0.0, 0.0)  # of the point from the centres of both bodies at the start [m]
         self._force = 0.0  # as the engine last asked for it [N]
         mbs.AddObject(
-            ObjectConnectorCartesianSpringDamper(
-                markerNumbers=points, springForceUserFunction=self._resistance
-            )
+            ObjectConnectorCartesianSpringDamper(markerNumbers=points, springForceUserFunction=self._resistance)
         )
         if guide.pin_radius is not None:
             mbs.AddObject(

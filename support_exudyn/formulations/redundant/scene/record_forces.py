@@ -52,7 +52,7 @@ class Following:
 def following(
     scene: Scene, motion: BodyMotion, time: Series, applied: Applied, deflections: Series
 ) -> Following:
-    """Accelerations and reactions at the records [s], from positions, velocities and states of friction (n, f)."""
+    """Accelerations and reactions at the records [s], from positions, velocities and friction states (n, f)."""
     scenario, linkage = scene.scenario, scene.linkage
     held = HeldJoints(
         [linkage.pins[name] for name in scene.ideal_pins],

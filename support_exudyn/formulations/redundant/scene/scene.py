@@ -22,13 +22,13 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
     EngineScene,
     first_memory,
 )
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
+from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
+from support_exudyn.mechanics.contact_state import InverseMass
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
-from support_exudyn.mechanics.pressed_pins import EffectiveMasses, inverse_masses, normal, struck_together
 from support_exudyn.mechanics.trajectory import Impulse
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.plane_geometry import rotated
@@ -79,33 +79,13 @@ class Scene(EngineScene):
         """See `EngineScene`."""
         return repeated_count(self.scenario.held)[0] > 0
 
-    def inverse_masses(self, name: str, state: Any = CURRENT) -> EffectiveMasses:
-        """How a clearance pin's journal answers impulses, by itself and with the other pins as pressed."""
+    def inverse_mass(self, name: str, state: Any = CURRENT) -> InverseMass:
+        """How a contact's journal answers impulses, in the axes of its bore, with other contacts open."""
         position = self.mbs.systemData.GetODE2Coordinates(state)
-        rates = [self.places[name].relative(self.kinetics, position)[1], *self._pressed(name, position)]
-        answers = self.kinetics.inverse_mass(position, rates)
+        rate = self.places[name].rate(self.kinetics, position)
         angle = self.bore_angle(name, position)
         axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-        found = inverse_masses(answers, axes)
-        eccentricity = self.places[name].relative(self.kinetics, position)[0]
-        if not self.places[name].contact.bearing.is_slot or not eccentricity.any():
-            return found
-        # both corners of a face that lands on a wall impact at once, and none of them is pressed already
-        rows = np.vstack([eccentricity / np.linalg.norm(eccentricity) @ rates[0], *rates[1:]])
-        closing = rows @ self.mbs.systemData.GetODE2Coordinates_t(state)
-        return struck_together(found, self.kinetics.inverse_mass(position, [rows]), closing)
-
-    def _pressed(self, name: str, position: Matrix) -> list[Matrix]:
-        """Rows of the rates along the normals of all contacts but one that are pressed, (1, n) each."""
-        found = []
-        for other, pin in self.clearance_joints.items():
-            if other != name:
-                eccentricity, rate = self.places[other].relative(self.kinetics, position)
-                x, y = eccentricity.tolist()
-                along = normal(x, y, pin.contact.bearing.clearance)
-                if along is not None:
-                    found.append(along[None] @ rate)
-        return found
+        return InverseMass.of(axes.T @ self.kinetics.inverse_mass(position, rate) @ axes)
 
     def bore_angle(self, name: str, position: Any) -> float:
         """Angle [rad] of the axes of a bore or a slot."""
@@ -209,13 +189,11 @@ class Scene(EngineScene):
     def reset_memory(self) -> None:
         """See `EngineScene`."""
         data = self.mbs.systemData
-        position, rates = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
+        position = data.GetODE2Coordinates(INITIAL)
         for name, pin in self.clearance_joints.items():
             bore, journal = self.places[name].bore, self.places[name].journal
             turn = self._turn(journal, position) - self._turn(bore, position)
-            bore_motion = self.bore_angle(name, position), self._turn(bore, rates)
-            memory = first_memory(self.contact(name, INITIAL))
-            pin.start(memory, self.inverse_masses(name, INITIAL), turn, bore_motion)
+            pin.start(first_memory(self.contact(name, INITIAL)), self.inverse_mass(name, INITIAL), turn)
 
     def pin_motion(self, name: str) -> PinMotion:
         """How the journal of a clearance pin moves in its bore, or a corner in its slot."""

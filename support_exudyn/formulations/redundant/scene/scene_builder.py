@@ -37,8 +37,13 @@ from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderIt
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
 from support_exudyn.formulations.redundant.scene.engine_scene import CompliantItem
+from support_exudyn.formulations.redundant.scene.joint_friction import (
+    GuideFriction,
+    JointFriction,
+    PinFriction,
+    rotations,
+)
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem, add_force, add_moment
-from support_exudyn.formulations.redundant.scene.joint_friction import GuideFriction, JointFriction, PinFriction, rotations
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.formulations.redundant.scene.stretch_item import add_stretch
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
@@ -152,7 +157,7 @@ class PlaneBuilder(EngineBuilder):
             connector,
             scene.pin_motion(name),
             bore_spin,
-            partial(scene.inverse_masses, name),
+            partial(scene.inverse_mass, name),
             self.scenario.solver,
         )
 
