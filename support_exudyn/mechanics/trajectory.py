@@ -4,12 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
-import numpy as np
-import numpy.typing as npt
-
 from support_exudyn.mechanics.contact_state import Onset
-
-Series = npt.NDArray[np.float64]
+from support_exudyn.mechanics.time_statistics import Series, TimeStatistics
 
 
 @dataclass(frozen=True)
@@ -192,7 +188,8 @@ class Outcome:
     trajectory: at the records. onsets: for each clearance pin the beginnings of contact. largest_force: for
     each clearance pin the largest force [N] at any time. largest_force_time: when that is [s]; in the redundant
     formulation the end of the step that has it. impulses: where the speed of rigid actuators or cranks jumped.
-    counts: what the solver did. oil_events: what happened in each hydraulic leg with elements.
+    counts: what the solver did. oil_events: what happened in each hydraulic leg with elements. statistics: of
+    all channels that the scenario asks for, from every step.
     """
 
     trajectory: Trajectory | ObservedRun
@@ -202,3 +199,4 @@ class Outcome:
     impulses: tuple[Impulse, ...]
     counts: Counts
     oil_events: Mapping[str, tuple[OilEvent, ...]] = field(default_factory=dict)
+    statistics: TimeStatistics | None = None

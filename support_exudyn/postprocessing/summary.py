@@ -37,7 +37,7 @@ def what_is_run(scenario: Scenario) -> list[Row]:
     space = "in the plane" if scenario.dimensions == 2 else "in space"
     rows: list[Row] = [
         ("machine", f"{type(scenario.machine).__name__}, {space}"),
-        ("duration", f"{scenario.duration:g} s, recorded every {said(scenario.record_period, 's')}"),
+        ("duration", f"{scenario.duration:g} s, recorded every {said(scenario.recorded_every, 's')}"),
         ("start", f"{scenario.start}, gravity {scenario.gravity[0]:g}, {scenario.gravity[1]:g} m/s²"),
     ]
     others = [name for name in scenario.linkage.pins if name not in scenario.pins]

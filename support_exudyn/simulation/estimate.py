@@ -235,7 +235,7 @@ def rounding_of_forces(scenario: Scenario) -> float:
     """
     if scenario.chooses_steps or scenario.dimensions == 2:
         return 0.0
-    step = min(scenario.step, scenario.record_period)
+    step = min(scenario.step, scenario.recorded_every)
     heaviest = max(body.mass for body in scenario.linkage.bodies.values())
     return heaviest * rounding_of_positions(scenario) / step**2
 

@@ -68,7 +68,7 @@ class SolverRun:
         self.progress = progress
         self.plan = StepPlan(
             scenario.duration,
-            scenario.record_period,
+            scenario.recorded_every,
             scenario.step,
             scenario.breaks,
             rounding_of_positions(scenario),
@@ -112,7 +112,7 @@ class SolverRun:
         if (
             (moves or self.valves)
             and recorder.integrates
-            and scenario.step * FEW_STEPS > scenario.record_period
+            and scenario.step * FEW_STEPS > scenario.recorded_every
         ):
             self.needs_step_callbacks = (
                 True  # it is called in every step anyway, and a stretch costs more than it saves
