@@ -115,7 +115,9 @@ def _asked(result: Result, given: argparse.Namespace) -> tuple[list[str], list[s
 
 def _tables(console: Console, result: Result, given: argparse.Namespace) -> None:
     ends = given.after, given.until
-    piece = f" at the records every {said(result.scenario.recorded_every, 's')}, {selection.said(result, *ends)}"
+    piece = (
+        f" at the records every {said(result.scenario.recorded_every, 's')}, {selection.said(result, *ends)}"
+    )
     if given.impacts:
         rows = summary.impacts(result, None, *ends)
         show_impacts(console, f"impacts, {selection.said(result, *ends)}", rows)

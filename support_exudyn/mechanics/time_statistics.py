@@ -102,11 +102,13 @@ class TimeStatistics:
     channels: Mapping[str, Series]
     _windows: dict[tuple[str, float, float], Window] = field(default_factory=dict, repr=False, compare=False)
 
-    def window(self, name: str, after: float, until: float) -> Window:
-        """What a channel does between two times [s], as far as the run lasts.
+    def lasts(self, after: float, until: float) -> bool:
+        """Whether the run lasts at any time between two [s]; not if one of these is no number."""
+        near = SAME * max(1.0, float(self.edges[-1]))
+        return after <= min(until, float(self.edges[-1])) + near and until >= self.edges[0] - near
 
-        Raises ValueError if the run does not last between these times, or if one is no number.
-        """
+    def window(self, name: str, after: float, until: float) -> Window:
+        """What a channel does between two times [s], as far as the run lasts, which it must, see `lasts`."""
         key = name, after, until
         if key not in self._windows:
             self._windows[key] = self._window(name, after, until)
@@ -114,9 +116,6 @@ class TimeStatistics:
 
     def _window(self, name: str, after: float, until: float) -> Window:
         edges, rows = self.edges, self.channels[name]
-        near = SAME * max(1.0, float(edges[-1]))
-        if not (after <= min(until, edges[-1]) + near and until >= edges[0] - near):
-            raise ValueError(f"from {after} s to {until} s: no time of the run lies between")
         begin, end = _edge(edges, max(after, edges[0])), _edge(edges, min(until, edges[-1]))
         first = min(int(np.searchsorted(edges, begin, "right")) - 1, len(rows) - 1)
         last = max(int(np.searchsorted(edges, end, "left")) - 1, first)
@@ -132,7 +131,8 @@ class TimeStatistics:
         apart = float(np.abs(chosen[:, MEAN] - found.mean).max())
         return found._replace(
             mean_doubt=mean,
-            square_doubt=sum(part.duration * part.square_doubt for part in parts) / duration + 2.0 * apart * mean,
+            square_doubt=sum(part.duration * part.square_doubt for part in parts) / duration
+            + 2.0 * apart * mean,
             least_doubt=max([0.0, *(found.least[0] - part.least for part in parts)]),
             greatest_doubt=max([0.0, *(part.greatest - found.greatest[0] for part in parts)]),
         )
@@ -174,6 +174,22 @@ def _part(row: Series, start: float, whole: float, low: float, high: float) -> _
     doubt = math.sqrt(abs(unknown) * (1.0 - share) / share) if share > 0.0 else math.sqrt(abs(unknown))
     square = abs(unknown) / (share or 1.0)
     return _Part(found, high - low or 1.0, doubt, square, float(row[LEAST]), float(row[GREATEST]))
+
+
+def statistics_of_records(time: Series, channels: Mapping[str, Series]) -> TimeStatistics:
+    """What records say of channels, which are taken as straight lines between them: trapezoid weights.
+
+    For runs of which nothing else is known. time: of the records (n,) [s]. channels: by name (n,).
+    """
+    found = {}
+    for name, values in channels.items():
+        first, last = values[:-1], values[1:]
+        down, begins, ends = last < first, time[:-1], time[1:]
+        columns = [0.5 * (first + last), (last - first) ** 2 / 12.0, first, last]
+        columns += [np.minimum(first, last), np.where(down, ends, begins)]
+        columns += [np.maximum(first, last), np.where(down | (first == last), begins, ends)]
+        found[name] = np.column_stack(columns)
+    return TimeStatistics(time, found)
 
 
 def _edge(edges: Series, t: float) -> float:

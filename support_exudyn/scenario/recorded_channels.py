@@ -40,7 +40,9 @@ def evaluated(scenario: Scenario, run: Trajectory | ObservedRun) -> EvaluationCo
 def channels(scenario: Scenario, run: Trajectory | ObservedRun | EvaluationContext) -> dict[str, Channel]:
     """The channels that a scenario asks for, by name; all if the result checks look at all of them."""
     context = run if isinstance(run, EvaluationContext) else evaluated(scenario, run)
-    channel_definitions = scenario.channel_definitions if scenario.solver.result_checks else asked_definitions(scenario)
+    channel_definitions = (
+        scenario.channel_definitions if scenario.solver.result_checks else asked_definitions(scenario)
+    )
     return {
         name: Channel(definition.values(context), definition.unit, definition.meaning)
         for name, definition in channel_definitions.items()
@@ -56,7 +58,9 @@ def needs(scenario: Scenario) -> DataNeeds:
     """What of a run its channels are computed from: everything if results are checked."""
     if scenario.solver.result_checks or scenario.channels == ALL_CHANNELS:
         return EVERYTHING
-    return reduce(or_, (definition.needs for definition in asked_definitions(scenario).values()), DataNeeds.NOTHING)
+    return reduce(
+        or_, (definition.needs for definition in asked_definitions(scenario).values()), DataNeeds.NOTHING
+    )
 
 
 def asked_definitions(scenario: Scenario) -> dict[str, ChannelDefinition]:

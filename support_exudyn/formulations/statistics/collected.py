@@ -7,8 +7,10 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
+import numpy.typing as npt
 
-from support_exudyn.formulations.statistics.steps import OF_STEP, add_steps
+from support_exudyn.formulations.statistics.ends import between_ends
+from support_exudyn.formulations.statistics.steps import NODES, OF_STEP, add_steps
 from support_exudyn.mechanics.time_statistics import COLUMNS, LAST, TimeStatistics
 from support_exudyn.mechanics.trajectory import ObservedRun, Series, Trajectory
 from support_exudyn.scenario.record_period import rounded
@@ -65,12 +67,28 @@ class RunStatistics:
             time: of the nodes of each step (steps, 4) [s].
             run: at the start, by which energies are told, and at all of these nodes.
         """
+        self._steps.add(time, self._values(run))
+
+    def add_ends(self, time: Series, begins: npt.NDArray[np.bool_], run: Trajectory | ObservedRun) -> None:
+        """Add steps of which the ends are known, and follow those before.
+
+        Arguments:
+            time: of the ends (n,) [s]. begins: with which of them a piece begins, before which something jumps.
+            run: at the start, by which energies are told, and at all of these times.
+        """
+        values, lasting = self._values(run), ~begins[1:]
+        if lasting.any():
+            nodes = {name: np.ravel(between_ends(time, begins, one)[lasting]) for name, one in values.items()}
+            self._steps.add((time[:-1, None] + np.diff(time)[:, None] * NODES)[lasting], nodes)
+
+    def _values(self, run: Trajectory | ObservedRun) -> dict[str, Series]:
+        """The channels at all times but the first (n,); angles go on from the last that has been added."""
         context, values = evaluated(self._scenario, run), {}
         for name, definition in self.wanted.items():
             values[name] = definition.values(context)[1:]
             if definition.unit == "rad" and not math.isnan(before := self._steps.last(name)):
                 values[name] = values[name] + TURN * round((before - float(values[name][0])) / TURN)
-        self._steps.add(time, values)
+        return values
 
     def finished(self) -> TimeStatistics | None:
         """What has been collected; None if nothing is asked for."""

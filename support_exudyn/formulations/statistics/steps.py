@@ -30,18 +30,24 @@ SHORT = 1e-9  # share of a step that is rounding of its ends
 
 
 @compiled
+def coefficient(power: int, one: float, two: float, three: float, four: float) -> float:
+    """The coefficient of a power of the cubic through the values at the nodes."""
+    first = POLYNOMIAL[power, 0] * one + POLYNOMIAL[power, 1] * two
+    return first + POLYNOMIAL[power, 2] * three + POLYNOMIAL[power, 3] * four
+
+
+@compiled
 def cubic(one: float, two: float, three: float, four: float, x: float) -> float:
     """The cubic through the values at the nodes, at a fraction x of the step."""
     total = 0.0
     for power in range(OF_STEP - 1, -1, -1):
-        row = POLYNOMIAL[power]
-        total = total * x + row[0] * one + row[1] * two + row[2] * three + row[3] * four
+        total = total * x + coefficient(power, one, two, three, four)
     return total
 
 
 @compiled
 def least_of(one: float, two: float, three: float, four: float, below: float) -> tuple[float, float]:
-    """The least value of the cubic, and at which fraction; at nodes only if it cannot be below another value."""
+    """The least value of the cubic, and at which fraction; of its nodes if it cannot be below another value."""
     least, at = one, 0.0
     for n, value in ((1, two), (2, three), (3, four)):
         if value < least:
@@ -49,10 +55,11 @@ def least_of(one: float, two: float, three: float, four: float, below: float) ->
     reach = max(one, two, three, four) - least
     if not (reach > 0.0 and least - 0.5 * reach < below):
         return least, at
-    slope = POLYNOMIAL[1:, 0] * one + POLYNOMIAL[1:, 1] * two + POLYNOMIAL[1:, 2] * three + POLYNOMIAL[1:, 3] * four
-    root = math.sqrt(max(0.0, slope[1] * slope[1] - 3.0 * slope[0] * slope[2]))
-    half = -(slope[1] + math.copysign(root, slope[1]))  # does not cancel
-    for x in (half / (3.0 * slope[2]), slope[0] / half):
+    slope, bend = coefficient(1, one, two, three, four), coefficient(2, one, two, three, four)
+    third = 3.0 * coefficient(3, one, two, three, four)
+    root = math.sqrt(max(0.0, bend * bend - slope * third))
+    half = -(bend + math.copysign(root, bend))  # does not cancel
+    for x in (half / third, slope / half):
         if 0.0 < x < 1.0:
             value = cubic(one, two, three, four, x)
             if value < least:

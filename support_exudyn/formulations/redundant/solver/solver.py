@@ -111,7 +111,7 @@ class SolverRun:
         moves = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
         if (
             (moves or self.valves)
-            and recorder.integrates
+            and (recorder.integrates or recorder.follows)
             and scenario.step * FEW_STEPS > scenario.recorded_every
         ):
             self.needs_step_callbacks = (
@@ -169,7 +169,7 @@ class SolverRun:
             return
         if self.has_prescribed_motion and not turns_by_itself(self.scene):
             mbs.SetPreStepUserFunction(self._follow)
-        if self.recorder.integrates:
+        if self.recorder.integrates or self.recorder.follows:
             mbs.SetPostStepUserFunction(self._result_checks)
 
     def _go_uninterrupted(self) -> bool:
@@ -193,7 +193,7 @@ class SolverRun:
         self.steps += steps
         self.failed_newton += repeats
         self._count()
-        if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
+        if t == 0.0:  # before the speed jumps; the engine tells the start later
             self._result_checks(self.scene.mbs, t)
         return self._arrived(t)
 
@@ -224,10 +224,11 @@ class SolverRun:
         return True
 
     def _result_checks(self, mbs: Any, t: float) -> bool:
-        """Count the energies of a step that nothing else sees; the start of a stretch is told twice."""
+        """Keep what nothing else sees of a step, such as energies; the start of a stretch is told twice."""
         if t > self.checked:
             self.checked = t
             self.recorder.after_step(t, bool(self.plan.breaks_at(t)))
+            self.recorder.end(t)
         return True
 
     def _after_newton(self, mbs: Any, t: float) -> list[float]:
@@ -256,24 +257,28 @@ class SolverRun:
         """Keep what happened in an accepted step, and choose the next; called once at the start, too."""
         taken = t - self.time
         breaks = self.plan.breaks_at(t)
-        kink = bool(breaks)
+        kink, met = bool(breaks), False
+        remembered = [pin.kept for pin in self.pins]
         if self.trying:
             self.trying = False
             self.steps += 1
             self._look_for_limits()
             self.newton.solved(taken)
             for name, pin in self.named_pins:
-                kink = kink or pin.onset is not None
+                met = met or pin.onset is not None
                 try:
                     pin.accept(t)
                 except LawError as error:  # inside the step
                     raise error.at(name) from None
-            kink = self.legs.accept(t) or kink
+            kink = self.legs.accept(t) or kink or met
         self.recorder.after_step(t, kink)
         for friction in self.frictions:
             friction.accept()
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
+        if met:
+            self.recorder.end(t, remembered=remembered)
+        self.recorder.end(t, begins=met)
         if (later := self._arrived(t)) != t:
             t, breaks = later, self.plan.breaks_at(later)
         goal = self._next_time(t)
@@ -296,6 +301,7 @@ class SolverRun:
             self.data.SetTime(stop)
             self.solver.it.currentTime = t = stop
             self.recorder.after_step(t, True)
+            self.recorder.end(t)
             self._at_stop(t)
         return t
 
@@ -310,6 +316,7 @@ class SolverRun:
             self.progress(t / self.plan.duration)
         if breaks := self.plan.breaks_at(t):
             self._jump(t, breaks)
+            self.recorder.end(t, begins=True)
 
     @property
     def _ahead(self) -> float:
