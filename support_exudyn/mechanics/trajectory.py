@@ -4,8 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
+import numpy as np
+import numpy.typing as npt
+
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.time_statistics import Series, TimeStatistics
+from support_exudyn.mechanics.time_statistics import TimeStatistics
+
+Series = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -118,9 +118,12 @@ class RecordedRun:
 
         Raises InputError if the run does not last between them, UnknownNameError if it has no such channel.
         """
-        self._channel(name)
+        values = self._channel(name).values
         self.check_window(after, until)
-        return self.over_time.window(name, after, until)
+        known = self.over_time
+        if name not in known.channels:  # the time itself
+            known = statistics_of_records(self.time, {name: values})
+        return known.window(name, after, until)
 
     def check_window(self, after: float, until: float) -> None:
         """Raise InputError if the run does not last between two times [s]."""

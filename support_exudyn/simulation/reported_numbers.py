@@ -258,7 +258,7 @@ def other_times(
             doubt, apart, other = max(doubt, abs(its - value)), max(apart, abs(then - time)), other.coarser
         rows = (Window(window.durations[n : n + 1], window.rows[n : n + 1]) for n in range(len(window.rows)))
         values, times = np.array([extreme(row) for row in rows]).T
-        lower = value < 0.0 and extreme(window) == window.least
+        lower = extreme(window) == window.least
         # the one may be less and the other more
         near = values <= value + 2.0 * doubt if lower else values >= value - 2.0 * doubt
         own = int(np.abs(times - time).argmin())

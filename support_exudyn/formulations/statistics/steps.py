@@ -33,7 +33,7 @@ SHORT = 1e-9  # share of a step that is rounding of its ends
 def coefficient(power: int, one: float, two: float, three: float, four: float) -> float:
     """The coefficient of a power of the cubic through the values at the nodes."""
     first = POLYNOMIAL[power, 0] * one + POLYNOMIAL[power, 1] * two
-    return first + POLYNOMIAL[power, 2] * three + POLYNOMIAL[power, 3] * four
+    return float(first + POLYNOMIAL[power, 2] * three + POLYNOMIAL[power, 3] * four)
 
 
 @compiled
