@@ -49,7 +49,7 @@ FIRST_STEP = 1e-5  # [s]
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
 STEEP = ' Very small hoses and very steep valves need fewer with `formulation = "redundant"`.'
 AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then it cannot be interrupted, and tells no progress
-NUMBERS_AT_ONCE = 1_000_000  # of the nodes of steps, 8 MB: then they become statistics
+NUMBERS_AT_ONCE = 400_000  # of the nodes of steps, 3 MB: then they become statistics
 CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed far out of its place."
 MOST_IMPACTS = 100_000
 NOTHING_RESTS = "Look at the contact law: nothing comes to rest."

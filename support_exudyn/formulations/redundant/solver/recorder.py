@@ -19,7 +19,7 @@ from support_exudyn.mechanics.trajectory import ObservedRun, Series, Trajectory
 
 # of a StepEnd after its time
 STATE = (DataNeeds.POSITION, DataNeeds.VELOCITY, DataNeeds.CONTACTS)
-AT_ONCE = 4000  # ends of steps: then they become statistics
+AT_ONCE = 250  # ends of steps: then they become statistics
 
 
 @dataclass(frozen=True)
