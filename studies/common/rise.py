@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn import Result
-from support_exudyn.mechanics.time_statistics import Window
+from support_exudyn.mechanics.time_statistics import TimeWindow
 
 Series = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -38,7 +38,7 @@ class MeasuredRun(Protocol):
         """Values of a channel in SI, shape (n,)."""
         ...
 
-    def window(self, name: str, after: float, until: float) -> Window:
+    def window(self, name: str, after: float, until: float) -> TimeWindow:
         """What a channel does between two times [s], from every step."""
         ...
 
@@ -46,7 +46,7 @@ class MeasuredRun(Protocol):
 Measure = Callable[[MeasuredRun], float]
 
 
-TAKEN: dict[str, Callable[[Window], float]] = {
+TAKEN: dict[str, Callable[[TimeWindow], float]] = {
     "largest": lambda window: window.largest[0],
     "max": lambda window: window.greatest[0],
     "min": lambda window: window.least[0],

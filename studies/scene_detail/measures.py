@@ -15,7 +15,7 @@ from studies.scene_detail.runs import Timed, timed
 from studies.scene_detail.scenes import FULLEST, REAR, DetailScene
 from support_exudyn import Estimate, Result
 from support_exudyn.formulations.redundant.inventory import Inventory, inventory
-from support_exudyn.mechanics.time_statistics import Window
+from support_exudyn.mechanics.time_statistics import TimeWindow
 from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, fields_of
 from support_exudyn.simulation.recommend import STROKE, UNEQUAL
 
@@ -26,8 +26,8 @@ IMPACTS = 3
 SHORT_RUN = 0.1  # shorter runs are timed again, alone [s]
 MM, DEGREES = 1e3, rise.DEGREES
 Get = Callable[[Result], float]
-MEAN: Callable[[Window], float] = operator.attrgetter("mean")
-STD: Callable[[Window], float] = operator.attrgetter("std")
+MEAN: Callable[[TimeWindow], float] = operator.attrgetter("mean")
+STD: Callable[[TimeWindow], float] = operator.attrgetter("std")
 Numbers = dict[str, Estimate]
 FROM_REFERENCE, FROM_FULLEST = "tip_distance_from_reference", "tip_distance_from_fullest"
 
@@ -117,7 +117,7 @@ def measure(scenes: Mapping[str, DetailScene], runs: Mapping[str, Timed]) -> dic
 def _of_stroke(scene: DetailScene, result: Result) -> Numbers:
     force = f"pin.{REAR}.force"
 
-    def over_time(statistic: Callable[[Window], float], channel: str, scale: float = 1.0) -> Get:
+    def over_time(statistic: Callable[[TimeWindow], float], channel: str, scale: float = 1.0) -> Get:
         return lambda run: scale * statistic(run.window(channel, scene.begin, scene.end))
 
     def largest(channel: str, scale: float) -> Get:

@@ -25,7 +25,7 @@ SAME = 1e-9  # [s] and share of a time: edges are sums of periods
 GAUSS, GAUSS_WEIGHTS = np.array([0.5 - math.sqrt(0.15), 0.5, 0.5 + math.sqrt(0.15)]), np.array([5, 8, 5]) / 18.0
 
 
-class Window(NamedTuple):
+class TimeWindow(NamedTuple):
     """What a channel does between two times: rows of `COLUMNS`, one an interval, of these durations [s].
 
     mean_doubt, square_doubt, least_doubt, greatest_doubt: by how much the mean, the mean square about it and
@@ -100,21 +100,23 @@ class TimeStatistics:
 
     edges: Series
     channels: Mapping[str, Series]
-    _windows: dict[tuple[str, float, float], Window] = field(default_factory=dict, repr=False, compare=False)
+    _windows: dict[tuple[str, float, float], TimeWindow] = field(
+        default_factory=dict, repr=False, compare=False
+    )
 
     def lasts(self, after: float, until: float) -> bool:
         """Whether the run lasts at any time between two [s]; not if one of these is no number."""
         near = SAME * max(1.0, float(self.edges[-1]))
         return after <= min(until, float(self.edges[-1])) + near and until >= self.edges[0] - near
 
-    def window(self, name: str, after: float, until: float) -> Window:
+    def window(self, name: str, after: float, until: float) -> TimeWindow:
         """What a channel does between two times [s], as far as the run lasts, which it must, see `lasts`."""
         key = name, after, until
         if key not in self._windows:
             self._windows[key] = self._window(name, after, until)
         return self._windows[key]
 
-    def _window(self, name: str, after: float, until: float) -> Window:
+    def _window(self, name: str, after: float, until: float) -> TimeWindow:
         edges, rows = self.edges, self.channels[name]
         begin, end = _edge(edges, max(after, edges[0])), _edge(edges, min(until, edges[-1]))
         first = min(int(np.searchsorted(edges, begin, "right")) - 1, len(rows) - 1)
@@ -126,7 +128,7 @@ class TimeStatistics:
             if high - low < durations[n]:
                 parts.append(_part(chosen[n], float(edges[first + n]), float(durations[n]), low, high))
                 chosen[n], durations[n] = parts[-1].row, parts[-1].duration
-        found, duration = Window(durations, chosen), float(durations.sum())
+        found, duration = TimeWindow(durations, chosen), float(durations.sum())
         mean = sum(part.duration * part.mean_doubt for part in parts) / duration
         apart = float(np.abs(chosen[:, MEAN] - found.mean).max())
         return found._replace(

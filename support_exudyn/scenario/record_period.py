@@ -1,12 +1,9 @@
 """How often a run is recorded if nobody says so: as its machine moves, at round times."""
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scenario.scenario_data import ScenarioData
+from support_exudyn.scenario.timescales import timescales
 
 OF_DRIVE = 500.0  # records in a stroke, or in the time of a crank over its speed
 OF_CONTACT = 3.0  # in the time of a loaded contact's vibration over its angular frequency: 19 in a period
@@ -15,18 +12,16 @@ STEPS = (1, 2, 5)  # times powers of ten: periods
 ROUNDING = 1e-12  # share of a period
 
 
-def default_period(scenario: Scenario) -> float:
+def default_period(scenario: ScenarioData) -> float:
     """Time between records [s] that shows the drive and the contacts of a scenario: 1, 2, 5 times 10^n.
 
     A 500th of the stroke or of a crank's time over its speed, a third of a contact's time over its vibration's
     angular frequency; at least 1000 records, at most 5000. Not below steps that the scenario gives, which would
     be cut.
     """
-    from support_exudyn.scenario.timescales import timescales
-
     times = timescales(scenario)
     wanted = min(times.drive / OF_DRIVE, times.resting / OF_CONTACT, scenario.duration / FEWEST)
-    given = scenario.goal is None and not scenario.chooses_steps
+    given = scenario.accuracy is None and not scenario.chooses_steps
     least = max(scenario.duration / MOST, scenario.step if given else 0.0)
     return min(rounded(wanted, least), scenario.duration)
 

@@ -68,8 +68,7 @@ class Scenario(ScenarioData):
         if self.goal is not None:
             return replace(self, accuracy=max(SMALLEST_GOAL, self.goal / factor**2))
         if self.chooses_steps:
-            finest = self.solver.with_smaller_tolerance(factor)
-            return replace(self, record_period=self.recorded_every, solver=finest)
+            return replace(self, solver=self.solver.with_smaller_tolerance(factor))
         finer = replace(self.solver, impact_steps=round(factor * self.solver.impact_steps))
         if self.dimensions == 3:
             finer = finer.with_more_sections(factor)

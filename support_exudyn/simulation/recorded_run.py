@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.time_statistics import TimeStatistics, Window, statistics_of_records
+from support_exudyn.mechanics.time_statistics import TimeStatistics, TimeWindow, statistics_of_records
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Series
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
@@ -113,7 +113,7 @@ class RecordedRun:
             return self.statistics
         return statistics_of_records(self.time, {name: one.values for name, one in self.channels.items()})
 
-    def window(self, name: str, after: float = 0.0, until: float = math.inf) -> Window:
+    def window(self, name: str, after: float = 0.0, until: float = math.inf) -> TimeWindow:
         """What a channel does between two times [s]: mean, deviation, extremes; in its unit.
 
         Raises InputError if the run does not last between them, UnknownNameError if it has no such channel.

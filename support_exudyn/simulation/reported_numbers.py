@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.time_statistics import GREATEST, LEAST, Window
+from support_exudyn.mechanics.time_statistics import GREATEST, LEAST, TimeWindow
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.recorded_run import RecordedRun
 from user_forces.values.value import InputError, short
@@ -24,21 +24,21 @@ ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no es
 # in a machine at rest, which has none of its own
 SLOW = 1e-3
 # of forces; the largest is of the magnitude, the extremes have their sign
-STATISTICS: Mapping[str, Callable[[Window], float]] = {
+STATISTICS: Mapping[str, Callable[[TimeWindow], float]] = {
     "mean": lambda window: window.mean,
     "std": lambda window: window.std,
     "largest": lambda window: window.largest[0],
     "min": lambda window: window.least[0],
     "max": lambda window: window.greatest[0],
 }
-DOUBTS: Mapping[str, Callable[[Window], float]] = {  # of the same, where a window ends inside intervals
+DOUBTS: Mapping[str, Callable[[TimeWindow], float]] = {  # of the same, where a window ends inside intervals
     "mean": lambda window: window.mean_doubt,
     "std": lambda window: window.std_doubt,
     "largest": lambda window: max(window.least_doubt, window.greatest_doubt),
     "min": lambda window: window.least_doubt,
     "max": lambda window: window.greatest_doubt,
 }
-LARGEST: Callable[[Window], tuple[float, float]] = operator.attrgetter("largest")
+LARGEST: Callable[[TimeWindow], tuple[float, float]] = operator.attrgetter("largest")
 SIGNED, AVERAGED = ("min", "max"), ("mean", "std")
 FORCE, ANGULAR_ACCELERATION = ".force", ".angular_acceleration"  # how names of channels end
 ONSETS = 3  # of every clearance pin that are reported; each multiplies the errors of those before
@@ -229,18 +229,20 @@ def _time(item: Any, name: str) -> float:
     raise InputError(f"{name} = {short(item)}: allowed: a time in s")
 
 
-def over(name: str, statistic: Callable[[Window], float], after: float, until: float) -> Measure:
+def over(name: str, statistic: Callable[[TimeWindow], float], after: float, until: float) -> Measure:
     """A statistic of a channel between two times [s], in its unit."""
     return lambda run: statistic(run.window(name, after, until))
 
 
-def time_of(name: str, extreme: Callable[[Window], tuple[float, float]], after: float, until: float) -> Measure:
+def time_of(
+    name: str, extreme: Callable[[TimeWindow], tuple[float, float]], after: float, until: float
+) -> Measure:
     """The time [s], between two times [s], of an extreme of a channel."""
     return lambda run: extreme(run.window(name, after, until))[1]
 
 
 def other_times(
-    name: str, extreme: Callable[[Window], tuple[float, float]], after: float, until: float
+    name: str, extreme: Callable[[TimeWindow], tuple[float, float]], after: float, until: float
 ) -> Measure:
     """How far the time of an extreme may be off [s].
 
@@ -256,7 +258,9 @@ def other_times(
         while other is not None:
             its, then = extreme(other.window(name, after, until))
             doubt, apart, other = max(doubt, abs(its - value)), max(apart, abs(then - time)), other.coarser
-        rows = (Window(window.durations[n : n + 1], window.rows[n : n + 1]) for n in range(len(window.rows)))
+        rows = (
+            TimeWindow(window.durations[n : n + 1], window.rows[n : n + 1]) for n in range(len(window.rows))
+        )
         values, times = np.array([extreme(row) for row in rows]).T
         lower = extreme(window) == window.least
         # the one may be less and the other more

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
-from support_exudyn.mechanics.time_statistics import Window
+from support_exudyn.mechanics.time_statistics import TimeWindow
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import errors
 from support_exudyn.simulation.reported_numbers import (
@@ -24,12 +24,12 @@ from support_exudyn.sweeps.plan import Record
 from support_exudyn.sweeps.store import StoredNumber
 from user_forces.values.value import InputError, short
 
-STATISTICS: Mapping[str, Callable[[Window], float]] = {
+STATISTICS: Mapping[str, Callable[[TimeWindow], float]] = {
     **USUAL,
     "first": lambda window: window.first,
     "last": lambda window: window.last,
 }
-TIMES: Mapping[str, Callable[[Window], tuple[float, float]]] = {  # of extremes
+TIMES: Mapping[str, Callable[[TimeWindow], tuple[float, float]]] = {  # of extremes
     "largest_time": LARGEST,
     "max_time": lambda window: window.greatest,
     "min_time": lambda window: window.least,

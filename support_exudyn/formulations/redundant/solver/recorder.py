@@ -42,7 +42,7 @@ class History:
     friction_loss: np.ndarray
 
 
-class _Rows:
+class _StateRows:
     """States one behind the other: with an object for each part of a row they take three times as much."""
 
     def __init__(self) -> None:
@@ -116,7 +116,7 @@ class Recorder:
         self._legs = scene.legs
         self._keeps_legs = bool(scene.legs.names) and DataNeeds.OIL in needs
         self._mbs = scene.mbs
-        self._records, self._ends = _Rows(), _Rows()
+        self._records, self._ends = _StateRows(), _StateRows()
         self._begins: list[bool] = []  # whether a piece begins with an end of a step, behind the first
         self._observe = observe
         self.statistics = RunStatistics(scene.scenario)
@@ -186,17 +186,28 @@ class Recorder:
         """Keep the state at time t [s]."""
         self._keep_now(self._records, t, None)
 
-    def end(self, t: float, begins: bool = False, remembered: Sequence[PinMemory] | None = None) -> None:
-        """Keep the state at an end of a step, t [s], for the statistics.
+    def end(self, t: float, before: Sequence[PinMemory] | None = None) -> None:
+        """Keep the state at the end of a step, t [s], for the statistics.
 
-        begins: whether something has jumped there since the last. remembered: by pins; None: as they do now.
+        before: what pins remembered in the step, where impacts have made something else of it; else None.
         """
+        if before is None:
+            self._keep_end(t, not self._begins, None)
+        else:
+            self._keep_end(t, False, before)
+            self.begin(t)
+
+    def begin(self, t: float) -> None:
+        """Keep the state at t [s], where something has jumped since the end of the last step."""
+        self._keep_end(t, True, None)
+
+    def _keep_end(self, t: float, begins: bool, remembered: Sequence[PinMemory] | None) -> None:
         if not self.follows:
             return
         if not self._begins:  # the state by which energies are told
             self._keep_now(self._ends, t, remembered)
         self._keep_now(self._ends, t, remembered)
-        self._begins.append(begins or not self._begins)
+        self._begins.append(begins)
         if len(self._begins) >= AT_ONCE:
             self._take_ends()
 
@@ -210,7 +221,7 @@ class Recorder:
         self._ends.keep_ends()
         self._begins = [True]
 
-    def _keep_now(self, rows: _Rows, t: float, remembered: Sequence[PinMemory] | None) -> None:
+    def _keep_now(self, rows: _StateRows, t: float, remembered: Sequence[PinMemory] | None) -> None:
         data = self._data
         position, velocity, memory = self._kept
         pins = [pin.kept for _, pin in self._pins] if remembered is None else remembered
@@ -229,7 +240,9 @@ class Recorder:
         if self._keeps_legs:
             rows.legs.frombytes(self._legs.states().tobytes())
 
-    def _keep(self, rows: _Rows, t: float, state: Sequence[Series | None], totals: Sequence[float]) -> None:
+    def _keep(
+        self, rows: _StateRows, t: float, state: Sequence[Series | None], totals: Sequence[float]
+    ) -> None:
         """Add a row; parts of the state that are not to be kept may be None."""
         rows.time.append(t)
         for numbers, part, keep in zip(rows.states, state, self._kept, strict=True):

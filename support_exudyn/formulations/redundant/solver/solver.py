@@ -114,9 +114,8 @@ class SolverRun:
             and (recorder.integrates or recorder.follows)
             and scenario.step * FEW_STEPS > scenario.recorded_every
         ):
-            self.needs_step_callbacks = (
-                True  # it is called in every step anyway, and a stretch costs more than it saves
-            )
+            # it is called in every step anyway, and a stretch costs more than it saves
+            self.needs_step_callbacks = True
         self.checked = -math.inf  # end of the last step that the recorder has been told of [s]
         self.named_pins = tuple(scene.clearance_joints.items())
         # names, pins and depths [m] beyond which a run is given up
@@ -276,9 +275,7 @@ class SolverRun:
             friction.accept()
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
-        if met:
-            self.recorder.end(t, remembered=remembered)
-        self.recorder.end(t, begins=met)
+        self.recorder.end(t, remembered if met else None)
         if (later := self._arrived(t)) != t:
             t, breaks = later, self.plan.breaks_at(later)
         goal = self._next_time(t)
@@ -316,7 +313,7 @@ class SolverRun:
             self.progress(t / self.plan.duration)
         if breaks := self.plan.breaks_at(t):
             self._jump(t, breaks)
-            self.recorder.end(t, begins=True)
+            self.recorder.begin(t)
 
     @property
     def _ahead(self) -> float:
