@@ -51,7 +51,7 @@ def measure(subject: Subject, results: Mapping[str, Result]) -> list[Number]:
     return measured_all(
         results,
         {
-            SHOWN["mean"]: ("N", lambda r: watched.mean(r, r[watched.force])),
+            SHOWN["mean"]: ("N", lambda r: watched.mean(r, watched.force)),
             SHOWN["ripple"]: ("N", lambda r: watched.rms_fluctuation(r, r[watched.force])),
             SHOWN["fall"]: ("N", lambda r: float(r.largest_force[watched.pin])),
         },

@@ -51,11 +51,11 @@ def scenarios() -> dict[str, Scenario]:
 
 
 def _mean(channel: str, scale: float = 1.0) -> Callable[[Result], float]:
-    return lambda run: scale * rise.PAPER.mean(run, run[channel])
+    return lambda run: scale * rise.PAPER.mean(run, channel)
 
 
 def _spread(channel: str, scale: float = 1.0) -> Callable[[Result], float]:
-    return lambda run: scale * rise.PAPER.spread(run, run[channel])
+    return lambda run: scale * rise.PAPER.spread(run, channel)
 
 
 # unit, measure, and what the paper prints of it, by clearance

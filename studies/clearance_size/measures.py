@@ -19,10 +19,10 @@ def measures(subject: Subject, ideal: Result) -> dict[str, tuple[str, Against]]:
     watched, degrees = subject.watched, rise.DEGREES
 
     def mean(channel: str, scale: float = 1.0) -> Against:
-        return lambda run, ideal: scale * watched.mean(run, run[channel])
+        return lambda run, ideal: scale * watched.mean(run, channel)
 
     def spread(channel: str, scale: float = 1.0) -> Against:
-        return lambda run, ideal: scale * watched.spread(run, run[channel])
+        return lambda run, ideal: scale * watched.spread(run, channel)
 
     def shaking(channel: str, scale: float, *times: float) -> Against:
         return lambda run, ideal: scale * watched.rms_fluctuation(run, run[channel], *times)

@@ -63,8 +63,8 @@ RISE_UNITS = {
 def rise_numbers(watched: Watched, results: Mapping[str, Result]) -> list[Number]:
     """Mean and spread while the machine moves, the rest over the whole run, by case."""
     measures: dict[str, Callable[[Result], float]] = {
-        "mean_pin_force": lambda r: watched.mean(r, r[watched.force]),
-        "std_pin_force": lambda r: watched.spread(r, r[watched.force]),
+        "mean_pin_force": lambda r: watched.mean(r, watched.force),
+        "std_pin_force": lambda r: watched.spread(r, watched.force),
         "largest_pin_force_any_step": lambda r: float(r.largest_force[watched.pin]),
         "energy_dissipated": lambda r: r.dissipated,
         "energy_error": lambda r: r.energy_error,

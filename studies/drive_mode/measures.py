@@ -22,10 +22,10 @@ EXTREMES: tuple[Literal["largest", "max", "min"], ...] = ("largest", "max", "min
 
 def _of_motion(watched: rise.Watched) -> dict[str, tuple[str, Get]]:
     def mean(channel: str) -> Get:
-        return lambda r: watched.mean(r, r[channel])
+        return lambda r: watched.mean(r, channel)
 
     def spread(channel: str, scale: float = 1.0) -> Get:
-        return lambda r: scale * watched.spread(r, r[channel])
+        return lambda r: scale * watched.spread(r, channel)
 
     def fluctuation(channel: str, scale: float = 1.0) -> Get:
         # from the very start on, which is where mode 1 strikes

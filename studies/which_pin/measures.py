@@ -54,7 +54,7 @@ def measures(plan: PinPlan) -> dict[str, tuple[str, Get]]:
     watched = plan.watched
 
     def mean(channel: str) -> Get:
-        return lambda run, ideal: watched.mean(run, run[channel])
+        return lambda run, ideal: watched.mean(run, channel)
 
     def change(channel: str) -> Get:
         of = mean(channel)

@@ -107,7 +107,8 @@ def _looked_at(
     """
     if _is_scenario(given.machine):
         try:
-            return read_scenario(given.machine), []
+            scenario = read_scenario(given.machine)
+            return scenario, [f"a run is recorded every {1e3 * scenario.recorded_every:g} ms"]
         except InputError as error:  # its machine is all that had to be right so far
             first = str(error).splitlines()[0]
             return None, [f"nothing is told of its pins, the scenario has errors: {first}"]

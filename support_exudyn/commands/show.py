@@ -116,7 +116,8 @@ def _asked(result: Result, given: argparse.Namespace) -> tuple[list[str], list[s
 
 def _tables(console: Console, result: Result, given: argparse.Namespace) -> None:
     ends = given.after, given.until
-    piece = f" at the records every {said(result.scenario.record_period, 's')}, {selection.said(result, *ends)}"
+    steps = "every step" if result.statistics else f"records every {said(result.scenario.recorded_every, 's')}"
+    piece = f" from {steps}, {selection.said(result, *ends)}"
     if given.impacts:
         rows = summary.impacts(result, None, *ends)
         show_impacts(console, f"impacts, {selection.said(result, *ends)}", rows)

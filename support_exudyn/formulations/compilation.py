@@ -27,7 +27,7 @@ except ImportError:  # Windows
 
 fcntl: Any = _fcntl
 SECONDS = {"compiled": 17}  # that compiling takes on a quiet machine of 2020
-COMPILED = ("compiled", "hydraulics")  # folders with compiled functions
+COMPILED = ("compiled", "hydraulics", "statistics")  # folders with compiled functions
 CONSTANTS_OF = (contact_events, contact, oil)  # modules of which compiled functions use constants
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
 Function = TypeVar("Function", bound=Callable[..., Any])

@@ -8,6 +8,7 @@ velocities dv and the impulses L under generalised impulses b and a change c of 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.time_statistics import TimeStatistics
 
 Series = npt.NDArray[np.float64]
 
@@ -196,7 +197,8 @@ class Outcome:
     trajectory: at the records. onsets: for each clearance pin the beginnings of contact. largest_force: for
     each clearance pin the largest force [N] at any time. largest_force_time: when that is [s]; in the redundant
     formulation the end of the step that has it. impulses: where the speed of rigid actuators or cranks jumped.
-    counts: what the solver did. oil_events: what happened in each hydraulic leg with elements.
+    counts: what the solver did. oil_events: what happened in each hydraulic leg with elements. statistics: of
+    all channels that the scenario asks for, from every step.
     """
 
     trajectory: Trajectory | ObservedRun
@@ -206,3 +208,4 @@ class Outcome:
     impulses: tuple[Impulse, ...]
     counts: Counts
     oil_events: Mapping[str, tuple[OilEvent, ...]] = field(default_factory=dict)
+    statistics: TimeStatistics | None = None

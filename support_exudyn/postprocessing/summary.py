@@ -9,7 +9,6 @@ from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, F
 from support_exudyn.machines.check.freedoms import shared
 from support_exudyn.model.pins import ClearancePin, Pin
 from support_exudyn.postprocessing.contact_description import contact_lines
-from support_exudyn.postprocessing.figures.selection import inside
 from support_exudyn.postprocessing.figures.units import readable, said
 from support_exudyn.postprocessing.shown_numbers import AT_ANY_STEP, label, shown
 from support_exudyn.scenario.scenario import Scenario
@@ -40,7 +39,7 @@ def what_is_run(scenario: Scenario) -> list[Row]:
     space = "in the plane" if scenario.dimensions == 2 else "in space"
     rows: list[Row] = [
         ("machine", f"{type(scenario.machine).__name__}, {space}"),
-        ("duration", f"{scenario.duration:g} s, recorded every {said(scenario.record_period, 's')}"),
+        ("duration", f"{scenario.duration:g} s, recorded every {said(scenario.recorded_every, 's')}"),
         ("start", f"{scenario.start}, gravity {scenario.gravity[0]:g}, {scenario.gravity[1]:g} m/s²"),
     ]
     others = [name for name in scenario.linkage.pins if name not in scenario.pins]
@@ -154,7 +153,7 @@ def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
 
     Raises InputError if no record lies between.
     """
-    inside(result, after, until, fewest=1)
+    result.check_window(after, until)
     found: dict[str, Estimate] = {}
     if result.coarser is not None:
         found |= result.numbers(after, until)
@@ -232,7 +231,7 @@ def force_of_impact(result: Result, pin: str, n: int) -> float | None:
 def of_channels(result: Result, names: Iterable[str], after: float, until: float) -> list[Row]:
     """Channels between two times [s]: name, unit, least, mean and greatest value with their signs, meaning.
 
-    Raises InputError if no record lies between.
+    Raises InputError if the run does not last between them.
     """
     rows: list[Row] = []
     for name in names:
@@ -250,14 +249,14 @@ def of_channels(result: Result, names: Iterable[str], after: float, until: float
 
 
 def extent(result: Result, name: str, after: float, until: float) -> dict[str, Any]:
-    """Unit, meaning, and min, mean and max in SI of a channel between two times [s].
+    """Unit, meaning, and min, mean and max in SI of a channel between two times [s], from every step.
 
-    Raises InputError if no record lies between.
+    Raises InputError if the run does not last between them.
     """
     channel = result.channels[name]
-    values = channel.values[inside(result, after, until, fewest=1)]
-    extreme = {"min": values.min(), "mean": values.mean(), "max": values.max()}
-    return {"unit": channel.unit, "meaning": channel.meaning} | {k: float(v) for k, v in extreme.items()}
+    window = result.window(name, after, until)
+    extreme = {"min": window.least[0], "mean": window.mean, "max": window.greatest[0]}
+    return {"unit": channel.unit, "meaning": channel.meaning} | extreme
 
 
 def telling(result: Result) -> list[str]:

@@ -88,7 +88,8 @@ class ScenarioData(Value, ABC):
             cheapest that covers the scene.
         step: largest time step [s], > 0, of the redundant formulation. Steps are equal parts of the time
             between two records; they are cut at impacts.
-        record_period: time between records [s], > 0.
+        record_period: time between records [s], > 0. Records are for curves; means, deviations and extremes are
+            taken from every step. None: as the machine moves, see `record_period.default_period`.
         channels: what is recorded: names of channels, or patterns of them as in a shell, case-sensitive,
             such as "tip.*"; all by default. `time` always is. The result checks looks at all of them; without
             it (`SolverSettings.result_checks`) what nothing asks for is neither kept nor computed. A run to an
@@ -113,7 +114,7 @@ class ScenarioData(Value, ABC):
     accuracy: Accuracy | None = None
     formulation: Literal["auto", "redundant", "compiled"] = "auto"
     step: Seconds[Annotated[Real, Field(gt=0, le=LARGEST_STEP)]] = 5e-4
-    record_period: Seconds[Positive] = 1e-3
+    record_period: Seconds[Positive] | None = None
     channels: tuple[str, ...] = ALL_CHANNELS
     solver: SolverSettings = field(default_factory=SolverSettings)
 

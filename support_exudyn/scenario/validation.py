@@ -51,7 +51,7 @@ def check(scenario: ScenarioData) -> None:
                 "allowed for an ideal pin: 0, for a clearance pin: any"
             )
     _check_guides(scenario, linkage)
-    if scenario.record_period > scenario.duration:
+    if scenario.record_period is not None and scenario.record_period > scenario.duration:
         raise ValueError(
             f"record_period = {scenario.record_period} s: allowed: at most the duration, {scenario.duration} s"
         )

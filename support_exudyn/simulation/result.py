@@ -16,11 +16,13 @@ import h5py
 import numpy as np
 
 from support_exudyn.files.free_memory import available
-from support_exudyn.files.hdf5 import Inside, check_checksum, checksum_block, file_image, write_texts
+from support_exudyn.files.hdf5 import Inside, Series, check_checksum, checksum_block, file_image, write_texts
 from support_exudyn.files.own_modules import modules_of, refusals, without_modules
-from support_exudyn.files.series.own_runs import RUN
+from support_exudyn.files.series.own_runs import RUN, format_of
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.time_statistics import COLUMNS as COLUMNS_OF_STATISTICS
+from support_exudyn.mechanics.time_statistics import TimeStatistics
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent
 from support_exudyn.scenario.presentation import presenter
 from support_exudyn.scenario.recorded_channels import Channel
@@ -80,18 +82,18 @@ class Result(RecordedRun):
     def numbers(self, after: float = 0.0, until: float = math.inf) -> Named[Estimate]:
         """The usual numbers with their estimated errors, by names such as `pin.rear_base.force.mean`.
 
-        Of the records between two times [s]: mean, standard deviation (`std`) and largest magnitude of all
-        forces and when that is (`largest_time`), with `min` and `max` of those that have a sign; `std` of
-        angular accelerations, mean place of traced points; and of clearance pins the largest force at any step
-        of the run and when it is (`pin.NAME.largest_force` and `largest_force_time`, not only of the records)
+        Over time between two times [s], from every step and not from the records: mean, standard deviation
+        (`std`) and largest magnitude of all forces and when that is (`largest_time`), with `min` and `max` of
+        those that have a sign; `std` of angular accelerations, mean place of traced points; and of clearance
+        pins the largest force of the run and when it is (`pin.NAME.largest_force` and `largest_force_time`)
         and the first three impacts.
 
         Where velocities jump, as of rigid actuators with a sudden drive, the forces of ideal pins and rigid
         actuators have no finite peak: `largest`, `min`, `max` and `std` are refused, and their impulses
         (`pin.NAME.force.impulse_1` [N s]) stand in their place. Means leave the impulse out.
 
-        Errors are those of the steps, and of extremes also what may lie between the records; that a mean over
-        few records is not the mean over time is not among them.
+        Errors are those of the steps, of rounding, and of a time that lies inside an interval for which
+        statistics are kept (1000 of a run). Of files of earlier versions numbers are those of the records.
         """
         self._check()
         kinds = measures(self, after, until)
@@ -218,7 +220,7 @@ class Result(RecordedRun):
             )
         data, missing = contents(path, available()), dict[str, str]()
         try:
-            check_checksum(data, FORMAT)
+            check_checksum(data, format_of(data))
             with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
                 whole = Inside(file, len(data))
                 if "own_classes" in whole.attributes:
@@ -245,6 +247,10 @@ def _series(result: Result, above: str = "") -> Iterator[tuple[str, tuple[np.nda
     for name, channel in result.channels.items():
         texts = {"unit": channel.unit, "meaning": channel.meaning}
         yield f"{above}channels/{name}", (channel.values, texts)
+    if result.statistics is not None:
+        yield f"{above}statistics/time", (result.statistics.edges, {"unit": "s"})
+        for name, rows in result.statistics.channels.items():
+            yield f"{above}statistics/{name}", (rows.ravel(), {"columns": ", ".join(COLUMNS_OF_STATISTICS)})
     if result.coarser is not None:
         yield from _series(result.coarser, f"{above}coarser/")
 
@@ -298,9 +304,30 @@ def _read(group: Inside, missing: Mapping[str, str]) -> Result:
         wall_time=float(group.attributes["wall_time_s"]),
         provenance=group.data("provenance"),
         oil_events=_oil_events(group.data("oil_events")) if "oil_events" in group.attributes else {},
+        statistics=_statistics(group.inside("statistics").series(), channels)
+        if "statistics" in group
+        else None,
         goal=group.data("goal"),
         coarser=coarser,
     )
+
+
+def _statistics(found: Mapping[str, Series], channels: Mapping[str, Channel]) -> TimeStatistics:
+    """Raises ValueError unless each channel has a row for each interval."""
+    if found.keys() != channels.keys():
+        raise ValueError("statistics and channels do not have the same names")
+    edges, width = found["time"].values, len(COLUMNS_OF_STATISTICS)
+    rows = {name: one.values for name, one in found.items() if name != "time"}
+    for name, one in found.items():
+        size = edges.size if name == "time" else (edges.size - 1) * width
+        if one.values.dtype != np.float64 or one.values.shape != (size,) or edges.size < 2:
+            raise ValueError(
+                f"statistics of {name!r} are of {one.values.dtype} and shape {one.values.shape}; allowed: "
+                f"float64, {width} numbers for each of the intervals between {edges.size} times"
+            )
+    if not np.isfinite(edges).all() or not (np.diff(edges) > 0.0).all():
+        raise ValueError("the times of the statistics do not increase")
+    return TimeStatistics(edges, {name: one.reshape(-1, width) for name, one in rows.items()})
 
 
 def _oil_events(data: Mapping[str, Any]) -> dict[str, tuple[OilEvent, ...]]:

@@ -49,6 +49,7 @@ def single_run(scenario: Scenario, progress: Progress) -> Result:
         largest_force_time=outcome.largest_force_time,
         impulses=outcome.impulses,
         oil_events=outcome.oil_events,
+        statistics=outcome.statistics,
         counts=outcome.counts,
         wall_time=time.perf_counter() - began,
         provenance=provenance() | ({WARNINGS: "\n".join(warnings)} if warnings else {}),

@@ -175,8 +175,9 @@ MOST_OIL_EVENTS = 100_000
     NOT_A_NUMBER,
     STIFF,
     OIL_EVENTS,
+    NODES,
     REPORT,
-) = range(14)
+) = range(15)
 FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED, TOO_MANY_OIL_EVENTS = range(7)
 LOSSES = 3  # last components of the state: damping, friction, and the work of what drives
 DAMPING_LOSS, FRICTION_LOSS, WORK = -3, -2, -1

@@ -61,7 +61,7 @@ from support_exudyn.formulations.compiled.oil_events import (
     land_on_gap,
     pass_gap,
 )
-from support_exudyn.formulations.compiled.recording import note_peaks, write_records
+from support_exudyn.formulations.compiled.recording import begin_nodes, note_peaks, write_nodes, write_records
 from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.formulations.compiled.step_control import AFTER_IMPACT, CLOSE, SHORTEN, SMALLEST_STEP
 
@@ -172,6 +172,7 @@ def integrate(
     y: Vector,
     room: Scratch,
     rows: Matrix,
+    nodes: Matrix,
     onsets: Matrix,
     report: Vector,
 ) -> int:
@@ -186,6 +187,7 @@ def integrate(
         y: the state at the start; at the end when it returns.
         room: after a pause as it was left.
         rows, onsets, report: are filled.
+        nodes: of the steps since the last pause, four each, with room for all until the next and one row more.
     """
     right, end, k, now, then = room.right, room.end, room.rates, room.now, room.then
     h, error_before, t = going[NEXT_STEP], 1e-4, begin
@@ -199,6 +201,7 @@ def integrate(
         evaluate(scene, t, y, k[0], right)
         keep_gaps(scene, room.gaps)
         copy_contacts(scene.contacts, now)
+        begin_nodes(scene, t, y, k[0], nodes, report)
     begin_method(room, going, weights)
     while t < stop:
         if report[STEPS] >= pause:
@@ -238,6 +241,7 @@ def integrate(
             if not pass_gap(scene, room, leg, gap, t, report):
                 return TOO_MANY_OIL_EVENTS
             evaluate(scene, t, y, k[0], right)
+            begin_nodes(scene, t, y, k[0], nodes, report)
             keep_gaps(scene, room.gaps)
             continue
         if oil == GAP:
@@ -262,6 +266,7 @@ def integrate(
             last = h >= stop - t
         keep_gaps(scene, room.gaps)
         copy_contacts(then, scene.contacts)
+        write_nodes(scene, room, t, h, nodes, report)
         note_peaks(scene, room, t, h, report)
         report[ACCEPTED] += 1
         report[CUTS] += what != NOTHING or oil == GAP
@@ -279,6 +284,7 @@ def integrate(
             code = take_up(scene, room, n, what, was_cut, oil == GAP, leg, gap, t, y, onsets, report)
             if code != FINISHED:
                 return code
+            begin_nodes(scene, t, y, k[0], nodes, report)
         if what == IMPACT:
             follow *= AFTER_IMPACT
         h = choose_method(scene, room, going, t, h, follow, y, weights, what == NOTHING and oil == NONE, report)

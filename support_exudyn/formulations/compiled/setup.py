@@ -165,7 +165,7 @@ def model_of(scenario: Scenario) -> Model:
         scene=scene,
         courses=found,
         edges=edges,
-        times=record_times(scenario.duration, scenario.record_period),
+        times=record_times(scenario.duration, scenario.recorded_every),
         drives=tuple(moving),
         valves=tuple(valves),
         order=order,

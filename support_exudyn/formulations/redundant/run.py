@@ -93,7 +93,7 @@ def _run(scene: AnyScene, progress: Progress, outcome: Callable[[AnyScene, Progr
 
 def _outcome(scene: Scene, progress: Progress) -> Outcome:
     needed = with_causes(needs(scene.scenario))
-    recorder = Recorder(scene, needed)
+    recorder = Recorder(scene, needed, lambda history: trajectory(scene, history, needed))
     solving = SolverRun(scene, recorder, progress)
     counts = solving.go()
     return Outcome(
@@ -104,12 +104,13 @@ def _outcome(scene: Scene, progress: Progress) -> Outcome:
         impulses=tuple(solving.impulses),
         counts=counts,
         oil_events=scene.legs.events,
+        statistics=recorder.finished(),
     )
 
 
 def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
     """Run a model in space. Raises SimulationError if it cannot be finished."""
-    recorder = Recorder(scene, needs(scene.scenario))
+    recorder = Recorder(scene, needs(scene.scenario), lambda history: SpatialObservation(scene, history))
     solving = SolverRun(scene, recorder, progress)
     counts = solving.go()
     groups = scene.sections.items()
@@ -128,6 +129,7 @@ def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
         impulses=tuple(solving.impulses),
         counts=counts,
         oil_events=scene.legs.events,
+        statistics=recorder.finished(),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import glob
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -20,6 +21,7 @@ from support_exudyn.files.toml.faults import nearest
 from support_exudyn.postprocessing.comparing.compare_file import MappedColumn, MappedFile
 from support_exudyn.postprocessing.comparing.whole_turns import ANGLE, unwrapped
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
+from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
@@ -102,6 +104,19 @@ class ComparedFile:
             return converted(replace(series, values=column.sign * series.values + column.offset), unit)
         except InputError as error:
             raise InputError(f"{self.path}: {error}") from None
+
+    def mean(self, channel: str, unit: str, after: float, until: float) -> Estimate | None:
+        """The mean of a channel over time with its error, from every step of a run between two times [s].
+
+        None if this is no run, or has the channel in another unit.
+        """
+        column, run, shift = self.column(channel), self.run, self.mapped.shift
+        if run is None or self.series[column.column].unit != unit:
+            return None
+        ends = column.column, after - shift, until - shift
+        window = run.window(*ends)
+        error = run.estimate(lambda one: one.window(*ends).mean).error if self.has_errors else math.nan
+        return Estimate(column.sign * window.mean + column.offset, error + window.mean_doubt, unit)
 
     def errors(self, channel: str) -> Values:
         """Numerical errors of a channel in SI, (n,); NaN: not known, infinite from the horizon on."""

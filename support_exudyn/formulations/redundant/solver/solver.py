@@ -69,7 +69,7 @@ class SolverRun:
         self.progress = progress
         self.plan = StepPlan(
             scenario.duration,
-            scenario.record_period,
+            scenario.recorded_every,
             scenario.step,
             scenario.breaks,
             rounding_of_positions(scenario),
@@ -114,12 +114,11 @@ class SolverRun:
         moves = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
         if (
             (moves or self.valves)
-            and recorder.integrates
-            and scenario.step * FEW_STEPS > scenario.record_period
+            and (recorder.integrates or recorder.follows)
+            and scenario.step * FEW_STEPS > scenario.recorded_every
         ):
-            self.needs_step_callbacks = (
-                True  # it is called in every step anyway, and a stretch costs more than it saves
-            )
+            # it is called in every step anyway, and a stretch costs more than it saves
+            self.needs_step_callbacks = True
         self.checked = -math.inf  # end of the last step that the recorder has been told of [s]
         self.named_pins = tuple(scene.clearance_joints.items())
         # names, pins and depths [m] beyond which a run is given up
@@ -172,7 +171,7 @@ class SolverRun:
             return
         if self.has_prescribed_motion and not turns_by_itself(self.scene):
             mbs.SetPreStepUserFunction(self._follow)
-        if self.recorder.integrates:
+        if self.recorder.integrates or self.recorder.follows:
             mbs.SetPostStepUserFunction(self._result_checks)
 
     def _go_uninterrupted(self) -> bool:
@@ -196,7 +195,7 @@ class SolverRun:
         self.steps += steps
         self.failed_newton += repeats
         self._count()
-        if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
+        if t == 0.0:  # before the speed jumps; the engine tells the start later
             self._result_checks(self.scene.mbs, t)
         return self._arrived(t)
 
@@ -230,10 +229,11 @@ class SolverRun:
         return True
 
     def _result_checks(self, mbs: Any, t: float) -> bool:
-        """Count the energies of a step that nothing else sees; the start of a stretch is told twice."""
+        """Keep what nothing else sees of a step, such as energies; the start of a stretch is told twice."""
         if t > self.checked:
             self.checked = t
             self.recorder.after_step(t, bool(self.plan.breaks_at(t)))
+            self.recorder.end(t)
         return True
 
     def _after_newton(self, mbs: Any, t: float) -> list[float]:
@@ -262,24 +262,26 @@ class SolverRun:
         """Keep what happened in an accepted step, and choose the next; called once at the start, too."""
         taken = t - self.time
         breaks = self.plan.breaks_at(t)
-        kink = bool(breaks)
+        kink, met = bool(breaks), False
+        remembered = [pin.kept for pin in self.pins]
         if self.trying:
             self.trying = False
             self.steps += 1
             self._look_for_limits()
             self.newton.solved(taken)
             for name, pin in self.named_pins:
-                kink = kink or pin.onset is not None
+                met = met or pin.onset is not None
                 try:
                     pin.accept(t)
                 except LawError as error:  # inside the step
                     raise error.at(name) from None
-            kink = self.legs.accept(t) or kink
+            kink = self.legs.accept(t) or kink or met
         self.recorder.after_step(t, kink)
         for friction in self.frictions:
             friction.accept()
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
+        self.recorder.end(t, remembered if met else None)
         if (later := self._arrived(t)) != t:
             t, breaks = later, self.plan.breaks_at(later)
         goal = self._next_time(t)
@@ -302,6 +304,7 @@ class SolverRun:
             self.data.SetTime(stop)
             self.solver.it.currentTime = t = stop
             self.recorder.after_step(t, True)
+            self.recorder.end(t)
             self._at_stop(t)
         return t
 
@@ -316,6 +319,7 @@ class SolverRun:
             self.progress(t / self.plan.duration)
         if breaks := self.plan.breaks_at(t):
             self._jump(t, breaks)
+            self.recorder.begin(t)
 
     @property
     def _ahead(self) -> float:
