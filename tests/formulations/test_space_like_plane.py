@@ -34,9 +34,7 @@ RATES = (".velocity_z", ".angular_velocity_x", ".angular_velocity_y")
 def default_law(clearance_mm: float = 1.5) -> ClearancePin:
     """The law with the speed at which depth grows, which does without the impact."""
     contact = paper_contact(clearance_mm, 0.0)
-    return ClearancePin(
-        contact=replace(contact, normal=replace(contact.normal))
-    )
+    return ClearancePin(contact=replace(contact, normal=replace(contact.normal)))
 
 
 def with_clearance(friction: float, **pins: float) -> dict[str, ClearancePin]:

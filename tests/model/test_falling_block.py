@@ -38,9 +38,7 @@ def test_what_an_applied_force_does_is_work(vx: float, vy: float, t: float) -> N
 @given(depth=st.floats(-0.1, 0.1), rate=st.floats(-20.0, 20.0))
 def test_a_block_never_pulls(depth: float, rate: float) -> None:
     contact = ROCK.contact
-    found = contact.force(
-        0.0, contact.bearing.clearance + depth, 0.0, rate, 0.0, 0.0, 2.0
-    )
+    found = contact.force(0.0, contact.bearing.clearance + depth, 0.0, rate, 0.0, 0.0, 2.0)
     assert (found.depth, found.rate) == (pytest.approx(depth, abs=1e-12), rate)
     assert found.normal_force >= 0.0
     assert found.normal_force == 0.0 or found.depth > 0.0
