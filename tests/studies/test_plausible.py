@@ -310,6 +310,7 @@ def test_a_sample_decides_law_friction_and_bore() -> None:
     sample = changed(
         law="flores",
         restitution=0.4,
+        rest_velocity=0.02,
         bore="rear link",
         sliding_coefficient=0.11,
         static_speed=2e-5,
@@ -322,6 +323,8 @@ def test_a_sample_decides_law_friction_and_bore() -> None:
     assert with_clearance.contact.bearing == paper_machine.bearing(1.0)
     assert with_clearance.bore == "second"
     assert (friction.sliding_coefficient, friction.static_speed, friction.dynamic_speed) == (0.11, 2e-5, 3e-3)
+    assert normal.rest_velocity == 0.02
+    assert pin(REFERENCE, 1.0, reference_support()).contact.normal.rest_velocity == 0.01
 
 
 def test_cylinders_are_as_long_as_the_machines_pin_and_held_by_pin_and_link() -> None:
