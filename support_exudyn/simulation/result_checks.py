@@ -16,7 +16,7 @@ from support_exudyn.mechanics.contact_history import of_depth
 from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.lawful import UNLAWFUL
+from user_forces.lawful import UNLAWFUL, is_own
 from user_forces.values.value import Vector2
 
 # Energy that the balance may be open by, as a share of what was turned over: kinetic, potential and elastic
@@ -33,7 +33,6 @@ COARSE = (
 )
 UNSAID = " If that does not help: a drive of one's own whose speed jumps has to say so in its `breaks`."
 ENDS = "Close its inlet earlier, open it less, or take a longer cylinder."
-PACKAGES = ("user_forces", "support_exudyn")
 APART = 1e-4  # [m] that what is joined may be apart
 DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
 
@@ -127,7 +126,7 @@ def _has_own_law(scenario: Scenario) -> bool:
     laws: list[object] = [*scenario.acting_loads.values(), *scenario.actuators.values()]
     for joint in (*scenario.pins.values(), *scenario.guides.values()):
         laws += joint.losses().values()
-    return any(type(law).__module__.partition(".")[0] not in PACKAGES for law in laws)
+    return any(map(is_own, laws))
 
 
 def _who_loses(scenario: Scenario, kind: str) -> str:

@@ -94,7 +94,7 @@ def _moments_left_out(scenario: Scenario, outcome: Outcome) -> list[str]:
         force, moment = run.slides[name].max(axis=0).tolist()
         if guide.block is None and moment > 0.0:
             found.append(
-                f"guides.{name}: friction by the moment of up to {moment:.4g} N m is left out, beside a force of "
-                f"up to {force:.4g} N. Give the guide a block (block_mm), whose ends press on the walls."
+                f"guides.{name}: friction by the moment of up to {moment:.4g} N m is left out, beside a "
+                f"force of up to {force:.4g} N. Give the guide a block (block_mm), whose ends press on the walls."
             )
     return found

@@ -217,9 +217,9 @@ def _unwritten(law: object, error: TypeError) -> str:
 
 
 def friction_source(friction: FrictionLaw) -> tuple[str, list[float]]:
-    """A friction law as such a function: `depth` is the normal force [N], of the rest `slip` and `deflection` count.
+    """A friction law as such a function: `depth` is the normal force [N], the others are those of the law.
 
-    It gives the friction force [N], and writes the rate of the deflection [m/s] of a law with a state into out[0].
+    It gives the friction force [N], and writes the rate of a law's state [m/s] into out[0].
 
     Raises UnwrittenLawError, with the name of the law, if there is no such source.
     """

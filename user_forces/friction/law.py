@@ -7,7 +7,7 @@ from pydantic import model_validator
 from typing_extensions import Self
 
 from user_forces.expressions.scalar import sign
-from user_forces.values.value import NonNegative, Value, value
+from user_forces.values.value import Coefficient, Value, value
 
 LONG = 1.0  # [s], in which a deflection becomes that of steady slip
 SLIPS = tuple(1e-9 * 10.0 ** (0.025 * n) for n in range(401))  # [m/s] at which a law is evaluated
@@ -88,12 +88,12 @@ class TwoCoefficients(FrictionLaw, ABC):
     """Laws whose coefficient of friction is larger at rest than in fast slip.
 
     Arguments:
-        static_coefficient: mu_s [-], >= mu_d.
+        static_coefficient: mu_s [-], >= mu_d and <= 5.
         sliding_coefficient: mu_d [-], >= 0.
     """
 
-    static_coefficient: NonNegative
-    sliding_coefficient: NonNegative
+    static_coefficient: Coefficient
+    sliding_coefficient: Coefficient
 
     @model_validator(mode="after")
     def _static_is_larger(self) -> Self:

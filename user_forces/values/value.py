@@ -86,6 +86,7 @@ Real = Annotated[float, BeforeValidator(_number)]
 Whole = Annotated[int, BeforeValidator(_whole)]
 Positive = Annotated[Real, Field(gt=0), AfterValidator(_not_next_to_zero)]
 NonNegative = Annotated[Real, Field(ge=0), AfterValidator(_not_next_to_zero)]
+Coefficient = Annotated[Real, Field(ge=0, le=5), AfterValidator(_not_next_to_zero)]  # of friction
 Fraction = Annotated[Real, Field(ge=0, le=1)]
 Share = Annotated[Real, Field(gt=0, le=1), AfterValidator(_not_next_to_zero)]
 Restitution = Share

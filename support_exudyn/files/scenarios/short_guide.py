@@ -28,7 +28,7 @@ from user_forces.normal.exact import Exact
 from user_forces.normal.hysteresis import without_damping_speed
 from user_forces.normal.law import NormalLaw
 from user_forces.values.units import Metres, MetresPerSecond, NewtonsPerMetreToN
-from user_forces.values.value import InputError, NonNegative, Positive, Restitution, Value, value
+from user_forces.values.value import Coefficient, InputError, NonNegative, Positive, Restitution, Value, value
 
 _law_in_full = partial(law_in_full, where="in [guides.NAME] normal = ")
 
@@ -44,7 +44,7 @@ class ShortGuide(Value):
         block: length and height of the block [m], > 0; the machine's file may say it for the guide.
         pin_radius: of a round pin in place of a block [m], > 0; for guides that let turn.
         restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
-        friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.
+        friction: sliding coefficient of Ambrosio's law, >= 0 and <= 5, 0: none; or a friction law as a table.
         friction_law: one that needs a single coefficient, which `friction` is; Ambrosio's if nothing is said.
             Of one's own by its place, "my_laws.py:MyFriction".
         law: of the normal force: one that needs a stiffness and a restitution only; Exact if nothing is said.
@@ -60,7 +60,7 @@ class ShortGuide(Value):
     block: Metres[tuple[Positive, Positive]] | None = None
     pin_radius: Metres[Positive] | None = None
     restitution: Restitution | None = None
-    friction: NonNegative | FrictionLaw = 0.0
+    friction: Coefficient | FrictionLaw = 0.0
     friction_law: Annotated[str, Names(simple_friction_laws, instead=friction_in_full)] | None = None
     law: Annotated[str, Names(simple_laws, instead=_law_in_full)] | None = None
     rest_velocity: MetresPerSecond[Positive] | None = None

@@ -31,7 +31,16 @@ from user_forces.materials import STEEL, STEEL_35CRMO, Material
 from user_forces.normal.hysteresis import without_damping_speed
 from user_forces.normal.law import NormalLaw
 from user_forces.values.units import Metres, MetresPerSecond, NewtonsPerMetre, NewtonsPerMetreToN
-from user_forces.values.value import InputError, NonNegative, Positive, Restitution, Value, Vector2, value
+from user_forces.values.value import (
+    Coefficient,
+    InputError,
+    NonNegative,
+    Positive,
+    Restitution,
+    Value,
+    Vector2,
+    value,
+)
 
 Length = Annotated[Positive, Field(le=10.0)]  # of any pin [m]: in a wrong unit it would be longer
 _law_in_full = partial(law_in_full, where="in [pins.NAME.contact] normal = ")
@@ -46,7 +55,7 @@ class ShortPin(Value):
             friction at the radius of the bore and ignores all else.
         bore_radius: [m], > 0; the machine's file may say it for the pin.
         restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
-        friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.
+        friction: sliding coefficient of Ambrosio's law, >= 0 and <= 5, 0: none; or a friction law as a table.
         friction_law: one that needs a single coefficient, which `friction` is; Ambrosio's if nothing is said.
             Of one's own by its place, "my_laws.py:MyFriction".
         law: of the normal force: one that needs a stiffness and a restitution only; Exact if nothing is said.
@@ -67,7 +76,7 @@ class ShortPin(Value):
     clearance: Metres[NonNegative]
     bore_radius: Metres[Positive] | None = None
     restitution: Restitution | None = None
-    friction: NonNegative | FrictionLaw = 0.0
+    friction: Coefficient | FrictionLaw = 0.0
     friction_law: Annotated[str, Names(simple_friction_laws, instead=friction_in_full)] | None = None
     law: Annotated[str, Names(simple_laws, instead=_law_in_full)] | None = None
     rest_velocity: MetresPerSecond[Positive] | None = None

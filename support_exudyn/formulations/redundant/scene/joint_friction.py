@@ -4,9 +4,9 @@
     guide: force = law(slip, force across), see `IdealGuide`
 
 The engine's constraint gives the force, its spring-dampers take the friction. Newton's iterations solve for
-both together as long as forces change smoothly. In the short steps of impacts, and after jumps of the drive, the
-multipliers of its iterates are far off, and what depends on them throws it off for good: beside clearance pins,
-and with drives that jump, the force is that at the end of the last step, an error of first order.
+both together as long as forces change smoothly. In the short steps of impacts, and after jumps of the drive,
+the multipliers of its iterates are far off, and what depends on them throws it off for good: beside clearance
+pins, and with drives that jump, the force is that at the end of the last step, an error of first order.
 """
 
 import math
@@ -122,8 +122,8 @@ class JointFriction(ABC):
             found = self.size(carried, slip, self.deflection)
             if all(map(math.isfinite, carried)) and not math.isfinite(found):
                 raise LawError(
-                    f"{name}: {type(self.law).__name__} gives a friction force of {found:g} N at {slip:.6g} m/s "
-                    f"and {math.hypot(*carried):.6g} N"
+                    f"{name}: {type(self.law).__name__} gives a friction force of {found:g} N at {slip:.6g} "
+                    f"m/s and {math.hypot(*carried):.6g} N"
                 )
 
     def look(self, name: str) -> None:
