@@ -114,6 +114,7 @@ def laid_out(closed: Kinetics, position: Matrix) -> Linkage:
                 one,
                 point=at(one.body, one.point),
                 direction=one.direction + turn(closed, position, one.against),
+                ends=None if one.ends is None else (at(one.against, one.ends[0]), at(one.against, one.ends[1])),
             )
             for name, one in linkage.slides.items()
         },

@@ -198,6 +198,7 @@ class Slide(Value):
         direction: of the line [rad], from +x, start posture.
         against: name of the body that carries the line, which moves and turns with it; or "ground".
         turns: whether the body may turn about the point, as a pin does in a slot; a block does not.
+        ends: of the line, start posture [m]; None: not known. A pin does not leave its slot at an end.
     """
 
     body: str
@@ -205,6 +206,12 @@ class Slide(Value):
     direction: Radians[Real] = 0.0
     against: str = GROUND
     turns: Annotated[bool, Field(strict=True)] = False
+    ends: tuple[Vector2, Vector2] | None = None
+
+    @property
+    def length(self) -> float:
+        """Distance of the ends of the line [m]; infinite where they are not known."""
+        return math.inf if self.ends is None else math.dist(*self.ends)
 
     @property
     def conditions(self) -> int:

@@ -33,6 +33,7 @@ COARSE = (
 )
 UNSAID = " If that does not help: a drive of one's own whose speed jumps has to say so in its `breaks`."
 ENDS = "Close its inlet earlier, open it less, or take a longer cylinder."
+SLOT = "Slots have ends, and stops are not covered: end the motion before, or draw a longer slot (`along`)."
 APART = 1e-4  # [m] that what is joined may be apart
 DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
 
@@ -74,6 +75,7 @@ def _reasons(
         yield Failure(reason, COARSE + UNSAID, float(time[first]), finer=True)
     yield from _losses(scenario, outcome, channels)
     yield from _pistons_at_ends(scenario, outcome)
+    yield from _slots_left(scenario, outcome)
     if (gap := joints_apart(scenario, outcome, motion)) is not None and (gap > APART).any():
         first = int(np.argmax(gap > APART))
         reason = f"what is joined is {1e3 * gap.max():.3g} mm apart; allowed: {1e3 * APART:g} mm"
@@ -167,6 +169,24 @@ def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
                     f"{-cylinder.oil_length:.4g} to {cylinder.rod_side_length:.4g} m from the start"
                 )
                 yield Failure(reason, ENDS, float(run.time[first]))
+
+
+def _slots_left(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
+    """Whether a pin has left its slot at an end, which the model has no stop for."""
+    run, slides = outcome.trajectory, scenario.linkage.slides.items()
+    if not isinstance(run, Trajectory):
+        return
+    motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
+    for name, slide in slides:
+        beyond = motion.past_ends(slide)
+        if slide.turns and beyond.any():
+            first = int(np.argmax(beyond > 0.0))
+            x, y = 1e3 * motion.place(slide.body, slide.point)[first]
+            reason = (
+                f"guides.{name}: its pin leaves the slot at ({x:.4g}, {y:.4g}) mm and goes up to "
+                f"{1e3 * beyond.max():.4g} mm beyond the end; the slot is {1e3 * slide.length:.4g} mm long"
+            )
+            yield Failure(reason, SLOT, float(run.time[first]))
 
 
 def energy_open(scenario: Scenario, channels: Mapping[str, Channel]) -> tuple[Series, float]:

@@ -1,6 +1,6 @@
 """Scenarios as TOML files, and the JSON Schema of these files."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,7 @@ from support_exudyn.files.toml.writing import table_of
 from support_exudyn.files.whole_file import missing_file, whole_file
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import ActuatorModel, CylinderAndRod
-from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
@@ -68,7 +68,8 @@ class ScenarioFile:
     """A scenario's file, read.
 
     scenario: what is run. name, description: of people, for people. errors: whether it is run with estimated
-    errors, see `simulate`. assumed: of the machine, because its file does not say it, in sentences. bore_radii:
+    errors, see `simulate`. assumed: of the machine, because its file does not say it, in sentences. warnings:
+    what the files leave open or say twice, in sentences. bore_radii:
     that the machine's file says of its pins [m]. sourced: numbers of the file that say their range or their
     source, by their dotted keys, such as "actuators.leg.bulk_modulus_MPa", in the units of these.
     """
@@ -78,6 +79,7 @@ class ScenarioFile:
     description: str = ""
     errors: bool = False
     assumed: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     bore_radii: Mapping[str, float] = field(default_factory=dict)
     sourced: Mapping[str, SourcedNumber] = field(default_factory=dict)
 
@@ -159,8 +161,28 @@ def scenario_file_of(
     machine = read_machine_of(rest, faults, folder, sourced)
     scenario = _scenario(rest, faults, folder, machine, sourced)
     faults.check()
-    assumed, bores = (machine.assumed, machine.bore_radii) if machine else ((), {})
-    return ScenarioFile(scenario, head.name, head.description, head.errors, assumed, bores, sourced)
+    assert machine is not None  # else it is among the faults
+    warnings = (*machine.warnings, *_undriven(scenario, "drive" in rest))
+    return ScenarioFile(
+        scenario,
+        head.name,
+        head.description,
+        head.errors,
+        machine.assumed,
+        warnings,
+        machine.bore_radii,
+        sourced,
+    )
+
+
+def _undriven(scenario: Scenario, says_drive: bool) -> Iterator[str]:
+    """A warning on driven parts that stand still because no drive is given."""
+    still = [name for name in scenario.driven if isinstance(scenario.drive_of(name), Held)]
+    if still and not says_drive and not any(name in scenario.drives for name in still):
+        yield (
+            f"{', '.join(still)}: held, for the scenario has no [drive]; allowed: [drive], [drives.NAME], or "
+            '[drive] type = "Held" for parts that are to stand still'
+        )
 
 
 def _scenario(

@@ -26,6 +26,7 @@ from user_forces.values.value import DEEPEST, LARGEST, InputError, Value, of_ear
 V = TypeVar("V", bound=Value)
 SMALLEST_EXPONENT = -1000  # of a decimal; what is smaller is 0
 ShortForm = Callable[["Reader", Any, Place], Any]
+UNKNOWN = "unknown key"
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 LENGTH = re.compile(rf"(?<![\w.])({NUMBER})(?: to ({NUMBER}))? m(?![\w^*])")
 POINT = re.compile(rf"\(({NUMBER}), ({NUMBER})\) m(?![\w^*])")
@@ -83,6 +84,10 @@ class Reader:
         for key, item in of_earlier_version(cls, table).items():
             here = (*place, key)
             if key == "type":
+                continue
+            if key not in keys and self.faults.is_full:
+                self.faults.lines.append(UNKNOWN)
+                given[key] = FAILED
                 continue
             if key not in keys:
                 meant, reason = _removed(cls, key) or _unknown(key, shapes, also)
@@ -188,7 +193,8 @@ class Reader:
         """The value of a number that is a table with its range and source; the whole is put into `found`."""
         before = len(self.faults.lines)
         for key in [one for one in table if one not in SOURCED_KEYS]:
-            self.faults.add((*place, key), f"unknown key; {nearest(key, SOURCED_KEYS)}")
+            guess = "" if self.faults.is_full else nearest(key, SOURCED_KEYS)
+            self.faults.add((*place, key), f"{UNKNOWN}; {guess}")
         numbers = {key: table[key] for key in ("value", "from", "to") if key in table}
         for key, item in numbers.items():
             if is_for(shape, item):
@@ -223,7 +229,10 @@ class Reader:
         found: dict[str, Any] = {}
         for name, item in table.items():
             here = (*place, name)
-            if inner := known.get(name, shape.get("additionalProperties")):
+            if self.faults.is_full:
+                self.faults.lines.append(UNKNOWN)
+                found[name] = FAILED
+            elif inner := known.get(name, shape.get("additionalProperties")):
                 found[name] = self.item(inner, item, here, unit, ending)
             else:
                 self.faults.add(here, f"unknown key; {nearest(name, known)}")
