@@ -1,8 +1,8 @@
 """Whether a run comes to a change point or dead centre, in which rigid bodies do not determine its forces.
 
 There one condition more than elsewhere follows from the others: the least singular value of the conditions that
-still says something, s, vanishes. What forces the joints carry then has no limit, F = c/s, unless the load happens to
-be one that c = 0 belongs to, as where a symmetric linkage swings through its change point.
+says something elsewhere, s, vanishes. The forces in the joints grow beyond any limit, F = c/s, unless c = 0 belongs
+to the load, as where a symmetric linkage swings through. Errors of a run grow as 1/s^2 then and may hide that.
 """
 
 import math
@@ -22,7 +22,8 @@ from support_exudyn.scenario.scenario import Scenario
 SINGULAR = 1e-5  # of the largest singular value: below, a condition says nothing
 NEAR = 0.2  # of the largest singular value of a dip that is looked into
 UNBOUNDED = 0.25  # share of a force that grows as one over what is left of a condition: it has no limit
-SPIKE = 10.0  # times the forces beside it: what a record in the point itself shows is none
+SPIKE = 10.0  # times the forces a little beside: what records next to the point show is none
+BEYOND = 1e6  # times the median: forces beside a point that is passed freely, which are of rounding
 CLOSE = 1e-3  # of the largest singular value: where a run ends so near to a point it is the reason
 SAMPLES = 2000  # records at least that are looked at, of many
 FOUND = 1e-9  # of the time between two records
@@ -87,6 +88,7 @@ def passed(scenario: Scenario, motion: BodyMotion, time: Series, forces: Mapping
     last = len(conditions.counts) - repeated_count(conditions)[0] - 1
     if len(time) < 3 or not forces or not 0 <= last < motion.position.shape[1]:
         return None
+    driven = last == motion.position.shape[1] - 1
     some = slice(None, None, max(1, len(time) // SAMPLES))
     time, motion = time[some], BodyMotion(motion.linkage, motion.position[some], motion.velocity[some], motion.velocity)
     left = values_of(conditions, motion.position)[:, last]
@@ -94,7 +96,9 @@ def passed(scenario: Scenario, motion: BodyMotion, time: Series, forces: Mapping
     dips = np.flatnonzero((left[1:-1] <= left[:-2]) & (left[1:-1] < left[2:]) & (left[1:-1] < NEAR)) + 1
     for n in dips.tolist():
         at, position, least = _least(conditions, motion, time, n, last)
-        if least < SINGULAR and _unbounded(left, largest, n):
+        # what swings through freely moves on as energy has it, whatever the forces
+        wrong = _unbounded(left, largest, n) if driven else largest[n - 1 : n + 2].max() > BEYOND * np.median(largest)
+        if least < SINGULAR and wrong:
             return at, words(conditions, position)
     return None
 
@@ -104,15 +108,16 @@ def _least(conditions: Conditions, motion: BodyMotion, time: Series, n: int, las
     from scipy.interpolate import CubicHermiteSpline  # slow to import
     from scipy.optimize import minimize_scalar
 
-    some = slice(n - 1, n + 2)
-    way = CubicHermiteSpline(time[some], motion.position[some], motion.velocity[some])
     best = (float(time[n]), motion.position[n], float(values_of(conditions, motion.position[n : n + 1])[0, last]))
-    for low, high in ((time[n - 1], time[n]), (time[n], time[n + 1])):
+    # what a record in the point itself shows may be of rounding
+    for low, high in ((n - 1, n), (n, n + 1), (n - 1, n + 1)):
+        ends = [low, high]
+        way = CubicHermiteSpline(time[ends], motion.position[ends], motion.velocity[ends])
         found = minimize_scalar(
-            lambda t: float(values_of(conditions, way(t)[None])[0, last]),
-            bounds=(low, high),
+            lambda t, way=way: float(values_of(conditions, way(t)[None])[0, last]),
+            bounds=(time[low], time[high]),
             method="bounded",
-            options={"xatol": FOUND * (high - low)},
+            options={"xatol": FOUND * (time[high] - time[low])},
         )
         if found.fun < best[2]:
             best = (float(found.x), way(found.x), float(found.fun))
@@ -122,7 +127,8 @@ def _least(conditions: Conditions, motion: BodyMotion, time: Series, n: int, las
 def _unbounded(left: Series, largest: Series, n: int) -> bool:
     """Whether forces grow as one over what is left of a condition towards record n, or leap there."""
     near = [m for m in (n - 1, n + 1) if left[m] > SINGULAR]
-    if largest[n] > SPIKE * max(largest[n - 1], largest[n + 1]) or not near:
+    around = [largest[m] for m in (n - 3, n - 2, n + 2, n + 3) if 0 <= m < len(largest)]
+    if largest[n - 1 : n + 2].max() > SPIKE * max(around, default=math.inf) or not near:
         return True
     for one, other in ((n - 1, n - 2), (n + 1, n + 2)):
         if one in near and 0 <= other < len(left) and left[other] > left[one]:

@@ -78,7 +78,7 @@ class Conditions:
                 shift[row] = math.cos(slide.direction) * y - math.sin(slide.direction) * x
         return shift
 
-    @property
+    @cached_property
     def counts(self) -> Matrix:
         """See `Kinetics.counts`."""
         return self.kinetics.counts

@@ -91,7 +91,7 @@ def _change_points(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
     forces = {name: np.hypot(*force.T) for name, force in run.ideal_pins.items()}
     forces |= {name: slide[:, 0] for name, slide in run.slides.items()}
     if (found := change_points.passed(scenario, motion, run.time, forces)) is not None:
-        yield Failure(f"{found[1]}, where its forces have no limit", change_points.ADVICE, found[0])
+        yield Failure(found[1], change_points.ADVICE, found[0])
 
 
 def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:

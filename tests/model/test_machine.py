@@ -84,11 +84,6 @@ def test_mass_of_zero_or_less_is_refused(mass: float) -> None:
         Body(mass=mass, inertia=1.0, centre=(0.0, 0.0))
 
 
-def test_body_without_inertia_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Body\.inertia = 0\.0: .*allowed: > 0"):
-        Body(mass=1.0, inertia=0.0, centre=(0.0, 0.0))
-
-
 def test_negative_mass_of_a_part_is_refused() -> None:
     with pytest.raises(InputError, match=r"Part\.mass = -1\.0: .*allowed: > 0"):
         Part(mass=-1.0, centre=(0.0, 0.0))
