@@ -40,6 +40,7 @@ from support_exudyn import (
 )
 from support_exudyn.mechanics.oil_column import static_loads
 from support_exudyn.scenario.scenario_data import Accuracy
+from user_forces.normal.hysteresis import REST_VELOCITY
 from user_forces.normal.power_law import PowerLaw
 
 T = TypeVar("T")
@@ -122,17 +123,9 @@ def _contact(random: np.random.Generator, size: float, stiffness: float) -> forc
         * 1e-4 ** (1.5 - exponent),
         exponent=exponent,
         restitution=float(random.uniform(0.3, 0.98)),
-        damping_speed=_damping_speed(random),
+        rest_velocity=REST_VELOCITY if random.uniform() < 0.6 else between(random, 1e-3, 5e-2),
     )
     return forces.JournalContact(bearing=bearing, normal=normal, friction=_friction(random))
-
-
-def _damping_speed(random: np.random.Generator) -> forces.DampingSpeed:
-    return (
-        forces.IndentationVelocity()
-        if random.uniform() < 0.6
-        else forces.ImpactVelocity(floor=between(random, 1e-4, 1e-2))
-    )
 
 
 def _friction(random: np.random.Generator) -> forces.FrictionLaw:

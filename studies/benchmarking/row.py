@@ -9,7 +9,6 @@ from support_exudyn import Scenario
 from support_exudyn.formulations.registry import FORMULATIONS, FormulationName
 
 AUTO = "auto"  # the formulation that the program chooses
-GENERAL = "compiled, general"  # the compiled one by the equations of any linkage, closed forms or not
 
 
 class LeftOutError(RuntimeError):
@@ -69,7 +68,7 @@ class OurWay:
     @property
     def is_there(self) -> bool:
         """Whether this version has the formulation."""
-        return self.formulation in (AUTO, GENERAL, *FORMULATIONS)
+        return self.formulation in (AUTO, *FORMULATIONS)
 
 
 @dataclass(frozen=True)

@@ -8,14 +8,12 @@ from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
-from unittest.mock import patch
 
 from studies.benchmarking.others import BARE, IN_C, OTHERS, STOCK, Timing, connector
 from studies.benchmarking.peers.built_in import Evaluator
 from studies.benchmarking.references import errors, of_result, references, times_the_goal
 from studies.benchmarking.row import (
     AUTO,
-    GENERAL,
     LeftOutError,
     OurWay,
     Row,
@@ -29,7 +27,6 @@ from studies.benchmarking.row_scenes import SCENES
 from studies.benchmarking.scenes import SCENES as WITH_REFERENCE
 from studies.benchmarking.stopwatch import fastest
 from support_exudyn import Scenario, SimulationError, simulate
-from support_exudyn.formulations.compiled import closed_forms
 
 TURNS = 3  # in which both sides are timed one after the other; the fastest of each counts
 TOLERANCES = tuple(map(tolerance, (1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 1e-5, 1e-6)))
@@ -57,8 +54,7 @@ def _space(what: str, scene: str, plane: str) -> Row:
 
 
 ROWS: tuple[Row, ...] = (
-    Row("rise to the goal, closed form", OurWay("rise", "compiled", TOLERANCES), IN_C, "3", 5.0),
-    Row("rise to the goal, general equations", OurWay("rise", GENERAL, TOLERANCES), IN_C, "15", 5.0),
+    Row("rise to the goal, general equations", OurWay("rise", "compiled", TOLERANCES), IN_C, "15", 5.0),
     Row("rise to the goal, rigid bodies", OurWay("rise", "redundant", COARSE), STOCK, "1/10", 20.0),
     Row("the same on cylinders", OurWay("rise, cylinders", "redundant", (STEEL,)), STOCK, "1/10", 20.0),
     Row("rise on oil columns to the goal", OurWay("rise, oil", "compiled", TOLERANCES), "", "0.06 s", 5.0),
@@ -116,9 +112,6 @@ def _side(way: OurWay | str, held: ExitStack) -> tuple[str, Timing]:
     if isinstance(way, str):
         return way, held.enter_context(OTHERS[way]())
     scenario, name = SCENES[way.scene](), way.formulation
-    if name == GENERAL:  # as if there were no closed forms
-        held.enter_context(patch.object(closed_forms, "covers", return_value=False))
-        name = "compiled"
     if len(way.settings) > 1:
         setting = coarsest(way.scene, name, way.settings)
     else:

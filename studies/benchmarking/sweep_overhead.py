@@ -43,7 +43,11 @@ RUNS, MACHINES = 1000, 256
 TURNS = 2  # of each sweep of rises, of which the fastest counts
 STEPS_OF = 100  # rises whose steps are measured apart
 MOST_OVERHEAD, LEAST_GAIN, MOST_SECONDS = 0.002, 1.9, 8.0  # asked [s a run; two cores over one; s]
-RISE = replace(paper_machine.clearance_rise(1.5, 0.0, 1e-3), formulation="compiled", solver=SolverSettings())
+RISE = replace(
+    paper_machine.clearance_rise(1.5, 0.0, 1e-3, law=paper_machine.PAPERS_LAW),
+    formulation="compiled",
+    solver=SolverSettings(),
+)
 DRAWN = f"""
 method = "latin_hypercube"
 samples = {MACHINES}
@@ -63,7 +67,7 @@ pins.rear_base.clearance_mm = 1.5
 
 def rise(point: Inputs) -> Scenario:
     """The paper's rise with clearance and all channels, some milliseconds of work."""
-    joint = paper_machine.clearance_joint(float(point["clearance_mm"]), 0.0)
+    joint = paper_machine.clearance_joint(float(point["clearance_mm"]), 0.0, law=paper_machine.PAPERS_LAW)
     return replace(RISE, pins={paper_machine.CLEARANCE_PIN: joint})
 
 

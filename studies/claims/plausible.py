@@ -17,8 +17,6 @@ from studies.contact_laws.catalogue import POWER_LAWS
 from support_exudyn import ClearancePin, HydraulicSupport, OilColumn, Part, bore_area, reference_support
 from user_forces import (
     Ambrosio,
-    ImpactVelocity,
-    IndentationVelocity,
     JournalBearing,
     JournalContact,
     NormalLaw,
@@ -202,9 +200,7 @@ def _normal(sample: Sample, bearing: JournalBearing, support: HydraulicSupport) 
         POWER_LAWS[str(sample["law"])],
         number(sample, "backing"),
         restitution=number(sample, "restitution"),
-        damping_speed=ImpactVelocity(floor=1e-3)
-        if sample["damping_speed"] == "last impact"
-        else IndentationVelocity(),
+        rest_velocity=number(sample, "rest_velocity"),
     )
 
 

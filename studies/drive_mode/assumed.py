@@ -74,7 +74,9 @@ def _run(plan: ModePlan, pin: str, modulus: float, hoses: str) -> Scenario:
 
 
 def _joint(plan: ModePlan, contact: str) -> ClearancePin:
-    return paper_machine.clearance_joint(CLEARANCE_MM, plan.subject.friction, contact=contact)
+    return paper_machine.clearance_joint(
+        CLEARANCE_MM, plan.subject.friction, contact=contact, law=paper_machine.PAPERS_LAW
+    )
 
 
 def bands(results: Mapping[str, Result]) -> dict[str, Band]:

@@ -14,7 +14,6 @@ from support_exudyn import ClearancePin, CubicStep, Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.simulation.automatic_settings import cheapest, settings_for
-from user_forces import IndentationVelocity
 from user_forces.values.value import InputError
 
 CONDITIONS = ((0.25, 1.5), (0.1, 1.5), (0.25, 0.5), (0.0, 1.5))  # friction and clearance [mm], single pins
@@ -32,19 +31,6 @@ STEP = 1e-3  # [s]
 SETTINGS = SolverSettings(impact_steps=16, spectral_radius=0.8, newton_tolerance=1e-6)
 
 OWN_GOAL = 1e-2  # by which the first steps of one's own machine are chosen
-
-
-def clearance_pin(
-    friction: float, clearance_mm: float = CLEARANCE_MM, bore_radius: float = paper_machine.BORE_RADIUS
-) -> ClearancePin:
-    """The paper's pin, with a damping that forgets how its contact once began; bore_radius: [m].
-
-    With the textbook's, which remembers it, a pin that was settled gently shakes eight times as much in the
-    same rise as one that was dropped: pins could not be compared.
-    """
-    return paper_machine.clearance_joint(
-        clearance_mm, friction, bore_radius, damping_speed=IndentationVelocity()
-    )
 
 
 def case_name(
@@ -135,9 +121,7 @@ class PinPlan:
         return {pin: found[name, self.case_name((pin,), friction, clearance_mm)] for pin in self.pins}
 
     def pin(self, friction: float, clearance_mm: float) -> ClearancePin:
-        """The pin that is put into every place: the paper's, or that of all studies of one's own machine."""
-        if self.subject.is_paper:
-            return clearance_pin(friction, clearance_mm)
+        """The pin that is put into every place: that of all studies of the machine."""
         return self.subject.clearance_pin(clearance_mm, friction)
 
     @cached_property

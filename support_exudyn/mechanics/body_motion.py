@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage
+from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage, Slide
 from support_exudyn.model.plane_geometry import minus
 from user_forces.values.value import Vector2
 
@@ -119,6 +119,13 @@ class BodyMotion:
             arm,
             self.velocity[:, i : i + 2],
         )
+
+    def sliding(self, slide: Slide) -> tuple[Series, Series]:
+        """Direction of a guide (n, 2), and speed of its point along the guide (n,) [m/s]."""
+        angle = slide.direction + self.turn(slide.against)
+        along = pairs(np.cos(angle), np.sin(angle))
+        guided, carrier = self.point(slide.body, slide.point), self.point(slide.against, slide.point)
+        return along, (along * (guided.velocity - carrier.velocity)).sum(axis=1)
 
     def lengthening(self, actuator: LinearActuator) -> tuple[Series, Series]:
         """Length of an actuator (n,) [m] and its rate (n,) [m/s]."""

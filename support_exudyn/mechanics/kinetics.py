@@ -9,9 +9,8 @@ velocities dv and the impulses L under generalised impulses b and a change c of 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
@@ -175,28 +174,12 @@ class Kinetics:
             solution = np.linalg.lstsq(system, right, rcond=None)[0]
         return solution[:size], solution[size:]
 
-    def pin_inverse_mass(
-        self, position: Matrix, name: str, pressed: Mapping[str, Matrix] = MappingProxyType({})
-    ) -> Matrix:
-        """Answer of a clearance pin's eccentricity to an impulse in it: J dv per impulse (2, 2) [1/kg].
+    def inverse_mass(self, position: Matrix, rate: Matrix) -> Matrix:
+        """Answer of rates to impulses in them, J dv per impulse (k, k) [1/kg], J the rows of the rates (k, n).
 
             M dv + C^T L = J^T,   C dv = 0
 
-        with J the rows that give the rate of the eccentricity. The inverse of n J dv n is the mass that an
-        impact along n feels. Other clearance pins transmit no impulse.
-
-        pressed: normals (2,) of other pins by name. Each adds a row to J, so that the answers, (2 + m, 2 + m),
-        tell what holding it changes; see `pressed.inverse effective masses`.
+        Of a clearance pin's eccentricity the inverse of n J dv n is the mass that an impact along n moves.
         """
-        rates = [self.relative(position, self.linkage.pins[name])[1]]
-        rates += [
-            along[None] @ self.relative(position, self.linkage.pins[other])[1]
-            for other, along in pressed.items()
-        ]
-        return self.inverse_mass(position, rates)
-
-    def inverse_mass(self, position: Matrix, rates: Sequence[Matrix]) -> Matrix:
-        """J dv per impulse (k, k) [1/kg] with rows J of rates, see `pin_inverse_mass`."""
-        rate = np.concatenate(rates)
         answers: Matrix = (rate @ self.respond(position, rate.T, 0.0)[0]).T
         return answers

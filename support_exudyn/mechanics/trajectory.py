@@ -106,6 +106,7 @@ class Trajectory:
     time (n,) [s]. position, velocity, acceleration (n, 3 b): x, y, turn of each body in the order of
     `Linkage.bodies`, positions from those at the start. ideal_pins: force of the first body on the second
     (n, 2) [N], by name. friction_moments: of ideal pins with friction, on the second body (n,) [N m].
+    friction_forces: of ideal guides with friction, on the body along the guide (n,) [N].
     contacts: clearance pins by name. actuators: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all actuators (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
@@ -127,6 +128,7 @@ class Trajectory:
     damping_loss: Series
     friction_loss: Series
     friction_moments: Mapping[str, Series] = field(default_factory=dict)
+    friction_forces: Mapping[str, Series] = field(default_factory=dict)
     loads: Mapping[str, LoadSeries] = field(default_factory=dict)
     cylinders: Mapping[str, CylinderSeries] = field(default_factory=dict)
     legs: Mapping[str, LegSeries] = field(default_factory=dict)

@@ -7,6 +7,7 @@ from typing import Any
 
 from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, Formulation, formulation
 from support_exudyn.model.pins import ClearancePin, Pin
+from support_exudyn.postprocessing.contact_description import contact_lines
 from support_exudyn.postprocessing.figures.selection import inside
 from support_exudyn.postprocessing.figures.units import readable, said
 from support_exudyn.postprocessing.shown_numbers import AT_ANY_STEP, label, shown
@@ -76,7 +77,10 @@ def how(result: Result) -> list[Row]:
     steps = f"tolerance {scenario.solver.tolerance:g}"
     if not scenario.chooses_steps:
         steps = f"steps of {said(scenario.step, 's')} and less, {scenario.solver.impact_steps} to an impact"
+    contacts, warnings = contact_lines(scenario), result.warnings
     return [
+        *([("contact", "\n".join(contacts))] if contacts else []),
+        *([("warning", "\n".join(warnings))] if warnings else []),
         ("formulation", f"{_formulation(result)}; {steps}"),
         ("accuracy", accuracy),
         ("counts", ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in made if count)),

@@ -77,8 +77,8 @@ def timescales(scenario: Scenario) -> Timescales:
 
     a is gravity's acceleration and that of the fastest body of a machine that runs already; m the mass that
     moves with the journal in the start posture along the load, which is that of the weight on ideal pins, or
-    the smallest mass times a if there is no weight. It is the mass with all other clearance pins open; held by
-    those that are pressed it is larger, and the vibration slower.
+    the smallest mass times a if there is no weight. It is the mass with all other clearance pins open; while
+    others press it is larger, and the vibration slower.
     """
     linkage = scenario.linkage
     pull = _pull(scenario, kinetics_of(linkage))
@@ -216,9 +216,8 @@ def _running(scenario: Scenario, closed: Kinetics) -> float:
 
 def _inverse_mass(scenario: Scenario, place: ContactPlace) -> Matrix:
     """Inverse effective mass of a journal in the start posture, ground's axes (2, 2) [1/kg]."""
-    linkage = scenario.guided_linkage
-    still, free = np.zeros(3 * len(linkage.bodies)), kinetics_of(linkage, scenario.held_pins)
-    return free.inverse_mass(still, [place.relative(free, still)[1]])
+    still = np.zeros(3 * len(scenario.linkage.bodies))
+    return scenario.open_kinetics.inverse_mass(still, place.rate(scenario.open_kinetics, still))
 
 
 def _drive_time(scenario: Scenario, linkage: Linkage) -> float:

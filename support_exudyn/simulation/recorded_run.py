@@ -13,6 +13,7 @@ from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Series
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.provenance import WARNINGS
 from user_forces.values.names import Named, UnknownNameError, no_attribute
 from user_forces.values.value import InputError, short
 
@@ -61,6 +62,11 @@ class RecordedRun:
 
         def __getattr__(self, name: str) -> Any:
             return no_attribute(self, name, f"; channels are taken by name, {type(self).__name__}['time']")
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences on friction that a law cannot hold, see `slow_slip`."""
+        return tuple(self.provenance.get(WARNINGS, "").splitlines())
 
     def __repr__(self) -> str:
         """In a line; all else is asked for by name."""

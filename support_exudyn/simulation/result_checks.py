@@ -15,7 +15,7 @@ from support_exudyn.mechanics.contact_history import of_depth
 from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.lawful import UNLAWFUL
+from user_forces.lawful import UNLAWFUL, is_own
 from user_forces.values.value import Vector2
 
 # Energy that the balance may be open by, as a share of what was turned over: kinetic, potential and elastic
@@ -81,7 +81,8 @@ def _reasons(
 def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:
     """Whether what is lost becomes less, though nothing is given back but what friction laws have stored.
 
-    Laws are looked at one by one while a run goes on, too, see `lawful`; what has a state only here.
+    Laws are checked one by one during the run, see `lawful`; laws with a state only here. By as much as the
+    balance is open, the integral of a loss may be off, too.
     """
     largest = max(outcome.largest_force.values(), default=0.0)
     stored = sum(
@@ -92,6 +93,7 @@ def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel
         if contact.deflection is not None
     )
     time, allowed = channels["time"].values, GIVEN_BACK * turned_over(channels) + rounding_of_energy(scenario)
+    allowed += float(energy_open(scenario, channels)[0].max())
     lost = {name: channels[ENERGY + name].values for name in ("damping_loss", "friction_loss")}
     for name, more in (("damping_loss", 0.0), ("friction_loss", stored)):
         back = np.maximum.accumulate(lost[name]) - lost[name]
@@ -100,9 +102,17 @@ def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel
             yield Failure(
                 f"{ENERGY}{name} becomes less by {back.max():.3g} J; allowed: {allowed + more:.3g} J, "
                 f"{_who_loses(scenario, name)}",
-                UNLAWFUL,
+                UNLAWFUL if _has_own_law(scenario) else COARSE,
                 float(time[first]),
             )
+
+
+def _has_own_law(scenario: Scenario) -> bool:
+    """Whether a user's class takes part in what is lost: those of the package keep to the signs of losses."""
+    laws: list[object] = [*scenario.acting_loads.values(), *scenario.actuators.values()]
+    for joint in (*scenario.pins.values(), *scenario.guides.values()):
+        laws += joint.losses().values()
+    return any(map(is_own, laws))
 
 
 def _who_loses(scenario: Scenario, kind: str) -> str:

@@ -37,8 +37,6 @@ from user_forces import (
     Ambrosio,
     Exact,
     Frictionless,
-    ImpactVelocity,
-    IndentationVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,

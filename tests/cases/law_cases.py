@@ -32,7 +32,6 @@ from user_forces import (
     Hertz,
     HuGuo,
     HuntCrossley,
-    Impact,
     Johnson,
     JournalBearing,
     KelvinVoigt,
@@ -160,6 +159,6 @@ def rebound(force: Callable[[float, float], float], mass: float, speed: float, d
 
 def law_rebound(law: NormalLaw, mass: float, speed: float) -> float:
     """The same for a law."""
-    impact = Impact(speed, mass)
+    impact = speed
     depth = law.turning_depth(0.5 * mass * speed**2)
     return rebound(lambda x, rate: law(x, rate, impact), mass, speed, depth)

@@ -18,8 +18,6 @@ from user_forces import (
     Ambrosio,
     FrictionLaw,
     Frictionless,
-    ImpactVelocity,
-    IndentationVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,

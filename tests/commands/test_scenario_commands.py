@@ -47,7 +47,6 @@ RUBBING = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
 SCENARIOS = {
     "redundant": BASE,
     "compiled": replace(BASE, machine=reference_support(), formulation="compiled", actuators=oil_columns()),
-    "closed forms": replace(BASE, formulation="compiled", solver=replace(BASE.solver, tolerance=1e-6)),
     "space": replace(BASE, dimensions=3, duration=0.02, record_period=0.005),
     "accuracy": replace(BASE, accuracy="draft", channels=("tip.*",)),
     "oil": replace(BASE, actuators=oil_columns(), start="settled"),

@@ -26,7 +26,7 @@ from support_exudyn.formulations.redundant.space.sections import Section
 from support_exudyn.mechanics.space.motion import UNTURNED, turning_matrix
 from tests.cases.law_cases import NORMAL_LAWS
 from tests.cases.machine_cases import contact
-from user_forces import Exact, Frictionless, Impact, JournalContact
+from user_forces import Exact, Frictionless, JournalContact
 from user_forces.compilation.flat import compiled
 
 PLACES = (-0.2, 0.0, 0.2)
@@ -133,7 +133,7 @@ def test_forces_are_those_of_all_sections_and_keep_momenta(
         if geometry.at not in (Attachment.LINE, Attachment.SPACE):
             mine = force["last"][PARTS * n : PARTS * n + PARTS]
             np.testing.assert_allclose(mine[:2] + mine[3:5], (x, y, vx, vy), rtol=0.0, atol=1e-13)
-        one = contacts[n].force(x, y, vx, vy, bore_spin, spin, Impact(SPEED, MASS))
+        one = contacts[n].force(x, y, vx, vy, bore_spin, spin, SPEED)
         if isinstance(of.friction, Frictionless):  # it acts along both centres
             expected -= one.normal_force * apart / np.linalg.norm(apart)
         else:

@@ -14,12 +14,10 @@ from tests.processes import environment
 RUN = """
 from dataclasses import replace
 from support_exudyn import SolverSettings, simulate
-from tests.closed_forms import general_equations
 from tests.formulations.test_compiled_agrees import SCENES
 for name, made in SCENES.items():
     scene = replace(made(), formulation="compiled", solver=SolverSettings(tolerance=1e-6))
-    with general_equations():
-        simulate(replace(scene, duration=0.5 * scene.duration, record_period=scene.duration / 20.0))
+    simulate(replace(scene, duration=0.5 * scene.duration, record_period=scene.duration / 20.0))
     print(name)
 """
 

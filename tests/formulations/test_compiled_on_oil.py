@@ -36,7 +36,6 @@ from user_forces import (
     Anagnostopoulos,
     BrownMcPhee,
     Flores,
-    IndentationVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -380,7 +379,7 @@ def test_velocities_that_tear_a_pin_are_refused(formulation: Literal["redundant"
 # --- contacts that are pressed on again ---
 
 PRESSED_AGAIN = {
-    "forgets": replace(paper_contact(1.5, 0.0).normal, restitution=0.5, damping_speed=IndentationVelocity()),
+    "forgets": replace(paper_contact(1.5, 0.0).normal, restitution=0.5),
     "asks for the mass": Anagnostopoulos(stiffness=1e9, restitution=0.7),
 }
 

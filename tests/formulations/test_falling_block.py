@@ -31,7 +31,7 @@ from support_exudyn import (
     simulate,
 )
 from tests.roof_cases import MASS, OVER_THE_COLUMNS, TOP, Ram
-from user_forces import Impact, value
+from user_forces import value
 
 G = 9.81
 HEIGHT = 0.5
@@ -133,7 +133,7 @@ def test_the_weight_takes_part_of_what_is_given_back_as_in_scipy() -> None:
     assert speeds[1:4] == pytest.approx([lift_off(speed) for speed in speeds[:3]], rel=1e-5)
 
 
-def test_impulse_and_duration_are_those_of_the_closed_forms() -> None:
+def test_impulse_and_duration_are_those_of_the_formulas() -> None:
     rock = block(restitution=1.0)
     scene = replace(weightless(rock), record_period=2e-5, step=2e-5)
     result = simulate(scene)
@@ -173,7 +173,7 @@ def bounced(rock: FallingBlock, duration: float) -> list[tuple[float, float, flo
             return found
         struck = math.sqrt(v * v + 2.0 * G * y)
 
-        told = Impact(struck, rock.mass)
+        told = struck
 
         def rates(_: float, state: np.ndarray, told: Impact = told) -> list[float]:
             depth = max(-state[0], 1e-30)

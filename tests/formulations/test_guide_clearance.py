@@ -46,7 +46,6 @@ from user_forces import (
     Flores,
     Frictionless,
     HuntCrossley,
-    ImpactVelocity,
     InputError,
     LankaraniNikravesh,
     NormalLaw,
@@ -55,7 +54,7 @@ from user_forces import (
 )
 
 RUBBING = Ambrosio(sliding_coefficient=0.2, dynamic_speed=0.05)
-KEPT = Exact(stiffness=1e8, restitution=0.6, damping_speed=ImpactVelocity(floor=1e-9))
+KEPT = Exact(stiffness=1e8, restitution=0.6, rest_velocity=1e-9)
 IN_BLOCK = ClearanceGuide(gaps=(1e-3, 5e-4), normal=KEPT, friction=RUBBING, block=BLOCK)
 AS_PIN = ClearanceGuide(gaps=(1e-3, 5e-4), normal=KEPT, friction=RUBBING, pin_radius=0.02)
 GRAVITY = (0.0, -9.81)
@@ -257,7 +256,7 @@ class Block(Machine):
         Exact(stiffness=1e10, restitution=0.9),
         LankaraniNikravesh(stiffness=1e10, restitution=0.8),
         Flores(stiffness=1e10, restitution=0.5),
-        HuntCrossley(stiffness=1e10, restitution=0.7, damping_speed=ImpactVelocity()),
+        HuntCrossley(stiffness=1e10, restitution=0.7, rest_velocity=1e-3),
     ],
     ids=lambda law: type(law).__name__,
 )

@@ -13,7 +13,6 @@ from support_exudyn.formulations.compilation import plain
 from support_exudyn.formulations.compiled import depth
 from support_exudyn.formulations.compiled import landing as general
 from support_exudyn.formulations.compiled.arrays import CONTACT, REPORT
-from support_exudyn.formulations.compiled.closed_forms import integrate, layout
 
 STEP = 0.125
 
@@ -44,20 +43,7 @@ class Turning:
             assert low - 1e-9 <= x <= high + 1e-9
 
 
-def in_closed_forms(turning: Turning, guess: float) -> float:
-    def advance(p: object, segment: object, memory: object, t: float, length: float, *rest: list) -> None:
-        rest[3][layout.RATE] = turning.look(length)
-
-    start, contact, report = [0.0] * layout.CONTACT, [0.0] * layout.CONTACT, [0.0] * integrate.REPORT
-    start[layout.RATE], contact[layout.RATE] = turning.rate(0.0), turning.rate(1.0)
-    land = plain(integrate.land, advance=advance)
-    length: float = land(
-        [], [], [], 0.0, STEP, depth.RETURN, 0.0, guess, start, [], [], [], contact, [], report
-    )
-    return length
-
-
-def in_general(turning: Turning, guess: float) -> float:
+def landed(turning: Turning, guess: float) -> float:
     def advance(scene: SimpleNamespace, t: float, length: float, *rest: object) -> None:
         scene.contacts[0].rate = turning.look(length)
 
@@ -71,12 +57,11 @@ def in_general(turning: Turning, guess: float) -> float:
     return length
 
 
-@pytest.mark.parametrize("land", [in_closed_forms, in_general])
 @given(turn=st.floats(0.05, 0.95), guess=st.floats(0.02, 0.98), flat=st.floats(1.0, 8.0), late=st.booleans())
 @example(turn=0.16, guess=0.9, flat=8.0, late=False)  # the rate hardly changes from the guess on
 @example(turn=0.84, guess=0.1, flat=8.0, late=True)
 def test_a_turn_is_sought_between_the_nearest_looks_on_either_side(
-    land: object, turn: float, guess: float, flat: float, late: bool
+    turn: float, guess: float, flat: float, late: bool
 ) -> None:
     turning = Turning(turn, flat, late)
-    turning.check(land(turning, guess), guess)
+    turning.check(landed(turning, guess), guess)

@@ -20,7 +20,6 @@ from user_forces import (
     Ambrosio,
     FrictionLaw,
     Frictionless,
-    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,

@@ -151,9 +151,3 @@ def test_friction_and_radius_go_together() -> None:
             IdealPin(**given)
     with pytest.raises(InputError, match=r"IdealPin\.radius = -1\.0: .*greater than 0"):
         IdealPin(friction=Ambrosio(sliding_coefficient=0.1), radius=-1.0)
-    with pytest.raises(InputError, match=r"friction = LuGre: allowed: laws without a state"):
-        IdealPin(friction=lugre(), radius=0.1)
-
-
-def lugre() -> LuGre:
-    return LuGre(static_coefficient=0.3, sliding_coefficient=0.25)

@@ -19,7 +19,7 @@ from support_exudyn import (
 )
 from tests.cases.contact_scenes import OFF, drawn, finely, off
 from tests.cases.run_cases import PIN
-from tests.closed_forms import simulate_compiled
+from tests.compiled_runs import simulate_compiled
 from user_forces import STEEL, STEEL_35CRMO, Exact, JournalBearing, JournalContact, external_contact_stiffness
 
 REAR = "rear_column.force"

@@ -76,7 +76,6 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     "compiled": lambda t: loose_support(
         0.5, 0.25, drive=cubic(t), actuators=OILS, formulation="compiled", **SHORT
     ),
-    "closed forms": lambda t: loose_support(0.5, 0.25, drive=cubic(t), formulation="compiled", **SHORT),
     "compiled, struck": lambda t: support(
         drive=uniform(t), drives={"rear_column": table(t, "smooth")}, formulation="compiled", **SHORT
     ),

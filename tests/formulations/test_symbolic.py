@@ -46,7 +46,6 @@ from user_forces import (
     Exact,
     FrictionLaw,
     Frictionless,
-    ImpactVelocity,
     Johnson,
     JournalBearing,
     JournalContact,
@@ -65,7 +64,7 @@ CLEARANCE = BEARING.clearance
 SYSTEMS = exudyn.SystemContainer()  # expressions belong to a system of the engine
 SMOOTH = Frictionless()
 EXACT = Exact(stiffness=2.7e10, restitution=0.7)  # any normal law, for the friction laws
-TEXTBOOK = LankaraniNikravesh(stiffness=2.7e10, restitution=0.9, damping_speed=ImpactVelocity())
+TEXTBOOK = LankaraniNikravesh(stiffness=2.7e10, restitution=0.9, rest_velocity=1e-3)
 
 
 # --- the expression, outside of a simulation ---

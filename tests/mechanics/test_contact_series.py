@@ -13,13 +13,11 @@ from support_exudyn import ClearancePin
 from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
 from support_exudyn.mechanics.contact_state import PinMemory
 from tests.cases.run_cases import paper_contact
-from user_forces import Ambrosio, FrictionLaw, Frictionless, Impact, IndentationVelocity, value
+from user_forces import Ambrosio, FrictionLaw, Frictionless, value
 from user_forces.contact import SlipHistory
 
 BASE = paper_contact(1.5, 0.0)
-NORMAL = replace(
-    BASE.normal, restitution=0.5, damping_speed=IndentationVelocity()
-)  # asks for the mass that moves
+NORMAL = replace(BASE.normal, restitution=0.5)  # asks for the mass that moves
 CLEARANCE = BASE.bearing.clearance
 
 
@@ -75,7 +73,7 @@ def test_all_at_once_is_one_by_one(friction: FrictionLaw, rows: list[tuple[float
     for n, memory in enumerate(memories):
         x, y = moving.x[n], moving.y[n]
         c, s = moving.cos_bore[n], moving.sin_bore[n]
-        known = Impact(memory.impact_velocity, memory.inverse_mass.mass(c * x + s * y, c * y - s * x))
+        known = memory.impact_velocity
         motion = x, y, vx[n], vy[n], bore_spin[n], journal_spin[n]
         want = pin.contact.force(*motion, known if memory.in_contact else None, SlipHistory(0.0, 0.0, 0.0))
         for name in ("force_x", "force_y", "normal_force", "friction_force", "depth", "slip"):

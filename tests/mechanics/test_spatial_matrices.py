@@ -38,7 +38,7 @@ from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
 from support_exudyn.model.spatial_linkage import Bearing, SpatialActuator, SpatialBody, SpatialLinkage
 from tests.cases.law_cases import NORMAL_LAWS
 from tests.cases.machine_cases import contact
-from user_forces import Impact, LankaraniNikravesh, LoadError, NormalLaw
+from user_forces import LankaraniNikravesh, LoadError, NormalLaw
 from user_forces.normal.part import PartOf
 
 unit = st.floats(-1.0, 1.0, allow_subnormal=False)
@@ -289,7 +289,7 @@ def test_sections_at_equal_depth_add_up_to_the_law(
 ) -> None:
     _, weights = lobatto(number)
     parts = [PartOf(law=law, share=share) for share in weights.tolist()]
-    impact = Impact(0.05, 100.0)
+    impact = 0.05
     try:
         whole = law(depth, rate, impact), law.elastic_force(depth), law.elastic_energy(depth)
     except LoadError:

@@ -45,15 +45,12 @@ from user_forces import (
     Ambrosio,
     BrownMcPhee,
     CubicCoulomb,
-    DampingSpeed,
     Exact,
     Flores,
     FrictionLaw,
     Frictionless,
     Hertz,
     HuntCrossley,
-    ImpactVelocity,
-    IndentationVelocity,
     Johnson,
     JournalBearing,
     JournalContact,
@@ -231,24 +228,6 @@ def loads(draw: st.DrawFn, kind: Machine, level: bool) -> Mapping[str, Load]:
 
 
 @st.composite
-def in_free_coordinates(draw: st.DrawFn) -> Scenario:
-    """A support that closed forms cover, mostly with laws of the family that they have formulas of."""
-    duration = MS * draw(st.integers(15, 40))
-    compiled = draw(st.sampled_from((True, True, False)))
-    pin: Pin = draw(with_clearance(0.0655, 2.7e10, compiled, apart=True))
-    pins = {"rear_base": pin} if draw(st.integers(0, 9)) else {}
-    return Scenario(
-        machine=machine(draw(st.sampled_from(SUPPORTS[:2]))),
-        pins=pins,
-        drive=draw(strokes(duration)),
-        duration=duration,
-        record_period=MS,
-        formulation="compiled",
-        solver=SolverSettings(tolerance=TOLERANCE, impact_steps=IMPACT_STEPS),
-    )
-
-
-@st.composite
 def in_general(draw: st.DrawFn, level: bool = True) -> Scenario:
     """Any support for the compiled formulation by the equations of any linkage; `level`: see `in_bodies`."""
     if draw(st.booleans()):
@@ -314,7 +293,7 @@ def cylinders_in(made_of: Mapping[str, ActuatorModel]) -> list[str]:
 def cranks(draw: st.DrawFn, free: bool) -> Scenario:
     """The slider-crank at some thousand turns a minute, its slider's pin with clearance.
 
-    free: in its free coordinates, which closed forms cover.
+    free: for the compiled formulation.
     """
     rate = draw(between(100.0, 550.0)) * draw(st.sampled_from((1.0, -1.0)))
     compiled = free and draw(st.booleans())

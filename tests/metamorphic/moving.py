@@ -20,14 +20,11 @@ from support_exudyn import (
     Machine,
     Result,
     Scenario,
-    SliderCrank,
     SpringDamper,
     Steady,
     TorsionSpring,
 )
-from support_exudyn.formulations.compiled import closed_forms
-from support_exudyn.machines.four_bar_shield import FourBarShield
-from support_exudyn.model.linkage import Part, turned_moments
+from support_exudyn.model.linkage import turned_moments
 from user_forces import value
 
 Point = tuple[float, float]
@@ -156,59 +153,6 @@ class Moved(Machine):
         return self.inner.coupled_drive(name, lead, duration)
 
 
-def moved_machine(machine: Machine, move: Move, of_its_class: bool) -> Machine:
-    """A machine moved, of its own class where closed forms ask for that."""
-    if not of_its_class:
-        return Moved(inner=machine, along=move.along, flipped=move.flipped, shift=move.shift, about=move.about)
-    if isinstance(machine, SliderCrank):
-        assert move == UPSIDE_DOWN  # its guide is along x
-        return replace(machine, start_angle=-machine.start_angle)
-    assert isinstance(machine, FourBarShield)
-    return _moved_shield(machine, move)
-
-
-def _moved_shield(machine: FourBarShield[Any], move: Move) -> FourBarShield[Any]:
-    """A support with its start posture, moved, as its reference posture; its canopy starts level in that."""
-    start = machine.start()
-    turns = {body: getattr(start, body) for body in machine.parts}
-    anchors = {
-        "rear_link": (machine.rear_base, machine.rear_base),
-        "front_link": (machine.front_base, machine.front_base),
-        "shield": (machine.rear_shield, start.rear_shield),
-        "canopy": (machine.hinge, start.hinge),
-    }
-
-    def at_start(body: str, point: Point) -> Point:
-        (x, y), (to_x, to_y) = anchors[body]
-        c, s = math.cos(turns[body]), math.sin(turns[body])
-        dx, dy = point[0] - x, point[1] - y
-        return to_x + c * dx - s * dy, to_y + s * dx + c * dy
-
-    def part(body: str, one: Part) -> Part:
-        moments = one.moments and turned_moments(one.moments, turns[body])
-        return replace(one, centre=move.point(at_start(body, one.centre)), moments=move.moments(moments))
-
-    on_canopy = ["tip", *(pivot for strut in machine.STRUTS.values() for on, pivot in strut if on == "canopy")]
-    places = {name: getattr(start, name) for name in ("rear_shield", "front_shield", "hinge")}
-    places |= {name: at_start("canopy", getattr(machine, name)) for name in on_canopy}
-    places |= {
-        pivot: getattr(machine, pivot) if on == "ground" else at_start(on, getattr(machine, pivot))
-        for strut in machine.STRUTS.values()
-        for on, pivot in strut
-        if pivot not in places
-    }
-    places |= {name: getattr(machine, name) for name in ("rear_base", "front_base")}
-    return replace(
-        machine,
-        **{name: move.point(place) for name, place in places.items()},
-        parts={body: tuple(part(body, one) for one in parts) for body, parts in machine.parts.items()},
-        start_hinge_height=move.point(start.hinge)[1],
-        tail_hinge=None,  # a body of its own has only the redundant formulation, and there it is `Moved`
-        tail_jack_foot=None,
-        tail_jack_head=None,
-    )
-
-
 def moved_load(load: Any, move: Move) -> Any:
     """A load moved."""
     if isinstance(load, TorsionSpring):
@@ -229,10 +173,15 @@ def moved(scenario: Scenario, move: Move) -> Scenario:
         for name, pin in scenario.pins.items()
     }
     turned = move.flipped and bool(scenario.linkage.cranks)
-    of_its_class = scenario.formulation == "compiled" and closed_forms.covers(scenario)
     return replace(
         scenario,
-        machine=moved_machine(scenario.machine, move, of_its_class),
+        machine=Moved(
+            inner=scenario.machine,
+            along=move.along,
+            flipped=move.flipped,
+            shift=move.shift,
+            about=move.about,
+        ),
         gravity=move.vector(scenario.gravity),
         pins=pins,
         loads=loads,

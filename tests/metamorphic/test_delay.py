@@ -21,7 +21,6 @@ from support_exudyn import (
     SuddenOpening,
     UniformSpeed,
 )
-from support_exudyn.formulations.compiled import closed_forms
 from support_exudyn.model.drives.drive import Drive
 from tests.metamorphic import drawn
 from tests.metamorphic.moving import FROM_THE_START
@@ -34,8 +33,7 @@ def settled(scene: Scenario) -> Scenario:
     """The scene from rest, with what can be put off."""
     loads = {name: load for name, load in scene.loads.items() if not isinstance(load, FallingBlock)}
     drive = Held() if isinstance(scene.drive, Reciprocating) else scene.drive
-    start = "concentric" if scene.formulation == "compiled" and closed_forms.covers(scene) else "settled"
-    return replace(scene, start=start, loads=loads, drive=drive)
+    return replace(scene, start="settled", loads=loads, drive=drive)
 
 
 def later(scene: Scenario, dwell: float) -> Scenario:
@@ -90,10 +88,4 @@ def test_a_support_in_general(scene: Scenario, milliseconds: int) -> None:
 @given(scene=drawn.in_bodies().map(settled), milliseconds=DWELLS)
 @scenes(8)
 def test_a_support_of_bodies(scene: Scenario, milliseconds: int) -> None:
-    delayed(scene, milliseconds)
-
-
-@given(scene=drawn.in_free_coordinates().map(lambda one: settled(replace(one, pins={}))), milliseconds=DWELLS)
-@scenes(6)
-def test_a_support_with_ideal_pins_in_free_coordinates(scene: Scenario, milliseconds: int) -> None:
     delayed(scene, milliseconds)

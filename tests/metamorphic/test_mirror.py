@@ -16,12 +16,6 @@ def mirrored(scene: Scenario, mirror: Move = MIRROR) -> None:
     one.check_touches(other)
 
 
-@given(scene=drawn.in_free_coordinates())
-@scenes()
-def test_a_support_in_free_coordinates(scene: Scenario) -> None:
-    mirrored(scene)
-
-
 @given(scene=drawn.in_general())
 @scenes(8)
 def test_a_support_in_general(scene: Scenario) -> None:

@@ -23,12 +23,6 @@ def rescaled(scene: Scenario, scale: Scale) -> None:
     one.check_touches(other, 1.0 / scale.time)
 
 
-@given(scene=drawn.in_free_coordinates(), scale=scales)
-@scenes()
-def test_a_support_in_free_coordinates(scene: Scenario, scale: Scale) -> None:
-    rescaled(scene, scale)
-
-
 @given(scene=drawn.in_general(), scale=scales)
 @scenes(8)
 def test_a_support_in_general(scene: Scenario, scale: Scale) -> None:

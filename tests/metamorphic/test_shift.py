@@ -27,12 +27,6 @@ def shifted(scene: Scenario, way: tuple[float, float]) -> None:
     one.check_touches(other)
 
 
-@given(scene=drawn.in_free_coordinates(), way=WAYS)
-@scenes()
-def test_a_support_in_free_coordinates(scene: Scenario, way: tuple[float, float]) -> None:
-    shifted(scene, way)
-
-
 @given(scene=drawn.in_general(), way=WAYS)
 @scenes(8)
 def test_a_support_in_general(scene: Scenario, way: tuple[float, float]) -> None:

@@ -129,12 +129,6 @@ def cut(scene: Scenario, body: str, share: float, direction: float) -> Scenario:
 cuts = st.tuples(st.sampled_from(BODIES), drawn.between(0.2, 0.8), drawn.between(-3.0, 3.0))
 
 
-@given(scene=drawn.in_free_coordinates(), where=cuts)
-@scenes()
-def test_a_body_in_two_in_free_coordinates(scene: Scenario, where: tuple[str, float, float]) -> None:
-    run(scene).check(plain(told(cut(scene, *where))))
-
-
 @given(scene=drawn.in_general(), where=cuts)
 @scenes(6)
 def test_a_body_in_two_in_general(scene: Scenario, where: tuple[str, float, float]) -> None:

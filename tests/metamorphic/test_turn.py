@@ -5,7 +5,6 @@ from __future__ import annotations
 from hypothesis import given
 
 from support_exudyn import Scenario
-from support_exudyn.machines.four_bar_shield import FourBarShield
 from tests.metamorphic import drawn
 from tests.metamorphic.moving import Move, context, moved, turn
 from tests.metamorphic.same import run, scenes, told
@@ -18,13 +17,6 @@ def turned(scene: Scenario, way: Move) -> None:
     one, other = run(scene), told(moved(scene, way))
     one.check(context(other, way.back))
     one.check_touches(other)
-
-
-@given(scene=drawn.in_free_coordinates(), degrees=LEANING)
-@scenes()
-def test_a_support_in_free_coordinates(scene: Scenario, degrees: float) -> None:
-    assert isinstance(scene.machine, FourBarShield)
-    turned(scene, turn(degrees, about=scene.machine.start().hinge))
 
 
 @given(scene=drawn.in_general(level=False), degrees=ANY_WAY)

@@ -123,7 +123,6 @@ OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulu
 COLUMNS = ("front_column", "rear_column")
 RISES = {
     "redundant": loose_support(1.5, 0.25, **RISE),
-    "closed forms": loose_support(1.5, 0.25, formulation="compiled", **RISE),
     "compiled": loose_support(1.5, 0.25, formulation="compiled", actuators=dict.fromkeys(COLUMNS, OIL), **RISE),
     "crank": loose_slider_crank(2e-3, formulation="compiled"),
     "space": loose_support(1.5, 0.25, dimensions=3, **RISE),

@@ -28,7 +28,6 @@ from user_forces import (
     STEEL,
     STEEL_35CRMO,
     Exact,
-    IndentationVelocity,
     InputError,
     JournalBearing,
     JournalContact,

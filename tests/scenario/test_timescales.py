@@ -32,7 +32,7 @@ from tests.cases.run_cases import (
     support,
 )
 from tests.cases.run_cases import SLIDER_PIN as SLIDER
-from user_forces import Ambrosio, Hertz, Impact, JournalContact, KelvinVoigt, LoadError, LuGre, NormalLaw, value
+from user_forces import Ambrosio, Hertz, JournalContact, KelvinVoigt, LoadError, LuGre, NormalLaw, value
 
 CLEARANCE = 1.5e-3
 RADIUS, ROD = 0.05, 0.12  # of the slider-crank [m]
@@ -160,7 +160,7 @@ def test_on_the_support_the_load_is_that_of_the_ideal_pin() -> None:
         for k in slopes
     ]
     assert times[0] == pytest.approx(2.0 * times[1], rel=1e-6)
-    # IDEAL of `test_closed_forms_runs`: 58 779 N. Hertz's slope there, with the mass that the springs tell
+    # IDEAL of `test_compiled_support`: 58 779 N. Hertz's slope there, with the mass that the springs tell
     mass = times[0] ** 2 * slopes[0]
     stiffness = pin.contact.normal.stiffness
     slope = 1.5 * stiffness ** (2.0 / 3.0) * 58778.944 ** (1.0 / 3.0)
@@ -183,10 +183,10 @@ class Weak(Hertz):
     def resting_depth(self, force: float) -> float:
         raise LoadError(f"Weak: force = {force} N: allowed: less")
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         if depth > 1e-6:
             raise LoadError("Weak: too deep")
-        return super().__call__(depth, rate, impact)
+        return super().__call__(depth, rate, impact_velocity)
 
 
 def test_a_law_that_cannot_hold_the_load_is_left_to_the_run() -> None:

@@ -45,8 +45,6 @@ from user_forces import (
     FrictionLaw,
     Frictionless,
     Hertz,
-    ImpactVelocity,
-    IndentationVelocity,
     JournalContact,
     LankaraniNikravesh,
     value,

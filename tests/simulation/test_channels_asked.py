@@ -65,8 +65,7 @@ SCENES = {
         machine=ravn_slider_crank(), drive=Steady(rate=500.0), duration=0.005, step=1e-5, record_period=1e-4
     ),
     "compiled": loose_support(0.5, 0.25, **SHORT, actuators=OILS, formulation="compiled"),
-    "closed forms": loose_support(0.5, 0.25, **SHORT, formulation="compiled"),
-    "closed forms, ideal": support(**SHORT, formulation="compiled"),
+    "compiled, ideal": support(**SHORT, formulation="compiled"),
 }
 
 

@@ -37,7 +37,7 @@ from support_exudyn.simulation.estimate import (
 )
 from support_exudyn.simulation.reported_numbers import ONSETS, ROUNDING, measures
 from tests.cases.run_cases import FORCE, PIN, loose_support
-from tests.closed_forms import simulate_compiled
+from tests.compiled_runs import simulate_compiled
 from user_forces import Exact, InputError, JournalBearing, JournalContact
 
 SAFETY = FORMULATIONS["compiled"].safety  # which is what runs here

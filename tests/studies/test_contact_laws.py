@@ -20,7 +20,7 @@ from studies.contact_laws.free_impact import delivered_restitution, free_impact
 from support_exudyn import Result, simulate
 from support_exudyn.files import machines
 from tests.studies.forms import ONLY_WHOLE, ROUGH, written
-from user_forces import FrictionLaw, Frictionless, ImpactVelocity, NormalLaw
+from user_forces import FrictionLaw, Frictionless, NormalLaw
 
 ASKED = (0.1, 0.5, 0.9)  # restitutions
 

@@ -35,8 +35,6 @@ from support_exudyn.model.pin_surroundings import links_stiffness
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
-    ImpactVelocity,
-    IndentationVelocity,
     InputError,
     PinInBore,
     internal_contact_stiffness,

@@ -6,7 +6,7 @@ import pytest
 
 from studies.claims.plausible import Choice, machine
 from studies.claims.plausible_runs import scenario
-from tests.closed_forms import simulate_compiled
+from tests.compiled_runs import simulate_compiled
 
 # no. 695 of 1024: the contact's force comes down to the cut of tension and turns there
 GRAZING: dict[str, Choice] = {

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from support_exudyn import Drive, Machine
 from tests import strategies as some
 from tests.sound import sound_drive, sound_machine
-from user_forces import FrictionLaw, Impact, JournalContact, LoadError, NormalLaw
+from user_forces import FrictionLaw, JournalContact, LoadError, NormalLaw
 
 depths = st.floats(1e-18, 1e-2)
 rates = st.floats(-100.0, 100.0)

@@ -11,10 +11,6 @@ from scipy.integrate import quad, solve_ivp
 from tests.analytic import contact_time, delivered_restitution, greatest_depth, reduced_mass
 from tests.often import often
 from user_forces import (
-    DampingSpeed,
-    Impact,
-    ImpactVelocity,
-    IndentationVelocity,
     InputError,
     LankaraniNikravesh,
 )
@@ -37,7 +33,7 @@ def law(**changes: object) -> LankaraniNikravesh:
 
 def closed(speed: float) -> Impact:
     """An impact of this speed; without influence on the textbook law, the mass is any."""
-    return Impact(speed=speed, mass=500.0)
+    return speed
 
 
 def impact(normal: LankaraniNikravesh, one: float, two: float, speed: float) -> tuple[float, float, float]:
@@ -47,7 +43,7 @@ def impact(normal: LankaraniNikravesh, one: float, two: float, speed: float) -> 
     """
     depth_scale = greatest_depth(normal.stiffness, normal.exponent, reduced_mass(one, two), speed)
     time_scale = depth_scale / speed
-    impact = Impact(speed, reduced_mass(one, two))
+    impact = speed
 
     def motion(_: float, y: np.ndarray) -> list[float]:
         depth, rate = (y[0] - y[2]) * depth_scale, (y[1] - y[3]) * speed
@@ -178,12 +174,12 @@ def test_damping_is_inverse_to_the_approach_speed() -> None:
 
 @pytest.mark.parametrize("speed", [0.0, 1e-9, 4.9e-3])
 def test_very_soft_closing_is_damped_as_at_the_floor(speed: float) -> None:
-    normal = law(damping_speed=ImpactVelocity(floor=5e-3))
+    normal = law(rest_velocity=5e-3)
     assert normal(1e-4, 0.1, closed(speed)) == normal(1e-4, 0.1, closed(5e-3))
 
 
 def test_floor_does_not_touch_faster_approach() -> None:
-    high, low = law(damping_speed=ImpactVelocity(floor=5e-3)), law(damping_speed=ImpactVelocity(floor=1e-6))
+    high, low = law(rest_velocity=5e-3), law(rest_velocity=1e-6)
     # rounding
     assert high(1e-4, 0.1, closed(0.2)) == pytest.approx(low(1e-4, 0.1, closed(0.2)), rel=1e-15)
 
@@ -204,7 +200,7 @@ def test_force_by_hand_of_a_contact_pressed_deeper_than_its_touch_would() -> Non
     # stored: 4e10 (1e-4)^2.5 / 2.5 = 1.6 J, which a mass of 80 kg has at 0.2 m/s; the impact was softer
     normal = law(stiffness=4e10, restitution=0.6)
     # rounding
-    assert normal(1e-4, 0.05, Impact(0.1, 80.0)) == pytest.approx(44800.0, rel=1e-13)
+    assert normal(1e-4, 0.05, 0.1) == pytest.approx(44800.0, rel=1e-13)
 
 
 def test_the_default_is_that_a_loaded_contact_is_damped_by_its_depth() -> None:

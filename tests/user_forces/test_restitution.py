@@ -23,7 +23,6 @@ from user_forces import (
     Hertz,
     HuGuo,
     HuntCrossley,
-    ImpactVelocity,
     Johnson,
     JournalBearing,
     JournalContact,
@@ -139,7 +138,7 @@ def test_any_mass_stiffness_speed_and_step(
 ) -> None:
     chosen = law(stiffness=stiffness, restitution=asked, exponent=exponent)
     if textbook:
-        chosen = replace(chosen, damping_speed=ImpactVelocity(floor=1e-3))  # not above the speeds tried
+        chosen = replace(chosen, rest_velocity=1e-3)  # not above the speeds tried
     tried = scenario(chosen, bore_mass, journal_mass, speed)
     # a step that leaves hundreds of them in the run, so that the test stays fast
     tried = replace(tried, step=min(0.1, max(step, 3e-3 * tried.duration)))
@@ -188,7 +187,7 @@ BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0015)
         Liu(bearing=BEARING, length=0.1, effective_modulus=1.1e11, restitution=0.6),
     ],
 )
-def test_other_laws_deliver_their_closed_forms(law: Any) -> None:
+def test_other_laws_deliver_their_formulas(law: Any) -> None:
     expected = law.delivered_restitution(1.2) if isinstance(law, KelvinVoigt) else law.delivered_restitution
     result = simulate(scenario(law))
     # a force that jumps at the impact costs some accuracy: 2e-5

@@ -173,11 +173,12 @@ class ShortForms:
         short = reader.value(ShortPin, item, place)
         if isinstance(short, Failed) or self.data is None:
             return FAILED
-        if short.clearance == 0.0:  # as at the end of a sweep over clearances
-            return IdealPin()
         try:
             name = place[-1]
-            return pin_in_machine(short, self.data.machine, name, self.data.bore_radii.get(name))
+            radius = self.data.bore_radii.get(name)
+            if short.clearance == 0.0:  # as at the end of a sweep over clearances
+                return short.ideal(radius)
+            return pin_in_machine(short, self.data.machine, name, radius)
         except InputError as error:
             if short.bore_radius is None and place[-1] not in self.data.bore_radii:
                 bores = ", ".join(self.data.bore_radii) or "no pin"
@@ -192,11 +193,12 @@ class ShortForms:
         if not isinstance(item, dict) or "type" in item:
             return None
         if "ideal" in item:
-            if item != {"ideal": True}:
-                told = "true, alone; a guide with clearance has a clearance_mm instead"
-                reader.faults.wrong((*place, "ideal"), item["ideal"], told)
+            if item["ideal"] is not True:
+                reader.faults.wrong(
+                    (*place, "ideal"), item["ideal"], "true; a guide with clearance has a clearance_mm instead"
+                )
                 return FAILED
-            return IdealGuide()
+            return reader.value(IdealGuide, {key: one for key, one in item.items() if key != "ideal"}, place)
         short = reader.value(ShortGuide, item, place)
         if isinstance(short, Failed) or self.data is None:
             return FAILED

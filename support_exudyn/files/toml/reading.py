@@ -21,7 +21,7 @@ from support_exudyn.files.toml.shapes import (
 )
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Unit
-from user_forces.values.value import DEEPEST, LARGEST, InputError, Value, removed_fields
+from user_forces.values.value import DEEPEST, LARGEST, InputError, Value, of_earlier_version, removed_fields
 
 V = TypeVar("V", bound=Value)
 SMALLEST_EXPONENT = -1000  # of a decimal; what is smaller is 0
@@ -80,7 +80,7 @@ class Reader:
         keys = {key: one for one in shapes.values() for key in one.keys}
         given: dict[str, Any] = {}
         by: dict[str, str] = {}
-        for key, item in table.items():
+        for key, item in of_earlier_version(cls, table).items():
             here = (*place, key)
             if key == "type":
                 continue

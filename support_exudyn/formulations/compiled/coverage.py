@@ -45,10 +45,12 @@ def _check_written(scenario: Scenario) -> None:
         for name, place in scenario.contact_places.items():
             where = f"{place.of}.contact" if name in scenario.pins else place.of
             law_source(place.contact)
-        for name, pin in scenario.friction_pins.items():
-            where = f"pins.{name}.friction"
-            assert pin.friction is not None  # pins without are left out
-            friction_source(pin.friction)
+        rubs = {f"pins.{name}": pin.friction for name, pin in scenario.friction_pins.items()}
+        rubs |= {f"guides.{name}": guide.friction for name, guide in scenario.friction_guides.items()}
+        for name, friction in rubs.items():
+            where = f"{name}.friction"
+            assert friction is not None  # joints without are left out
+            friction_source(friction)
         for name, load in scenario.acting_loads.items():
             where = f"loads.{name}"
             load_source(load)

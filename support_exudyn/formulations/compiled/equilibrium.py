@@ -119,7 +119,7 @@ def centre(scene: SceneArrays, centring: Centring, n: int, y: Vector) -> None:
     if contact.depth > 0.0:
         depth = min(contact.depth, centring.deepest[n])
         constants = scene.constants[contact.constants :]
-        call_law(contact.law, depth, 0.0, 0.0, 1.0, 1.0, 0.0, constants, scene.out)
+        call_law(contact.law, depth, 0.0, 0.0, 1.0, 0.0, constants, scene.out)
         force += centring.soft[n] * scene.out[1] * contact.depth / depth
     contact.fx, contact.fy = -force * contact.nx, -force * contact.ny
     contact.closed = 1.0

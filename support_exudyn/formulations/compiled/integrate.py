@@ -23,13 +23,12 @@ from support_exudyn.formulations.compiled.arrays import (
     Vector,
 )
 from support_exudyn.formulations.compiled.beginning import begin_run, jump
-from support_exudyn.formulations.compiled.changes import happen, renew_masses
+from support_exudyn.formulations.compiled.changes import happen
 from support_exudyn.formulations.compiled.depth import (
     CUT,
     CUT_MET,
     IMPACT,
     NOTHING,
-    RETURN,
     SEPARATION,
     SHORT,
     TOO_LONG,
@@ -128,15 +127,11 @@ def take_up(
         evaluate(scene, t, y, room.slope, right)  # places and factors are those of what was looked at last
         if not happen(scene, n, what, t, y, onsets, report):
             return TOO_MANY_IMPACTS
-        if what in (IMPACT, RETURN):
-            renew_masses(scene, room, n, what, t, y, onsets, report)
     evaluate(scene, t, y, rates[0], right)
     copy_contacts(scene.contacts, now)
     keep_gaps(scene, room.gaps)
     # whatever rounding says
-    if not passes and what == RETURN:
-        now[n].rate = max(0.0, now[n].rate)
-    elif not passes and what == CUT:
+    if not passes and what == CUT:
         now[n].push = 1e-30 if was_cut else -1e-30
     return FINISHED
 
@@ -269,7 +264,7 @@ def integrate(
         copy_contacts(then, scene.contacts)
         note_peaks(scene, room, t, h, report)
         report[ACCEPTED] += 1
-        report[CUTS] += what not in (NOTHING, RETURN) or oil == GAP
+        report[CUTS] += what != NOTHING or oil == GAP
         count_cuts(going, what)
         write_records(scene, room, t, h, stop + CLOSE if last else t + h, times, rows, report)
         copy_contacts(then, scene.contacts)

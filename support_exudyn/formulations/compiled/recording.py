@@ -66,7 +66,7 @@ def peak(
 def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Vector) -> None:
     """Write a record of what has been evaluated at t [s].
 
-    That is the state, accelerations, multipliers, what contacts remember, courses, moments of friction.
+    That is the state, accelerations, multipliers, what contacts remember, courses, friction of joints.
     """
     row[0] = t
     i, count = 1, 3 * scene.bodies.size
@@ -81,19 +81,13 @@ def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Ve
     i += scene.rows.size
     for k in range(scene.contacts.size):
         one = scene.contacts[k]
-        row[i], row[i + 1], row[i + 2], row[i + 3], row[i + 4] = (
-            one.closed,
-            one.impact_velocity,
-            one.xx,
-            one.xy,
-            one.yy,
-        )
+        row[i], row[i + 1] = one.closed, one.impact_velocity
         i += MEMORY
     for k in range(scene.courses.size):
         row[i], row[i + 1] = scene.courses[k].value, scene.courses[k].rate
         i += 2
     for k in range(scene.rubbing.size):
-        row[i] = scene.rubbing[k].moment
+        row[i] = scene.rubbing[k].force
         i += 1
 
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from support_exudyn.formulations.compiled import closed_forms
 from support_exudyn.formulations.compiled.arrays import (
     ACCEPTED,
     CLAMPED,
@@ -42,7 +41,7 @@ from support_exudyn.model.hydraulic_cylinder import Inlet
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.expressions.scalar import maximum
 from user_forces.lawful import UNLAWFUL, LawError, look
-from user_forces.normal.law import Impact, LoadError
+from user_forces.normal.law import LoadError
 
 FIRST_STEP = 1e-5  # [s]
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
@@ -136,13 +135,6 @@ class _Run:
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:
     """Run a scenario. Raises SimulationError if it cannot be finished."""
-    if closed_forms.covers(scenario):
-        return closed_forms.run(scenario, progress)
-    return run_general(scenario, progress)
-
-
-def run_general(scenario: Scenario, progress: Progress) -> Outcome:
-    """Run a scenario by the equations of any linkage. Raises SimulationError if it cannot be finished."""
     going = _Run(model_of(scenario))
     going.go(progress)
     if going.code == FINISHED and not np.isfinite(going.rows.sum()):
@@ -223,8 +215,7 @@ def _broken_law(going: _Run) -> tuple[str, str] | None:
         contact = going.scenario.contact_places[name].contact
         depth, rate, slip = (float(record[f"asked_{what}"]) for what in ("depth", "rate", "slip"))
         try:
-            impact = Impact(float(record["impact_velocity"]), float(record["asked_mass"]))
-            asked = contact.normal(depth, rate, impact)
+            asked = contact.normal(depth, rate, float(record["impact_velocity"]))
             normal, elastic = maximum(asked, 0.0), contact.normal.elastic_force(depth)
             friction = contact.friction(slip, normal, float(record["asked_deflection"]))
             look(contact, depth, rate, slip, normal, friction, elastic, name)

@@ -27,8 +27,9 @@ from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import Load
 from support_exudyn.model.loads.stretch_load import StretchLoad
+from support_exudyn.model.pins import IdealPin
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.compilation.flat import asks_for_mass, friction_source, law_source
+from user_forces.compilation.flat import friction_source, law_source
 from user_forces.lawful import LawError
 from user_forces.values.value import Vector2
 
@@ -121,7 +122,8 @@ def model_of(scenario: Scenario) -> Model:
     loads = _loads(scenario, build, sources, of_loads)
     bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
-    rubbing = _rubbing(scenario, build, joints)
+    rubbing = _rubbing(scenario, build, joints, states)
+    states += int((rubbing["state"] >= 0).sum())
     scene = SceneArrays(
         bodies=_bodies(scenario),
         points=_points(build, linkage),
@@ -303,10 +305,7 @@ def _contact(record: Any, place: ContactPlace, build: _Builder, linkage: Linkage
     # distance of the contact point from the bore's centre at no depth, less the clearance in a slot
     record["radius"] = bearing.contact_arms(0.0)[1] if bearing.is_slot else bearing.contact_arms(0.0)[0]
     record["angle"] = place.axes(linkage)
-    record["forgets"] = contact.normal.forgets
-    record["renews"] = contact.normal.forgets or asks_for_mass(contact)
     record["state"] = states if contact.friction.has_state else -1
-    record["xx"] = record["yy"] = 1.0
     return states + contact.friction.has_state
 
 
@@ -384,14 +383,27 @@ def _bushings(scenario: Scenario, build: _Builder) -> Records:
     return found
 
 
-def _rubbing(scenario: Scenario, build: _Builder, joints: Records) -> Records:
-    pins, held = scenario.friction_pins, list(scenario.held_pins)
-    found = np.zeros(len(pins), arrays.RUBBING)
-    for record, (name, pin) in zip(found, pins.items(), strict=True):
-        place = scenario.linkage.pins[name]
-        record["row"] = joints[held.index(name)]["row"]
-        record["body"], record["other"] = build.numbers[place.second], build.numbers[place.first]
-        assert pin.friction is not None  # pins without are left out
-        record["law"], record["constants"] = build.law(friction_source(pin.friction))
-        record["radius"] = pin.radius or 0.0  # goes with friction
+def _rubbing(scenario: Scenario, build: _Builder, joints: Records, states: int) -> Records:
+    """Friction of ideal pins, then of ideal guides; states: how many the state has without theirs."""
+    rubs, held = {**scenario.friction_pins, **scenario.friction_guides}, list(scenario.held_pins)
+    slides = dict(zip(scenario.guided_linkage.slides, joints[joints["kind"] == arrays.SLIDE], strict=True))
+    found = np.zeros(len(rubs), arrays.RUBBING)
+    for record, (name, joint) in zip(found, rubs.items(), strict=True):
+        assert joint.friction is not None  # joints without are left out
+        record["law"], record["constants"] = build.law(friction_source(joint.friction))
+        record["state"] = states if joint.friction.has_state else -1
+        states += joint.friction.has_state
+        if isinstance(joint, IdealPin):
+            place = scenario.linkage.pins[name]
+            record["row"], record["kind"] = joints[held.index(name)]["row"], arrays.BOLT
+            record["body"], record["other"] = build.numbers[place.second], build.numbers[place.first]
+            record["radius"] = joint.radius or 0.0  # goes with friction
+            continue
+        slide, row = scenario.linkage.slides[name], slides[name]
+        record["kind"] = arrays.BLOCK if joint.block else arrays.GUIDED
+        record["body"], record["other"] = build.numbers[slide.body], build.numbers[slide.against]
+        for what in ("row", "first", "second", "angle"):
+            record[what] = row[what]
+        record["radius"] = joint.pin_radius or 0.0
+        record["half_length"], record["half_height"] = (0.5 * side for side in joint.block or (0.0, 0.0))
     return found

@@ -174,7 +174,9 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
     }
     found = Following(velocity[:, :0], JointForces(), {}, {})
     if needed & FOLLOWING:
-        found = following(scene, motion, history.time, Applied(contacts, compliant, compliant_actuators, loads))
+        applied = Applied(contacts, compliant, compliant_actuators, loads)
+        found = following(scene, motion, history.time, applied, history.deflection)
+    frictions = found.frictions
     return Trajectory(
         time=history.time,
         position=position,
@@ -182,7 +184,14 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         acceleration=found.acceleration,
         ideal_pins=found.joints.pins,
         contacts=contacts,
-        friction_moments=found.friction_moments,
+        friction_moments={
+            name: pin.radius * frictions[f"pins.{name}"]  # type: ignore[operator] - goes with friction
+            for name, pin in scene.scenario.friction_pins.items()
+            if frictions
+        },
+        friction_forces={
+            name: frictions[f"guides.{name}"] for name in scene.scenario.friction_guides if frictions
+        },
         actuators={**found.actuators, **compliant_actuators},
         cranks=found.joints.cranks,
         slides=found.joints.slides,

@@ -23,7 +23,8 @@ class History:
     """Raw states at the records, one row each; see `channels` for what they mean.
 
     time (n,); position, velocity (n, coordinates); memory (n, clearance pins, fields of PinMemory);
-    pressure (n, 2 cylinders) as the engine has it; legs (n, states) of legs with elements; work, damping_loss,
+    pressure (n, 2 cylinders) as the engine has it; legs (n, states) of legs with elements; deflection (n, ideal
+    joints with friction), states of their laws; work, damping_loss,
     friction_loss (n,) [J]. What was not to be kept has rows without columns; integrals that were not are zero.
     """
 
@@ -33,6 +34,7 @@ class History:
     memory: np.ndarray
     pressure: np.ndarray
     legs: np.ndarray
+    deflection: np.ndarray
     work: np.ndarray
     damping_loss: np.ndarray
     friction_loss: np.ndarray
@@ -67,6 +69,7 @@ class Recorder:
         self._looks = scene.scenario.solver.result_checks  # whether what is lost is
         self._driven = tuple((parts, parts.multipliers, parts.oil) for parts in scene.driven)
         self._frictions = tuple(scene.frictions.items())
+        self._deflections = array("d")
         self._loads = tuple(scene.loads.items())
         self._cylinders = tuple(scene.cylinders.values())
         self._legs = scene.legs
@@ -160,6 +163,7 @@ class Recorder:
             if keep and part is not None:
                 rows.frombytes(part.tobytes())
         self._totals.extend(totals)
+        self._deflections.extend(friction.deflection for _, friction in self._frictions)
 
     def _length(self, item: OilColumnItem) -> float:
         """Length [m] of an oil column."""
@@ -179,6 +183,7 @@ class Recorder:
             memory.reshape(time.size, pins, len(PinMemory._fields)),
             np.array(self._pressures).reshape(time.size, -1 if self._pressures else 0),
             np.array(self._leg_states).reshape(time.size, -1 if self._leg_states else 0),
+            np.array(self._deflections).reshape(time.size, len(self._frictions)),
             *np.array(self._totals).reshape(time.size, 3).T,
         )
 

@@ -91,8 +91,9 @@ class SolverRun:
         self.locates = scenario.solver.locate
         self.impact_steps = scenario.solver.impact_steps
         # what a load does need not show in accelerations, and long steps would pass over where it begins
-        # and pressures are not interpolated at records that a step passes over
-        grows = scenario.solver.growth > 1.0 and not (scene.loads or scene.cylinders or scene.legs.names)
+        # and pressures and states of friction are not interpolated at records that a step passes over
+        states = scene.cylinders or scene.legs.names or any(one.law.has_state for one in self.frictions)
+        grows = scenario.solver.growth > 1.0 and not (scene.loads or states)
         self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
@@ -201,7 +202,8 @@ class SolverRun:
 
     def _before_try(self, mbs: Any, t: float) -> bool:
         """Prepare every attempt at a step that would end at t."""
-        if self.trying:
+        again = self.trying
+        if again:
             self.repeated = True
             if self.legs.wants_cut or any(pin.wants_cut for pin in self.pins):
                 self.cut_steps += 1
@@ -212,6 +214,8 @@ class SolverRun:
         self.scene.drive_to(t)
         step = float(self.solver.it.currentStepSize)
         self.legs.begin_try(step)
+        for friction in self.frictions:
+            friction.begin_try(step, again)
         if self.pins:
             for pin in self.pins:
                 pin.begin_try(step)

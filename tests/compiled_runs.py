@@ -1,62 +1,26 @@
-"""The compiled formulation at a tolerance, in closed forms or in general, and the engine for comparison."""
+"""The compiled formulation at a tolerance, and the engine for comparison."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from support_exudyn import Result, Scenario, simulate
-from support_exudyn.formulations.compiled import closed_forms
-from support_exudyn.formulations.compiled.closed_forms import setup
 from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.scenario.solver_settings import MOST_STEPS
 
 
 def simulate_compiled(
     scenario: Scenario,
-    tolerance: float = 1e-7,
+    tolerance: float = 1e-8,
     backend: str = "auto",
     progress: Progress = silent,
     most_steps: int = MOST_STEPS,
 ) -> Result:
-    """Run a scenario by the compiled formulation, in closed forms where these cover it."""
+    """Run a scenario by the compiled formulation."""
     solver = replace(scenario.solver, tolerance=tolerance, backend=backend, most_steps=most_steps)
     return simulate(replace(scenario, formulation="compiled", solver=solver), progress=progress)
-
-
-@contextmanager
-def general_equations() -> Iterator[None]:
-    """Runs of the compiled formulation take the equations of any linkage, whatever the closed forms cover."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(closed_forms, "covers", lambda scenario: False)
-        yield
-
-
-def simulate_general(scenario: Scenario, tolerance: float = 1e-7) -> Result:
-    """Run a scenario by the equations of any linkage."""
-    with general_equations():
-        return simulate_compiled(scenario, tolerance)
-
-
-def simulate_as_fine(scenario: Scenario, tolerance: float = 1e-7) -> Result:
-    """Run by the equations of any linkage to what the closed forms reach at a tolerance: a tenth of it.
-
-    It is of the root mean square over all components of the state, of which there are four times as many.
-    """
-    return simulate_general(scenario, 0.1 * tolerance)
-
-
-FORMS = {"closed forms": simulate_compiled, "general": simulate_as_fine}
-EVERY_FORM = pytest.mark.parametrize("form", FORMS.values(), ids=FORMS)
-
-
-def from_its_source(monkeypatch: pytest.MonkeyPatch) -> None:
-    """From now on a law of the family K depth^n is compiled from its source, as any other law is."""
-    monkeypatch.setattr(setup, "has_family_form", lambda contact: False)
 
 
 def simulate_redundant(scenario: Scenario) -> Result:

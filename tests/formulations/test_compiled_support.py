@@ -1,4 +1,4 @@
-"""The support, in closed forms and in general, against an independent integrator and the engine."""
+"""The support in the compiled formulation against an independent integrator and the engine."""
 
 from __future__ import annotations
 
@@ -21,10 +21,7 @@ from support_exudyn import (
     reference_support,
 )
 from tests.cases.run_cases import FORCE, PIN, loose_support, paper_contact, support
-from tests.closed_forms import (
-    EVERY_FORM,
-    FORMS,
-    from_its_source,
+from tests.compiled_runs import (
     same_channels,
     simulate_compiled,
     simulate_redundant,
@@ -32,8 +29,6 @@ from tests.closed_forms import (
 from user_forces import (
     Ambrosio,
     Frictionless,
-    ImpactVelocity,
-    IndentationVelocity,
     JournalContact,
     LankaraniNikravesh,
 )
@@ -55,22 +50,21 @@ RISE = {
 }
 
 
-@pytest.fixture(scope="module", params=FORMS)
-def run(request: pytest.FixtureRequest) -> Callable[[Scenario, float], Result]:
+@pytest.fixture(scope="module")
+def run() -> Callable[[Scenario, float], Result]:
     """Runs, each made once."""
     made: dict[str, Result] = {}
 
     def get(scenario: Scenario, tolerance: float) -> Result:
         key = f"{scenario} {tolerance}"
         if key not in made:
-            made[key] = FORMS[request.param](scenario, tolerance)
+            made[key] = simulate_compiled(scenario, 0.1 * tolerance)
         return made[key]
 
     return get
 
 
 Run = Callable[[Scenario, float], Result]
-Form = Callable[..., Result]
 
 
 def statistics(result: Result) -> np.ndarray:
@@ -95,9 +89,8 @@ def test_ideal_pins(run: Run, t: float) -> None:
     np.testing.assert_allclose(got[3:], IDEAL[t][3:], rtol=0, atol=6e-7)
 
 
-@EVERY_FORM
-def test_onsets_of_the_drop(form: Form) -> None:
-    result = form(loose_support(drive=Held(), duration=0.08), 1e-10)
+def test_onsets_of_the_drop() -> None:
+    result = simulate_compiled(loose_support(drive=Held(), duration=0.08), 1e-11)
     # half of the last printed digit
     np.testing.assert_allclose([onset[:2] for onset in result.onsets[PIN]], DROP, rtol=0, atol=6e-9)
 
@@ -173,10 +166,9 @@ DAMPING = {"impact": ImpactVelocity(floor=1e-3), "depth": IndentationVelocity()}
         pytest.param("depth", 0.25, "second", marks=pytest.mark.slow),
     ],
 )
-@EVERY_FORM
-def test_a_drop_is_the_engines(damping: str, mu: float, bore: str, form: Form) -> None:
+def test_a_drop_is_the_engines(damping: str, mu: float, bore: str) -> None:
     scenario = dropping(law(DAMPING[damping]), mu, bore)
-    theirs, ours = simulate_redundant(scenario), form(scenario, 1e-8)
+    theirs, ours = simulate_redundant(scenario), simulate_compiled(scenario, 1e-9)
     first, second = (np.array(result.onsets[PIN]) for result in (theirs, ours))
     # the engine's errors at 256 steps an impact; each impact magnifies those of the last
     assert first.shape == second.shape
@@ -209,28 +201,25 @@ IDEAL_DRIVES: dict[str, Drive] = {
 
 
 @pytest.mark.parametrize("drive", IDEAL_DRIVES)
-@EVERY_FORM
-def test_ideal_channels_are_the_engines(drive: str, form: Form) -> None:
+def test_ideal_channels_are_the_engines(drive: str) -> None:
     scenario = support(step=1e-3, drive=IDEAL_DRIVES[drive], duration=1.5)
-    ours, theirs = form(scenario), simulate_redundant(scenario)
+    ours, theirs = simulate_compiled(scenario), simulate_redundant(scenario)
     # generalised alpha at 1e-3 s: 1e-6 in forces, 1e-5 in the canopy's small accelerations
     assert_same_channels(ours, theirs, 1e-4, 1e-4)
     if isinstance(scenario.drive, Steady):  # already in motion at the start, in both
         for name, wrong in same_channels(ours, theirs).items():
             # the engine's small accelerations lag by a step; measured 6e-4
             assert wrong.max() < (2e-3 if "acceleration" in name else 1e-4), name
-    # of 5 to 23 kJ: in closed forms work is by Simpson's rule from record to record, measured 5e-11 J
-    assert ours.energy_error < (1e-8 if form is simulate_compiled else 1e-6)
+    assert ours.energy_error < 1e-6  # of 5 to 23 kJ
 
 
 @pytest.mark.parametrize("with_clearance", [False, pytest.param(True, marks=pytest.mark.slow)])
-@EVERY_FORM
-def test_jumps_of_the_actuators_speed_are_the_engines(with_clearance: bool, form: Form) -> None:
+def test_jumps_of_the_actuators_speed_are_the_engines(with_clearance: bool) -> None:
     drive = UniformSpeed(stroke=0.1, start=0.2, end=0.4)
     # a period that does not divide the duration, and records that do not meet the jumps
     pins = dropping(law(ImpactVelocity(floor=1e-3)), 0.25, "first").pins if with_clearance else {}
     scenario = support(drive=drive, duration=0.45, step=5e-4, record_period=7e-3, pins=pins)
-    theirs, ours = simulate_redundant(scenario), form(scenario, 1e-9)
+    theirs, ours = simulate_redundant(scenario), simulate_compiled(scenario, 1e-10)
     assert len(ours.impulses) == 2
     # ideal: the engine's velocities before the second jump are right to 1e-9; loose: they carry its error of
     # some impacts on, 1e-4
@@ -245,12 +234,11 @@ def test_jumps_of_the_actuators_speed_are_the_engines(with_clearance: bool, form
     assert np.abs(ours["energy.work"]).max() > 1e3
 
 
-@EVERY_FORM
 @pytest.mark.parametrize("bore", ["first", "second"])
-def test_a_loose_support_on_actuators_that_move_from_the_start_on(bore: str, form: Form) -> None:
+def test_a_loose_support_on_actuators_that_move_from_the_start_on(bore: str) -> None:
     base = loose_support(0.5, 0.25, drive=Steady(rate=0.1), duration=0.05)
     scenario = replace(base, pins={PIN: replace(base.clearance_pins[PIN], bore=bore)})
-    theirs, ours = simulate_redundant(scenario), form(scenario, 1e-8)
+    theirs, ours = simulate_redundant(scenario), simulate_compiled(scenario, 1e-9)
     one, other = (np.array(result.onsets[PIN]) for result in (ours, theirs))
     np.testing.assert_allclose(one[:, :2], other[:, :2], rtol=1e-6)
     # a separation is where the engine's first step behind it ends: measured 3e-6
@@ -262,44 +250,10 @@ def test_a_loose_support_on_actuators_that_move_from_the_start_on(bore: str, for
     assert ours.energy_error < 1e-5 * ours.dissipated
 
 
-# --- the family's formulas, and laws compiled from their source ---
-
-DRIVES: dict[str, Drive] = {
-    "mode 1": CubicStep(stroke=0.05, start=0.02, end=0.3),
-    "mode 2": UniformSpeed(stroke=0.02, start=0.02, end=0.08),
-}
-
-
-@pytest.mark.parametrize("drive", DRIVES)
-@pytest.mark.parametrize("bore", ["first", "second"])
-@pytest.mark.parametrize("mu", [0.0, 0.25])
-@pytest.mark.parametrize("damping", DAMPING)
-def test_the_familys_formulas_are_the_source_of_its_laws(
-    damping: str,
-    mu: float,
-    bore: str,
-    drive: str,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    scenario = replace(dropping(law(DAMPING[damping]), mu, bore), drive=DRIVES[drive], duration=0.12)
-    family = simulate_compiled(scenario, 1e-9)
-    from_its_source(monkeypatch)
-    source = simulate_compiled(scenario, 1e-9)
-    # cuts of tension are met by another measure, so other steps at 1e-9; measured 2e-7 m/s
-    np.testing.assert_allclose(source.onsets[PIN], family.onsets[PIN], rtol=0, atol=1e-6)
-    for name, wrong in same_channels(source, family).items():
-        assert wrong.max() < 5e-5, name
-    assert source.largest_force[PIN] == pytest.approx(family.largest_force[PIN], rel=2e-5)
-    assert len(source.impulses) == len(family.impulses) == (2 if drive == "mode 2" else 0)
-    # of 1.3 kJ of work
-    assert source.energy_error < 1e-5
-
-
-@EVERY_FORM
-def test_velocities_after_a_jump_are_the_closed_form_ones(form: Form) -> None:
+def test_velocities_after_a_jump_are_the_closed_form_ones() -> None:
     machine, small = reference_support(), 1e-5
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
-    result = form(support(drive=drive, duration=0.1))
+    result = simulate_compiled(support(drive=drive, duration=0.1))
     at = 0.25 * 0.1
     lower, upper = machine.extended(at - small), machine.extended(at + small)
     assert lower is not None
@@ -313,11 +267,10 @@ def test_velocities_after_a_jump_are_the_closed_form_ones(form: Form) -> None:
         assert rate == pytest.approx(0.25 * turn / (2 * small), rel=1e-7)
 
 
-@EVERY_FORM
-def test_a_loose_pin_transmits_no_impulse(form: Form) -> None:
+def test_a_loose_pin_transmits_no_impulse() -> None:
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
     ideal, with_clearance = (
-        form(scenario(drive=drive, duration=0.01)) for scenario in (support, loose_support)
+        simulate_compiled(scenario(drive=drive, duration=0.01)) for scenario in (support, loose_support)
     )
     (closed,), (free,) = ideal.impulses, with_clearance.impulses
     # Bertrand's theorem: with fewer constraints the same speeds of the actuators take less energy
@@ -326,23 +279,21 @@ def test_a_loose_pin_transmits_no_impulse(form: Form) -> None:
     assert closed.energy == pytest.approx(0.5 * 0.25 * sum(closed.actuators.values()), rel=1e-12)
 
 
-@EVERY_FORM
-def test_largest_force_is_that_of_the_peak_between_records(form: Form) -> None:
+def test_largest_force_is_that_of_the_peak_between_records() -> None:
     scenario = loose_support(drive=Held(), duration=0.03)
-    fine = form(replace(scenario, record_period=1e-6), 1e-9)
+    fine = simulate_compiled(replace(scenario, record_period=1e-6), 1e-10)
     # the parabola through neighbours of the peak, 1 us of 5 ms; what 1e-5 makes of an impact: measured 2e-5
     for tolerance, close in ((1e-9, 1e-6), (1e-5, 1e-4)):
-        result = form(scenario, tolerance)
+        result = simulate_compiled(scenario, tolerance)
         assert result.largest_force[PIN] == pytest.approx(fine[FORCE].max(), rel=close)
         assert result[FORCE].max() < result.largest_force[PIN]
 
 
-@EVERY_FORM
 @pytest.mark.parametrize("with_clearance", [False, True])
-def test_the_first_record_is_of_the_state_before_a_jump_at_the_start(with_clearance: bool, form: Form) -> None:
+def test_the_first_record_is_of_the_state_before_a_jump_at_the_start(with_clearance: bool) -> None:
     drive = UniformSpeed(stroke=0.5, start=0.0, end=2.0)
     scenario = (loose_support if with_clearance else support)(drive=drive, duration=0.01)
-    ours, theirs = form(scenario), simulate_redundant(scenario)
+    ours, theirs = simulate_compiled(scenario), simulate_redundant(scenario)
     assert ours["energy.kinetic"][0] == theirs["energy.kinetic"][0] == 0.0
     for name in (name for name in ours.channels if "velocity" in name):
         assert ours[name][0] == 0.0, name
