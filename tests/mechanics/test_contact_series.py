@@ -72,7 +72,6 @@ def test_all_at_once_is_one_by_one(friction: FrictionLaw, rows: list[tuple[float
     found = series(pin.contact, moving, memories)
     for n, memory in enumerate(memories):
         x, y = moving.x[n], moving.y[n]
-        c, s = moving.cos_bore[n], moving.sin_bore[n]
         known = memory.impact_velocity
         motion = x, y, vx[n], vy[n], bore_spin[n], journal_spin[n]
         want = pin.contact.force(*motion, known if memory.in_contact else None, SlipHistory(0.0, 0.0, 0.0))
