@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
 
-from studies.common import paper_machine
 from studies.common.numbers import Found, Number
 from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.rise import Watched
