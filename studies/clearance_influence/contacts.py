@@ -39,7 +39,8 @@ def scenarios(subject: Subject) -> dict[str, Scenario]:
 
 
 def _rise(subject: Subject, contact: str, friction: float) -> Scenario:
-    pin = paper_machine.clearance_joint(CLEARANCE_MM, friction, contact=contact, law=paper_machine.PAPERS_LAW)
+    law = paper_machine.PAPERS_LAW
+    pin = paper_machine.clearance_joint(CLEARANCE_MM, friction, contact=contact, law=law)
     rise = to_accuracy(replace(subject.motion, pins={subject.pin: pin}))
     # friction-induced vibration is determined to some thousandths only
     return replace(rise, accuracy="standard", channels=(f"pin.{subject.pin}.*",))
@@ -51,7 +52,7 @@ def measure(subject: Subject, results: Mapping[str, Result]) -> list[Number]:
     return measured_all(
         results,
         {
-            SHOWN["mean"]: ("N", lambda r: watched.mean(r, watched.force)),
+            SHOWN["mean"]: ("N", lambda r: watched.mean(r, r[watched.force])),
             SHOWN["ripple"]: ("N", lambda r: watched.rms_fluctuation(r, r[watched.force])),
             SHOWN["fall"]: ("N", lambda r: float(r.largest_force[watched.pin])),
         },

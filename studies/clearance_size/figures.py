@@ -221,8 +221,8 @@ def trend_figure(subject: Subject, found: Found) -> Figure:
             if len(printed) == len(SIZES_MM):
                 axes.plot(SIZES_MM, printed, "x", color=style.PAPER, ms=5, label="paper")
             ideal = found[name, ideal_name(friction)]
-            label = f"ideal, friction {friction:g}" if friction else "ideal, no friction"
-            axes.axhline(scale * ideal.value, color=colour, lw=0.8, ls=DASHED, label=label)
+            tight = f"ideal, friction {friction:g}" if friction else "ideal, no friction"
+            axes.axhline(scale * ideal.value, color=colour, lw=0.8, ls=DASHED, label=tight)
         axes.set(xticks=SIZES_MM, ylabel=label, xlabel="clearance [mm]")
         axes.margins(y=0.12)
         if name.startswith(FROM_ZERO):

@@ -108,9 +108,8 @@ class Subject:
     def clearance_pin(self, clearance_mm: float, sliding_coefficient: float) -> ClearancePin:
         """The pin with this radial clearance: the same contact in all studies."""
         if self.is_paper:
-            return paper_machine.clearance_joint(
-                clearance_mm, sliding_coefficient, self.bore_radius, law=paper_machine.PAPERS_LAW
-            )
+            law = paper_machine.PAPERS_LAW
+            return paper_machine.clearance_joint(clearance_mm, sliding_coefficient, self.bore_radius, law=law)
         if self.given is None:
             short = ShortPin(clearance=clearance_mm / 1e3, friction=sliding_coefficient)
             return pin_in_machine(short, self.motion.machine, self.pin, self.bore_radius)

@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
 
-from studies.common import paper_machine
 from studies.common.numbers import Found, Number
 from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.rise import Watched
@@ -31,13 +30,6 @@ STEP = 1e-3  # [s]
 SETTINGS = SolverSettings(impact_steps=16, spectral_radius=0.8, newton_tolerance=1e-6)
 
 OWN_GOAL = 1e-2  # by which the first steps of one's own machine are chosen
-
-
-def clearance_pin(
-    friction: float, clearance_mm: float = CLEARANCE_MM, bore_radius: float = paper_machine.BORE_RADIUS
-) -> ClearancePin:
-    """The paper's pin; bore_radius: [m]."""
-    return paper_machine.clearance_joint(clearance_mm, friction, bore_radius)
 
 
 def case_name(
@@ -128,9 +120,7 @@ class PinPlan:
         return {pin: found[name, self.case_name((pin,), friction, clearance_mm)] for pin in self.pins}
 
     def pin(self, friction: float, clearance_mm: float) -> ClearancePin:
-        """The pin that is put into every place: the paper's, or that of all studies of one's own machine."""
-        if self.subject.is_paper:
-            return clearance_pin(friction, clearance_mm)
+        """The pin that is put into every place: that of all studies of the machine."""
         return self.subject.clearance_pin(clearance_mm, friction)
 
     @cached_property

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies.which_pin import cases as which_pin_cases
+from studies.common.subject import paper_subject
 from studies.which_pin import closed_form as clearance
 from support_exudyn import (
     AppliedForce,
@@ -99,7 +99,7 @@ def test_times_in_disorder_are_refused() -> None:
 
 def test_worn_pins_let_a_roof_push_the_tip_forward() -> None:
     # all five pins clearance, without friction: to the rear under the weight, forward under a roof of 1 MN
-    pins = dict.fromkeys(reference_support().linkage().pins, which_pin_cases.clearance_pin(0.0))
+    pins = dict.fromkeys(reference_support().linkage().pins, paper_subject().clearance_pin(1.5, 0.0))
     stand = clearance.standing(reference_support())
     for presses, loads in (
         ([], {}),

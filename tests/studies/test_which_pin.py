@@ -107,7 +107,7 @@ def test_influence_is_that_of_the_linkage_laid_out_anew() -> None:
 
 def test_shift_is_the_work_of_a_unit_force_at_the_tip() -> None:
     stand = clearance.standing(SUPPORT)
-    pins = dict.fromkeys(PINS, which_pin_cases.clearance_pin(0.0))
+    pins = dict.fromkeys(PINS, paper_subject().clearance_pin(1.5, 0.0))
     tip = SUPPORT.linkage().points["tip"].point
     weight = clearance.forces(stand, {})
     for axis, unit in ((clearance.TIP_X, (1.0, 0.0)), (clearance.TIP_Y, (0.0, 1.0))):
@@ -120,7 +120,7 @@ def test_shift_is_the_work_of_a_unit_force_at_the_tip() -> None:
 
 def test_journals_lie_along_their_load_by_clearance_and_depth() -> None:
     stand = clearance.standing(SUPPORT)
-    pin = which_pin_cases.clearance_pin(0.0)
+    pin = paper_subject().clearance_pin(1.5, 0.0)
     for name, opening in clearance.openings(stand, dict.fromkeys(PINS, pin)).items():
         first = 2 * PINS.index(name)
         load = clearance.forces(stand, {})[first : first + 2]
@@ -131,7 +131,7 @@ def test_journals_lie_along_their_load_by_clearance_and_depth() -> None:
 
 
 def test_a_roof_turns_the_shift_around() -> None:
-    under = loads(which_pin_cases.clearance_pin(0.0))
+    under = loads(paper_subject().clearance_pin(1.5, 0.0))
     whole = {name: sum(one.mean(pin) for pin in PINS) for name, one in under.items()}
     # the weight of links and shield leans the four-bar to the rear, what presses on the canopy in front pushes
     # it forward: -17 and +19 mm
@@ -149,7 +149,7 @@ def test_every_pin_may_have_its_own_law_and_clearance(out: Path) -> None:
 
     own = {
         "rear_base": pin(0.5e-3, Exact(stiffness=2.7e10, restitution=0.5), Ambrosio(sliding_coefficient=0.1)),
-        "front_base": pin(1.0e-3, which_pin_cases.clearance_pin(0.0).contact.normal),
+        "front_base": pin(1.0e-3, paper_subject().clearance_pin(1.5, 0.0).contact.normal),
         "rear_shield": pin(2.0e-3, KelvinVoigt(stiffness=4e8, damping=4e5)),
         "front_shield": pin(
             0.8e-3, Exact(stiffness=2e10, restitution=0.3), Threlfall(sliding_coefficient=0.15)
