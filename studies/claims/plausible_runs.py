@@ -93,12 +93,15 @@ def measures(sample: Sample) -> Data:
 def _with_errors(
     runs: Sequence[Result], values: Mapping[int, Values], during: rise.Watched
 ) -> dict[str, list[float]]:
-    """The values of the finer of two runs with their errors: that of its steps, and that of its records.
+    """The values of the finer of two runs with their errors: of its steps, of its records, and of its equations.
+
+    The last is the tolerance, by which formulations agree, times the size of what a value is made from.
 
     values: by how many records there is one that is used; 0: of the coarser run.
     """
     result = with_coarser(runs)
     of_run = {id(run): values[n] for n, run in enumerate(halvings(result))}
+    sizes = {"mean_acceleration": values[1]["speed_middle"] / (during.end - during.start)}
 
     def of_records(name: str) -> float:
         missed = sum(peak.missed(result) for peak in extremes(during).get(name, ()))
@@ -106,7 +109,8 @@ def _with_errors(
 
     def measured(name: str) -> list[float]:
         estimate = result.estimate(lambda run: of_run[id(run)][name])
-        return [estimate.value, estimate.error + of_records(name)]
+        of_equations = TOLERANCE * max(abs(estimate.value), sizes.get(name, 0.0))
+        return [estimate.value, estimate.error + of_records(name) + of_equations]
 
     return {name: measured(name) for name in values[1]}
 
