@@ -9,7 +9,6 @@ is kept in the folder, so that an interrupted command goes on where it was.
 """
 
 import argparse
-import csv
 import json
 import math
 import os
@@ -203,18 +202,6 @@ def numbers(rows: Sequence[CoveredRun]) -> list[Number]:
     ]
 
 
-def save_rows(path: Path, rows: Sequence[CoveredRun]) -> None:
-    """Write all numbers of all runs as CSV, in SI."""
-    names = [field.name for field in fields(Judged)]
-    with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(["scene", "kind", "accuracy", "formulation", "met", *names, "ratio"])
-        for row in rows:
-            for one in row.judged:
-                said = [row.number, row.kind, row.accuracy, row.formulation, row.met]
-                writer.writerow([*said, *(getattr(one, name) for name in names), one.ratio])
-
-
 # --- main ---
 
 
@@ -231,7 +218,6 @@ def study(chosen: Chosen) -> None:
         tables["refused"] = refusal_sheet
     for name, sheet in tables.items():
         show_table(chosen.out / f"table_{name}", sheet(rows), width=200)
-    save_rows(chosen.out / "numbers.csv", rows)
     counted = {"seed": chosen.seed, "scenes": len(wanted)}
     write_summary(chosen.out, STUDY, numbers(rows), time.perf_counter() - started, counted)
 

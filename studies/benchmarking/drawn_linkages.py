@@ -185,11 +185,10 @@ def parallelogram_scene(random: Random, pin: Pins) -> Scenario:
         },
     )
     same = replace(pin(random, OF_SUPPORT * size, SOFTER), eccentricity=(0.0, 0.0))
-    scene = _scene(random, linkage, "table", pins=dict.fromkeys(linkage.pins, same), gravity=GRAVITY)
     fall = float(random.uniform(0.02, 0.2)) * math.sqrt(size / 9.81)
-    return replace(
-        scene, machine=PlanarLinkage(drawing=_traced(linkage, "table")), drive=Held(), duration=fall,
-        record_period=fall / float(random.uniform(*RECORDS)),
+    return Scenario(
+        machine=PlanarLinkage(drawing=_traced(linkage, "table")), pins=dict.fromkeys(linkage.pins, same),
+        drive=Held(), gravity=GRAVITY, **_lasting(random, fall),
     )  # fmt: skip
 
 
@@ -197,28 +196,23 @@ def _scene(random: Random, linkage: Linkage, body: str, **fields: Any) -> Scenar
     """The scene of a linkage whose first body, the crank, is driven, or moves freely from its start on."""
     rate = between(random, 2.0, 20.0) * float(random.choice([-1.0, 1.0]))
     duration = float(random.uniform(*TURN)) / abs(rate)
-    drives: tuple[Drive, ...] = (
-        Held(),
-        Steady(rate=rate),
-        CubicStep(stroke=rate * duration, start=0.0, end=duration),
-    )
-    drive = drives[int(random.integers(len(drives)))]
-    crank = next(iter(linkage.bodies))
+    stroke = CubicStep(stroke=rate * duration, start=0.0, end=duration)
+    drives: tuple[Drive, ...] = (Held(), Steady(rate=rate), stroke)
+    drive, crank = drives[int(random.integers(len(drives)))], next(iter(linkage.bodies))
     drawing = _traced(linkage, body)
     if isinstance(drive, Held):  # nothing drives it
         drawing = set_moving(drawing, {crank: rate})
     else:
         drawing = replace(drawing, cranks={"crank": Crank(body=crank)})
-    weight = GRAVITY if random.uniform() < 0.5 else (0.0, 0.0)
+    fields["gravity"] = GRAVITY if random.uniform() < 0.5 else (0.0, 0.0)
+    return Scenario(machine=PlanarLinkage(drawing=drawing), drive=drive, **fields, **_lasting(random, duration))
+
+
+def _lasting(random: Random, duration: float) -> dict[str, Any]:
+    """Of a run that lasts so long [s]: records far too coarse, and in a fifth the engine's formulation."""
+    period = duration / float(random.uniform(*RECORDS))
     formulation = "redundant" if random.uniform() < 0.2 else "auto"
-    record_period = duration / float(random.uniform(*RECORDS))
-    given: dict[str, Any] = {
-        "gravity": weight,
-        "formulation": formulation,
-        "record_period": record_period,
-        "duration": duration,
-    }
-    return Scenario(machine=PlanarLinkage(drawing=drawing), drive=drive, **(given | fields))
+    return {"duration": duration, "record_period": period, "formulation": formulation}
 
 
 def _traced(linkage: Linkage, body: str) -> Linkage:
