@@ -23,7 +23,7 @@ from tests.analytic import fall_through
 
 H = 1e-3  # length of a step [s]
 BEHIND = BEYOND * SHARE  # how far behind an event a cut step is to end, in steps
-REST = (0.2, 1e-6, 0.5, 0.1, 0.25)  # slip, deflection and mobility: what no verdict changes
+REST = (0.2, 1e-6)  # slip and deflection: what no verdict changes
 
 
 def memory_of(in_contact: bool, impact_velocity: float, depth: float, rate: float) -> PinMemory:
