@@ -101,7 +101,7 @@ NORMAL_LAWS: tuple[NormalLaw, ...] = (
     *(cylinder_law(kind) for kind in CYLINDER_LAWS),
     Hertz(stiffness=2.7e10),
     KelvinVoigt(stiffness=1e9, damping=5e4),
-    Anagnostopoulos(stiffness=1e9, restitution=0.7),
+    Anagnostopoulos(stiffness=1e9, restitution=0.7, mass=700.0),
     AdamsImpact(stiffness=3.16e9, full_damping=5e4, full_damping_depth=1e-4),
 )
 STATELESS_FRICTION: tuple[FrictionLaw, ...] = (

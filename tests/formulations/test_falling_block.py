@@ -175,7 +175,7 @@ def bounced(rock: FallingBlock, duration: float) -> list[tuple[float, float, flo
 
         told = struck
 
-        def rates(_: float, state: np.ndarray, told: Impact = told) -> list[float]:
+        def rates(_: float, state: np.ndarray, told: float = told) -> list[float]:
             depth = max(-state[0], 1e-30)
             return [state[1], max(0.0, law(depth, -state[1], told)) / rock.mass - G]
 

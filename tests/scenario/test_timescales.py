@@ -221,7 +221,8 @@ def test_on_the_support_friction_stops_what_moves_most_easily() -> None:
     friction = scene.clearance_pins[PIN].contact.friction
     ideal = tuple(pin for pin in scene.linkage.pins if pin != PIN)
     kinetics = kinetics_of(scene.linkage, ideal)
-    inverse_mass = kinetics.pin_inverse_mass(np.zeros(3 * len(scene.linkage.bodies)), PIN)
+    still = np.zeros(3 * len(scene.linkage.bodies))
+    inverse_mass = kinetics.inverse_mass(still, kinetics.relative(still, scene.linkage.pins[PIN])[1])
     mass = 1.0 / float(np.linalg.eigvalsh(inverse_mass)[-1])
     # 58 779 N is the load of the ideal pin, as above
     expected = mass * (friction.dynamic_speed - friction.static_speed) / (0.25 * 58778.944)

@@ -307,16 +307,16 @@ class Case(NamedTuple):
     said: np.ndarray
 
 
-def dropping(c_mm: float, restitution: float, mu: float, bore: str, speed: object, drive: Drive) -> Scenario:
+def dropping(c_mm: float, restitution: float, mu: float, bore: str, speed: float, drive: Drive) -> Scenario:
     base = paper_contact(c_mm, mu)
-    law = LankaraniNikravesh(stiffness=base.normal.stiffness, restitution=restitution, damping_speed=speed)
+    law = LankaraniNikravesh(stiffness=base.normal.stiffness, restitution=restitution, rest_velocity=speed)
     pin = ClearancePin(contact=replace(base, normal=law), bore=bore)
     return support(pins={PIN: pin}, drive=drive, duration=0.3)
 
 
-def turning(c_mm: float, restitution: float, mu: float, gravity: float, speed: object) -> Scenario:
+def turning(c_mm: float, restitution: float, mu: float, gravity: float, speed: float) -> Scenario:
     base = slider_crank_contact(mu)
-    law = LankaraniNikravesh(stiffness=base.normal.stiffness, restitution=restitution, damping_speed=speed)
+    law = LankaraniNikravesh(stiffness=base.normal.stiffness, restitution=restitution, rest_velocity=speed)
     contact = JournalContact(
         bearing=replace(base.bearing, clearance=c_mm / 1e3),
         normal=law,
@@ -327,7 +327,7 @@ def turning(c_mm: float, restitution: float, mu: float, gravity: float, speed: o
     )
 
 
-SPEEDS = (ImpactVelocity(floor=1e-3), IndentationVelocity())
+SPEEDS = (1e-3, 1e-2)  # rest velocities [m/s]
 RISE = CubicStep(stroke=0.06, start=0.05, end=0.25)
 
 

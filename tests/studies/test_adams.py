@@ -368,10 +368,6 @@ LOOSE = RISE.pins[PIN]
         (replace(RISE, drive=Steady(rate=0.01)), "drives.front_column = Steady: allowed: CubicStep"),
         (Scenario(machine=ravn_slider_crank(), duration=1.0), "cranks.crank: allowed"),
         (
-            replace(RISE, pins={PIN: ClearancePin.simple(clearance=1e-3, bore_radius=0.06, stiffness="paper")}),
-            "damping_speed = IndentationVelocity",
-        ),
-        (
             replace(RISE, pins={PIN: ClearancePin.simple(clearance=1e-3, bore_radius=0.06, length=0.5)}),
             "contact.normal = PinInBore: allowed: LankaraniNikravesh",
         ),

@@ -59,7 +59,7 @@ def test_all_that_matters_varies() -> None:
     scenes = [fresh(9, number).scenario for number in range(8 * len(KINDS))]
     pins = [pin for one in scenes for pin in one.clearance_pins.values()]
     assert len({type(pin.contact.normal) for pin in pins}) > 5
-    assert len({type(pin.contact.normal.damping_speed) for pin in pins}) == 2  # type: ignore[attr-defined]
+    assert len({pin.contact.normal.rest_velocity for pin in pins}) >= 2  # type: ignore[attr-defined]
     assert len({type(pin.contact.friction) for pin in pins}) == 6
     assert {pin.bore for pin in pins} == {"first", "second"}
     assert {pin.offset == (0.0, 0.0) for pin in pins} == {True, False}

@@ -274,7 +274,7 @@ def test_a_sample_decides_law_stiffness_friction_and_bore() -> None:
     sample = changed(
         law="flores",
         restitution=0.4,
-        damping_speed="depth",
+        rest_velocity=0.02,
         contact="internal",
         bore="rear link",
         sliding_coefficient=0.11,
@@ -285,13 +285,13 @@ def test_a_sample_decides_law_stiffness_friction_and_bore() -> None:
     normal, friction = with_clearance.contact.normal, with_clearance.contact.friction
     assert type(normal) is POWER_LAWS["flores"]
     assert normal.restitution == 0.4
-    assert type(normal.damping_speed) is IndentationVelocity
+    assert normal.rest_velocity == 0.02
     bearing = paper_machine.bearing(1.0)
     assert normal.stiffness == internal_contact_stiffness(bearing, STEEL, STEEL_35CRMO)
     assert with_clearance.contact.bearing == bearing
     assert with_clearance.bore == "second"
     assert (friction.sliding_coefficient, friction.static_speed, friction.dynamic_speed) == (0.11, 2e-5, 3e-3)
-    assert type(pin(REFERENCE, 1.0, reference_support()).contact.normal.damping_speed) is ImpactVelocity
+    assert pin(REFERENCE, 1.0, reference_support()).contact.normal.rest_velocity == 0.01
 
 
 def test_cylinders_are_as_long_as_the_machines_pin_and_held_by_pin_and_link() -> None:

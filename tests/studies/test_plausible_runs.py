@@ -25,7 +25,7 @@ GRAZING: dict[str, Choice] = {
     "start_height": 0.9871989071781346,
     "restitution": 0.39352379318192465,
     "law": "lankarani_nikravesh",
-    "damping_speed": "depth",
+    "rest_velocity": 0.01,
     "contact": "paper",
     "backing": 1.0,
     "stroke_time": 2.0,

@@ -105,8 +105,8 @@ def test_nothing_is_written_into_what_was_given(values: list[float]) -> None:
 @pytest.mark.parametrize("law", NORMAL_LAWS, ids=kind_of)
 @given(rows=columns)
 def test_normal_laws(law: NormalLaw, rows: list[tuple[float, ...]]) -> None:
-    depth, _, rate, speed, mass = (as_number(column) for column in np.array(rows).T)
-    forces = [law(d, r, v) for d, _, r, v, m in rows]
+    depth, _, rate, speed, _ = (as_number(column) for column in np.array(rows).T)
+    forces = [law(d, r, v) for d, _, r, v, _ in rows]
     # a dashpot's force is a difference of larger ones
     scale = max(law.elastic_force(d) + abs(f) for (d, *_), f in zip(rows, forces, strict=True))
     assert_same(law(depth, rate, speed), forces, scale)
@@ -139,7 +139,7 @@ def test_a_whole_contact(friction: FrictionLaw, rows: list[tuple[float, ...]]) -
     still = SlipHistory(1e-6, 1e-3, 0.0)  # no time passes between records
     result = contact.force(
         *(as_number(values) for values in given_motion),
-        Impact(as_number(speed), as_number(np.full(len(rows), 700.0))),
+        as_number(speed),
         SlipHistory(as_number(np.full(len(rows), 1e-6)), as_number(np.full(len(rows), 1e-3)), 0.0),
     )
     # places are known to their last digit, and a damped force that jumps at the impact hangs on it

@@ -302,7 +302,6 @@ def test_hertz_by_hand() -> None:
 def test_hertz_is_elastic(depth: float, rate: float, speed: float) -> None:
     law = Hertz(stiffness=2.7e10)
     assert law(depth, rate, speed) == law.elastic_force(depth)
-    assert not law.forgets
 
 
 @pytest.mark.parametrize("n", [1.0, 1.5, 3.0])
