@@ -82,9 +82,9 @@ class Planetary(Machine):
     def linkage(self) -> Linkage:
         return Linkage(
             bodies={
-                "sun": Body(mass=1.0, inertia=0.01, centre=(0.0, 0.0)),
+                "sun": Body(mass=1.0, inertia=0.01, centre=(0.0, 0.0), angle=0.3),
                 "arm": Body(mass=2.0, inertia=0.015, centre=(0.15, 0.0)),
-                "planet": Body(mass=3.0, inertia=0.02, centre=(0.3 + self.beside, 0.0)),
+                "planet": Body(mass=3.0, inertia=0.02, centre=(0.3 + self.beside, 0.0), angle=0.7),
             },
             pins={
                 "sun": pinned("ground", "sun", (0.0, 0.0)),
@@ -163,7 +163,7 @@ def test_a_planet_adds_inertia_to_its_arm(formulation: Any) -> None:
     run = simulate(Scenario(machine=machine, drive=Held(), duration=0.3, formulation=formulation))
     inertia = 0.015 + 2.0 * 0.15**2 + 3.0 * 0.3**2 + 9.0 * 0.02
     fallen = -(2.0 * 0.15 + 3.0 * 0.3) * G * np.sin(run["arm.angle"])
-    np.testing.assert_allclose(0.5 * inertia * run["arm.angular_velocity"] ** 2, fallen, atol=2e-5)
+    np.testing.assert_allclose(0.5 * inertia * run["arm.angular_velocity"] ** 2, fallen, atol=1e-4)
     assert run["arm.angle"][-1] < -0.5
 
 
