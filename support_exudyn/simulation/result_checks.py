@@ -10,7 +10,7 @@ import numpy as np
 
 from support_exudyn.formulations import change_points
 from support_exudyn.formulations.contract import Failure
-from support_exudyn.formulations.limits import DEEPEST, SOFT, too_deep
+from support_exudyn.formulations.limits import DEEPEST, ENDS, SOFT, too_deep
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.contact_history import of_depth
 from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
@@ -32,7 +32,6 @@ COARSE = (
     "whether friction is steep (its ramp from static to dynamic speed), or ask for an accuracy."
 )
 UNSAID = " If that does not help: a drive of one's own whose speed jumps has to say so in its `breaks`."
-ENDS = "Close its inlet earlier, open it less, or take a longer cylinder."
 SLOT = "Slots have ends, and stops are not covered: end the motion before, or draw a longer slot (`along`)."
 APART = 1e-4  # [m] that what is joined may be apart
 DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
@@ -151,24 +150,12 @@ def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
         return
     motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
     for name, cylinder in scenario.valved.items():
-        if cylinder.second_stage is not None:  # whose stops are asked for
-            continue
         actuator = scenario.linkage.actuators[name]
-        span = motion.place(actuator.head, actuator.head_point) - motion.place(
-            actuator.foot, actuator.foot_point
-        )
-        extension = np.hypot(*span.T) - actuator.start_length
-        for end, beyond in (
-            ("drawn in", extension < -cylinder.oil_length),
-            ("extended", extension > cylinder.rod_side_length),
-        ):
-            if beyond.any():
-                first = int(np.argmax(beyond))
-                reason = (
-                    f"{name} is {end} by {abs(extension[first]):.4g} m, beyond its cylinder's end; allowed: "
-                    f"{-cylinder.oil_length:.4g} to {cylinder.rod_side_length:.4g} m from the start"
-                )
-                yield Failure(reason, ENDS, float(run.time[first]))
+        extension = motion.lengthening(actuator)[0] - actuator.start_length
+        reasons = (cylinder.past_end(float(one), name) for one in extension)
+        first, reason = next(((n, one) for n, one in enumerate(reasons) if one), (0, ""))
+        if reason:
+            yield Failure(reason, ENDS, float(run.time[first]))
 
 
 def _slots_left(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:

@@ -43,7 +43,7 @@ class Faults:
         if not self.lines:
             return
         rest = len(self.lines) - MOST_LINES
-        more = [f"{self.where}: and {rest} more"] if rest > 0 else []
+        more = [": ".join(filter(None, (self.where, f"and {rest} more")))] if rest > 0 else []
         raise InputError("\n".join([*dict.fromkeys(self.lines[:MOST_LINES]), *more]))
 
 

@@ -35,8 +35,10 @@ from support_exudyn.formulations.compiled.start import error_weights, first_stat
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.formulations.hydraulics.fill import empty_legs
 from support_exudyn.formulations.hydraulics.records import GAP_NAMES
+from support_exudyn.formulations.limits import ENDS, past_ends
 from support_exudyn.formulations.statistics.collected import RunStatistics, within_steps
 from support_exudyn.formulations.statistics.steps import OF_STEP
+from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Outcome
@@ -220,6 +222,8 @@ def _failure(going: _Run) -> Failure:
         reason, advice = broken
     elif empty := empty_legs(going.model.legs.names, going.model.scene.legs):
         reason, advice = empty, EMPTY
+    elif pressed := _pressed_through(going):
+        reason, advice = pressed, ENDS
     elif singular := change_points.ended_at(scenario, going.y[:count]):
         reason, advice = singular, change_points.ADVICE
     elif code == DEAD_CENTRE:
@@ -229,6 +233,15 @@ def _failure(going: _Run) -> Failure:
     else:
         reason, advice = "the step became too short", "Allow a larger tolerance."
     return Failure(reason, advice, float(report[STOPPED_AT]), state)
+
+
+def _pressed_through(going: _Run) -> str:
+    """The message that a piston is beyond an end of its cylinder where the run stopped; empty: none is."""
+    linkage, size = going.scenario.linkage, 3 * len(going.scenario.linkage.bodies)
+    position, rates = going.y[None, :size], going.y[None, size : 2 * size]
+    motion = BodyMotion(linkage, position, rates, np.zeros_like(rates))
+    lengths = {name: motion.lengthening(one)[0][0] for name, one in linkage.actuators.items()}
+    return past_ends(going.scenario, lengths)
 
 
 def _broken_law(going: _Run) -> tuple[str, str] | None:

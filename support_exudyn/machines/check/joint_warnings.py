@@ -10,7 +10,7 @@ import numpy as np
 
 from support_exudyn.machines.check.drive_way import Moved
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.model.linkage import GROUND, Linkage, Slide
 
 PRESSURE_ANGLE = math.radians(20.0)  # of usual teeth
 NONE: Mapping[str, float] = MappingProxyType({})
@@ -53,8 +53,11 @@ def joint_warnings(linkage: Linkage, moments: Mapping[str, float] = NONE) -> Ite
 
 
 def guide_warnings(motion: BodyMotion) -> Iterator[str]:
-    """Warnings on guided points that pass an end of their lines in a motion."""
+    """Warnings on guided points that pass an end of their lines in a motion, and on slots without ends."""
     for name, slide in motion.linkage.slides.items():
+        if slide.turns and slide.ends is None:
+            said = moves_along(motion, slide)
+            yield f"guides.{name}: {said}; its ends are not known; allowed: along = [point, point]"
         beyond = 1e3 * motion.past_ends(slide).max(initial=0.0)
         if beyond > 0.0:
             what = "a run is refused there" if slide.turns else "nothing stops it there"
@@ -62,6 +65,12 @@ def guide_warnings(motion: BodyMotion) -> Iterator[str]:
                 f"guides.{name}: {slide.body} goes {beyond:.4g} mm beyond an end of its line, which is "
                 f"{1e3 * slide.length:.4g} mm long; {what}"
             )
+
+
+def moves_along(motion: BodyMotion, slide: Slide) -> str:
+    """The range of a guided point along its line, from where it starts."""
+    along = np.round(1e3 * motion.along(slide), 6) + 0.0
+    return f"{slide.body} moves from {along.min():.4g} to {along.max():.4g} mm along its line"
 
 
 def of_joints(linkage: Linkage, moved: Sequence[Moved]) -> tuple[list[str], list[str]]:
@@ -72,11 +81,6 @@ def of_joints(linkage: Linkage, moved: Sequence[Moved]) -> tuple[list[str], list
     still = np.zeros((len(moved), 3 * len(linkage.bodies)))
     motion = BodyMotion(linkage, np.array([one.position for one in moved]), still, still)
     for name, slide in linkage.slides.items():
-        along = 1e3 * motion.along(slide)
-        ends = "; its ends are not known" if slide.ends is None and slide.turns else ""
-        facts.append(
-            f"guides.{name}: {slide.body} moves from {along.min():.4g} to {along.max():.4g} mm along its line"
-            f"{ends}"
-        )
+        facts.append(f"guides.{name}: {moves_along(motion, slide)}")
     moments = {name: max(abs(one.forces.gears[name]) for one in moved) for name in linkage.gears}
     return facts, [*joint_warnings(linkage, moments), *guide_warnings(motion)]

@@ -202,14 +202,13 @@ class PlaneBuilder(EngineBuilder):
     def add_gear(self, gear: Gear) -> None:
         """Add what holds the turns of two bodies against their carrier in proportion."""
         shares = {gear.first: gear.ratio, gear.carrier: 1.0 - gear.ratio}
-        turning = {self.bodies[body].node: share for body, share in shares.items() if body in self.bodies}
+        turning = {body: share for body, share in shares.items() if body in self.bodies}
+        start = sum(share * self.bodies[body].body.angle for body, share in turning.items())
         # an object without mass gathers both coordinates, for a connector takes those of two objects
         massless = np.zeros((3 * len(turning), 3 * len(turning)))
-        gathered = self.mbs.AddObject(ObjectGenericODE2(nodeNumbers=[*turning], massMatrix=massless))
+        nodes = [self.bodies[body].node for body in turning]
+        gathered = self.mbs.AddObject(ObjectGenericODE2(nodeNumbers=nodes, massMatrix=massless))
         second = MarkerNodeCoordinates(nodeNumber=self.bodies[gear.second].node)
-        # this connector takes coordinates with their reference values, so these are taken off
-        angles = {body: one.angle for body, one in self.linkage.bodies.items()}
-        offset = angles[gear.second] - sum(share * angles.get(body or "", 0.0) for body, share in shares.items())
         self.mbs.AddObject(
             ObjectConnectorCoordinateVector(
                 markerNumbers=[
@@ -218,7 +217,7 @@ class PlaneBuilder(EngineBuilder):
                 ],
                 scalingMarker0=np.kron([*turning.values()], TURN)[None],
                 scalingMarker1=TURN[None],
-                offset=[offset],
+                offset=[self.bodies[gear.second].body.angle - start],  # the engine counts angles from +x
             )
         )
 
