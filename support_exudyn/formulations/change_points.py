@@ -23,6 +23,7 @@ SINGULAR = 1e-5  # of the largest singular value: below, a condition says nothin
 NEAR = 0.2  # of the largest singular value of a dip that is looked into
 UNBOUNDED = 0.25  # share of a force that grows as one over what is left of a condition: it has no limit
 SPIKE = 10.0  # times the forces a little beside: what records next to the point show is none
+LEAP = 0.01  # share of the largest force by which none leaps from record to record
 BEYOND = 1e6  # times the median: forces beside a point that is passed freely, which are of rounding
 CLOSE = 1e-3  # of the largest singular value: where a run ends so near to a point it is the reason
 SAMPLES = 2000  # records at least that are looked at, of many
@@ -92,12 +93,17 @@ def passed(scenario: Scenario, motion: BodyMotion, time: Series, forces: Mapping
     some = slice(None, None, max(1, len(time) // SAMPLES))
     time, motion = time[some], BodyMotion(motion.linkage, motion.position[some], motion.velocity[some], motion.velocity)
     left = values_of(conditions, motion.position)[:, last]
-    largest = np.max([force[some] for force in forces.values()], axis=0)
+    joints = np.array([force[some] for force in forces.values()])
+    largest = joints.max(axis=0)
     dips = np.flatnonzero((left[1:-1] <= left[:-2]) & (left[1:-1] < left[2:]) & (left[1:-1] < NEAR)) + 1
     for n in dips.tolist():
         at, position, least = _least(conditions, motion, time, n, last)
         # what swings through freely moves on as energy has it, whatever the forces
-        wrong = _unbounded(left, largest, n) if driven else largest[n - 1 : n + 2].max() > BEYOND * np.median(largest)
+        wrong = (
+            _unbounded(left, largest, n) or _leaps(left, joints, n)
+            if driven
+            else largest[n - 1 : n + 2].max() > BEYOND * np.median(largest)
+        )
         if least < SINGULAR and wrong:
             return at, words(conditions, position)
     return None
@@ -136,3 +142,9 @@ def _unbounded(left: Series, largest: Series, n: int) -> bool:
             if share > UNBOUNDED * largest[one]:
                 return True
     return False
+
+
+def _leaps(left: Series, joints: Series, n: int) -> bool:
+    """Whether record n is in the point itself and shows forces (joints, n) that are not those to both sides."""
+    leap = np.abs(joints[:, n] - 0.5 * (joints[:, n - 1] + joints[:, n + 1])).max()
+    return bool(left[n] < SINGULAR and leap > LEAP * joints[:, n - 1 : n + 2].max())
