@@ -9,11 +9,8 @@ from typing import get_args, get_type_hints
 import pytest
 
 from support_exudyn import (
-    Body,
     Held,
     IdealPin,
-    Linkage,
-    Machine,
     OilColumn,
     Scenario,
     SolverSettings,
@@ -21,7 +18,6 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.formulations.registry import FORMULATIONS, Formulation, formulation
-from support_exudyn.model.linkage import GROUND, pinned
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, slider_crank, support
 from user_forces import Impact, InputError, LankaraniNikravesh, LuGre, value
