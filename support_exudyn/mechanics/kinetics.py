@@ -199,7 +199,7 @@ class Kinetics:
         return solution[:size], solution[size : size + count]
 
     def _repeats(self, rows: Matrix) -> Matrix:
-        """Shares (m, k) of rows with which impulses cancel each other, as columns; none where no row repeats."""
+        """Shares (m, k) of rows with which impulses cancel each other, as columns; none if none repeats."""
         scaled = self.counts[:, None] * rows
         scaled[:, 2::3] /= self.size
         left, values, _ = np.linalg.svd(scaled, full_matrices=len(rows) > rows.shape[1])

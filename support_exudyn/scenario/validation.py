@@ -72,8 +72,8 @@ def _check_point_masses(scenario: ScenarioData) -> None:
             name for name, row in zip(points, rows.T, strict=True) if np.abs(row).max(initial=0.0) < TURNED
         ]
         raise ValueError(
-            f"bodies.{(alone or points)[0]}: its inertia is 0, and no joint without clearance that lies away from "
-            "its centre of mass holds how it turns; allowed: an inertia > 0, or such a joint"
+            f"bodies.{(alone or points)[0]}: its inertia is 0, and no joint without clearance that lies away "
+            "from its centre of mass holds how it turns; allowed: an inertia > 0, or such a joint"
         )
 
 

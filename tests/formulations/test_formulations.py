@@ -12,6 +12,7 @@ from support_exudyn import (
     Held,
     IdealPin,
     OilColumn,
+    PlanarLinkage,
     Scenario,
     SolverSettings,
     bore_area,
@@ -20,6 +21,7 @@ from support_exudyn import (
 from support_exudyn.formulations.registry import FORMULATIONS, Formulation, formulation
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, slider_crank, support
+from tests.linkages import four_bar
 from user_forces import Impact, InputError, LankaraniNikravesh, LuGre, value
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)

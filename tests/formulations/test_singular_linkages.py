@@ -74,7 +74,7 @@ def swing(count: int, length: float, degrees: float, mass: float, until: float) 
 
 
 def least_forces(linkage: Linkage, length: float, motion: tuple[float, float, float]) -> np.ndarray:
-    """The least forces of all pins (pins, 2) that fit, C^T L = f - M a, for an angle of hangers and its derivatives."""
+    """The least forces of all pins (pins, 2) that fit, for an angle of hangers and its derivatives."""
     angle, rate, bend = motion
     first = linkage.bodies["bar0"].angle + 0.5 * math.pi
     kinetics, position, acceleration = kinetics_of(linkage), [], []

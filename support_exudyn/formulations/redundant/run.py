@@ -77,13 +77,12 @@ def check(scenario: Scenario) -> None:
         )
     still = np.zeros(3 * len(scenario.linkage.bodies))
     for one in repeated(scenario.held, still) if scenario.friction_pins else ():
-        for name in scenario.friction_pins:
-            if ("pins", name) in one.parts:
-                raise InputError(
-                    f"pins.{name}.friction: not covered by formulation = 'redundant', for {one.said()}, and the "
-                    "engine takes any forces that fit; allowed: formulation = 'compiled', which takes the least, "
-                    "or a bushing in one of them"
-                )
+        if rough := [name for kind, name in one.parts if kind == "pins" and name in scenario.friction_pins]:
+            raise InputError(
+                f"pins.{rough[0]}.friction: not covered by formulation = 'redundant', for {one.said()}, and the "
+                "engine takes any forces that fit; allowed: formulation = 'compiled', which takes the least, or a "
+                "bushing in one of them"
+            )
 
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:
