@@ -1,8 +1,8 @@
 """Whether a run comes to a change point or dead centre, in which rigid bodies do not determine its forces.
 
-There one condition more than elsewhere follows from the others: the least singular value of the conditions that
-says something elsewhere, s, vanishes. The forces in the joints grow beyond any limit, F = c/s, unless c = 0 belongs
-to the load, as where a symmetric linkage swings through. Errors of a run grow as 1/s^2 then and may hide that.
+There one condition more than elsewhere follows from the others: of the singular values of all conditions the
+least, s, vanishes. The forces in the joints grow beyond any limit, F = c/s, unless c = 0 belongs to the load,
+as where a symmetric linkage swings through. Errors of a run grow as 1/s^2 there and may hide that.
 """
 
 import math
@@ -23,13 +23,14 @@ SINGULAR = 1e-5  # of the largest singular value: below, a condition says nothin
 NEAR = 0.2  # of the largest singular value of a dip that is looked into
 UNBOUNDED = 0.25  # share of a force that grows as one over what is left of a condition: it has no limit
 SPIKE = 10.0  # times the forces a little beside: what records next to the point show is none
+LEAP = 0.01  # share of the largest force by which none leaps from record to record
 BEYOND = 1e6  # times the median: forces beside a point that is passed freely, which are of rounding
 CLOSE = 1e-3  # of the largest singular value: where a run ends so near to a point it is the reason
 SAMPLES = 2000  # records at least that are looked at, of many
 FOUND = 1e-9  # of the time between two records
 ADVICE = (
-    "Rigid bodies do not determine the forces there: give one joint a clearance or a bushing, or let the drive stop "
-    "before."
+    "Rigid bodies do not determine the forces there: give one joint a clearance or a bushing, or let the drive "
+    "stop before."
 )
 
 
@@ -37,9 +38,15 @@ def values_of(conditions: Conditions, position: Series) -> Series:
     """Singular values of the conditions at positions (n, 3 bodies), as shares of the largest, (n, k)."""
     linkage = conditions.linkage
     motion = BodyMotion(linkage, position, position, position)
-    joints = (linkage.pins, linkage.actuators, linkage.cranks, linkage.slides, linkage.gears)
-    rows = matrix(motion, HeldJoints(*(list(kind.values()) for kind in joints)))
-    values: Series = np.linalg.svd(conditions.counts[:, None] * rows / conditions.arms, compute_uv=False)
+    held = HeldJoints(
+        list(linkage.pins.values()),
+        list(linkage.actuators.values()),
+        list(linkage.cranks.values()),
+        list(linkage.slides.values()),
+        list(linkage.gears.values()),
+    )
+    rows = conditions.counts[:, None] * matrix(motion, held) / conditions.arms
+    values: Series = np.asarray(np.linalg.svd(rows, compute_uv=False))
     return values / np.maximum(values[:, :1], math.ulp(0.0))
 
 
@@ -49,18 +56,13 @@ def words(conditions: Conditions, position: Matrix) -> str:
     rows = conditions.rows(moved)
     why = in_line(conditions, moved, rows)[0] if len(rows) >= rows.shape[1] else ""
     linkage, kinetics = conditions.linkage, conditions.kinetics
-    stands = [
-        f"{name} at {_degrees(linkage.bodies[crank.body].angle + turn(kinetics, position, crank.body)):g} degrees"
-        for name, crank in linkage.cranks.items()
-    ]
+    stands = []
+    for name, crank in linkage.cranks.items():
+        angle = linkage.bodies[crank.body].angle + turn(kinetics, position, crank.body)
+        stands.append(f"{name} at {round(math.degrees(angle), 3) % 360.0:g} degrees")
     return "the linkage is at a change point or dead centre" + "".join(
         f" ({said})" for said in (", ".join(stands), why) if said
     )
-
-
-def _degrees(angle: float) -> float:
-    """An angle [rad] in degrees from 0 to 360, to three decimals."""
-    return round(math.degrees(angle), 3) % 360.0
 
 
 def ended_at(scenario: Scenario, position: Matrix) -> str:
@@ -76,7 +78,9 @@ def ended_at(scenario: Scenario, position: Matrix) -> str:
     return words(conditions, position) if 0 <= last < len(values) and values[last] < CLOSE else ""
 
 
-def passed(scenario: Scenario, motion: BodyMotion, time: Series, forces: Mapping[str, Series]) -> tuple[float, str] | None:
+def passed(
+    scenario: Scenario, motion: BodyMotion, time: Series, forces: Mapping[str, Series]
+) -> tuple[float, str] | None:
     """When a run has passed the first change point in which forces have no limit [s], and words; None if none.
 
     Arguments:
@@ -90,25 +94,39 @@ def passed(scenario: Scenario, motion: BodyMotion, time: Series, forces: Mapping
         return None
     driven = last == motion.position.shape[1] - 1
     some = slice(None, None, max(1, len(time) // SAMPLES))
-    time, motion = time[some], BodyMotion(motion.linkage, motion.position[some], motion.velocity[some], motion.velocity)
+    time, motion = (
+        time[some],
+        BodyMotion(motion.linkage, motion.position[some], motion.velocity[some], motion.velocity),
+    )
     left = values_of(conditions, motion.position)[:, last]
-    largest = np.max([force[some] for force in forces.values()], axis=0)
+    joints = np.array([force[some] for force in forces.values()])
+    largest = joints.max(axis=0)
     dips = np.flatnonzero((left[1:-1] <= left[:-2]) & (left[1:-1] < left[2:]) & (left[1:-1] < NEAR)) + 1
     for n in dips.tolist():
         at, position, least = _least(conditions, motion, time, n, last)
         # what swings through freely moves on as energy has it, whatever the forces
-        wrong = _unbounded(left, largest, n) if driven else largest[n - 1 : n + 2].max() > BEYOND * np.median(largest)
+        wrong = (
+            _unbounded(left, largest, n) or _leaps(left, joints, n)
+            if driven
+            else largest[n - 1 : n + 2].max() > BEYOND * np.median(largest)
+        )
         if least < SINGULAR and wrong:
             return at, words(conditions, position)
     return None
 
 
-def _least(conditions: Conditions, motion: BodyMotion, time: Series, n: int, last: int) -> tuple[float, Matrix, float]:
+def _least(
+    conditions: Conditions, motion: BodyMotion, time: Series, n: int, last: int
+) -> tuple[float, Matrix, float]:
     """Where a condition says least about record n: time [s], position (3 bodies,), and what is left of it."""
     from scipy.interpolate import CubicHermiteSpline  # slow to import
     from scipy.optimize import minimize_scalar
 
-    best = (float(time[n]), motion.position[n], float(values_of(conditions, motion.position[n : n + 1])[0, last]))
+    best = (
+        float(time[n]),
+        motion.position[n],
+        float(values_of(conditions, motion.position[n : n + 1])[0, last]),
+    )
     # what a record in the point itself shows may be of rounding
     for low, high in ((n - 1, n), (n, n + 1), (n - 1, n + 1)):
         ends = [low, high]
@@ -136,3 +154,9 @@ def _unbounded(left: Series, largest: Series, n: int) -> bool:
             if share > UNBOUNDED * largest[one]:
                 return True
     return False
+
+
+def _leaps(left: Series, joints: Series, n: int) -> bool:
+    """Whether record n is in the point itself and shows forces (joints, n) that are not those to both sides."""
+    leap = np.abs(joints[:, n] - 0.5 * (joints[:, n - 1] + joints[:, n + 1])).max()
+    return bool(left[n] < SINGULAR and leap > LEAP * joints[:, n - 1 : n + 2].max())

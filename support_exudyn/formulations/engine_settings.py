@@ -31,8 +31,7 @@ def engine_settings(
     begins: no residual becomes small there, but increments do. And the rows of pressures are not scaled by the
     step as those of motions are: with a Jacobian of another step iterations end at a wrong place. So they are
     judged by increments, with a new Jacobian for each.
-    repeats: whether constraints repeat each other. Of the engine's linear solvers `EigenDense` alone, which looks
-    for pivots, runs those.
+    repeats: whether constraints repeat each other, which full pivoting alone of the engine's methods solves.
     """
     settings = exudyn.SimulationSettings()
     integration = settings.timeIntegration
@@ -57,6 +56,7 @@ def engine_settings(
     integration.newton.modifiedNewtonContractivity = 0.1  # renew the Jacobian early: a fifth faster here
     if repeats:
         settings.linearSolver.solverType = exudyn.LinearSolverType.EigenDense
+        settings.linearSolver.ignoreSingularJacobian = True
     elif unknowns > MANY:
         settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse
     settings.solution.file.write = False

@@ -78,5 +78,5 @@ CHEAPEST_FIRST = sorted(FORMULATIONS.values(), key=lambda one: one.cost)
 
 
 def formulation(name: str) -> Formulation:
-    """The formulation of this name; "auto" is the redundant one, which runs every scene."""
+    """The formulation of this name; "auto" is the redundant one, which runs nearly every scene."""
     return FORMULATIONS["redundant" if name == "auto" else cast(FormulationName, name)]

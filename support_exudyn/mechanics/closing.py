@@ -214,6 +214,6 @@ def repeated_count(conditions: Conditions) -> tuple[int, bool]:
     return lasting, lasting < repeats
 
 
-def _rank(values: Matrix) -> int:
+def _rank(values: np.ndarray) -> int:
     """How many singular values (k,) are none of rounding."""
     return int(np.count_nonzero(values > REPEATED * values.max(initial=0.0)))

@@ -9,8 +9,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from support_exudyn.mechanics.closing import Conditions, gradually, joints_of, nearest
-from support_exudyn.mechanics.kinetics import Matrix, kinetics_of
+from support_exudyn.mechanics.closing import Conditions, gradually, nearest
+from support_exudyn.mechanics.kinetics import Matrix, joints_of, kinetics_of
 from support_exudyn.mechanics.open_loop import refusal
 from support_exudyn.mechanics.postures import laid_out
 from support_exudyn.model.linkage import Body, Crank, Linkage

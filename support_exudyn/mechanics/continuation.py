@@ -7,8 +7,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from support_exudyn.mechanics.closing import CURVED, FARTHEST_STEP, LARGEST_TURN, REPEATED, Conditions
-from support_exudyn.mechanics.kinetics import Matrix
+from support_exudyn.mechanics.closing import CURVED, FARTHEST_STEP, LARGEST_TURN, Conditions
+from support_exudyn.mechanics.kinetics import REPEATED, Matrix
 from support_exudyn.mechanics.postures import ROUNDINGS
 from support_exudyn.model.linkage import Linkage
 

@@ -70,7 +70,11 @@ class Kinetics:
         found = np.zeros(3 * len(self.bodies))
         for name, item in self.bodies.items():
             if item.body.inertia == 0.0:
-                arms = [math.dist(place, item.body.centre) for body, place in joints_of(self.linkage) if body == name]
+                arms = [
+                    math.dist(place, item.body.centre)
+                    for body, place in joints_of(self.linkage)
+                    if body == name
+                ]
                 found[item.first + 2] = STAND_IN * item.body.mass * (max(arms, default=0.0) or self.size) ** 2
         return found
 
@@ -205,7 +209,7 @@ class Kinetics:
         return solution[:size], solution[size : size + count]
 
     def _repeats(self, rows: Matrix) -> Matrix:
-        """Shares (m, k) of rows with which impulses cancel each other, as columns; none where all are needed."""
+        """Shares (m, k) of rows with which impulses cancel each other, as columns; none if none repeats."""
         scaled = self.counts[:, None] * rows
         scaled[:, 2::3] /= self.size
         left, values, _ = np.linalg.svd(scaled, full_matrices=len(rows) > rows.shape[1])

@@ -5,8 +5,8 @@ what drives do to the lengths and angles that are held, c:
 
     M a + C^T L = f,    C a = c'' - C' v
 
-Where rows of C repeat each other, many L do that, and rigid bodies cannot tell them apart. The least is taken: that
-of the smallest sum of squares, in which a moment counts by one over the size of the linkage.
+Where rows of C repeat each other, many L do that, and rigid bodies cannot tell them apart. The least is taken:
+that of the smallest sum of squares, in which a moment counts by one over the size of the linkage.
 
 The engine's own multipliers and accelerations are differences of positions over the step's square, in which
 rounding shows at short steps. Nothing here is divided by a step.
@@ -270,7 +270,5 @@ def least_inverse(square: Series, counts: Series, repeats: int) -> Series:
     kept = vectors[..., repeats:] / own
     some = (kept / values[:, None, repeats:]) @ np.swapaxes(kept, 1, 2)
     nothing = np.linalg.qr(vectors[..., :repeats] / own / counts[:, None])[0]
-    least: Series = some - counts[:, None] * (
-        nothing @ (np.swapaxes(nothing, 1, 2) @ (some / counts[:, None]))
-    )
+    least: Series = some - counts[:, None] * (nothing @ (np.swapaxes(nothing, 1, 2) @ (some / counts[:, None])))
     return least

@@ -111,7 +111,7 @@ class Body(Value):
 
     Arguments:
         mass: [kg], > 0.
-        inertia: about the centre of mass [kg m^2], >= 0 (0: a point mass, whose joints have to tell how it turns).
+        inertia: about the centre of mass [kg m^2], >= 0 (0: a point mass, whose joints determine its turn).
         centre: centre of mass [m].
         angle: orientation [rad] of the line by which the machine measures this body.
         velocity: of the centre of mass [m/s].

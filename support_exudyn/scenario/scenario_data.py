@@ -195,14 +195,10 @@ class ScenarioData(Value, ABC):
     @cached_property
     def held(self) -> Conditions:
         """What constraints hold: ideal pins, rigid actuators, cranks, guides and gears."""
-        linkage = self.guided_linkage
-        kept = {
-            "pins": {name: linkage.pins[name] for name in self.held_pins},
-            "actuators": {
-                name: one for name, one in linkage.actuators.items() if name not in self.compliant_actuators
-            },
-        }
-        return conditions_of(replace(linkage, **kept))
+        linkage, oil = self.guided_linkage, self.compliant_actuators
+        pins = {name: linkage.pins[name] for name in self.held_pins}
+        rigid = {name: one for name, one in linkage.actuators.items() if name not in oil}
+        return conditions_of(replace(linkage, pins=pins, actuators=rigid))
 
     @cached_property
     def contact_places(self) -> dict[str, ContactPlace]:

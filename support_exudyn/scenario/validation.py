@@ -69,10 +69,12 @@ def _check_point_masses(scenario: ScenarioData) -> None:
     turns = [3 * names.index(name) + 2 for name in points]
     rows = held.rows(np.zeros(3 * len(names)))[:, turns]
     if points and np.linalg.matrix_rank(rows, tol=TURNED) < len(points):
-        alone = [name for name, row in zip(points, rows.T, strict=True) if np.abs(row).max() < TURNED]
+        alone = [
+            name for name, row in zip(points, rows.T, strict=True) if np.abs(row).max(initial=0.0) < TURNED
+        ]
         raise ValueError(
-            f"bodies.{(alone or points)[0]}: its inertia is 0, and no joint without clearance that lies away from its "
-            "centre of mass holds how it turns; allowed: an inertia > 0, or such a joint"
+            f"bodies.{(alone or points)[0]}: its inertia is 0, and no joint without clearance that lies away "
+            "from its centre of mass holds how it turns; allowed: an inertia > 0, or such a joint"
         )
 
 

@@ -52,6 +52,14 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
     return replace(plain, formulation=name, step=step, solver=solver)
 
 
+def covered(scenario: Scenario) -> Scenario:
+    """A scenario without an accuracy, with a formulation that covers it where "auto" leaves that open."""
+    if scenario.formulation != "auto" or formulation("auto").covers(scenario):
+        return scenario
+    free = replace(scenario, formulation="compiled")
+    return free if formulation("compiled").covers(free) else scenario
+
+
 def cheapest(scenario: Scenario) -> FormulationName:
     """The first formulation that covers a scenario; redundant covers every one whose settings fit it.
 

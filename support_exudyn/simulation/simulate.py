@@ -7,6 +7,7 @@ from typing import Literal, overload
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError, silent, told
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import Accuracy
+from support_exudyn.simulation.automatic_settings import covered
 from support_exudyn.simulation.halved_steps import run_halving_steps
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.result import Result
@@ -82,7 +83,7 @@ def _run(run: Callable[[Scenario, Progress], Result], scenario: Scenario, progre
     try:
         if scenario.solver.result_checks:
             _look_at_laws(scenario)
-        result = run(scenario, progress)
+        result = run(scenario if scenario.goal else covered(scenario), progress)
         if scenario.formulation == result.scenario.formulation:
             return result
         asked = {FORMULATION_ASKED: scenario.formulation}  # of "auto" it is told why which one ran

@@ -9,21 +9,19 @@ from typing import get_args, get_type_hints
 import pytest
 
 from support_exudyn import (
-    Body,
     Held,
     IdealPin,
-    Linkage,
-    Machine,
     OilColumn,
+    PlanarLinkage,
     Scenario,
     SolverSettings,
     bore_area,
     simulate,
 )
 from support_exudyn.formulations.registry import FORMULATIONS, Formulation, formulation
-from support_exudyn.model.linkage import GROUND, pinned
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, slider_crank, support
+from tests.linkages import four_bar
 from user_forces import InputError, LankaraniNikravesh, LuGre, value
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)

@@ -14,14 +14,24 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.special import ellipj, ellipk
 
-from support_exudyn import BushingPin, ClearancePin, Held, PlanarLinkage, Result, Scenario, Steady, simulate
+from support_exudyn import (
+    BushingPin,
+    ClearancePin,
+    Held,
+    IdealPin,
+    PlanarLinkage,
+    Result,
+    Scenario,
+    Steady,
+    simulate,
+)
 from support_exudyn.formulations.contract import SimulationError
 from support_exudyn.machines.check.freedoms import shared
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.model.linkage import GROUND, Body, Crank, Linkage, Slide, TracePoint, pinned
 from support_exudyn.postprocessing.summary import how
 from tests.linkages import bar_of, four_bar, towards
-from user_forces import JournalBearing, JournalContact, LankaraniNikravesh
+from user_forces import Ambrosio, JournalBearing, JournalContact, LankaraniNikravesh
 from user_forces.values.value import InputError
 
 FORMULATIONS = ("redundant", "compiled")
@@ -64,7 +74,7 @@ def swing(count: int, length: float, degrees: float, mass: float, until: float) 
 
 
 def least_forces(linkage: Linkage, length: float, motion: tuple[float, float, float]) -> np.ndarray:
-    """The least forces of all pins (pins, 2) with which C^T L = f - M a, for hangers at an angle, its rate and that of it."""
+    """The least forces of all pins (pins, 2) that fit, for an angle of hangers and its derivatives."""
     angle, rate, bend = motion
     first = linkage.bodies["bar0"].angle + 0.5 * math.pi
     kinetics, position, acceleration = kinetics_of(linkage), [], []
@@ -87,7 +97,7 @@ def test_a_platform_on_three_hangers_swings_as_a_pendulum(formulation: str) -> N
     result, right = run(linkage, formulation, 2.0), swing(3, 1.0, 30.0, 20.0, 2.0).sol
     time = result.channels["time"].values
     x, y = (1e3 * result.channels[f"T.{axis}"].values for axis in "xy")
-    assert [x.mean(), y.mean()] == pytest.approx([-1.77007, -932.66701], abs=1e-3)
+    assert [x.mean(), y.mean()] == pytest.approx([-1.77007, -932.66701], abs=5e-3)
     assert x == pytest.approx(1e3 * np.sin(right(time)[0]), abs=2e-3)
     assert y == pytest.approx(-1e3 * np.cos(right(time)[0]), abs=2e-3)
     # by symmetry the least forces are equal
@@ -105,10 +115,9 @@ def test_a_platform_on_three_hangers_swings_as_a_pendulum(formulation: str) -> N
     length=st.floats(0.3, 2.0),
     degrees=st.floats(-70.0, 70.0),
     mass=st.floats(1.0, 50.0),
-    turned=st.booleans(),
 )
 def test_formulations_share_the_forces_of_many_hangers_alike(
-    spans: list[float], length: float, degrees: float, mass: float, turned: bool
+    spans: list[float], length: float, degrees: float, mass: float
 ) -> None:
     places = np.cumsum([0.0, *spans]).tolist()
     linkage = hangers(places, length, degrees, mass)
@@ -146,8 +155,25 @@ def test_a_block_on_two_guides_in_line_slides_down_and_they_share_its_weight(for
         assert channels[f"guide{n}.moment"].values == pytest.approx(0.0, abs=1e-6)
 
 
+def test_friction_in_a_pin_that_shares_its_force_is_of_the_formulation_that_takes_the_least() -> None:
+    linkage = hangers([0.0, 1.0, 2.5], 1.0, 30.0, 20.0)
+    pins = {"G0": IdealPin(friction=Ambrosio(sliding_coefficient=0.3), radius=0.05)}
+    with pytest.raises(
+        InputError, match=r"pins\.G0\.friction: not covered .*; allowed: formulation = 'compiled'"
+    ):
+        run(linkage, "redundant", 0.2, pins=pins)
+    result = run(linkage, "auto", 0.2, pins=pins)
+    assert result.scenario.formulation == "compiled"
+    assert "redundant does not cover pins.G0.friction" in dict(how(result))["formulation"]
+    # its own force, times radius, coefficient and the way that it has turned
+    force = result.channels["pin.G0.force"].values
+    lost = result.channels["energy.friction_loss"].values[-1]
+    turned = np.abs(np.diff(result.channels["bar0.angle"].values))
+    assert lost == pytest.approx(0.3 * 0.05 * float(force[1:] @ turned), rel=0.05)
+
+
 def test_a_bushing_in_one_joint_determines_the_forces() -> None:
-    made = Scenario(machine=PlanarLinkage(drawing=hangers([0.0, 1.0, 2.0], 1.0, 30.0, 20.0)))
+    made = Scenario(machine=PlanarLinkage(drawing=hangers([0.0, 1.0, 2.0], 1.0, 30.0, 20.0)), duration=1.0)
     assert shared(made.held)
     assert not shared(replace(made, pins={"P2": BushingPin(stiffness=(1e7, 1e7))}).held)
 
@@ -225,7 +251,7 @@ def double_pendulum(bodies: Sequence[Body]) -> Linkage:
 
 
 def two_angles(masses: tuple[float, float], arm: float, inertia: float, until: float) -> np.ndarray:
-    """The turn of both by scipy: a point mass at the end of a rod of 0.5 m, and a body with its centre `arm` further."""
+    """The turns by scipy: a point mass at the end of a rod, and a body whose centre is `arm` further."""
     (one, two), length = masses, 0.5
 
     def rates(t: float, y: np.ndarray) -> np.ndarray:
@@ -290,10 +316,11 @@ def test_a_point_mass_whose_turn_nothing_holds_is_refused(loose: bool) -> None:
         pins={"O": pinned(GROUND, "bob", (0.0, 0.0))},
     )
     contact = JournalContact(
-        bearing=JournalBearing(bore_radius=0.01, clearance=1e-4), normal=LankaraniNikravesh(stiffness=1e9)
+        bearing=JournalBearing(bore_radius=0.01, clearance=1e-4),
+        normal=LankaraniNikravesh(stiffness=1e9, restitution=0.5),
     )
     pins = {"O": ClearancePin(contact=contact)} if loose else {}
     with pytest.raises(
         InputError, match=r"bodies\.bob: its inertia is 0, .*; allowed: an inertia > 0, or such"
     ):
-        Scenario(machine=PlanarLinkage(drawing=linkage), pins=pins)
+        Scenario(machine=PlanarLinkage(drawing=linkage), pins=pins, duration=1.0)

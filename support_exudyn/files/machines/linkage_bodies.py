@@ -101,7 +101,8 @@ def drawn_body(name: str, data: LinkageBodyData, drawn: Mapping[str, Vector2]) -
     part, assumed = _mass(name, data, known)
     if part.inertia <= 0.0 and data.inertia is None:
         raise InputError(
-            f"{where}.inertia_kg_m2: missing; its parts are points in one place; allowed: >= 0, 0 for a point mass"
+            f"{where}.inertia_kg_m2: missing; its parts are points in one place; allowed: >= 0, 0 for a point "
+            "mass"
         )
     return DrawnBody(name, points, origin, angle, line, part, assumed)
 

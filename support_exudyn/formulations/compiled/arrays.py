@@ -80,9 +80,9 @@ RUBBING = _record(
 class SceneArrays(NamedTuple):
     """All that an evaluation of the equations of motion takes. square: C M^-1 C^T and its factors.
 
-    repeats: of rows that repeat others, shares of all with which their multipliers cancel each other, (repeats,
-    rows). counts: factor of each row [m], see `Kinetics.counts`. spare: a number a row. rounds: in which multipliers and
-    accelerations are found, at most, see `motion.refine`.
+    repeats: of each row that repeats others, the multipliers of all that cancel each other, (repeats, rows).
+    counts: factor of each row [m], see `Kinetics.counts`. spare: a number a row. rounds: in which multipliers
+    and accelerations are solved for, at most, see `motion.refine`.
     gaps, sides, beyond: of legs, what passes zero where something happens, on which side of it each is, and how
     far it has been on the other within a step, shape (legs, GAPS).
     """

@@ -12,7 +12,7 @@ import math
 from support_exudyn.formulations.compilation import compiled, inlined
 from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
 
-SETTLED = 1e-13  # of moments that are found together with accelerations: they change by no more than this share
+SETTLED = 1e-13  # share by which moments that depend on accelerations may still change
 SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
 
 
@@ -188,9 +188,8 @@ def factor(scene: SceneArrays) -> float:
 def invert_repeated(scene: SceneArrays) -> float:
     """Write in place of C M^-1 C^T, some of whose rows repeat others, the inverse of what is left without them.
 
-    Rows are taken in the order of what is left of them, by the method of Gauss and Jordan; those that remain at
-    the end give `SceneArrays.repeats`, each with those that it follows from. Returns the least share that was
-    left of a row that was taken.
+    The method of Gauss and Jordan takes that row next of which the largest share is left. Rows that remain at
+    the end give `SceneArrays.repeats`. Returns the least share that was left of a row taken.
     """
     count, repeats = scene.rows.size, scene.repeats.shape[0]
     square, own = scene.square, scene.spare
@@ -388,8 +387,8 @@ def solve(scene: SceneArrays, right: Vector) -> None:
 def refine(scene: SceneArrays, right: Vector) -> bool:
     """Correct multipliers and accelerations by what the equations are open by; whether that may help further.
 
-    Beside light bodies the factors lose digits. A point mass has in them the inertia `stand_in`, which has no
-    moment: it is given back by one, from the acceleration before.
+    Beside light bodies the factors lose digits. They contain an inertia `stand_in` for a point mass: a moment,
+    from the acceleration before, gives that back.
     """
     changed = largest = 0.0
     for n in range(scene.bodies.size):

@@ -34,8 +34,7 @@ from user_forces.compilation.flat import friction_source, law_source
 from user_forces.lawful import LawError
 from user_forces.values.value import Vector2
 
-
-# Factors lose as many digits as the lightest body is lighter than the heaviest. So little is to be left of that.
+# Factors lose as many digits as the lightest body is lighter than the heaviest. So little may be left of that.
 DIGIT, CLOSE = 1e-15, 1e-13
 MOST_ROUNDS = 30
 
@@ -206,13 +205,11 @@ def _bodies(scenario: Scenario) -> Records:
 
 
 def _rounds(scenario: Scenario) -> int:
-    """In how many rounds multipliers and accelerations are found, see `motion.refine`."""
+    """In how many rounds multipliers and accelerations are solved for, see `motion.refine`."""
     held = scenario.held
-    if held.kinetics.stand_in.any():
-        return MOST_ROUNDS
     felt = held.kinetics.mass() / held.arms**2
-    lost = DIGIT * float(felt.max() / felt.min())
-    return min(max(1, math.ceil(math.log(CLOSE) / math.log(lost))), MOST_ROUNDS) if lost < 1.0 else MOST_ROUNDS
+    lost = DIGIT * felt.max() / max(felt.min(), DIGIT * felt.max())  # all of a point mass
+    return MOST_ROUNDS if lost >= CLOSE**0.1 else max(1, math.ceil(math.log(CLOSE) / math.log(lost)))
 
 
 def _points(build: _Builder, linkage: Linkage) -> Records:

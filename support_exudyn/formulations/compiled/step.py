@@ -113,7 +113,7 @@ def evaluate(scene: SceneArrays, t: float, y: Vector, slope: Vector, right: Vect
 def close_joints(scene: SceneArrays, t: float, y: Vector, right: Vector) -> None:
     """Close the joints of a state at t [s], and give it rates that keep them so.
 
-    The factors are those of an evaluation near by, but beside light bodies, to which small errors of them are large.
+    The factors are those of an evaluation near by, but of this state for light bodies, which feel their errors.
     """
     count, rows = 3 * scene.bodies.size, scene.rows.size
     follow_courses(scene, t)

@@ -1,6 +1,7 @@
 """The redundant formulation: Exudyn's rigid bodies with constraints, generalised alpha, located impacts.
 
-It covers every scenario and is the reference for the others.
+It covers every scenario but friction in pins whose forces rigid bodies do not determine, and is the reference
+for the others.
 """
 
 from collections.abc import Callable
@@ -27,6 +28,7 @@ from support_exudyn.formulations.redundant.solver.solver import SolverRun
 from support_exudyn.formulations.redundant.space.observation import SpatialObservation
 from support_exudyn.formulations.redundant.space.scene import SpatialScene
 from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
+from support_exudyn.machines.check.freedoms import repeated
 from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
@@ -73,6 +75,14 @@ def check(scenario: Scenario) -> None:
             f"solver.constraint_index = 2: {rigid[0]} is rigid and moves, and the engine's constraint knows no "
             "speed; allowed: 3, or columns of oil"
         )
+    still = np.zeros(3 * len(scenario.linkage.bodies))
+    for one in repeated(scenario.held, still) if scenario.friction_pins else ():
+        if rough := [name for kind, name in one.parts if kind == "pins" and name in scenario.friction_pins]:
+            raise InputError(
+                f"pins.{rough[0]}.friction: not covered by formulation = 'redundant', for {one.said()}, and the "
+                "engine takes any forces that fit; allowed: formulation = 'compiled', which takes the least, or a "
+                "bushing in one of them"
+            )
 
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:

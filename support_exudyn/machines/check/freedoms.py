@@ -18,8 +18,8 @@ SEEN = 1e-6  # of the fastest: what moves less stands still
 FIELDS = {"slides": "guides"}  # what files call a field of the linkage
 DRIVEN = ("actuators", "cranks")
 SHARED = (
-    "how they share a force is not determined by ideal, rigid parts: reported are the least forces that fit; a bushing "
-    "or clearance in one of them determines it"
+    "how they share a force is not determined by ideal, rigid parts: reported are the least forces that fit; a "
+    "bushing or clearance in one of them determines it"
 )
 
 

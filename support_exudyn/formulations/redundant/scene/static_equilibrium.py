@@ -112,6 +112,7 @@ def _solve(scene: EngineScene) -> None:
     settings.staticSolver.loadStepDuration = AT_THE_START
     if scene.repeats:
         settings.linearSolver.solverType = exudyn.LinearSolverType.EigenDense
+        settings.linearSolver.ignoreSingularJacobian = True
     newton = settings.staticSolver.newton
     newton.residualMode, newton.relativeTolerance = BY_CHANGES, 1e-10
     newton.absoluteTolerance = max(CLOSE, ROUNDINGS * math.ulp(scene.scenario.linkage.farthest))
