@@ -10,11 +10,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from scipy.io import savemat
 
 from support_exudyn import ClearancePin, Result, read_scenario, simulate, trusted
 from support_exudyn.__main__ import main
 from support_exudyn.files.own_modules import modules_of
 from support_exudyn.files.scenarios.scenario_file import read_machine_in
+from support_exudyn.files.series.apart import read_apart
 from support_exudyn.sweeps import read_sweep
 from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.own_sources import _source
@@ -254,3 +256,15 @@ def test_no_file_beside_a_trusted_module_stands_for_a_library(
     import wave
 
     assert wave.__file__ != str(tmp_path / "wave.py")
+
+
+def test_reading_in_another_process_imports_nothing_from_the_working_directory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    savemat(tmp_path / "a.mat", {"time": [0.0, 1.0]})
+    (tmp_path / "scipy.py").write_text(f"open('{RAN}', 'w').close()")
+    assert read_apart(
+        "support_exudyn.files.series.matlab_arrays:matlab_arrays", tmp_path / "a.mat", "MATLAB file"
+    )
+    assert not (tmp_path / RAN).exists()
