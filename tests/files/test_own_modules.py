@@ -10,11 +10,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from scipy.io import savemat
 
 from support_exudyn import ClearancePin, Result, read_scenario, simulate, trusted
 from support_exudyn.__main__ import main
 from support_exudyn.files.own_modules import modules_of
 from support_exudyn.files.scenarios.scenario_file import read_machine_in
+from support_exudyn.files.series.apart import read_apart
 from support_exudyn.sweeps import read_sweep
 from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.own_sources import _source
@@ -169,6 +171,14 @@ def test_a_scenario_runs_no_python(foreign: Path, name: str, capsys: pytest.Capt
     assert not (foreign / RAN).exists()
 
 
+def test_workers_import_the_modules_that_a_sweep_was_trusted_with(foreign: Path) -> None:
+    trusted(foreign / "zlaw.py")
+    sent = pickle.dumps(read_sweep(foreign / "sweep.toml").scenario)
+    forget("zlaw")  # as in another process, which looks for modules in the same folders
+    scenario = pickle.loads(sent)({"pins.pin.clearance_mm": 2})
+    assert type(scenario.pins["pin"].contact.normal).__name__ == "ForeignLaw"
+
+
 def test_a_law_that_lends_its_damping_to_a_pin_along_its_length_is_noted_and_sent(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -246,3 +256,15 @@ def test_no_file_beside_a_trusted_module_stands_for_a_library(
     import wave
 
     assert wave.__file__ != str(tmp_path / "wave.py")
+
+
+def test_reading_in_another_process_imports_nothing_from_the_working_directory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    savemat(tmp_path / "a.mat", {"time": [0.0, 1.0]})
+    (tmp_path / "scipy.py").write_text(f"open('{RAN}', 'w').close()")
+    assert read_apart(
+        "support_exudyn.files.series.matlab_arrays:matlab_arrays", tmp_path / "a.mat", "MATLAB file"
+    )
+    assert not (tmp_path / RAN).exists()

@@ -3,6 +3,7 @@
 import re
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from difflib import get_close_matches
 from pathlib import Path
 from types import ModuleType
@@ -40,6 +41,17 @@ def _inside(key: str, item: Any, place: Place, faults: Faults, folder: Path) -> 
     except InputError as error:
         faults.add((), f"{said_place(place)} = {said(item)}: {error}")
     return found["name"]
+
+
+def modules_named(item: Any, folder: Path) -> set[str]:
+    """Names of the imported modules whose classes tables name; other processes have to import them, too."""
+    if isinstance(item, (dict, list)):
+        inside = item.values() if isinstance(item, dict) else item
+        return set().union(*(modules_named(one, folder) for one in inside))
+    if isinstance(item, str) and (found := NAMED.fullmatch(item)):
+        with suppress(InputError):  # which reading tells
+            return {_module(found["module"], folder, found["name"]).__name__}
+    return set()
 
 
 def _module(name: str, folder: Path, wanted: str) -> ModuleType:
