@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studies.benchmarking.estimates import numbers_of_records, tight_numbers
+from studies.benchmarking.estimates import tight_numbers
 from studies.benchmarking.fresh_scenes import Fresh
 from studies.extremes.runs import HangError, patience
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
@@ -245,7 +245,7 @@ def _numbers(scenarios: Sequence[Scenario]) -> list[Mapping[str, float]]:
 
 def judged(run: Result, known: Sequence[Reference]) -> Iterator[Judged]:
     """Judge all numbers of a run by the references."""
-    for name, number in numbers_of_records(run).items():
+    for name, number in run.numbers().items():
         yield judge(name, number.value, number.error, run.scenario.formulation, known)
 
 
