@@ -104,7 +104,7 @@ def check(name: str, scene: BenchmarkScene, scenario: Scenario, known: Truth) ->
     began = time.process_time()
     result = simulate(scenario)
     seconds = time.process_time() - began
-    found = numbers_of_records(result, scene.after)
+    found = result.numbers(scene.after)
     off = {name: abs(found[name].value - known.numbers[name]) for name in found if name in known.numbers}
     names = [name for name in off if TIGHTER * known.own_errors[name] <= max(found[name].error, off[name])]
     wrong = [
@@ -123,21 +123,6 @@ def check(name: str, scene: BenchmarkScene, scenario: Scenario, known: Truth) ->
         max(wrong, default=0.0),
         len(off) - len(names),
     )
-
-
-def numbers_of_records(run: Result, after: float = 0.0) -> Mapping[str, Estimate]:
-    """The usual numbers, from a time on [s], with the errors that they have as numbers of the same records.
-
-    What extremes miss between records is left out: a reference with the same records misses it too. Times of
-    largest values keep all of it, for it tells of other impacts as large within their errors.
-    """
-    kinds = measures(run, after, math.inf)
-    return {
-        name: number
-        if name.endswith("_time")
-        else number._replace(error=number.error - kinds[name].missed(run))
-        for name, number in run.numbers(after).items()
-    }
 
 
 def tight(scene: BenchmarkScene) -> Truth:

@@ -86,7 +86,11 @@ class TimeWindow(NamedTuple):
     @property
     def std_doubt(self) -> float:
         """By how much the standard deviation may be off because the window ends inside intervals."""
-        return math.sqrt(self.std**2 + self.square_doubt) - self.std
+        square = self.std**2
+        return max(
+            math.sqrt(square + self.square_doubt) - self.std,
+            self.std - math.sqrt(max(0.0, square - self.square_doubt)),
+        )
 
 
 @dataclass(frozen=True)
@@ -170,7 +174,7 @@ def _part(row: Series, start: float, whole: float, low: float, high: float) -> _
     found = np.array([mean, variance + max(0.0, unknown), *values[[0, -1]], *row[LEAST:]])
     places = np.concatenate([[low], low + (high - low) * GAUSS, [high]])
     for column, at in ((LEAST, int(values.argmin())), (GREATEST, int(values.argmax()))):
-        if not low <= row[column + 1] <= high:
+        if not (low < row[column + 1] or low == start) or row[column + 1] > high:
             found[column], found[column + 1] = values[at], places[at]
     # a deviation that integrates to zero over the whole: Schwarz's inequality
     doubt = math.sqrt(abs(unknown) * (1.0 - share) / share) if share > 0.0 else math.sqrt(abs(unknown))

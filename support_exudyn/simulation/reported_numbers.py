@@ -261,30 +261,33 @@ def other_times(
 ) -> Measure:
     """How far the time of an extreme may be off [s].
 
-    To the farthest interval whose extreme comes as near to it as the runs differ in that; within its own
-    interval as far as a parabola falls by that; as far as the runs are apart in the time; and a step.
+    To the farthest interval whose extreme comes as near to it as the runs differ in both; within its own
+    interval as far as a parabola falls by that; and as far as the runs are apart in the time.
     """
 
-    def measure(run: RecordedRun) -> float:
-        window = run.window(name, after, until)
-        value, time = extreme(window)
-        doubt = max(window.least_doubt, window.greatest_doubt) + ROUNDING * abs(value)
-        apart, other = 0.0, run.coarser
-        while other is not None:
-            its, then = extreme(other.window(name, after, until))
-            doubt, apart, other = max(doubt, abs(its - value)), max(apart, abs(then - time)), other.coarser
+    def by_interval(window: TimeWindow) -> Series:
         rows = (
             TimeWindow(window.durations[n : n + 1], window.rows[n : n + 1]) for n in range(len(window.rows))
         )
-        values, times = np.array([extreme(row) for row in rows]).T
-        lower = extreme(window) == window.least
-        # the one may be less and the other more
-        near = values <= value + 2.0 * doubt if lower else values >= value - 2.0 * doubt
+        return np.array([extreme(row) for row in rows]).T
+
+    def measure(run: RecordedRun) -> float:
+        window = run.window(name, after, until)
+        (values, times), (value, time) = by_interval(window), extreme(window)
+        doubts = np.full(values.size, max(window.least_doubt, window.greatest_doubt) + ROUNDING * abs(value))
+        apart, other = 0.0, run.coarser
+        while other is not None:
+            its = other.window(name, after, until)
+            apart = max(apart, abs(extreme(its)[1] - time))
+            if len(its.rows) == values.size:
+                doubts = np.maximum(doubts, np.abs(by_interval(its)[0] - values))
+            other = other.coarser
         own = int(np.abs(times - time).argmin())
+        sign = -1.0 if extreme(window) == window.least else 1.0
+        near = sign * values + doubts >= sign * value - doubts[own]  # the one may be less and the other more
         fall = float(window.rows[own, GREATEST] - window.rows[own, LEAST])
-        flat = float(window.durations[own]) * min(1.0, math.sqrt(2.0 * doubt / fall) if fall > 0.0 else 1.0)
-        step = run.scenario.duration / max(1, run.counts.steps)
-        return max(float(np.abs(times[near] - time).max()), apart) + flat + step
+        flat = min(1.0, math.sqrt(2.0 * doubts[own] / fall)) if fall > 0.0 and run.statistics else 1.0
+        return max(float(np.abs(times[near] - time).max()), apart) + flat * float(window.durations[own])
 
     return measure
 

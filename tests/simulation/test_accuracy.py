@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from studies.benchmarking.estimates import numbers_of_records
 from support_exudyn import (
     ClearancePin,
     CubicStep,
@@ -373,7 +372,7 @@ def checked(request: pytest.FixtureRequest) -> list[Case]:
                 assert run.scenario.formulation == "compiled"
                 numbers = {
                     n: number
-                    for n, number in numbers_of_records(run).items()
+                    for n, number in run.numbers().items()
                     if n in known and not n.endswith("largest_time") and not n.endswith("largest_force_time")
                 }
                 true = np.array([abs(number.value - known[n]) for n, number in numbers.items()])

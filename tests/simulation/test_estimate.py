@@ -456,6 +456,15 @@ def test_a_spread_and_a_least_value_near_zero_are_as_uncertain_as_the_values_the
     assert found[f"{actuator}.min"].error - whatever_the_steps(run, f"{actuator}.min") >= ROUNDING * 1e5
 
 
+def test_a_force_that_is_rounding_of_others_is_not_told_from_zero() -> None:
+    noise = 1e-13 * exact()[FORCE].max() * np.random.default_rng(2).normal(size=exact().time.size)
+    run = with_channel(exact(), "front_column.force", noise)
+    found = three(run, run, run).numbers()
+    for word in ("mean", "std", "largest", "min", "max"):
+        number = found[f"front_column.force.{word}"]
+        assert abs(number.value) <= number.error <= 2e-12 * exact()[FORCE].max()
+
+
 def test_a_path_that_goes_nowhere_is_measured_by_the_clearance() -> None:
     along = np.arange(exact().time.size) / exact().time.size
     still = with_channel(exact(), "tip.x", np.ones_like(along))
