@@ -93,7 +93,7 @@ def measures(sample: Sample) -> Data:
 def _with_errors(
     runs: Sequence[Result], values: Mapping[int, Values], during: rise.Watched
 ) -> dict[str, list[float]]:
-    """The values of the finer of two runs with their errors: of its steps, of its records, and of its equations.
+    """The values of the finer of two runs with their errors: of steps, of records, and of equations.
 
     The last is the tolerance, by which formulations agree, times the size of what a value is made from.
 

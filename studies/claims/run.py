@@ -34,8 +34,8 @@ from studies.common.options import Options
 from studies.common.paper_machine import CYLINDERS
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
-from support_exudyn import SimulationError
 from support_exudyn.files.whole_file import whole_file
+from user_forces.values.value import InputError
 
 MACHINES = 80  # of the first hypercube; of the second half as many
 MOST_MACHINES = 800  # of the first hypercube where all studies are run
@@ -59,10 +59,10 @@ def drawn(number: int) -> list[dict[str, str | float]]:
 def judged(rows: Sequence[MachineRow]) -> list[Ruling]:
     """The verdicts on all statements, by the machines that could be run, the reference support first.
 
-    Raises SimulationError if the reference support could not be run.
+    Raises InputError if the reference support could not be run.
     """
     if rows[0].measures is None:
-        raise SimulationError(f"reference support: {rows[0].failure}")
+        raise InputError(f"reference support: {rows[0].failure}")
     first, second = (known(rows[1:], second=second) for second in (False, True))
     return [rule(claim, evidence(rows[0].measures), first, second) for claim in CLAIMS]
 
@@ -148,7 +148,7 @@ def threshold_table(rulings: Sequence[Ruling]) -> TextTable:
     rows = []
     for n, ruling in enumerate(rulings, 1):
         if ruling.thresholds:
-            cells = (f"{_threshold(at.threshold)}: {at.count}, {at.count.kind}" for at in ruling.thresholds)
+            cells = (f"{_threshold(at.threshold)}: {at.counted}, {at.counted.kind}" for at in ruling.thresholds)
             rows.append((str(n), ruling.claim.name, *cells, "yes" if ruling.hangs else "no"))
     header = ("no.", "statement", "lower", "middle", "upper", "hangs on it")
     return TextTable(header, tuple(rows), wide=True, width=160)

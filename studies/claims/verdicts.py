@@ -73,7 +73,7 @@ class AtThreshold(NamedTuple):
     """How machines judge a statement with a threshold."""
 
     threshold: float
-    count: Count
+    counted: Count
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,7 @@ class Ruling:
     @property
     def hangs(self) -> bool:
         """Whether another threshold makes it another verdict, and not for want of machines."""
-        return len({at.count.kind for at in self.thresholds} - {NEEDS_MORE, NOT_MEASURABLE}) > 1
+        return len({at.counted.kind for at in self.thresholds} - {NEEDS_MORE, NOT_MEASURABLE}) > 1
 
     @property
     def differs(self) -> bool:

@@ -22,9 +22,9 @@ class Options:
 
     out: folder for output. workers: number of processes, or the pool that all studies share. kept: folder of
     runs that are made once and kept, see `studies.common.runs`; None: none is. machines: number of plausible
-    machines that claims draws; runs: number of scenes that extremes draws; with
-    any blow runs its small form; None: their own choice. thorough: whether all studies are run, so that there
-    is time for more machines. subject: the machine and pin that the study is about.
+    machines that claims draws; runs: number of scenes that extremes draws; with any blow runs its small form;
+    None: their own choice. subject: the machine and pin that the study is about. thorough: whether all studies
+    are run, so that there is time for more machines.
     """
 
     out: Path
@@ -32,8 +32,8 @@ class Options:
     kept: Path | None = None
     machines: int | None = None
     runs: int | None = None
-    thorough: bool = False
     subject: Subject = field(default_factory=paper_subject)
+    thorough: bool = False
 
     def of_study(self, name: str, workers: Workers) -> "Options":
         """These options for one of several studies, in a folder of its own."""

@@ -1,4 +1,4 @@
-"""Measures of machines: their errors cover the other formulation and denser records, like is compared with like."""
+"""Measures of machines: errors cover the other formulation and denser records; like is compared with like."""
 
 from __future__ import annotations
 

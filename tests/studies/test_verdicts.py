@@ -216,7 +216,7 @@ def test_a_verdict_hangs_on_a_threshold_that_changes_it(
     value: float, machines: int, kinds: list[str], hangs: bool
 ) -> None:
     found = by_threshold([value] * machines)
-    assert [at.count.kind for at in found.thresholds] == kinds
+    assert [at.counted.kind for at in found.thresholds] == kinds
     assert found.hangs is hangs
     assert set(kinds) <= set(KINDS)
 
