@@ -110,7 +110,6 @@ MEMBERS = {  # by whose direction a centre of mass is shifted
 _FROM_PAPER_MACHINE: dict[str, Choice] = {
     "restitution": paper_machine.RESTITUTION,
     "sliding_coefficient": paper_machine.SLIDING_COEFFICIENT,
-    "rest_velocity": paper_machine.LAST_IMPACT.floor,
 }
 FACTORS = tuple(
     Factor(**{**row, "name": name, "reference": _FROM_PAPER_MACHINE.get(name, row["reference"])})
