@@ -216,10 +216,10 @@ def test_a_pin_along_its_length_shakes_thirty_times_as_much(
         names = ("mean_pin_force", "rms_pin_force", "largest_pin_force_any_step")
         return [float(numbers[name, contacts.case_name(contact, friction)]["value"]) for name in names]
 
-    # with the speed of the last impact in the damping; by an independent program, which damps by the depth that
-    # is reached, 0.93, 35 and, with 3e9 N/m in series, 31 kN. The error of the stiff ones is up to a tenth
-    for contact, ripple in (("paper", 1018.0), ("internal", 29.8e3), ("cylinders", 29.9e3)):
-        assert shown(contact, 0.25)[1] == pytest.approx(ripple, rel=0.03 if contact == "paper" else 0.1)
+    # by an independent program from a settled start, which damps by the depth that is reached: 35 and, with
+    # 3e9 N/m in series, 31 kN; of the paper's contact, which that damps more, 0.93
+    for contact, ripple in (("paper", 1018.0), ("internal", 35e3), ("cylinders", 31e3)):
+        assert shown(contact, 0.25)[1] == pytest.approx(ripple, rel=0.03)
         assert shown(contact, 0.0)[1] < 150.0  # without friction it comes to rest
     # the same program: 0.44, 0.96 and 0.75 MN
     for contact, peak in (("paper", 0.44e6), ("internal", 0.96e6), ("cylinders", 0.75e6)):
