@@ -48,7 +48,7 @@ def check_laws(contact: Contact, name: str) -> None:
 
 
 def check_normal_law(contact: Contact, name: str) -> None:
-    """Raise LawError if a normal law gives no number, pulls at rest, drives, or has another energy than its force.
+    """Raise LawError if a normal law gives no number, pulls at rest, drives, or its energy is not its work.
 
     It is called at depths of AT_REST, up to the depth for which it is valid, and at RATES.
     """
@@ -116,7 +116,7 @@ def _number(function: Callable[..., object], arguments: tuple[float, ...], said:
         raise
     except Exception as error:  # whatever a user's class does wrong
         raise LawError(f"{said} fails {at}: {type(error).__name__}: {error}") from error
-    if isinstance(found, Real) and not isinstance(found, bool):
+    if isinstance(found, Real) and type(found) is not bool:
         return float(found)
     raise LawError(f"{said} gives {short(found)} {at}; allowed: a real number")
 

@@ -15,10 +15,8 @@ def contact_lines(scenario: Scenario) -> list[str]:
         contact = place.contact
         parts = (_of_normal(contact.normal), _of_friction(contact.friction))
         joints.setdefault("; ".join(filter(None, parts)), {})[place.of] = None
-    for name, pin in scenario.friction_pins.items():
-        joints.setdefault(f"ideal, {_of_friction(pin.friction)}", {})[f"pins.{name}"] = None
-    for name, guide in scenario.friction_guides.items():
-        joints.setdefault(f"ideal, {_of_friction(guide.friction)}", {})[f"guides.{name}"] = None
+    for name, law in scenario.friction_laws.items():
+        joints.setdefault(f"ideal, {_of_friction(law)}", {})[name] = None
     return [f"{', '.join(names)}: {text}" for text, names in joints.items()]
 
 
@@ -34,9 +32,9 @@ def _of_normal(law: NormalLaw) -> str:
     return said if rest is None else f"{said} by free impacts faster than {1e3 * rest:g} mm/s"
 
 
-def _of_friction(law: FrictionLaw | None) -> str:
+def _of_friction(law: FrictionLaw) -> str:
     """Name of a friction law, and from which slip on it is full; empty for none."""
-    if law is None or isinstance(law, Frictionless):
+    if isinstance(law, Frictionless):
         return ""
     if law.has_state:
         return f"friction {title(type(law))}, which can stick"

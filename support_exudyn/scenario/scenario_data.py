@@ -41,6 +41,7 @@ from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, SolverSettings
+from user_forces.friction.law import FrictionLaw
 from user_forces.values.units import MetresPerSecondSquared, Seconds
 from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
 
@@ -359,6 +360,13 @@ class ScenarioData(Value, ABC):
         """The ideal guides that have friction, by name."""
         ideal = {name: guide for name, guide in self.guides.items() if isinstance(guide, IdealGuide)}
         return {name: guide for name, guide in ideal.items() if guide.friction is not None}
+
+    @property
+    def friction_laws(self) -> dict[str, FrictionLaw]:
+        """Laws of ideal pins with friction, then of ideal guides, as "pins.NAME" and "guides.NAME"."""
+        laws = {f"pins.{name}": pin.friction for name, pin in self.friction_pins.items()}
+        laws |= {f"guides.{name}": guide.friction for name, guide in self.friction_guides.items()}
+        return {name: law for name, law in laws.items() if law is not None}
 
     @cached_property
     def hydraulics(self) -> dict[str, HydraulicLeg]:

@@ -125,8 +125,10 @@ def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel
 def _has_own_law(scenario: Scenario) -> bool:
     """Whether a user's class takes part in what is lost: those of the package keep to the signs of losses."""
     laws: list[object] = [*scenario.acting_loads.values(), *scenario.actuators.values()]
-    for joint in (*scenario.pins.values(), *scenario.guides.values()):
-        laws += joint.losses().values()
+    for pin in scenario.pins.values():
+        laws += pin.losses().values()
+    for guide in scenario.guides.values():
+        laws += guide.losses().values()
     return any(map(is_own, laws))
 
 

@@ -97,8 +97,7 @@ def _look_at_laws(scenario: Scenario) -> None:
     try:
         for name, place in scenario.contact_places.items():
             check_laws(place.contact, name)
-        for name, joint in (*scenario.friction_pins.items(), *scenario.friction_guides.items()):
-            if joint.friction is not None:
-                check_friction_law(joint.friction, name)
+        for name, law in scenario.friction_laws.items():
+            check_friction_law(law, name)
     except LawError as error:
         raise SimulationError(Failure(str(error), UNLAWFUL, 0.0)) from error

@@ -26,7 +26,7 @@ class _Rubbing(NamedTuple):
     where: str
     law: FrictionLaw
     slip: Series
-    loaded: Series
+    loaded: np.ndarray
 
 
 def friction_warnings(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None) -> list[str]:
@@ -76,12 +76,10 @@ def _all_rubbing(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None
     motion = motion or BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
     forces = [np.hypot(*run.ideal_pins[name].T) for name in pins]
     forces += [run.slides[name].max(axis=1) for name in guides]
-    named = {f"pins.{name}": pin.friction for name, pin in pins.items()}
-    named |= {f"guides.{name}": guide.friction for name, guide in guides.items()}
-    slips = joint_slips(motion, pins, guides)
-    for (where, friction), slip, force in zip(named.items(), slips, forces, strict=True):
-        if friction is not None and not friction.has_state:
-            yield _Rubbing(where, friction, slip, force > 0.0)
+    laws, slips = scenario.friction_laws.items(), joint_slips(motion, scenario)
+    for (where, law), slip, force in zip(laws, slips, forces, strict=True):
+        if not law.has_state:
+            yield _Rubbing(where, law, slip, force > 0.0)
 
 
 def _moments_left_out(scenario: Scenario, outcome: Outcome) -> list[str]:
@@ -94,7 +92,7 @@ def _moments_left_out(scenario: Scenario, outcome: Outcome) -> list[str]:
         force, moment = run.slides[name].max(axis=0).tolist()
         if guide.block is None and moment > 0.0:
             found.append(
-                f"guides.{name}: friction by the moment of up to {moment:.4g} N m is left out, beside a "
-                f"force of up to {force:.4g} N. Give the guide a block (block_mm), whose ends press on the walls."
+                f"guides.{name}: friction by the moment of up to {moment:.4g} N m is left out, beside a force "
+                f"of up to {force:.4g} N. Its block (block_mm) is missing, whose ends press on the walls."
             )
     return found

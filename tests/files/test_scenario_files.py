@@ -310,7 +310,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         ),
         (
             TOP + WITH_CLEARANCE + "friction = 'wet'",
-            "a.toml: pins.rear_base.friction = 'wet': allowed: >= 0, or a table",
+            "a.toml: pins.rear_base.friction = 'wet': allowed: >= 0 and <= 5, or a table",
         ),
         (TOP + "[pins.rear_base]\nideal = false", "a.toml: pins.rear_base.ideal = false: allowed: true"),
         (TOP + "pins = 3", "a.toml: pins = 3: allowed: a table of names, each a table of type "),

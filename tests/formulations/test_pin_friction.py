@@ -24,7 +24,7 @@ from support_exudyn import (
 from support_exudyn.model.linkage import pinned
 from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
 from tests.cases.run_cases import paper_contact, support
-from user_forces import Ambrosio, InputError, LuGre, value
+from user_forces import Ambrosio, InputError, value
 
 MASS, INERTIA, G, RADIUS, MU = 50.0, 2.0, 9.81, 0.05, 0.3
 RUBBING = IdealPin(friction=Ambrosio(sliding_coefficient=MU), radius=RADIUS)

@@ -302,7 +302,7 @@ def test_words_for_a_number_are_refused(name: str) -> None:
 @pytest.mark.parametrize("size", [0.5, 1.0, 1.5, 2.0])
 def test_the_reference_pin_is_the_papers(size: float) -> None:
     assert pin(REFERENCE, size, reference_support()) == paper_machine.clearance_joint(
-        size, paper_machine.SLIDING_COEFFICIENT
+        size, paper_machine.SLIDING_COEFFICIENT, law=paper_machine.PAPERS_LAW
     )
 
 

@@ -26,7 +26,7 @@ from user_forces.compilation.flat import flat_force
 from user_forces.contact import SlipHistory
 from user_forces.expressions.scalar import maximum, minimum, where
 from user_forces.friction.law import FrictionLaw
-from user_forces.lawful import AT_REST, LawError, look, check_laws
+from user_forces.lawful import AT_REST, LawError, check_laws, look
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0015)
 NORMAL = {f"{name} {e}": law for e in (0.2, 0.9) for name, law in catalogue.normal_laws(1.5, e).items()}

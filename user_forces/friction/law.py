@@ -54,7 +54,7 @@ class FrictionLaw(Value, ABC):
     @property
     def largest_coefficient(self) -> float:
         """Largest ratio of friction to normal force at any of SLIPS, of a law without a state."""
-        return max(abs(self(slip, 1.0)) for slip in SLIPS)
+        return float(max(abs(self(slip, 1.0)) for slip in SLIPS))
 
     def slip_speed(self, share: float) -> float:
         """Smallest slip [m/s] with this share of the largest coefficient; 0 of a law with a state."""

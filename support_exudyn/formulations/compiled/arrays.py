@@ -67,9 +67,9 @@ LOAD = _record("point origin kind constants course courses", "law first second f
 # what a load is told of its own courses, and where in `SceneArrays.out`
 FIRST_COURSE, COURSES_OF_LOAD = 4, 8
 BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")
-# friction of an ideal pin (BOLT) or guide (GUIDED; BLOCK with a moment), of which `row` is the first row;
-# points of a guide; state: of the friction law in y | direction and speed along a guide, slip, arm of the friction
-# force, the force and its moment, by how much the last round changed it, which share is still open
+# friction of an ideal pin (BOLT) or guide (GUIDED; BLOCK with a moment); row: the first of the joint; state: of
+# the friction law in y | direction and speed along a guide, slip, arm of the friction force, the force and its
+# moment, by how much the last round changed it, which share is still open
 BOLT, GUIDED, BLOCK = range(3)
 RUBBING = _record(
     "kind row body other first second constants state",

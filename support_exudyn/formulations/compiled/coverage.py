@@ -37,11 +37,8 @@ def _check_written(scenario: Scenario) -> None:
         for name, place in scenario.contact_places.items():
             where = f"{place.of}.contact" if name in scenario.pins else place.of
             law_source(place.contact)
-        rubs = {f"pins.{name}": pin.friction for name, pin in scenario.friction_pins.items()}
-        rubs |= {f"guides.{name}": guide.friction for name, guide in scenario.friction_guides.items()}
-        for name, friction in rubs.items():
+        for name, friction in scenario.friction_laws.items():
             where = f"{name}.friction"
-            assert friction is not None  # joints without are left out
             friction_source(friction)
         for name, load in scenario.acting_loads.items():
             where = f"loads.{name}"

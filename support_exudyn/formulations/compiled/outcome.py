@@ -14,6 +14,7 @@ from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.bushing import bushing_series
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.contact_state import PinMemory
+from support_exudyn.mechanics.joint_slip import friction_series
 from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, OilEvent, Series, Trajectory
 from support_exudyn.model.bushing_pin import BushingPin
@@ -110,7 +111,6 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         if DataNeeds.LOADS in needed
     }
     losses = found.state[:, -LOSSES:]
-    rubbed = dict(zip((*scenario.friction_pins, *scenario.friction_guides), found.friction.T, strict=True))
     return Trajectory(
         time=found.time,
         position=found.position,
@@ -118,8 +118,7 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         acceleration=found.acceleration,
         ideal_pins=pins,
         contacts=contacts,
-        friction_moments={name: pin.radius * rubbed[name] for name, pin in scenario.friction_pins.items()},
-        friction_forces={name: rubbed[name] for name in scenario.friction_guides},
+        **friction_series(scenario, dict(zip(scenario.friction_laws, found.friction.T, strict=True))),
         actuators={**{name: pushed[name] for name in rigid}, **actuators},
         cranks={name: pushed[name] for name in linkage.cranks},
         slides=slides,

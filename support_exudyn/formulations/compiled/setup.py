@@ -28,7 +28,6 @@ from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import Load
 from support_exudyn.model.loads.stretch_load import StretchLoad
-from support_exudyn.model.pins import IdealPin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.compilation.flat import friction_source, law_source
 from user_forces.lawful import LawError
@@ -410,25 +409,25 @@ def _bushings(scenario: Scenario, build: _Builder) -> Records:
 
 def _rubbing(scenario: Scenario, build: _Builder, joints: Records, states: int) -> Records:
     """Friction of ideal pins, then of ideal guides; states: how many the state has without theirs."""
-    rubs, held = {**scenario.friction_pins, **scenario.friction_guides}, list(scenario.held_pins)
+    laws, linkage = scenario.friction_laws.values(), scenario.linkage
+    found = np.zeros(len(laws), arrays.RUBBING)
+    for record, law in zip(found, laws, strict=True):
+        record["law"], record["constants"] = build.law(friction_source(law))
+        record["state"] = states if law.has_state else -1
+        states += law.has_state
+    pins, held = scenario.friction_pins, list(scenario.held_pins)
+    for record, (name, pin) in zip(found, pins.items(), strict=False):
+        place = linkage.pins[name]
+        record["row"], record["kind"] = joints[held.index(name)]["row"], arrays.BOLT
+        record["body"], record["other"] = build.numbers[place.second], build.numbers[place.first]
+        record["radius"] = pin.radius or 0.0  # goes with friction
     slides = dict(zip(scenario.guided_linkage.slides, joints[joints["kind"] == arrays.SLIDE], strict=True))
-    found = np.zeros(len(rubs), arrays.RUBBING)
-    for record, (name, joint) in zip(found, rubs.items(), strict=True):
-        assert joint.friction is not None  # joints without are left out
-        record["law"], record["constants"] = build.law(friction_source(joint.friction))
-        record["state"] = states if joint.friction.has_state else -1
-        states += joint.friction.has_state
-        if isinstance(joint, IdealPin):
-            place = scenario.linkage.pins[name]
-            record["row"], record["kind"] = joints[held.index(name)]["row"], arrays.BOLT
-            record["body"], record["other"] = build.numbers[place.second], build.numbers[place.first]
-            record["radius"] = joint.radius or 0.0  # goes with friction
-            continue
-        slide, row = scenario.linkage.slides[name], slides[name]
-        record["kind"] = arrays.BLOCK if joint.block else arrays.GUIDED
+    for record, (name, guide) in zip(found[len(pins) :], scenario.friction_guides.items(), strict=True):
+        slide = linkage.slides[name]
+        record["kind"] = arrays.BLOCK if guide.block else arrays.GUIDED
         record["body"], record["other"] = build.numbers[slide.body], build.numbers[slide.against]
         for what in ("row", "first", "second", "angle"):
-            record[what] = row[what]
-        record["radius"] = joint.pin_radius or 0.0
-        record["half_length"], record["half_height"] = (0.5 * side for side in joint.block or (0.0, 0.0))
+            record[what] = slides[name][what]
+        record["radius"] = guide.pin_radius or 0.0
+        record["half_length"], record["half_height"] = (0.5 * side for side in guide.block or (0.0, 0.0))
     return found

@@ -41,11 +41,10 @@ def _start_sliding(model: Model, y: Vector) -> None:
     scenario, count = model.scenario, 3 * model.scene.bodies.size
     still, rates = np.zeros((1, count)), y[count : 2 * count].reshape(1, -1)
     motion = BodyMotion(scenario.linkage, still, rates, still)
-    pins, guides = scenario.friction_pins, scenario.friction_guides
-    joints, slips = (*pins.values(), *guides.values()), joint_slips(motion, pins, guides)
-    for record, joint, slip in zip(model.scene.rubbing, joints, slips, strict=True):
-        if record["state"] >= 0 and joint.friction is not None:
-            y[record["state"]] = joint.friction.steady_deflection(float(slip[0]))
+    slips = joint_slips(motion, scenario)
+    for record, law, slip in zip(model.scene.rubbing, scenario.friction_laws.values(), slips, strict=True):
+        if record["state"] >= 0:
+            y[record["state"]] = law.steady_deflection(float(slip[0]))
 
 
 def _velocities(scenario: Scenario) -> Vector:
@@ -95,9 +94,8 @@ def error_weights(model: Model, y: Vector, tolerance: float) -> Vector:
     for record, place in zip(model.scene.contacts, scenario.contact_places.values(), strict=True):
         if record["state"] >= 0:
             found[record["state"]] = abs(place.contact.friction(0.0, 1.0, SMALL)) / SMALL
-    rubs = (*scenario.friction_pins.values(), *scenario.friction_guides.values())
-    for record, joint in zip(model.scene.rubbing, rubs, strict=True):
-        if record["state"] >= 0 and joint.friction is not None:
-            found[record["state"]] = abs(joint.friction(0.0, 1.0, SMALL)) / SMALL
+    for record, law in zip(model.scene.rubbing, scenario.friction_laws.values(), strict=True):
+        if record["state"] >= 0:
+            found[record["state"]] = abs(law(0.0, 1.0, SMALL)) / SMALL
     found[-LOSSES:] = 1.0 / (mass * speed**2)
     return np.asarray(found / tolerance)

@@ -33,6 +33,7 @@ from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.joint_forces import JointForces
+from support_exudyn.mechanics.joint_slip import friction_series
 from support_exudyn.mechanics.oil_column import OilSeries, oil_series
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import needs
@@ -188,7 +189,6 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
     if needed & FOLLOWING:
         applied = Applied(contacts, compliant, compliant_actuators, loads)
         found = following(scene, motion, history.time, applied, history.deflection)
-    frictions = found.frictions
     return Trajectory(
         time=history.time,
         position=position,
@@ -196,14 +196,7 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         acceleration=found.acceleration,
         ideal_pins=found.joints.pins,
         contacts=contacts,
-        friction_moments={
-            name: pin.radius * frictions[f"pins.{name}"]  # type: ignore[operator] - goes with friction
-            for name, pin in scene.scenario.friction_pins.items()
-            if frictions
-        },
-        friction_forces={
-            name: frictions[f"guides.{name}"] for name in scene.scenario.friction_guides if frictions
-        },
+        **friction_series(scene.scenario, found.frictions),
         actuators={**found.actuators, **compliant_actuators},
         cranks=found.joints.cranks,
         slides=found.joints.slides,

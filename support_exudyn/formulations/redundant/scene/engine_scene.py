@@ -52,8 +52,9 @@ class EngineScene(ABC):
     scenario: what is modelled. container: owns the system, and must live as long as it. mbs: the system.
     bodies: all that move, each an item with its data as `body`. clearance_pins: everything that may make
     contact and part. compliant_pins: pins whose force follows from their deflection. frictions: of ideal
-    joints. loads: what presses on the machine. weights: loads of the engine, by body. driven: all actuators and cranks,
-    by the drive that they follow. cylinders: the actuators that follow none. legs: those on oil with elements.
+    joints. loads: what presses on the machine. weights: loads of the engine, by body. driven: all actuators and
+    cranks, by the drive that they follow. cylinders: the actuators that follow none. legs: those on oil with
+    elements.
     """
 
     scenario: Scenario
