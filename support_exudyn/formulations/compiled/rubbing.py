@@ -7,13 +7,8 @@ Source: Kuettler and Wall, Comput. Mech. 43 (2008) 61-72, for the relaxation.
 import math
 
 from support_exudyn.formulations.compilation import call_law, compiled, once
-<<<<<<< HEAD
-from support_exudyn.formulations.compiled.arrays import BLOCK, BOLT, Records, SceneArrays, Vector
-from support_exudyn.formulations.compiled.motion import SETTLED, push, push_point, solve, spin_of, turn_of
-=======
 from support_exudyn.formulations.compiled.arrays import BLOCK, BOLT, SceneArrays, Vector
-from support_exudyn.formulations.compiled.motion import push, push_point, solve, spin_of, turn_of
->>>>>>> laws
+from support_exudyn.formulations.compiled.motion import SETTLED, push, push_point, solve, spin_of, turn_of
 
 RUBBINGS = 30  # rounds at most
 JAMMED = 1e-6  # share that is still open after all rounds, from which on friction and force have no solution
