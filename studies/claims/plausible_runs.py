@@ -152,8 +152,8 @@ def _run_measures(run: Result, ideal: Result, during: rise.Watched) -> Values:
     time, speed = run.time[inside], rise.DEGREES * run[during.speed][inside]
     found = {
         LARGEST: during.peak(during.force)(run),
-        "mean_force": during.mean(run, run[during.force]),
-        "std_force": during.spread(run, run[during.force]),
+        "mean_force": during.mean(run, during.force),
+        "std_force": during.spread(run, during.force),
         "mean_acceleration": float((speed[-1] - speed[0]) / (time[-1] - time[0])),
         "mean_tip_shift": 1e3 * rise.mean(time, during.departure(run, ideal, "tip.x")),
         "tip_range": 1e3 * float(np.ptp(run["tip.x"][inside])),

@@ -103,7 +103,7 @@ class ModePlan:
         base = subject.ideal(friction) if ideal else subject.with_clearance(subject.clearance_mm, friction)
         duration = round(watched.end + AFTER * (watched.end - watched.start), 9)
         first, *others = drives = [self.drive(mode, name) for name in self.leading]
-        period = min(base.record_period, PERIOD)
+        period = min(base.recorded_every, PERIOD)
         base = replace(base, duration=duration, record_period=period, channels=ALL_CHANNELS)
         if all(one == first for one in others):
             base = replace(base, drive=first, drives={})

@@ -62,7 +62,7 @@ class FrictionLaw(Value, ABC):
         if wanted == 0.0:
             return 0.0
         first = next(n for n, slip in enumerate(SLIPS) if abs(self(slip, 1.0)) >= wanted)
-        low, high = SLIPS[max(0, first - 1)], SLIPS[first]
+        low, high = float(SLIPS[max(0, first - 1)]), float(SLIPS[first])
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
             low, high = (low, middle) if abs(self(middle, 1.0)) >= wanted else (middle, high)

@@ -256,7 +256,9 @@ class ShortForms:
         kind, kinds = item["type"], GroupShape((Drive,)).kinds
         fields = field_shapes(kinds[kind]).values() if isinstance(kind, str) and kind in kinds else ()
         turning, before = self._turning(place), len(reader.faults.lines)
-        for one in (one for one in fields if one.unit is not None):
+        for one in fields:
+            if one.unit is None:
+                continue
             given = [key for key in one.keys if key in item]
             if not given and True in turning and " or " in one.unit.symbol and one.default is not None:
                 keys = [key for key in one.keys if one.ending(key) in ANGLES]

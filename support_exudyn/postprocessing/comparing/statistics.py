@@ -132,7 +132,11 @@ def compared_statistics(
             counts = [(sign, _rates(one, at)) for (sign, one), at in zip(curves, times, strict=True)]
             rate = {IMPACTS: lambda rates: float(rates.mean())}
             known[n] |= _known(counts, lambda rates: rates[None], rate, [seed, len(signed) + n])
-    return {name: _difference(name, *(one[name] for one in known), alone) for name in known[0]}
+    first_known, second_known, both_known = known
+    return {
+        name: _difference(name, first_known[name], second_known[name], both_known[name], alone)
+        for name in first_known
+    }
 
 
 class _Known(NamedTuple):
@@ -167,8 +171,8 @@ def _known(
     found = {}
     for (name, statistic), own in zip(statistics.items(), lengths, strict=True):
         length = LONGER * (own if len(curves) > 1 else max(lengths))
-        draws = [slice(None), *(resampled(count, length, random) for _ in range(RESAMPLES))]
-        value, *drawn = (sum(sign * statistic(values[at]) for sign, values in curves) for at in draws)
+        draws = [np.arange(count), *(resampled(count, length, random) for _ in range(RESAMPLES))]
+        value, *drawn = (math.fsum(sign * statistic(values[at]) for sign, values in curves) for at in draws)
         found[name] = _Known(value, float(np.std(drawn, ddof=1)), count / length, largest)
     return found
 

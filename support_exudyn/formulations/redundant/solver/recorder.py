@@ -28,7 +28,8 @@ class History:
 
     time (n,); position, velocity (n, coordinates); memory (n, clearance pins, fields of PinMemory);
     pressure (n, 2 cylinders) as the engine has it; legs (n, states) of legs with elements; deflection (n, ideal
-    joints with friction), states of their laws; work, damping_loss, friction_loss (n,) [J]. What was not to be kept has rows without columns; integrals that were not are zero.
+    joints with friction), states of their laws; work, damping_loss, friction_loss (n,) [J].
+    What was not to be kept has rows without columns; integrals that were not are zero.
     """
 
     time: np.ndarray
