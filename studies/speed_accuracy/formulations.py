@@ -77,7 +77,7 @@ def table(found: Sequence[Compared]) -> TextTable:
     header = (
         "case",
         "pin force [N]",
-        "two free coordinates",
+        "compiled",
         "rigid bodies, constraints",
         "difference",
         "errors",
