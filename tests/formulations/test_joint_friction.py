@@ -155,9 +155,10 @@ def test_a_block_on_a_slope_creeps_with_a_warning_or_holds(way: str) -> None:
     assert "mm/s for 100% of the loaded time. It creeps 7.269 mm" in found["creeps"].warnings[0]
     assert "with 73% of its full friction" in found["creeps"].warnings[0]
     assert not found["holds"].warnings
-    # bristles of 1e5 /m under the weight
-    rest = np.hypot(found["holds"]["sled.x"], found["holds"]["sled.y"])[-1]
-    assert rest == pytest.approx(math.tan(SLOPE) / 1e5, rel=1e-3)
+    way_down = np.hypot(found["holds"]["sled.x"], found["holds"]["sled.y"])
+    assert way_down[-1] < 5e-5  # while bristles swing in they slip: steady deflections are 5 micrometres
+    assert abs(way_down[-1] - way_down[50]) < 1e-7
+    assert found["holds"]["g.friction_force"][-1] == pytest.approx(G * math.sin(SLOPE), rel=1e-6)
 
 
 TURNING = RADIUS * math.radians(10.0)  # slip at 10 deg/s [m/s]

@@ -10,7 +10,9 @@ from user_forces.expressions.scalar import sign
 from user_forces.values.value import Coefficient, Value, value
 
 LONG = 1.0  # [s], in which a deflection becomes that of steady slip
-SLIPS = tuple(1e-9 * 10.0 ** (0.025 * n) for n in range(401))  # [m/s] at which a law is evaluated
+SLIPS: tuple[float, ...] = tuple(
+    1e-9 * 10.0 ** (0.025 * n) for n in range(401)
+)  # [m/s] at which a law is evaluated
 HALVINGS = 40
 MOMENT = 1e-10  # [s], in which no bristle moves by more than a share of 1e-4 of its way
 
@@ -62,7 +64,7 @@ class FrictionLaw(Value, ABC):
         if wanted == 0.0:
             return 0.0
         first = next(n for n, slip in enumerate(SLIPS) if abs(self(slip, 1.0)) >= wanted)
-        low, high = SLIPS[max(0, first - 1)], SLIPS[first]
+        low, high = float(SLIPS[max(0, first - 1)]), float(SLIPS[first])
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
             low, high = (low, middle) if abs(self(middle, 1.0)) >= wanted else (middle, high)
