@@ -158,7 +158,7 @@ def test_a_block_on_a_slope_creeps_with_a_warning_or_holds(way: str) -> None:
     way_down = np.hypot(found["holds"]["sled.x"], found["holds"]["sled.y"])
     assert way_down[-1] < 5e-5  # while bristles swing in they slip: steady deflections are 5 micrometres
     assert abs(way_down[-1] - way_down[50]) < 1e-7
-    assert found["holds"]["g.friction_force"][-1] == pytest.approx(G * math.sin(SLOPE), rel=1e-6)
+    assert found["holds"]["g.friction_force"][-1] == pytest.approx(G * math.sin(SLOPE), rel=1e-5)
 
 
 TURNING = RADIUS * math.radians(10.0)  # slip at 10 deg/s [m/s]
