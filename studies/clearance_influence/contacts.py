@@ -1,8 +1,6 @@
 """The contact of pin and bore: what the paper's, two spheres, does not know of a pin along its length.
 
-The rise with 1.5 mm by each contact, with friction and without. A contact that does not part is damped by the
-depth it reaches, the program's usual way, for all: by the speed of the last impact a stiff pin shakes
-differently in every run.
+The rise with 1.5 mm by each contact, with friction and without.
 """
 
 from collections.abc import Mapping, Sequence

@@ -163,7 +163,7 @@ def permanent_figure(watched: Watched, results: Mapping[str, Result]) -> Figure:
     whole, rest = drawing.subplots(2, 1)
     colours = (style.SMOOTH, style.WITH_CLEARANCE, style.THIRD, style.IDEAL)
     curves = [(case, colour, "-", case) for case, colour in zip(REST, colours, strict=True)]
-    end, first = results[curves[0][0]].time[-1], watched.start
+    end = results[curves[0][0]].time[-1]
     for axes, span in (
         (whole, (0.0, end)),
         (rest, (watched.start, watched.start + 0.2 * (end - watched.start))),

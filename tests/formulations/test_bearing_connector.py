@@ -50,7 +50,7 @@ def bearing(of: JournalContact, bore: bool, journal: bool, slides: bool) -> Bear
     return BearingGeometry(
         bore=end(0 if bore else None, (0.4, -0.3, 0.1) if bore else (0.0, 0.0, 0.0)),
         journal=end((7 if bore else 0) if journal else None, (-0.2, 0.5, 0.3) if journal else (0.0, 0.0, 0.0)),
-        at=attachment(of, not bore, not journal, in_space=True),
+        at=attachment(of, not bore, not journal),
         places=PLACES,
         slides=slides,
     )

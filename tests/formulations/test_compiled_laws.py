@@ -106,13 +106,13 @@ def test_a_contact_beyond_the_range_of_its_law_stops_the_run(tolerance: float) -
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-9])
 def test_a_step_that_was_tried_too_far_does_not_stop_the_run(tolerance: float) -> None:
-    # depths up to 0.793 of the largest, while the first try at a step may go beyond
+    # depths up to 0.780 of the largest, while the first try at a step may go beyond
     scenario = pressed(3e-3)
     law = scenario.clearance_pins[PIN].contact.normal
     result = simulate_compiled(scenario, tolerance)
     # measured 2.4e-3 at the coarsest
     assert result[f"pin.{PIN}.depth"].max() / law.largest_depth == pytest.approx(
-        0.79299, abs=3e-3 if tolerance == 1e-3 else 1e-4
+        0.78002, abs=3e-3 if tolerance == 1e-3 else 1e-4
     )
 
 

@@ -247,16 +247,6 @@ def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(bend: float) -> None
     assert find(Course(close, closed=True), 0.0, 0.125)[0] == UNCLEAR
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_dip_that_a_cubic_does_not_show_is_looked_at_more_closely(sign: float) -> None:
-    # the rate has the values and the mean of s^2 + 0.02, which stays above zero, but is at -0.02 in the middle
-    s = Polynomial([-1.0, 16.0])
-    dipping, even = s**2 + 0.02 - 0.2 * s**4 + 0.24 * s**2 - 0.04, s**2 + 1.0
-    for rate, context in ((dipping, UNCLEAR), (even, NOTHING)):
-        course = Course(10.0 * DEPTH + sign * DEPTH * rate.integ(), closed=True)
-        assert find(course, 0.0, 0.125)[0] == context
-
-
 @pytest.mark.parametrize("bend", [0.02, -0.02])
 def test_a_top_that_a_cubic_cannot_tell_is_looked_at_more_closely(bend: float) -> None:
     # they look at quarters of a step, of which this is the first

@@ -183,7 +183,7 @@ def test_steps_of_an_impact_are_those_for_its_speed(impact: Rise) -> None:
     rate = impact.depth.deriv()
     memory = memory_of(False, 0.0, float(impact.depth(0.0)), float(rate(0.0)))
     end = float(impact.depth(impact.step)), float(rate(impact.step))
-    verdict = judge(memory, *end, impact.step, impact.step, impact_step, False)
+    verdict = judge(memory, *end, impact.step, impact.step, impact_step)
     assert verdict.onset is not None
     assert asked == [verdict.onset.speed]
 
@@ -193,7 +193,7 @@ def test_onset_is_located_wherever_the_step_lies(impact: Rise, begin: float) -> 
     rate = impact.depth.deriv()
     memory = memory_of(False, 0.0, float(impact.depth(0.0)), float(rate(0.0)))
     end = float(impact.depth(impact.step)), float(rate(impact.step))
-    verdict = judge(memory, *end, begin + impact.step, impact.step, any_speed(impact.step), False)
+    verdict = judge(memory, *end, begin + impact.step, impact.step, any_speed(impact.step))
     assert verdict.onset is not None
     # rounding of a time of 10 s
     assert verdict.onset.time == pytest.approx(begin + impact.share * impact.step, abs=4e-15)
@@ -204,9 +204,9 @@ def test_onset_is_located_wherever_the_step_lies(impact: Rise, begin: float) -> 
 
 def test_touch_exactly_at_the_end_is_found_in_the_next_step() -> None:
     depth = Polynomial([-0.5 * H, 0.5])
-    at_end = judge(memory_of(False, 0.0, -0.5 * H, 0.5), 0.0, 0.5, H, H, any_speed(H), False)
+    at_end = judge(memory_of(False, 0.0, -0.5 * H, 0.5), 0.0, 0.5, H, H, any_speed(H))
     assert (at_end.action, at_end.onset) == (Action.ACCEPT, None)
-    following = judge(at_end.memory, float(depth(2 * H)), 0.5, 2 * H, H, any_speed(H), False)
+    following = judge(at_end.memory, float(depth(2 * H)), 0.5, 2 * H, H, any_speed(H))
     assert following.action is Action.REPEAT
     # rounding
     assert following.onset == pytest.approx(Onset(H, 0.5), rel=1e-14)
@@ -296,19 +296,19 @@ def test_a_parting_is_located_wherever_the_step_lies(separation: Rise, begin: fl
     depth, rate = -separation.depth, -separation.depth.deriv()
     memory = memory_of(True, 0.3, float(depth(0.0)), float(rate(0.0)))
     end = float(depth(separation.step)), float(rate(separation.step))
-    verdict = judge(memory, *end, begin + separation.step, separation.step, any_speed(H), False)
+    verdict = judge(memory, *end, begin + separation.step, separation.step, any_speed(H))
     # rounding of a time of 10 s
     assert verdict.landing == pytest.approx(begin + (separation.share + BEHIND) * separation.step, abs=4e-15)
 
 
 def test_depth_zero_at_the_end_is_parted() -> None:
-    verdict = judge(memory_of(True, 0.3, 1e-4, -0.1), 0.0, -0.1, H, H, any_speed(H), False)
+    verdict = judge(memory_of(True, 0.3, 1e-4, -0.1), 0.0, -0.1, H, H, any_speed(H))
     assert verdict == accepted(memory_of(False, 0.0, 0.0, -0.1))
 
 
 def test_a_contact_without_depth_from_start_to_end_is_released() -> None:
     # what REPEAT leaves behind, if the surfaces part again at once
-    verdict = judge(memory_of(True, 0.2, -1e-6, 1e-3), -2e-6, -3e-3, H, H, any_speed(H), False)
+    verdict = judge(memory_of(True, 0.2, -1e-6, 1e-3), -2e-6, -3e-3, H, H, any_speed(H))
     assert verdict == accepted(memory_of(False, 0.0, -2e-6, -3e-3))
 
 
