@@ -97,10 +97,5 @@ def rub(scene: SceneArrays, y: Vector, slope: Vector, right: Vector) -> None:
             apply(scene, n, force - one.force, moment - one.moment)
             one.force, one.moment = force, moment
         solve(scene, right)
-    if not math.isfinite(changed):  # of a trial that was too long
-        return
-    for n in range(scene.rubbing.size):  # kept for a while, for trials in between succeed
-        share = changed / largest if largest > 0.0 else 0.0
-        scene.rubbing[n].open = max(share, 0.5 * scene.rubbing[n].open)
     if changed > JAMMED * largest:
         scene.bodies[0].a = math.nan  # the step is not accepted

@@ -28,7 +28,6 @@ from support_exudyn.formulations.compiled.arrays import (
 from support_exudyn.formulations.compiled.integrate import integrate
 from support_exudyn.formulations.compiled.method import AT, GOING, MIDST, NEXT_STEP
 from support_exudyn.formulations.compiled.outcome import record_width, trajectory
-from support_exudyn.formulations.compiled.rubbing import JAMMED
 from support_exudyn.formulations.compiled.setup import Model, model_of
 from support_exudyn.formulations.compiled.start import error_weights, first_state
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
@@ -51,7 +50,8 @@ CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed fa
 MOST_IMPACTS = 100_000
 NOTHING_RESTS = "Look at the contact law: nothing comes to rest."
 EMPTY = "Give it end_stops inside of its oil's lengths, or look at what moves it."
-JAMS = "Take a smaller coefficient of friction, a longer block, or clearance, so that the joint can move."
+JAMS = " Or a joint jams by its friction: take a smaller coefficient, a longer block, or clearance in "
+SHORT = "Allow a larger tolerance."
 CHATTER = "A valve chatters: give it hysteresis, a poppet or a smaller flow."
 
 
@@ -194,8 +194,6 @@ def _failure(going: _Run) -> Failure:
         reason, advice = f"more than {MOST_OIL_EVENTS} openings and closings of valves", CHATTER
     elif broken := _broken_law(going):
         reason, advice = broken
-    elif jammed := _jammed(going):
-        reason, advice = jammed, JAMS
     elif empty := empty_legs(going.model.legs.names, going.model.scene.legs):
         reason, advice = empty, EMPTY
     elif code == DEAD_CENTRE:
@@ -203,18 +201,10 @@ def _failure(going: _Run) -> Failure:
     elif report[NOT_A_NUMBER]:
         reason, advice = "the linkage cannot close, or a value is no longer a finite number", CLOSES
     else:
-        reason, advice = "the step became too short", "Allow a larger tolerance."
+        reason, advice = "the step became too short", SHORT
+    if advice in (CLOSES, SHORT) and scenario.friction_laws:
+        advice += f"{JAMS}{', '.join(scenario.friction_laws)}."
     return Failure(reason, advice, float(report[STOPPED_AT]), state)
-
-
-def _jammed(going: _Run) -> str:
-    """The joint whose friction was farthest from a solution in the last evaluation; empty if all had one."""
-    rubbing = going.model.scene.rubbing
-    if not (rubbing["open"] > JAMMED).any():
-        return ""
-    worst = int(np.abs(rubbing["left"]).argmax())
-    name = list(going.scenario.friction_laws)[worst]
-    return f"{name}: its friction and its force have no common solution, it jams"
 
 
 def _broken_law(going: _Run) -> tuple[str, str] | None:
