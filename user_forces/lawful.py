@@ -116,10 +116,9 @@ def _number(function: Callable[..., object], arguments: tuple[float, ...], said:
         raise
     except Exception as error:  # whatever a user's class does wrong
         raise LawError(f"{said} fails {at}: {type(error).__name__}: {error}") from error
-    is_truth: bool = type(found) is bool  # which Python counts among the numbers
-    if isinstance(found, Real) and not is_truth:
-        return float(found)
-    raise LawError(f"{said} gives {short(found)} {at}; allowed: a real number")
+    if isinstance(found, bool) or not isinstance(found, Real):
+        raise LawError(f"{said} gives {short(found)} {at}; allowed: a real number")
+    return float(found)
 
 
 def is_own(law: object) -> bool:

@@ -10,7 +10,9 @@ from user_forces.expressions.scalar import sign
 from user_forces.values.value import Coefficient, Value, value
 
 LONG = 1.0  # [s], in which a deflection becomes that of steady slip
-SLIPS = tuple(1e-9 * 10.0 ** (0.025 * n) for n in range(401))  # [m/s] at which a law is evaluated
+SLIPS: tuple[float, ...] = tuple(
+    1e-9 * 10.0 ** (0.025 * n) for n in range(401)
+)  # [m/s] at which a law is evaluated
 HALVINGS = 40
 MOMENT = 1e-10  # [s], in which no bristle moves by more than a share of 1e-4 of its way
 

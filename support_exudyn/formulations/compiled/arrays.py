@@ -69,11 +69,11 @@ FIRST_COURSE, COURSES_OF_LOAD = 4, 8
 BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")
 # friction of an ideal pin (BOLT) or guide (GUIDED; BLOCK with a moment); row: the first of the joint; state: of
 # the friction law in y | direction and speed along a guide, slip, arm of the friction force, the force and its
-# moment, by how much the last round changed it, which share is still open
+# moment, by how much the last round changed it
 BOLT, GUIDED, BLOCK = range(3)
 RUBBING = _record(
     "kind row body other first second constants state",
-    "law radius half_length half_height angle ax ay speed slip lever force moment left open",
+    "law radius half_length half_height angle ax ay speed slip lever force moment left",
 )
 
 

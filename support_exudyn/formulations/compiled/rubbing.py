@@ -96,7 +96,5 @@ def rub(scene: SceneArrays, y: Vector, slope: Vector, right: Vector) -> None:
             apply(scene, n, force - one.force, moment - one.moment)
             one.force, one.moment = force, moment
         solve(scene, right)
-    for n in range(scene.rubbing.size):
-        scene.rubbing[n].open = changed / largest if largest > 0.0 else 0.0
-        if changed > JAMMED * largest:
-            scene.bodies[0].a = math.nan  # the step is not accepted
+    if changed > JAMMED * largest:
+        scene.bodies[0].a = math.nan  # the step is not accepted

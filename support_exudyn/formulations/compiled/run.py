@@ -58,6 +58,8 @@ CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed fa
 MOST_IMPACTS = 100_000
 NOTHING_RESTS = "Look at the contact law: nothing comes to rest."
 EMPTY = "Give it end_stops inside of its oil's lengths, or look at what moves it."
+JAMS = " Or a joint jams by its friction: take a smaller coefficient, a longer block, or clearance in "
+SHORT = "Allow a larger tolerance."
 CHATTER = "A valve chatters: give it hysteresis, a poppet or a smaller flow."
 
 
@@ -231,7 +233,9 @@ def _failure(going: _Run) -> Failure:
     elif report[NOT_A_NUMBER]:
         reason, advice = "the linkage cannot close, or a value is no longer a finite number", CLOSES
     else:
-        reason, advice = "the step became too short", "Allow a larger tolerance."
+        reason, advice = "the step became too short", SHORT
+    if advice in (CLOSES, SHORT) and scenario.friction_laws:
+        advice += f"{JAMS}{', '.join(scenario.friction_laws)}."
     return Failure(reason, advice, float(report[STOPPED_AT]), state)
 
 
