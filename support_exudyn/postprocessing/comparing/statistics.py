@@ -132,7 +132,8 @@ def compared_statistics(
             counts = [(sign, _rates(one, at)) for (sign, one), at in zip(curves, times, strict=True)]
             rate = {IMPACTS: lambda rates: float(rates.mean())}
             known[n] |= _known(counts, lambda rates: rates[None], rate, [seed, len(signed) + n])
-    return {name: _difference(name, *(one[name] for one in known), alone) for name in known[0]}
+    one, other, both_together = known
+    return {name: _difference(name, one[name], other[name], both_together[name], alone) for name in one}
 
 
 class _Known(NamedTuple):
@@ -165,11 +166,15 @@ def _known(
     lengths = [*map(block_length, np.sum([sign * influences(values) for sign, values in curves], axis=0))]
     largest = max(float(np.abs(values).max()) for _, values in curves)
     found = {}
+
+    def total(statistic: Callable[[Values], float], at: slice | npt.NDArray[np.intp]) -> float:
+        return float(sum(sign * statistic(values[at]) for sign, values in curves))
+
     for (name, statistic), own in zip(statistics.items(), lengths, strict=True):
         length = LONGER * (own if len(curves) > 1 else max(lengths))
-        draws = [slice(None), *(resampled(count, length, random) for _ in range(RESAMPLES))]
-        value, *drawn = (sum(sign * statistic(values[at]) for sign, values in curves) for at in draws)
-        found[name] = _Known(value, float(np.std(drawn, ddof=1)), count / length, largest)
+        drawn = [total(statistic, resampled(count, length, random)) for _ in range(RESAMPLES)]
+        error = float(np.std(drawn, ddof=1))
+        found[name] = _Known(total(statistic, slice(None)), error, count / length, largest)
     return found
 
 

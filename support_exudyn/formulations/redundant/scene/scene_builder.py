@@ -190,7 +190,7 @@ class PlaneBuilder(EngineBuilder):
 
     def add_gear(self, gear: Gear) -> None:
         """Add what holds the turns of two bodies against their carrier in proportion."""
-        shares = {gear.first: gear.ratio, gear.carrier: 1.0 - gear.ratio}
+        shares = {gear.first: gear.ratio, gear.carrier or GROUND: 1.0 - gear.ratio}
         turning = {body: share for body, share in shares.items() if body in self.bodies}
         start = sum(share * self.bodies[body].body.angle for body, share in turning.items())
         # an object without mass gathers both coordinates, for a connector takes those of two objects
