@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from support_exudyn import (
     Result,
     Scenario,
     SimulationError,
+    SuddenOpening,
     simulate,
 )
 from support_exudyn.__main__ import main
@@ -26,8 +28,10 @@ from support_exudyn.files.machines.read import SHIPPED, load_machine
 from support_exudyn.files.scenarios.scenario_file import read_scenario, read_scenario_file, scenario_text
 from support_exudyn.files.scenarios.simple_scenario import simple_scenario
 from support_exudyn.machines.check import check_machine
+from support_exudyn.machines.check.joint_warnings import joint_warnings
 from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.model.linkage import pinned
+from tests.cases.cylinder_cases import CYLINDER, Ram
 from user_forces import InputError
 
 ROCKER = (Path(load_machine.__code__.co_filename).parent / "crank_rocker.toml").read_text(encoding="utf-8")
@@ -274,3 +278,25 @@ def test_gears_know_their_carrier(
     linkage = Linkage(bodies=WHEELS, pins=joints, gears={"mesh": made})
     assert linkage.gears["mesh"].carrier == carrier
     assert linkage.pitch_radius(linkage.gears["mesh"]) == (None if radius is None else pytest.approx(radius))
+
+
+def test_tooth_forces_are_reported_for_pins_do_not_carry_them() -> None:
+    """Wheels of 200 and 100 mm, 6 N m on the second: 60 N along the pitch line, 63.85 N at 20 degrees."""
+    pins = {name: pinned("ground", name, WHEELS[name].centre) for name in ("first", "second")}
+    bodies = {name: WHEELS[name] for name in pins}
+    linkage = Linkage(
+        bodies=bodies, pins=pins, gears={"mesh": Gear(first="first", second="second", ratio=-2.0)}
+    )
+    (said,) = joint_warnings(linkage, {"mesh": -6.0})
+    assert "their pins carry no tooth force" in said
+    assert "tooth force up to 60 N along the pitch line, 63.85 N at a pressure angle of 20 degrees" in said
+
+
+@pytest.mark.parametrize("duration", [0.4, 3.0])
+def test_a_jack_past_its_stroke_is_refused_at_any_duration(duration: float) -> None:
+    short = replace(CYLINDER, rod_side_length=0.05, inlet=SuddenOpening(start=0.1, end=99.0))
+    scenario = Scenario(
+        machine=Ram(), actuators={"jack": short}, duration=duration, formulation="compiled", record_period=0.01
+    )
+    with pytest.raises(SimulationError, match=r"jack is extended by 0.* m, beyond its cylinder's end"):
+        simulate(scenario)

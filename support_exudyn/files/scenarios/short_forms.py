@@ -257,10 +257,9 @@ class ShortForms:
         fields = field_shapes(kinds[kind]).values() if isinstance(kind, str) and kind in kinds else ()
         turning, before = self._turning(place), len(reader.faults.lines)
         for one in fields:
-            if one.unit is None:
-                continue
             given = [key for key in one.keys if key in item]
-            if not given and True in turning and " or " in one.unit.symbol and one.default is not None:
+            of_either = one.unit is not None and " or " in one.unit.symbol
+            if not given and True in turning and of_either and one.default is not None:
                 keys = [key for key in one.keys if one.ending(key) in ANGLES]
                 reader.faults.add((*place, keys[0]), f"missing; allowed: {', '.join(keys)}, for cranks turn")
             for key in given:
