@@ -6,6 +6,7 @@ import time
 import traceback
 from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 from studies.adams import run as adams
@@ -49,7 +50,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     def work() -> None:
         names = _chosen(given)
-        options = read_options(given)
+        options = replace(read_options(given), thorough=given.all)
         with output_folder(given.out), worker_pool(options.workers) as pool:
             codes.append(_run(names, options, pool))
 

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         machine,
         reference_support,
     )
+    from support_exudyn.files.own_modules import trusted
     from support_exudyn.files.scenarios.scenario_file import read_scenario
     from support_exudyn.files.scenarios.simple_scenario import simple_scenario
     from support_exudyn.formulations.contract import Failure, SimulationError
@@ -216,6 +217,7 @@ __all__ = [
     "save_solution",
     "simple_scenario",
     "simulate",
+    "trusted",
     "value",
 ]
 
@@ -293,6 +295,7 @@ _PLACES = {
     "user_forces.journal": ("JournalBearing",),
     "user_forces.normal.law": ("NormalLaw",),
     "user_forces.values.value": ("InputError", "value"),
+    ".files.own_modules": ("trusted",),
     ".files.scenarios.scenario_file": ("read_scenario",),
     ".files.scenarios.simple_scenario": ("simple_scenario",),
 }

@@ -1,9 +1,10 @@
 """`python -m support_exudyn COMMAND ...`, see `support_exudyn.commands.parser`."""
 
 import sys
+import warnings
 from collections.abc import Sequence
 
-from support_exudyn.commands.command_line import answered
+from support_exudyn.commands.command_line import answered, warn
 from support_exudyn.simulation.at_start import be_interruptible
 
 
@@ -17,8 +18,10 @@ def _asked(argv: Sequence[str] | None) -> None:
 
     given = parser().parse_args(argv)  # with the libraries of the command: long enough to be interrupted
     be_interruptible()
-    import_modules(given.imports)
-    with at_work(given.imports):
+    imports = given.imports + given.more_imports
+    import_modules(imports)
+    with at_work(imports), warnings.catch_warnings():
+        warnings.showwarning = lambda message, *_: warn(f"warning: {message}")
         command(given.command).run(given)
 
 

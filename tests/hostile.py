@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import subprocess
 import sys
@@ -75,19 +76,31 @@ def with_own_files(folder: Path) -> list[Path]:
 
 
 class Interruption:
-    """Interrupts this process once, so many seconds from now.
+    """Interrupts this process once, soon after `now` is called for the first time.
 
     From another process, as the console does: threads of this one wait while the engine is at work.
     """
 
-    def __init__(self, seconds: float) -> None:
-        self._seconds = seconds
+    _began = math.inf
 
     def __enter__(self) -> Interruption:
-        self.sent = time.perf_counter() + self._seconds  # it starts to wait after that, so never sooner
-        self._process = subprocess.Popen(["sh", "-c", f"sleep {self._seconds}; kill -INT {os.getpid()}"])
+        command = ["sh", "-c", f"read begun; sleep 0.05; kill -INT {os.getpid()}"]
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE)
         return self
+
+    def now(self, *unused: object) -> None:
+        """The work has begun that is to be interrupted."""
+        if self._began == math.inf:
+            assert self._process.stdin is not None
+            self._began = time.process_time()
+            self._process.stdin.write(b"\n")
+            self._process.stdin.flush()
+
+    @property
+    def work(self) -> float:
+        """Processor time of this process since then [s], which others on the machine do not lengthen."""
+        return time.process_time() - self._began
 
     def __exit__(self, *unused: object) -> None:
         self._process.kill()
-        self._process.wait()
+        self._process.communicate()

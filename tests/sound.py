@@ -61,7 +61,6 @@ def sound(item: Any) -> None:
         sound_drive(item)
     elif isinstance(item, NormalLaw):
         assert item.largest_depth > 0.0
-        assert item.forgets in (True, False)
     elif isinstance(item, FrictionLaw):
         assert item.has_state in (True, False)
 

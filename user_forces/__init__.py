@@ -41,9 +41,6 @@ if TYPE_CHECKING:
     from user_forces.normal.anagnostopoulos import Anagnostopoulos as Anagnostopoulos
     from user_forces.normal.carvalho_martins import CarvalhoMartins as CarvalhoMartins
     from user_forces.normal.cylinder import CylinderLaw as CylinderLaw
-    from user_forces.normal.damping_speed import DampingSpeed as DampingSpeed
-    from user_forces.normal.damping_speed import ImpactVelocity as ImpactVelocity
-    from user_forces.normal.damping_speed import IndentationVelocity as IndentationVelocity
     from user_forces.normal.dubowsky_freudenstein import DubowskyFreudenstein as DubowskyFreudenstein
     from user_forces.normal.esdu_78035 import Esdu78035 as Esdu78035
     from user_forces.normal.exact import Exact as Exact
@@ -61,7 +58,6 @@ if TYPE_CHECKING:
     from user_forces.normal.johnson import Johnson as Johnson
     from user_forces.normal.kelvin_voigt import KelvinVoigt as KelvinVoigt
     from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh as LankaraniNikravesh
-    from user_forces.normal.law import Impact as Impact
     from user_forces.normal.law import LoadError as LoadError
     from user_forces.normal.law import NormalLaw as NormalLaw
     from user_forces.normal.lee_wang import LeeWang as LeeWang
@@ -104,7 +100,6 @@ _PLACES = {
     ".normal.anagnostopoulos": ("Anagnostopoulos",),
     ".normal.carvalho_martins": ("CarvalhoMartins",),
     ".normal.cylinder": ("CylinderLaw",),
-    ".normal.damping_speed": ("DampingSpeed", "ImpactVelocity", "IndentationVelocity"),
     ".normal.dubowsky_freudenstein": ("DubowskyFreudenstein",),
     ".normal.esdu_78035": ("Esdu78035",),
     ".normal.exact": ("Exact",),
@@ -120,7 +115,7 @@ _PLACES = {
     ".normal.johnson": ("Johnson",),
     ".normal.kelvin_voigt": ("KelvinVoigt",),
     ".normal.lankarani_nikravesh": ("LankaraniNikravesh",),
-    ".normal.law": ("Impact", "LoadError", "NormalLaw"),
+    ".normal.law": ("LoadError", "NormalLaw"),
     ".normal.lee_wang": ("LeeWang",),
     ".normal.liu": ("Liu",),
     ".normal.pereira": ("Pereira",),

@@ -14,7 +14,7 @@ from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.journal import SMALLEST as SMALLEST
 from user_forces.journal import ContactGeometry, JournalBearing
-from user_forces.normal.law import Impact, NormalLaw
+from user_forces.normal.law import NormalLaw
 from user_forces.slot import Slot
 from user_forces.values.value import Value, value
 
@@ -73,7 +73,7 @@ class Contact(Value, ABC):
         vy: float,
         bore_spin: float,
         journal_spin: float,
-        impact: Impact | None,
+        impact_velocity: float | None,
         history: SlipHistory = AT_REST,
     ) -> ContactForce:
         """Force of the bore on the journal. Takes floats or expressions (`user_forces.expressions.scalar`).
@@ -86,8 +86,8 @@ class Contact(Value, ABC):
                 and across: the plain difference from any point of the middle line, less along y what the
                 slot's turning moves the walls across at the place of the corner.
             bore_spin, journal_spin: angular velocities of both bodies [rad/s].
-            impact: what began the contact going on; None while the surfaces are apart, and then there is no
-                force whatever the depth.
+            impact_velocity: of the present contact [m/s], see `NormalLaw`; None while the surfaces are apart,
+                and then there is no force whatever the depth.
             history: for friction laws with a state, the step whose end this is.
 
         Returns:
@@ -102,11 +102,11 @@ class Contact(Value, ABC):
         bore_arm, journal_arm = bearing.contact_arms(depth)
         slip = nx * vy - ny * vx + journal_spin * journal_arm - bore_spin * bore_arm
         rate = nx * vx + ny * vy
-        if impact is None or (is_number(depth) and depth <= 0.0):
+        if impact_velocity is None or (is_number(depth) and depth <= 0.0):
             if is_number(eccentricity) and eccentricity == 0.0:
                 rate = bearing.speed_outwards(vx, vy)
             return ContactForce(depth, rate, slip, 0.0, 0.0, 0.0, 0.0, journal_arm, False, 0.0)
-        asked = self.normal(maximum(depth, SHALLOWEST), rate, impact)
+        asked = self.normal(maximum(depth, SHALLOWEST), rate, impact_velocity)
         normal = where(depth > 0.0, maximum(asked, 0.0), 0.0)
         deflection = 0.0
         if self.friction.has_state:

@@ -21,7 +21,6 @@ from studies.adams.statements import Statements, functions, number
 from support_exudyn.model.pins import ClearancePin
 from user_forces.friction.ambrosio import Ambrosio
 from user_forces.friction.frictionless import Frictionless
-from user_forces.normal.damping_speed import ImpactVelocity
 from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
 from user_forces.values.value import InputError
 
@@ -44,11 +43,6 @@ def check_law(name: str, pin: ClearancePin) -> None:
     normal, friction = pin.contact.normal, pin.contact.friction
     if type(normal) is not LankaraniNikravesh:
         raise InputError(f"pins.{name}.contact.normal = {type(normal).__name__}: allowed: LankaraniNikravesh")
-    if not isinstance(normal.damping_speed, ImpactVelocity):
-        raise InputError(
-            f"pins.{name}.contact.normal.damping_speed = {type(normal.damping_speed).__name__}: it needs the "
-            "mass that moves, which no expression knows; allowed: ImpactVelocity"
-        )
     if type(friction) not in (Ambrosio, Frictionless):
         raise InputError(
             f"pins.{name}.contact.friction = {type(friction).__name__}: allowed: Ambrosio, or none"
@@ -62,7 +56,6 @@ def write_clearance(out: Statements, name: str, pin: ClearancePin, at: PinMarker
     """
     bearing, normal, axes = pin.contact.bearing, pin.contact.normal, at.axes
     assert isinstance(normal, LankaraniNikravesh)
-    assert isinstance(normal.damping_speed, ImpactVelocity)
 
     def variable(what: str, expression: str) -> str:
         return f"VARVAL({out.add('VARIABLE', f'{name}_{what}', f'FUNCTION = {expression}')})"
@@ -79,7 +72,7 @@ def write_clearance(out: Statements, name: str, pin: ClearancePin, at: PinMarker
     turning = variable("turning", f"WZ({at.journal})*{journal_arm}-WZ({at.bore})*{bore_arm}")
     slip = variable("slip", f"{nx}*{vy}-{ny}*{vx}+{turning}")
     memory = _impact_velocity(out, name, depth, rate)
-    speed = variable("w", f"MAX({memory},{number(normal.damping_speed.floor)})")
+    speed = variable("w", f"MAX({memory},{number(normal.rest_velocity)})")
     elastic = variable("elastic", f"{number(normal.stiffness)}*MAX({depth},0)**{number(normal.exponent)}")
     damping = variable("damping", f"1+{number(normal.damping_factor)}*{rate}/{speed}")
     force = variable("normal", f"MAX({elastic}*{damping},0)")

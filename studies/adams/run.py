@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from studies.adams.dataset import adams_dataset, solver_commands
-from studies.common.paper_machine import SLIDING_COEFFICIENT, STEP, clearance_rise
+from studies.common.paper_machine import PAPERS_LAW, SLIDING_COEFFICIENT, STEP, clearance_rise
 from studies.common.study import work_in_folder
 from support_exudyn import Scenario
 from support_exudyn.commands.command_line import Parser, folder, say
@@ -25,7 +25,8 @@ LONGEST_NAME = 40
 
 def paper_rise() -> Scenario:
     """The paper's rise, to the accuracy that is usual."""
-    return replace(clearance_rise(CLEARANCE_MM, SLIDING_COEFFICIENT, STEP), accuracy="standard")
+    rise = clearance_rise(CLEARANCE_MM, SLIDING_COEFFICIENT, STEP, law=PAPERS_LAW)
+    return replace(rise, accuracy="standard")
 
 
 def mapping_text(columns: Mapping[str, str], results: str) -> str:

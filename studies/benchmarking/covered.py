@@ -1,9 +1,9 @@
 """Whether the errors that runs tell of their numbers cover those that they have, number by number.
 
-A number is judged by the reference whose own error is told apart from the error claimed: one of another
-formulation where that is sharp enough, else one of the same at much finer settings. If no reference is sharp
-enough, the number is set apart; but where another formulation is surely further away than the error claimed,
-that counts, however blunt it is.
+A number is judged by a reference whose own error is at most a tenth of the error claimed, or of the distance
+between both: one of another formulation where that is sharp enough, else one of the same at much finer
+settings. If no reference is sharp enough, the number is left out, and counted. References have many records,
+for what a run prints is of the time, however few records it has.
 
 Two runs of a reference can agree by chance. So there are three, and the last distance is not believed below
 what the order of the method makes of the one before. Where it is far below, above the one before, or the other
@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studies.benchmarking.estimates import numbers_of_records, tight_numbers
+from studies.benchmarking.estimates import tight_numbers
 from studies.benchmarking.fresh_scenes import Fresh
 from studies.extremes.runs import HangError, patience
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
@@ -39,8 +39,8 @@ WITNESS = (8.0, 4.0, 2.0)  # the same against the first run of "standard", where
 ORDER = 2  # of the method whose steps are made shorter
 CHANCE = 0.25  # of what the order makes of the distance before, below which two runs agree by chance
 PATIENCE = 300.0  # [s] that a scene's runs may take, and as much its references
-SHARP = 0.25  # of the error claimed that a reference's own error may be
-SURELY = 4.0  # times its own error that a reference has to be beyond the error claimed to count however blunt
+SHARP = 0.1  # of the error claimed, or of the distance, that a reference's own error may be
+RECORDS = 2000  # of a reference
 OF_DISTANCE = 0.5  # of the distance of a less fine run that a reference's own error is taken to be
 ROUNDING = 1e-12  # of a number, that references are not believed beyond
 NEWTON = 5e-8  # the same of what follows from Newton's method, whose tolerance is 1e-8; not of places
@@ -195,7 +195,8 @@ def accuracies(scene: Fresh) -> tuple[Accuracy, ...]:
 
 def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
     """Run a scene by formulations with error control, and by the engine's as another; yield each that ended."""
-    plain = replace(scene.scenario, accuracy=None)
+    period = scene.scenario.duration / RECORDS
+    plain = replace(scene.scenario, accuracy=None, record_period=period)
     sharp = False
     for name, tolerances in TIGHT.items():
         if not formulation(name).covers(plain):
@@ -211,8 +212,8 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
         witness = settings_for(replace(plain, formulation="redundant"), ACCURACIES["standard"])
         factors, known = WITNESS, _numbers([witness.refined(factor) for factor in WITNESS])
     elif (finest := _finest(runs)) is not None:
-        factors, known = FINER, _numbers([finest.scenario.refined(factor) for factor in FINER[:2]])
-        known = [*known, tight_numbers(0.0, finest)] if known else known
+        finest = replace(finest, record_period=period)
+        factors, known = FINER, _numbers([finest.refined(factor) for factor in FINER])
     else:
         return
     if known:
@@ -221,11 +222,11 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
         )
 
 
-def _finest(runs: Sequence[Result]) -> Result | None:
-    """Return the finest of the runs whose steps can be made shorter still; None if there are none."""
+def _finest(runs: Sequence[Result]) -> Scenario | None:
+    """Return the scenario of the finest run whose steps can be made shorter still; None if there is none."""
     for run in reversed(runs):
         if FINER[0] * run.scenario.solver.impact_steps <= MOST_IMPACT_STEPS:
-            return run
+            return run.scenario
     return None
 
 
@@ -245,7 +246,7 @@ def _numbers(scenarios: Sequence[Scenario]) -> list[Mapping[str, float]]:
 
 def judged(run: Result, known: Sequence[Reference]) -> Iterator[Judged]:
     """Judge all numbers of a run by the references."""
-    for name, number in numbers_of_records(run).items():
+    for name, number in run.numbers().items():
         yield judge(name, number.value, number.error, run.scenario.formulation, known)
 
 
@@ -260,10 +261,7 @@ def judge(name: str, value: float, claimed: float, formulation: str, known: Sequ
         key=lambda pair: pair[0].by == formulation,
     )
     for one, reference in found:
-        if one.away - SURELY * one.own > claimed and reference.converges(name):
-            return one
-    for one, _ in found:
-        if one.own <= SHARP * claimed:
+        if one.own <= SHARP * claimed or (one.own <= SHARP * one.away and reference.converges(name)):
             return one
     return replace(found[0][0], by="") if found else Judged(name, value, claimed, math.nan, math.nan, "")
 

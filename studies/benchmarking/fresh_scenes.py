@@ -1,18 +1,20 @@
 """Scenes of every kind that nobody has seen before, drawn from a seed: what errors are measured on.
 
-Each is a tenth of a second or so of a machine whose clearances, stiffnesses, laws, damping, friction, starts
-and drives are drawn from what is physically sensible. The same seed and number give the same scene, whatever
-else is drawn.
+Half of them are machines of the field, a tenth of a second or so long, whose clearances, stiffnesses, laws,
+damping, friction, starts and drives are drawn from what is physically sensible. The other half are linkages
+that are drawn themselves, with records far too coarse. The same seed and number give the same scene.
 """
 
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
 
 import user_forces as forces
+from studies.benchmarking.drawn_linkages import chain_scene, guide_scene, parallelogram_scene
 from studies.benchmarking.fresh_legs import Leg, between, hose, pump, with_elements
 from studies.common import paper_machine
 from support_exudyn import (
@@ -40,6 +42,7 @@ from support_exudyn import (
 )
 from support_exudyn.mechanics.oil_column import static_loads
 from support_exudyn.scenario.scenario_data import Accuracy
+from user_forces.normal.hysteresis import REST_VELOCITY
 from user_forces.normal.power_law import PowerLaw
 
 T = TypeVar("T")
@@ -75,13 +78,14 @@ class Fresh:
     @property
     def accuracies(self) -> tuple[Accuracy, ...]:
         """It is run to these accuracies."""
-        share = self.number // len(KINDS) % REFERENCE_SHARE == 0
+        share = self.number // 2 % REFERENCE_SHARE == 0
         return ("draft", "standard", "reference") if share else ("draft", "standard")
 
 
 def fresh(seed: int, number: int, kind: str = "") -> Fresh:
-    """The scene of a seed with this number, both from 0 on; of this kind, or of all of them in turn."""
-    kind = kind or list(KINDS)[number % len(KINDS)]
+    """The scene of a seed with this number, both from 0 on: machines and linkages in turn, or of this kind."""
+    kinds = list(LINKAGES if number % 2 else MACHINES)
+    kind = kind or kinds[number // 2 % len(kinds)]
     random = np.random.default_rng([seed, number])
     for _ in range(DRAWS):
         try:
@@ -122,17 +126,9 @@ def _contact(random: np.random.Generator, size: float, stiffness: float) -> forc
         * 1e-4 ** (1.5 - exponent),
         exponent=exponent,
         restitution=float(random.uniform(0.3, 0.98)),
-        damping_speed=_damping_speed(random),
+        rest_velocity=REST_VELOCITY if random.uniform() < 0.6 else between(random, 1e-3, 5e-2),
     )
     return forces.JournalContact(bearing=bearing, normal=normal, friction=_friction(random))
-
-
-def _damping_speed(random: np.random.Generator) -> forces.DampingSpeed:
-    return (
-        forces.IndentationVelocity()
-        if random.uniform() < 0.6
-        else forces.ImpactVelocity(floor=between(random, 1e-4, 1e-2))
-    )
 
 
 def _friction(random: np.random.Generator) -> forces.FrictionLaw:
@@ -353,7 +349,8 @@ def _in_space(random: np.random.Generator) -> Scenario:
     return _scene(random, reference_support(), {name: _pin(random)}, 0.08, actuators=columns, dimensions=3)
 
 
-KINDS: Mapping[str, Callable[[np.random.Generator], Scenario]] = {
+Kinds = Mapping[str, Callable[[np.random.Generator], Scenario]]
+MACHINES: Kinds = {
     "rear pin": _rear_pin,
     "any pin": _any_pin,
     "several pins": _several_pins,
@@ -365,3 +362,9 @@ KINDS: Mapping[str, Callable[[np.random.Generator], Scenario]] = {
     "slider-crank": _crank,
     "space": _in_space,
 }
+LINKAGES: Kinds = {
+    "drawn chain": partial(chain_scene, pin=_pin),
+    "drawn guide": partial(guide_scene, pin=_pin, contact=_contact),
+    "loose parallelogram": partial(parallelogram_scene, pin=_pin),
+}
+KINDS: Kinds = {**MACHINES, **LINKAGES}

@@ -53,7 +53,7 @@ def run_lsoda(scenario: Scenario, tolerance: float) -> LsodaRun:
 
     Arguments:
         scenario: SliderCrank driven by Steady, slider pin with clearance with its bore in the slider, no
-            gravity, start "concentric", LankaraniNikravesh with exponent 1.5 and ImpactVelocity, no friction.
+            gravity, start "concentric", LankaraniNikravesh with exponent 1.5, no friction.
         tolerance: of LSODA, relative and absolute, for angle [rad], place [m] and their rates alike.
 
     Raises InputError if the scenario is not covered, RuntimeError if LSODA gives up.

@@ -112,7 +112,7 @@ def restless(duration: float) -> Scenario:
 def quick_rise(friction: float, dimensions: int = 2) -> Scenario:
     """The first 0.4 s of a rise of 100 mm in a second with 1.5 mm of clearance, in the plane or in space."""
     rise = CubicStep(stroke=0.1, start=0.0, end=1.0)
-    scene = paper_machine.clearance_rise(1.5, friction, 5e-4)
+    scene = paper_machine.clearance_rise(1.5, friction, 5e-4, law=paper_machine.PAPERS_LAW)
     return replace(scene, drive=rise, duration=0.4, dimensions=dimensions)  # type: ignore[arg-type]
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 from studies.common import paper_machine
 from studies.slider_crank import run as slider_crank
@@ -41,8 +42,9 @@ def _support(label: str, scenario: Scenario, after: float) -> BenchmarkScene:
 
 
 def _scenes() -> dict[str, BenchmarkScene]:
-    smooth = replace(paper_machine.clearance_rise(CLEARANCE_MM, 0.0, 5e-4), solver=SolverSettings())
-    dry = replace(smooth, pins=paper_machine.clearance_rise(CLEARANCE_MM, FRICTION, 5e-4).pins)
+    rise = partial(paper_machine.clearance_rise, law=paper_machine.PAPERS_LAW)
+    smooth = replace(rise(CLEARANCE_MM, 0.0, 5e-4), solver=SolverSettings())
+    dry = replace(smooth, pins=rise(CLEARANCE_MM, FRICTION, 5e-4).pins)
     crank = slider_crank.scenarios()[slider_crank.SMOOTH]
     half = replace(
         crank,

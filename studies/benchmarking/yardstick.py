@@ -61,7 +61,7 @@ def run_yardstick(scenario: Scenario, tolerance: float, *, program: Path, runs: 
 
     Arguments:
         scenario: HydraulicSupport, rear-link pin with clearance, its bore in the base, CubicStep, start
-            "concentric", LankaraniNikravesh with exponent 1.5 and ImpactVelocity, no friction or Ambrosio's.
+            "concentric", LankaraniNikravesh with exponent 1.5, no friction or Ambrosio's.
         tolerance: largest error of a step as a share of the clearance.
         program: from `compiled`.
         runs: of which the fastest is reported.
@@ -103,7 +103,7 @@ def _numbers(scenario: Scenario, tolerance: float) -> list[float]:
         drive.start,
         drive.end,
         scenario.duration,
-        scenario.record_period,
+        scenario.recorded_every,
         start.canopy,
         start.rear_link,
         lever / clearance / tolerance,

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
-from studies.common.loose_supports import loose_pins, support
+from studies.common.loose_supports import loose_pins, support, tight_pins
 from studies.common.support_legs import PAIRS, legs_data, support_legs
 from support_exudyn import ClearancePin, Line, OilColumn, Result, Scenario, simulate
 from support_exudyn.machines.four_bar_shield import PINS as ALL_PINS
@@ -23,7 +23,7 @@ MACHINES = ("reference", "zf18000")
 # of masses 0.5, 1, 2, 5 t and heights 0.2, 0.5, 1, 2 m the corners and the middle; all else is crossed
 MIDDLE = (2.0, 0.5)  # mass [t], height [m]
 BLOWS = ((0.5, 0.2), (0.5, 2.0), MIDDLE, (5.0, 0.2), (5.0, 2.0))
-CLEARANCE_MM, FRICTION = 1.5, 0.25
+CLEARANCE_MM, FRICTION = 1.5, 0.25  # friction in all pins, ideal or not
 PINS = {"ideal": (), "one": ("rear_base",), "all": ALL_PINS}  # that have clearance
 STIFFNESS, RESTITUTION = 1e9, 0.3  # of rock on steel [N/m^1.5], assumed: 2 t from 0.5 m rest after 10 ms
 STRIKE = 0.05  # when a block strikes [s]
@@ -111,8 +111,11 @@ class Blow:
             machine=support(self.machine),
             actuators={name: replace(leg, setting_pressure=rest.pressures[name]) for name, leg in legs.items()},
             pins={
-                name: replace(pin, eccentricity=rest.eccentricities[name])
-                for name, pin in loose(self.machine, self.pins).items()
+                **tight_pins(self.machine, FRICTION, ALL_PINS),
+                **{
+                    name: replace(pin, eccentricity=rest.eccentricities[name])
+                    for name, pin in loose(self.machine, self.pins).items()
+                },
             },
             loads={**roof(self.machine), "block": self.block()},
             duration=self.strike + AFTER,

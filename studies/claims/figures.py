@@ -1,6 +1,7 @@
-"""Pictures of the verdicts: shares of machines, and where the paper's numbers lie among them."""
+"""Figures of the verdicts: shares of machines, and the paper's numbers among those of the machines."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,36 +11,36 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from studies.claims.evidence import Evidence
-from studies.claims.plausible import REFERENCE, Sample
+from studies.claims.plausible import REFERENCE
 from studies.claims.plausible_runs import CLEARANCES
-from studies.claims.verdicts import KINDS, NEARLY_ALL, Ruling
+from studies.claims.verdicts import BOUNDS, KINDS, Machines, Ruling
 from studies.common import paper_machine
 from studies.common.panels import legend, letters
 from studies.common.paper_machine import SIZES_MM
 from support_exudyn.postprocessing.figures import style
 
-COLOURS = dict(zip(KINDS, (style.THIRD, style.SMOOTH, style.PAPER, "#999999"), strict=True))
-LEGEND = {
-    "holds": "holds", "holds only": "holds only for a part", "not supported": "not supported",
-    "cannot be judged": "cannot be judged",
-}  # fmt: skip
-SMALL = 6.5  # letters of the names of claims [points]
-CONTACTS = {"paper": "#999999", "internal": "#CC79A7", "cylinders": "#56B4E9"}  # lines of machines
-
-Machines = Sequence[tuple[Sample, Evidence]]
+COLOURS = dict(zip(KINDS, (style.THIRD, style.SMOOTH, style.PAPER, "#56B4E9", "#999999"), strict=True))
+SMALL = 6.5  # letters of the names of statements [points]
+SECOND: dict[str, Any] = {"color": "black", "marker": "D", "ls": "", "ms": 3.0, "mfc": "white", "mew": 0.7}
+HYPERCUBES = {  # label and colour of lines of machines
+    "machine as printed": "#999999",
+    "machine with an engineer's contact": "#56B4E9",
+}
 
 
-def figures(rulings: Sequence[Ruling], reference: Evidence, machines: Machines) -> dict[str, Figure]:
+def figures(
+    rulings: Sequence[Ruling], reference: Evidence, first: Machines, second: Machines
+) -> dict[str, Figure]:
     """All figures, by file name."""
     drawn = {"claims_shares": share_figure(rulings)}
-    if machines:
-        drawn["force_over_clearance"] = force_figure(reference, machines)
-        drawn["rms_and_friction"] = rms_figure(reference, machines)
+    if first:
+        drawn["force_over_clearance"] = force_figure(reference, first, second)
+        drawn["rms_and_friction"] = rms_figure(reference, first)
     return drawn
 
 
 def share_figure(rulings: Sequence[Ruling]) -> Figure:
-    """A bar a claim that has a measure, in two columns."""
+    """A bar a measurable statement, in two columns."""
     shown = [(n, ruling) for n, ruling in enumerate(rulings, 1) if ruling.claim.judge is not None]
     rows = -(-len(shown) // 2)
     drawing = Figure(figsize=style.size(180, 25 + 3.5 * rows))
@@ -48,40 +49,44 @@ def share_figure(rulings: Sequence[Ruling]) -> Figure:
         _bars(axes, part, rows)
     letters(panels)
     found = {ruling.kind for _, ruling in shown}
-    bars = [Patch(color=colour, label=LEGEND[kind]) for kind, colour in COLOURS.items() if kind in found]
-    drawing.legend(handles=[*bars, *_squares()], loc="outside lower center", ncols=3, fontsize=8)
+    bars = [Patch(color=colour, label=kind) for kind, colour in COLOURS.items() if kind in found]
+    drawing.legend(handles=[*bars, *_marks()], loc="outside lower center", ncols=3, fontsize=8)
     return drawing
 
 
 def _bars(axes: Axes, shown: Sequence[tuple[int, Ruling]], rows: int) -> None:
-    """A column of so many rows: numbers of claims and what was ruled."""
+    """A column of so many rows: names and numbers of statements, shares, and the reference support."""
     for y, (_, ruling) in enumerate(shown):
-        if ruling.share is not None and ruling.interval is not None:
-            low, high = ruling.interval
-            axes.barh(y, 100 * ruling.share, color=COLOURS[ruling.kind], height=0.68)
-            axes.plot([100 * low, 100 * high], [y, y], color="black", lw=0.9)
+        if ruling.first.share is not None:
+            axes.barh(y, 100 * ruling.first.share, color=COLOURS[ruling.kind], height=0.68)
+            axes.plot([100 * end for end in ruling.first.interval], [y, y], color="black", lw=0.9)
         else:
-            why = ruling.claim.alone or "open on all"
-            axes.text(8.0, y, why, va="center", fontsize=SMALL, color=COLOURS[ruling.kind])
+            why = "closed form" if ruling.claim.closed_form else "undecided on all"
+            axes.text(8.0, y, why, va="center", fontsize=SMALL)
+        if ruling.second.share is not None:
+            axes.plot(100 * ruling.second.share, y, **SECOND)
         full = "black" if ruling.reference else "none"
         axes.plot(110, y, "s", ms=3.5, color="black", mfc=full, clip_on=False)
     axes.set_yticks(range(len(shown)), [f"{ruling.claim.name}  {n}" for n, ruling in shown], fontsize=SMALL)
     axes.set(xlim=(0, 115), xticks=(5, 50, 95), ylim=(rows - 0.4, -0.6), xlabel="share of machines [%]")
-    for bound in (NEARLY_ALL, 1.0 - NEARLY_ALL):
+    for bound in BOUNDS:
         axes.axvline(100 * bound, color="#777777", lw=0.7, ls=(0, (4, 2)))
     axes.grid(visible=False, axis="y")
     axes.set_axisbelow(True)
 
 
-def _squares() -> list[Line2D]:
-    looks = {"holds on the reference support": "black", "does not": "none"}
+def _marks() -> list[Line2D]:
+    squares = {"holds on the reference support": "black", "does not": "none"}
     return [
-        Line2D([], [], color="black", marker="s", ls="", ms=4, mfc=full, label=label)
-        for label, full in looks.items()
+        Line2D([], [], **SECOND, label="second hypercube"),
+        *(
+            Line2D([], [], color="black", marker="s", ls="", ms=4, mfc=full, label=label)
+            for label, full in squares.items()
+        ),
     ]
 
 
-def force_figure(reference: Evidence, machines: Machines) -> Figure:
+def force_figure(reference: Evidence, first: Machines, second: Machines) -> Figure:
     """Table 3 over all machines, against 0.5 mm: a column a measure."""
     drawing = Figure(figsize=style.size(170, 85))
     panels = drawing.subplots(1, 2, sharex=True)
@@ -89,17 +94,11 @@ def force_figure(reference: Evidence, machines: Machines) -> Figure:
     measures["std_force"] = ("std. deviation", paper_machine.FORCE_SPREAD)
     for axes, (name, (what, paper)) in zip(panels, measures.items(), strict=True):
         every = []
-        for contact, colour in CONTACTS.items():
-            chosen = [evidence for sample, evidence in machines if sample["contact"] == contact]
-            lines = [_against_first([m.value for m in e.row(name, CLEARANCES)]) for e in chosen]
+        for (label, colour), machines in zip(HYPERCUBES.items(), (first, second), strict=True):
+            lines = [_against_first([m.value for m in e.row(name, CLEARANCES)]) for _, e in machines]
             every += lines
             for n, line in enumerate(lines):
-                label = (
-                    f"machine, {paper_machine.CONTACT_TITLES[contact]}"
-                    if n == 0 and name == "mean_force"
-                    else None
-                )
-                axes.plot(SIZES_MM, line, color=colour, lw=0.5, alpha=0.6, label=label)
+                axes.plot(SIZES_MM, line, color=colour, lw=0.5, alpha=0.6, label=None if n else label)
         ours = _against_first([m.value for m in reference.row(name, CLEARANCES)])
         printed = _against_first(list(paper.values()))
         axes.plot(SIZES_MM, ours, color="black", lw=1.6, label="reference support")

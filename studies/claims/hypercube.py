@@ -1,4 +1,4 @@
-"""Plausible machines, run one by one in parallel processes, each kept as soon as it is finished.
+"""The machines, run one by one in parallel processes, each kept as soon as it is finished.
 
 A finished machine is a file DIR/machines/KEY.json, written whole by the process that ran it. The key is made
 of its inputs and of the program's sources: a run that was killed goes on where it stopped, and a changed
@@ -18,7 +18,7 @@ import studies
 import support_exudyn
 import user_forces
 from studies.claims.plausible import Sample
-from studies.claims.plausible_runs import measures
+from studies.claims.plausible_runs import Data, measures
 from support_exudyn import SimulationError
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import contents, whole_file
@@ -30,8 +30,6 @@ from user_forces.values.value import InputError
 FOLDER = "machines"
 LARGEST_FILE = 100_000_000  # bytes
 LIBRARIES = ("numpy", "scipy", "numba")  # whose versions may change a number
-
-Data = dict[str, dict[str, list[float]]]  # measures: case, name, [value, numerical error]
 
 
 @dataclass(frozen=True)

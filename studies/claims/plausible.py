@@ -1,7 +1,9 @@
-"""Plausible machines: a Latin hypercube over everything that the paper leaves open.
+"""Machines that could be the paper's, and machines as an engineer would build them: two hypercubes.
 
-Each factor is a range or a list of choices with the reason for it, see factors.toml. A sample names a value of
-every factor; machine, pin and drive follow from it.
+Both draw the data that the paper does not print, see factors.toml. Machines of the first have all that is
+printed: the contact by Eq. 5, the rise of 500 mm in 2 s. The second repeats the first with the contact along
+the pin's length, heavier bodies and other times. A sample gives a value to every datum; machine, pin and drive
+follow.
 """
 
 import inspect
@@ -14,56 +16,62 @@ import numpy as np
 from studies.common import paper_machine
 from studies.common.data import rows
 from studies.contact_laws.catalogue import POWER_LAWS
-from support_exudyn import ClearancePin, HydraulicSupport, OilColumn, Part, bore_area, reference_support
-from user_forces import (
-    Ambrosio,
-    ImpactVelocity,
-    IndentationVelocity,
-    JournalBearing,
-    JournalContact,
-    NormalLaw,
+from support_exudyn import (
+    ClearancePin,
+    HydraulicSupport,
+    IdealPin,
+    OilColumn,
+    Part,
+    bore_area,
+    reference_support,
 )
+from user_forces import Ambrosio, JournalContact
 from user_forces.values.value import InputError, Vector2
 
 Choice = str | float
-Sample = Mapping[str, Choice]  # a value of every factor, by name
+Sample = Mapping[str, Choice]  # a value of every datum, by name
 
 REFERENCE_SCALE = 0.65  # of the support whose pivots the reference support has
-# data that came to be varied last
-NEW = ("contact", "backing", "stroke_time", "bulk_modulus", "line_volume", "line_drop")
-COLUMNS = "columns"  # what a sample says besides its factors: whether it is asked on columns of oil, too
-RIGID, ON_OIL = "rigid", "rigid and oil"
-ON_OIL_EVERY = 3  # machine: a run on oil costs ten times one on rigid columns
+CONTACT = "contact"  # the datum by which both hypercubes differ: as printed, along the length
+LOT = 40  # machines that are drawn together: each range has one of them in each of as many parts
 
 
 @dataclass(frozen=True)
 class Factor:
-    """Something assumed: a range from low to high, evenly or in powers, or a list of choices.
+    """A datum that is drawn: a range from low to high, evenly or in powers, or a list of choices.
 
-    unit: of the range. phrase: a choice in a sentence.
+    reference: of the reference support. unit: of the range. phrase: a choice in a sentence. second_only: drawn
+    in the second hypercube only, for the paper prints it or does not need it. second_high: end of the range
+    there.
     """
 
     name: str
     meaning: str
     reason: str
+    reference: Choice
     low: float = 0.0
     high: float = 0.0
     powers: bool = False
     choices: Sequence[str] = ()
     unit: str = ""
     phrase: str = ""
+    second_only: bool = False
+    second_high: float = 0.0
 
-    def at(self, share: float) -> Choice:
-        """The value at a share from 0 to 1 of the range."""
+    def at(self, share: float, *, second: bool = False) -> Choice:
+        """The value at a share from 0 to 1 of the range in the first hypercube or in the second."""
+        if self.second_only and not second:
+            return self.reference
         if self.choices:
             return self.choices[min(int(share * len(self.choices)), len(self.choices) - 1)]
+        high = self.second_high if second and self.second_high else self.high
         if self.powers:
-            return float(self.low * (self.high / self.low) ** share)
-        return float(self.low + (self.high - self.low) * share)
+            return float(self.low * (high / self.low) ** share)
+        return float(self.low + (high - self.low) * share)
 
     @property
-    def said(self) -> str:
-        """Its name in words."""
+    def label(self) -> str:
+        """The name in words."""
         return SYMBOLS.get(self.name, self.name.replace("_", " "))
 
     def chosen(self, choice: str) -> str:
@@ -72,14 +80,16 @@ class Factor:
 
     def bound(self, side: str, value: float) -> str:
         """A bound in words; side: above or below."""
-        return f"{self.said} {side} {value:.3g} {self.unit}".rstrip()
+        return f"{self.label} {side} {value:.3g} {self.unit}".rstrip()
 
-    @property
-    def span(self) -> str:
-        """The range or the choices, in words."""
+    def span(self, *, second: bool) -> str:
+        """The range or the choices in one of the hypercubes, in words."""
+        if self.second_only and not second:
+            return f"{self.reference} {self.unit}".rstrip()
         if self.choices:
             return ", ".join(self.choices)
-        return f"{self.low:g} to {self.high:g}" + (", even in powers" if self.powers else "")
+        low, high = (f"{float(self.at(end, second=second)):g}" for end in (0.0, 1.0))
+        return f"{low} to {high} {self.unit}".rstrip() + (", even in powers" if self.powers else "")
 
 
 SYMBOLS = {"sliding_coefficient": "mu_d", "static_speed": "v_s", "dynamic_speed": "v_d"}
@@ -97,20 +107,25 @@ MEMBERS = {  # by whose direction a centre of mass is shifted
     "canopy": ("hinge", "tip"),
 }
 
-_ROWS = {row["name"]: row for row in rows("studies.claims", "factor")}
-REFERENCE: dict[str, Choice] = {name: row.pop("reference") for name, row in _ROWS.items()}
-REFERENCE |= {
+_FROM_PAPER_MACHINE: dict[str, Choice] = {
     "restitution": paper_machine.RESTITUTION,
     "sliding_coefficient": paper_machine.SLIDING_COEFFICIENT,
-    COLUMNS: RIGID,
 }
-FACTORS = tuple(Factor(**row) for row in _ROWS.values())
+FACTORS = tuple(
+    Factor(**{**row, "name": name, "reference": _FROM_PAPER_MACHINE.get(name, row["reference"])})
+    for row in rows("studies.claims", "factor")
+    for name in row.pop("names", [row.get("name")])
+)
+REFERENCE: dict[str, Choice] = {factor.name: factor.reference for factor in FACTORS} | {
+    CONTACT: paper_machine.PAPER
+}
 
 
-def samples(number: int, seed: int) -> list[dict[str, Choice]]:
-    """So many samples of a Latin hypercube over all factors; the same for the same number and seed.
+def samples(number: int, seed: int, *, second: bool = False) -> list[dict[str, Choice]]:
+    """The first machines of one of both hypercubes; more of them begin with the same ones.
 
-    One in ON_OIL_EVERY, the first among them, is asked on columns of oil, too.
+    They are drawn in lots, each a Latin hypercube over all data. Machines with the same number have the same
+    data in both hypercubes where the ranges are the same.
     """
     if number < 1:
         raise InputError(f"machines = {number}: allowed: at least 1")
@@ -118,13 +133,14 @@ def samples(number: int, seed: int) -> list[dict[str, Choice]]:
 
     # what this version of scipy calls the argument
     name = "rng" if "rng" in inspect.signature(qmc.LatinHypercube).parameters else "seed"
-    generator: dict[str, Any] = {name: np.random.default_rng(seed)}
-    cube = qmc.LatinHypercube(len(FACTORS), **generator).random(number)
-    return [
-        {f.name: f.at(float(share)) for f, share in zip(FACTORS, row, strict=True)}
-        | {COLUMNS: RIGID if n % ON_OIL_EVERY else ON_OIL}
-        for n, row in enumerate(cube)
-    ]
+    drawn: list[dict[str, Choice]] = []
+    for lot in range(-(-number // LOT)):
+        generator: dict[str, Any] = {name: np.random.default_rng([seed, lot])}
+        for shares in qmc.LatinHypercube(len(FACTORS), **generator).random(LOT):
+            sample = {f.name: f.at(float(x), second=second) for f, x in zip(FACTORS, shares, strict=True)}
+            sample[CONTACT] = paper_machine.CYLINDERS if second else paper_machine.PAPER
+            drawn.append(sample)
+    return drawn[:number]
 
 
 def machine(sample: Sample) -> HydraulicSupport:
@@ -184,27 +200,30 @@ def _scaled(point: Vector2, scale: float) -> Vector2:
 
 def pin(sample: Sample, clearance_mm: float, support: HydraulicSupport) -> ClearancePin:
     """The rear-link clearance pin of a sample and its machine; the pin's radius is the paper's."""
-    friction = Ambrosio(
-        sliding_coefficient=number(sample, "sliding_coefficient"),
-        static_speed=number(sample, "static_speed"),
-        dynamic_speed=number(sample, "dynamic_speed"),
-    )
     bearing = paper_machine.bearing(clearance_mm)
-    contact = JournalContact(bearing=bearing, normal=_normal(sample, bearing, support), friction=friction)
-    return ClearancePin(contact=contact, bore="first" if sample["bore"] == "base" else "second")
-
-
-def _normal(sample: Sample, bearing: JournalBearing, support: HydraulicSupport) -> NormalLaw:
-    return paper_machine.normal_law(
-        str(sample["contact"]),
+    normal = paper_machine.normal_law(
+        str(sample[CONTACT]),
         bearing,
         support,
         POWER_LAWS[str(sample["law"])],
         number(sample, "backing"),
         restitution=number(sample, "restitution"),
-        damping_speed=ImpactVelocity(floor=1e-3)
-        if sample["damping_speed"] == "last impact"
-        else IndentationVelocity(),
+        rest_velocity=number(sample, "rest_velocity"),
+    )
+    contact = JournalContact(bearing=bearing, normal=normal, friction=_friction(sample))
+    return ClearancePin(contact=contact, bore="first" if sample["bore"] == "base" else "second")
+
+
+def ideal_pin(sample: Sample) -> IdealPin:
+    """The rear-link pin of a sample without clearance, with the friction of that with clearance."""
+    return IdealPin(friction=_friction(sample), radius=paper_machine.BORE_RADIUS)
+
+
+def _friction(sample: Sample) -> Ambrosio:
+    return Ambrosio(
+        sliding_coefficient=number(sample, "sliding_coefficient"),
+        static_speed=number(sample, "static_speed"),
+        dynamic_speed=number(sample, "dynamic_speed"),
     )
 
 

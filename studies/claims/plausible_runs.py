@@ -1,29 +1,30 @@
-"""What is run and measured of one plausible machine.
+"""Runs and measures of one machine.
 
-Seven scenes by the compiled formulation, each at two tolerances: the ideal pin and four clearances in drive
-mode 2, the ideal pin and 1.5 mm in mode 1. The distance of the two runs tells the numerical error of every
-measure, as it does of runs to an accuracy. One machine in some is asked on columns of oil, too.
+Nine scenes by the compiled formulation: the ideal pin and four clearances in drive mode 2, the ideal pin and
+1.5 mm in mode 1 on rigid columns and on columns of oil. The ideal pin has the friction of the pin with
+clearance. Every scene is run at two tolerances; the numerical error of a measure comes from the distance of
+both runs and from that of fewer records.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
 from studies.claims.evidence import Evidence, Measured
-from studies.claims.plausible import COLUMNS, ON_OIL, REFERENCE, Sample, machine, number, oil_columns, pin
+from studies.claims.plausible import Sample, ideal_pin, machine, number, oil_columns, pin
 from studies.common import paper_machine, rise
+from studies.common.numbers import Thinned, error_of_records
 from studies.common.runs import halvings, with_coarser
 from support_exudyn import (
-    ClearancePin,
     CubicStep,
     HydraulicSupport,
-    OilColumn,
+    Pin,
     Result,
     Scenario,
     SolverSettings,
     UniformSpeed,
-    reference_support,
     simulate,
 )
 from support_exudyn.mechanics.trajectory import Impulse
@@ -32,15 +33,18 @@ IDEAL = "ideal"
 CLEARANCES = tuple(f"{size:.1f} mm" for size in paper_machine.SIZES_MM)
 MODE_1, MODE_1_IDEAL = "1.5 mm, mode 1", "ideal, mode 1"
 OIL, OIL_IDEAL = "1.5 mm, mode 1, oil", "ideal, mode 1, oil"
-CASES = (IDEAL, *CLEARANCES, MODE_1_IDEAL, MODE_1)
-IDEALS = (IDEAL, MODE_1_IDEAL)
-RECORDS = 1e-3  # time between records of a rise of 2 s; of a longer one as many records [s]
+PARTNERS = {
+    **dict.fromkeys((IDEAL, *CLEARANCES), IDEAL),
+    **dict.fromkeys((MODE_1_IDEAL, MODE_1), MODE_1_IDEAL),
+    **dict.fromkeys((OIL_IDEAL, OIL), OIL_IDEAL),
+}  # the ideal pin's case by the case that is compared with it
+CASES = tuple(PARTNERS)
+RECORDS = 5e-4  # time between records of a rise of 2 s; of a longer rise as many records [s]
 TOLERANCE = 1e-6  # in the first of both runs
-# when mode 1 starts on columns of oil [s]: the journal has to come to rest first
-OIL_START = {OIL: 0.8, OIL_IDEAL: 0.02}
-OIL_AFTER = 0.4  # that is looked at [s]
-OIL_RECORDS = 5e-4  # time between records: twice that may miss 1 % of a peak [s]
+THINNED = (2, 4, 5)  # every so many records are left for the error of records
+LARGEST = "largest_force"
 Values = dict[str, float]
+Data = dict[str, dict[str, list[float]]]  # case, name, [value, numerical error]
 
 
 def watched(sample: Sample) -> rise.Watched:
@@ -49,68 +53,76 @@ def watched(sample: Sample) -> rise.Watched:
 
 
 def scenario(sample: Sample, case: str, support: HydraulicSupport) -> Scenario:
-    """A case of a sample and its machine. Raises InputError if the machine cannot rise by 500 mm."""
+    """A case of a sample and its machine, the first of two runs.
+
+    Raises InputError if the machine cannot rise by 500 mm.
+    """
     during = watched(sample)
-    kind = UniformSpeed if "mode 1" in case else CubicStep
+    ideal = case.startswith(IDEAL)
+    loose: Pin = ideal_pin(sample) if ideal else pin(sample, float(case.split()[0]), support)
+    drive = (UniformSpeed if "mode 1" in case else CubicStep)(start=during.start, end=during.end)
     return Scenario(
         machine=support,
-        drive=kind(start=during.start, end=during.end),
+        drive=drive,
         duration=during.end,
         record_period=RECORDS * (during.end / rise.END),
-        pins=_pins(sample, case, support),
+        pins={paper_machine.CLEARANCE_PIN: loose},
+        actuators=oil_columns(sample) if case.endswith("oil") else {},
+        formulation="compiled",
+        solver=SolverSettings(tolerance=TOLERANCE),
     )
 
 
-def _pins(sample: Sample, case: str, support: HydraulicSupport) -> dict[str, ClearancePin]:
-    """The clearance pin of a case, by its name; none if it is ideal."""
-    if case.startswith("ideal"):
-        return {}
-    return {paper_machine.CLEARANCE_PIN: pin(sample, float(case.split()[0]), support)}
-
-
-def measures(sample: Sample) -> dict[str, dict[str, list[float]]]:
+def measures(sample: Sample) -> Data:
     """All measures of a sample as plain data: case, name, [value, numerical error].
 
     Raises InputError or SimulationError if a case cannot be run.
     """
     support, during = machine(sample), watched(sample)
-    scenarios = {case: scenario(sample, case, support) for case in CASES}
-    solver = SolverSettings(tolerance=TOLERANCE)
-    coarse = {case: replace(item, formulation="compiled", solver=solver) for case, item in scenarios.items()}
-    fine = {case: item.refined() for case, item in coarse.items()}
-    # with the ideal pin nothing is integrated: there both are the same to the bit
-    ideal = {case: simulate(coarse[case]) for case in IDEALS}
-    runs = [{case: ideal.get(case) or simulate(item) for case, item in each.items()} for each in (coarse, fine)]
-    found = [_measures(each, during) for each in runs]
-    known = {
-        case: _with_errors([each[case] for each in runs], [each[case] for each in found]) for case in CASES
+    scenes = {case: scenario(sample, case, support) for case in CASES}
+    coarse = {case: simulate(scene) for case, scene in scenes.items()}
+    fine = {case: simulate(scene.refined()) for case, scene in scenes.items()}
+    thinned = {n: {case: cast(Result, Thinned(run, n)) for case, run in fine.items()} for n in THINNED}
+    found = {n: _measures(runs, during) for n, runs in {0: coarse, 1: fine, **thinned}.items()}
+    return {
+        case: _with_errors([coarse[case], fine[case]], {n: each[case] for n, each in found.items()}, during)
+        for case in CASES
     }
-    return known | (_on_oil(sample, support) if sample[COLUMNS] == ON_OIL else {})
 
 
-def _on_oil(sample: Sample, support: HydraulicSupport) -> dict[str, dict[str, list[float]]]:
-    """The largest pin force at the start of mode 1 on columns of oil, with and without clearance."""
-    found = {}
-    for case in (OIL, OIL_IDEAL):
-        coarse = on_oil(sample, case, support, oil_columns(sample))
-        known = with_coarser([simulate(coarse), simulate(coarse.refined())]).estimate(LARGEST_FORCE[case])
-        found[case] = {"largest_force": [known.value, known.error]}
-    return found
+def _with_errors(
+    runs: Sequence[Result], values: Mapping[int, Values], during: rise.Watched
+) -> dict[str, list[float]]:
+    """The values of the finer of two runs with their errors: of steps, of records, and of equations.
 
+    The last is the tolerance, by which formulations agree, times the size of what a value is made from.
 
-def _with_errors(runs: Sequence[Result], values: Sequence[Values]) -> dict[str, list[float]]:
-    """Values of the last of the runs with their errors; what is compared with another run is so at each."""
+    values: by how many records there is one that is used; 0: of the coarser run.
+    """
     result = with_coarser(runs)
-    of_run = {id(run): found for run, found in zip(halvings(result), values, strict=True)}
+    of_run = {id(run): values[n] for n, run in enumerate(halvings(result))}
+    sizes = {"mean_acceleration": values[1]["speed_middle"] / (during.end - during.start)}
 
-    def number(name: str) -> list[float]:
-        found = result.estimate(lambda run: of_run[id(run)][name])
-        return [found.value, found.error]
+    def of_records(name: str) -> float:
+        missed = sum(peak.missed(result) for peak in extremes(during).get(name, ()))
+        return missed if name == LARGEST else missed + error_of_records(lambda n: values[n][name])
 
-    return {name: number(name) for name in values[-1]}
+    def measured(name: str) -> list[float]:
+        estimate = result.estimate(lambda run: of_run[id(run)][name])
+        of_equations = TOLERANCE * max(abs(estimate.value), sizes.get(name, 0.0))
+        return [estimate.value, estimate.error + of_records(name) + of_equations]
+
+    return {name: measured(name) for name in values[1]}
 
 
-def evidence(data: Mapping[str, Mapping[str, list[float]]]) -> Evidence:
+def extremes(during: rise.Watched) -> dict[str, tuple[rise.Peak, ...]]:
+    """The extremes from which a measure is made, by its name: records may miss them."""
+    tip = during.peak("tip.x", 1e3)
+    ends = replace(tip, extreme="min"), replace(tip, extreme="max")
+    return {LARGEST: (during.peak(during.force),), "tip_range": ends}
+
+
+def evidence(data: Mapping[str, Mapping[str, Sequence[float]]]) -> Evidence:
     """The evidence of the runs, for judging."""
     return Evidence(
         {
@@ -120,57 +132,30 @@ def evidence(data: Mapping[str, Mapping[str, list[float]]]) -> Evidence:
     )
 
 
-def on_oil(sample: Sample, case: str, support: HydraulicSupport, columns: Mapping[str, OilColumn]) -> Scenario:
-    """The start of mode 1 on columns of oil, the first of some runs."""
-    start = OIL_START[case]
-    return Scenario(
-        machine=support,
-        drive=UniformSpeed(start=start, end=start + number(sample, "stroke_time")),
-        duration=start + OIL_AFTER,
-        record_period=OIL_RECORDS,
-        pins=_pins(sample, case, support),
-        actuators=columns,
-        formulation="compiled",
-        solver=SolverSettings(tolerance=TOLERANCE),
-    )
-
-
-def oil_scenarios() -> dict[str, Scenario]:
-    """Mode 1 on columns of oil: the reference support, ideal pin and 1.5 mm, the first of three runs."""
-    columns, support = paper_machine.oil_columns(), reference_support()
-    return {case: on_oil(REFERENCE, case, support, columns) for case in (OIL, OIL_IDEAL)}
-
-
-LARGEST_FORCE = {  # of the pin after the start of mode 1 on oil [N], by case
-    case: rise.Peak(rise.FORCE, begin=start) for case, start in OIL_START.items()
-}
-
-
 def _measures(runs: Mapping[str, Result], during: rise.Watched) -> dict[str, Values]:
     found = {}
     for case, run in runs.items():
-        ideal = runs[MODE_1_IDEAL if "mode 1" in case else IDEAL]
-        found[case] = _run_measures(run, ideal, during)
+        found[case] = _run_measures(run, runs[PARTNERS[case]], during)
         if run.impulses:
-            found[case]["impulse"] = _struck(run.impulses[0])
+            found[case]["impulse"] = _total(run.impulses[0])
     return found
 
 
-def _struck(impulse: Impulse) -> float:
-    """Sum of magnitudes over the columns [N s]."""
+def _total(impulse: Impulse) -> float:
+    """The sum of the magnitudes of all columns' impulses [N s]."""
     return sum(abs(value) for value in impulse.actuators.values())
 
 
-def _run_measures(run: rise.MeasuredRun, ideal: rise.MeasuredRun, during: rise.Watched) -> Values:
-    """All measures of one run; forces in N, angles in degrees, lengths in mm."""
-    force, acceleration = run[during.force], rise.DEGREES * run[during.acceleration]
+def _run_measures(run: Result, ideal: Result, during: rise.Watched) -> Values:
+    """All measures of a run over the rise; forces in N, angles in degrees, lengths in mm."""
     inside = during.in_rise(run)
+    time, speed = run.time[inside], rise.DEGREES * run[during.speed][inside]
     found = {
-        "mean_force": float(force[inside].mean()),
-        "std_force": float(force[inside].std()),
-        "largest_force": float(force[inside].max()),
-        "mean_acceleration": float(acceleration[inside].mean()),
-        "mean_tip_shift": 1e3 * float(during.departure(run, ideal, "tip.x").mean()),
+        LARGEST: during.peak(during.force)(run),
+        "mean_force": during.mean(run, during.force),
+        "std_force": during.spread(run, during.force),
+        "mean_acceleration": float((speed[-1] - speed[0]) / (time[-1] - time[0])),
+        "mean_tip_shift": 1e3 * rise.mean(time, during.departure(run, ideal, "tip.x")),
         "tip_range": 1e3 * float(np.ptp(run["tip.x"][inside])),
     }
     for name, channel, scale in (
@@ -180,7 +165,8 @@ def _run_measures(run: rise.MeasuredRun, ideal: rise.MeasuredRun, during: rise.W
     ):
         found[f"rms_{name}"] = scale * during.rms_fluctuation(run, run[channel])
         found[f"rms_from_start_{name}"] = scale * during.rms_fluctuation(run, run[channel], during.start)
-        found[f"range_{name}"] = scale * float(np.ptp(run[channel][inside]))
+        if run is ideal:
+            found[f"range_{name}"] = scale * float(np.ptp(run[channel][inside]))
         found[f"likeness_{name}"] = during.likeness(run, ideal, channel)
     found["likeness_tip"] = min(during.likeness(run, ideal, name) for name in ("tip.x", "tip.y"))
     for stage, times in during.stages.items():
@@ -188,7 +174,6 @@ def _run_measures(run: rise.MeasuredRun, ideal: rise.MeasuredRun, during: rise.W
         found[f"speed_{stage}"] = rise.DEGREES * during.stage_mean(run, during.speed, stage)
     for side in ("front", "rear"):
         column = f"{side}_column"
-        found[f"{side}_angle"] = rise.DEGREES * float(rise.rearward_angle(run, column)[inside].mean())
-        found[f"{side}_lean"] = rise.DEGREES * float(rise.lean(run, column)[inside].mean())
-        found[f"{side}_upright"] = float(np.sin(run[f"{column}.angle"][inside]).mean())
+        for name, angle in (("angle", rise.rearward_angle), ("lean", rise.lean)):
+            found[f"{side}_{name}"] = rise.DEGREES * during.mean(run, angle(run, column))
     return found

@@ -1,179 +1,178 @@
-"""From judgements of many machines to a verdict in words."""
+"""From judgements of many machines to verdicts.
+
+A statement holds if the share of machines on which it holds is at least 95 % with 95 % confidence, fails if
+that share is at most 5 %, and holds in part if the share is between both. Undecided machines, on which the
+numerical error exceeds what is compared, may be of either kind: the interval of the share covers both.
+"""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from studies.claims.claim_list import Claim, Judge, Varied
-from studies.claims.conditions import best_condition, shares_by
+from studies.claims.conditions import dependence
 from studies.claims.evidence import Evidence, NotedEvidence, Verdict
 from studies.claims.plausible import Sample
-from studies.claims.plausible_runs import OIL
 
-KINDS = ("holds", "holds only", "not supported", "cannot be judged")
-# share of all plausible machines from which a claim holds; up to one less this it is not supported. That of the
-# machines that were drawn decides it where its whole interval is on one side
-NEARLY_ALL = 0.95
-# share that a condition must get right, of machines not used to find it, to be the one that decides
-TELLING = 0.85
-GAIN = 0.05  # by how much it must beat the same answer for all to be named at all
-ENOUGH = 60  # machines from which conditions are looked for; with fewer chance looks like one
-
+HOLDS, IN_PART, FAILS, NEEDS_MORE, NOT_MEASURABLE = KINDS = (
+    "holds", "in part", "fails", "needs more machines", "not measurable",
+)  # fmt: skip
+NEARLY_ALL = 0.95  # share of the machines from which a statement holds; up to one less this it fails
+BOUNDS = (1.0 - NEARLY_ALL, NEARLY_ALL)
+CONFIDENCE = 0.95
 
 Machines = Sequence[tuple[Sample, Evidence]]
-Judged = list[tuple[Sample, Verdict]]
 
 
-class AtThreshold(NamedTuple):
-    """What a claim is with a threshold: share of the machines, None if all are open; which of KINDS."""
+class Count(NamedTuple):
+    """Numbers of machines on which a statement holds, fails, or is undecided."""
 
-    threshold: float
-    share: float | None
-    kind: str
-
-
-@dataclass(frozen=True)
-class Ruling:
-    """A claim, judged.
-
-    reference: on the reference support. holds, fails, open: numbers of plausible machines. ours: our numbers,
-    on the reference support. verdict: in words. error: the largest numerical error of our numbers, as a share
-    of the number; None for closed forms and where nothing is judged. thresholds: what it would be with
-    others, if its judge has one.
-    """
-
-    claim: Claim
-    reference: Verdict
-    holds: int
-    fails: int
-    open: int
-    ours: str
-    verdict: str
-    error: float | None = None
-    thresholds: tuple[AtThreshold, ...] = ()
-
-    @property
-    def hangs(self) -> bool:
-        """Whether another threshold would make it another kind of verdict, and not for want of machines."""
-        return len({one.kind for one in self.thresholds} - {"cannot be judged"}) > 1
+    holds: int = 0
+    fails: int = 0
+    undecided: int = 0
 
     @property
     def share(self) -> float | None:
-        """Share of the plausible machines for which it holds, of those that are decided."""
+        """Share of the decided machines on which it holds; None if there are none."""
         decided = self.holds + self.fails
         return self.holds / decided if decided else None
 
     @property
-    def interval(self) -> tuple[float, float] | None:
-        """Between what shares the whole population lies with 95 % confidence (Wilson)."""
-        return _interval(self.holds, self.holds + self.fails)
+    def interval(self) -> tuple[float, float]:
+        """Where the share of all machines lies with 95 % confidence (Wilson), undecided ones of either kind."""
+        machines = sum(self)
+        return wilson(self.holds, machines)[0], wilson(self.holds + self.undecided, machines)[1]
 
     @property
     def kind(self) -> str:
-        """Which of KINDS the verdict is; the longest that it begins with."""
-        return kind_of(self.verdict)
+        """The verdict, one of KINDS."""
+        low, high = self.interval
+        if low >= NEARLY_ALL:
+            return HOLDS
+        if high <= 1.0 - NEARLY_ALL:
+            return FAILS
+        if BOUNDS[0] <= low and high <= BOUNDS[1]:
+            return IN_PART
+        machines = sum(self)
+        least, most = wilson(self.holds, machines)[1], wilson(self.holds + self.undecided, machines)[0]
+        return NOT_MEASURABLE if any(least < bound < most for bound in BOUNDS) else NEEDS_MORE
+
+    def __str__(self) -> str:
+        """Share of the decided machines, interval of all, and the number of undecided machines."""
+        if self.share is None:
+            return f"{self.undecided} undecided" if self.undecided else ""
+        low, high = map(percent, self.interval)
+        left = f", {self.undecided} undecided" if self.undecided else ""
+        return f"{percent(self.share)} % ({low} to {high}{left})"
+
+
+NO_MACHINES = Count()
+
+
+class AtThreshold(NamedTuple):
+    """How machines judge a statement with a threshold."""
+
+    threshold: float
+    counted: Count
+
+
+@dataclass(frozen=True)
+class Ruling:
+    """A statement and its verdict.
+
+    reference: on the reference support. first, second: the machines of both hypercubes. ours: our numbers on
+    the reference support. error: the largest numerical error of these numbers, as a share of the number; None
+    for closed forms and where nothing is measured. thresholds: the first hypercube with other thresholds, if
+    the judge has one. depends: the datum on which the verdict depends most, empty if on none beyond chance.
+    """
+
+    claim: Claim
+    reference: Verdict = None
+    first: Count = NO_MACHINES
+    second: Count = NO_MACHINES
+    ours: str = ""
+    error: float | None = None
+    thresholds: tuple[AtThreshold, ...] = ()
+    depends: str = ""
 
     @property
-    def too_few(self) -> bool:
-        """Whether more machines could decide it."""
-        return self.kind == "cannot be judged" and self.share is not None
+    def kind(self) -> str:
+        """The verdict on machines that have what is printed, one of KINDS."""
+        return self.verdict(self.first)
+
+    def verdict(self, count: Count) -> str:
+        """The verdict on the machines of a hypercube, one of KINDS."""
+        if self.claim.judge is None:
+            return NOT_MEASURABLE
+        if self.claim.closed_form:
+            return HOLDS if self.reference else FAILS
+        return count.kind
+
+    @property
+    def hangs(self) -> bool:
+        """Whether another threshold makes it another verdict, and not for want of machines."""
+        return len({at.counted.kind for at in self.thresholds} - {NEEDS_MORE, NOT_MEASURABLE}) > 1
+
+    @property
+    def differs(self) -> bool:
+        """Whether the share in the second hypercube is another one: the intervals do not overlap."""
+        (low, high), (second_low, second_high) = self.first.interval, self.second.interval
+        return high < second_low or second_high < low
 
 
-def known_to(machines: int) -> float:
-    """Half of the interval in which a share of one half lies, if so many machines are decided."""
-    low, high = _interval(machines // 2, machines) or (0.0, 1.0)
-    return 0.5 * (high - low)
-
-
-def _interval(holds: int, decided: int) -> tuple[float, float] | None:
-    if not decided:
-        return None
+def wilson(holds: int, machines: int) -> tuple[float, float]:
+    """The interval of a share with 95 % confidence; 0 to 1 without machines."""
+    if not machines:
+        return 0.0, 1.0
     from scipy.stats import binomtest  # takes a second to import
 
-    found = binomtest(holds, decided).proportion_ci(0.95, "wilson")
+    found = binomtest(holds, machines).proportion_ci(CONFIDENCE, "wilson")
     return float(found.low), float(found.high)
 
 
-def kind_of(verdict: str) -> str:
-    """Which of KINDS a verdict is, the longest that it begins with."""
-    return max((kind for kind in KINDS if verdict.startswith(kind)), key=len)
+def count(judge: Judge, machines: Machines) -> Count:
+    """How many machines judge in which way."""
+    verdicts = [judge(evidence) for _, evidence in machines]
+    return Count(*(sum(verdict is kind for verdict in verdicts) for kind in (True, False, None)))
 
 
-def asked(claim: Claim, machines: Machines) -> Machines:
-    """The machines that are asked whether a claim holds."""
-    if claim.alone:
-        return []
-    return [one for one in machines if OIL in one[1].measures] if claim.on_oil else machines
-
-
-def judgements(judge: Judge, machines: Machines) -> Judged:
-    """How each machine judges."""
-    return [(sample, judge(evidence)) for sample, evidence in machines]
-
-
-def rule(claim: Claim, reference: Evidence, machines: Machines) -> Ruling:
-    """Judge a claim on the reference support and on plausible machines."""
-    if claim.judge is None:
-        return Ruling(claim, None, 0, 0, 0, "", "cannot be judged")
-    on_reference = claim.judge(reference)
-    those = asked(claim, machines)
-    judged = judgements(claim.judge, those)
-    holds, fails, left = (sum(verdict is kind for _, verdict in judged) for kind in (True, False, None))
+def rule(claim: Claim, reference: Evidence, first: Machines, second: Machines = ()) -> Ruling:
+    """Judge a statement on the reference support and on the machines of both hypercubes."""
+    judge = claim.judge
+    if judge is None:
+        return Ruling(claim)
     noted = NotedEvidence(reference.measures)
-    ours, verdict = claim.tell(noted), _words(on_reference, judged)
-    others = _thresholds(claim.judge, those) if isinstance(claim.judge, Varied) else ()
-    found = Ruling(claim, on_reference, holds, fails, left, ours, verdict, noted.largest_error, others)
-    if claim.on_oil and found.kind == "holds only":
-        decided = [(sample, one) for sample, one in judged if one is not None]
-        shares = shares_by("contact", decided)
-        found = replace(found, verdict=f"{verdict}: {shares}" if shares else verdict)
-    return replace(found, verdict=f"{found.verdict}; hangs on the threshold") if found.hangs else found
+    ours = claim.tell(noted)
+    if claim.closed_form:
+        return Ruling(claim, judge(reference), ours=ours)
+    counted = count(judge, first)
+    return Ruling(
+        claim,
+        judge(reference),
+        counted,
+        count(judge, second),
+        ours,
+        noted.largest_error,
+        tuple(AtThreshold(at, count(judge.at(at), first)) for at in judge.shown)
+        if isinstance(judge, Varied)
+        else (),
+        dependence([(s, v) for s, e in first if (v := judge(e)) is not None])
+        if counted.kind == IN_PART
+        else "",
+    )
 
 
-def _thresholds(judge: Varied, machines: Machines) -> tuple[AtThreshold, ...]:
-    found = []
-    for threshold in judge.shown:
-        judged = judgements(judge.at(threshold), machines)
-        decided = [verdict for _, verdict in judged if verdict is not None]
-        if decided:
-            found.append(
-                AtThreshold(
-                    threshold, sum(decided) / len(decided), kind_of(_words(None, judged, of_data=False))
-                )
-            )
-        else:
-            found.append(AtThreshold(threshold, None, "cannot be judged"))
-    return tuple(found)
-
-
-def _words(reference: Verdict, judged: Judged, *, of_data: bool = True) -> str:
-    """The verdict; of_data: with the bounds on data that decide, if there are machines enough."""
-    decided = [(sample, verdict) for sample, verdict in judged if verdict is not None]
-    if not decided:
-        alone = {True: "holds", False: "not supported", None: "cannot be judged: within the numerical error"}
-        return alone[reference]
-    holds = sum(verdict for _, verdict in decided)
-    share = holds / len(decided)
-    low, high = _interval(holds, len(decided)) or (0.0, 1.0)
-    if low >= NEARLY_ALL:
-        return "holds"
-    if high <= 1.0 - NEARLY_ALL:
-        return "not supported"
-    if any(low < bound < high for bound in (NEARLY_ALL, 1.0 - NEARLY_ALL)):
-        counted = "1 machine" if len(decided) == 1 else f"{len(decided)} machines"
-        return f"cannot be judged ({counted}: holds for {percent(low)} to {percent(high)} %)"
-    part = f"{percent(share)} % of the machines"
-    condition = best_condition(decided) if of_data and len(decided) >= ENOUGH else None
-    if condition is None or condition.unseen < max(share, 1.0 - share) + GAIN:
-        return f"holds only for {part}"
-    right = f"right for {100 * condition.unseen:.0f} %"
-    if condition.unseen < TELLING:
-        return f"holds only for {part}; most telling: {condition.text} ({right})"
-    return f"holds only for {condition.text} ({right})"
+def independent(rulings: Sequence[Ruling]) -> list[Ruling]:
+    """The measurable statements without those that follow from another one with the same verdict."""
+    kinds = {ruling.claim.name: ruling.kind for ruling in rulings}
+    return [
+        ruling
+        for ruling in rulings
+        if ruling.kind != NOT_MEASURABLE and kinds.get(ruling.claim.follows_from) != ruling.kind
+    ]
 
 
 def percent(share: float) -> str:
     """A share in per cent, not rounded onto the bounds that decide."""
     text = f"{100.0 * share:.0f}"
-    bounds = (100.0 * NEARLY_ALL, 100.0 * (1.0 - NEARLY_ALL))
-    return f"{100.0 * share:.1f}" if any(abs(float(text) - bound) < 0.5 for bound in bounds) else text
+    return f"{100.0 * share:.1f}" if any(abs(float(text) - 100.0 * bound) < 0.5 for bound in BOUNDS) else text

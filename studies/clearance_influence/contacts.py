@@ -1,8 +1,7 @@
-"""The contact of pin and bore: what the paper's, two spheres, does not know of a pin along its length.
+"""The contact of pin and bore: the paper's, two spheres, against a pin that touches along its length.
 
-The rise with 1.5 mm by each contact, with friction and without. A contact that does not part is damped by the
-depth it reaches, the program's usual way, for all: by the speed of the last impact a stiff pin shakes
-differently in every run.
+The rise with the paper's clearance by each contact, with friction and without; nothing else differs. Runs of
+the paper's contact are those of the rest of the study.
 """
 
 from collections.abc import Mapping, Sequence
@@ -10,19 +9,18 @@ from dataclasses import replace
 
 from studies.common import paper_machine
 from studies.common.numbers import Found, Number, cell, measured_all
-from studies.common.paper_machine import CONTACT_TITLES, CONTACTS
+from studies.common.paper_machine import CLEARANCE_MM, CONTACT_TITLES, CONTACTS, PAPER
 from studies.common.subject import Subject, to_accuracy
 from studies.common.words import TextTable
 from support_exudyn import Result, Scenario
-from user_forces import IndentationVelocity
 
-SIZE_MM = 1.5
 SHOWN = {"mean": "mean_pin_force", "ripple": "rms_pin_force", "fall": "largest_pin_force_any_step"}
 
 
 def case_name(contact: str, friction: float) -> str:
-    """Name of a case."""
-    return f"{SIZE_MM} mm, {contact}, mu_d = {friction:g}"
+    """Name of a case; the paper's contact is not named."""
+    paper = paper_machine.case_name(CLEARANCE_MM, friction)
+    return paper if contact == PAPER else paper.replace(",", f", {contact},")
 
 
 def along_the_length() -> str:
@@ -31,18 +29,20 @@ def along_the_length() -> str:
 
 
 def scenarios(subject: Subject) -> dict[str, Scenario]:
-    """The rise by each contact, with friction and without."""
+    """The rise by each contact but the paper's, with friction and without."""
     return {
         case_name(contact, friction): _rise(subject, contact, friction)
         for contact in CONTACTS
+        if contact != PAPER
         for friction in (subject.friction, 0.0)
     }
 
 
 def _rise(subject: Subject, contact: str, friction: float) -> Scenario:
-    pin = paper_machine.clearance_joint(SIZE_MM, friction, contact=contact, damping_speed=IndentationVelocity())
+    law = paper_machine.PAPERS_LAW
+    pin = paper_machine.clearance_joint(CLEARANCE_MM, friction, contact=contact, law=law)
     rise = to_accuracy(replace(subject.motion, pins={subject.pin: pin}))
-    # what shakes is not known better than to some thousandths
+    # friction-induced vibration is determined to some thousandths only
     return replace(rise, accuracy="standard", channels=(f"pin.{subject.pin}.*",))
 
 
@@ -60,12 +60,12 @@ def measure(subject: Subject, results: Mapping[str, Result]) -> list[Number]:
 
 
 def contact_table(found: Found, frictions: Sequence[float]) -> TextTable:
-    """A row a contact and a friction coefficient."""
+    """A row for each contact and friction coefficient."""
     rows = []
     for contact in CONTACTS:
         for friction in frictions:
             cells = [in_kilonewtons(found[name, case_name(contact, friction)]) for name in SHOWN.values()]
-            rows.append((CONTACT_TITLES[contact], f"{friction:g}", *(cell(one) for one in cells)))
+            rows.append((CONTACT_TITLES[contact], f"{friction:g}", *map(cell, cells)))
     header = ("contact", "mu_d", "mean force [kN]", "fluctuation [kN]", "largest force [kN]")
     return TextTable(header, tuple(rows), left=2)
 

@@ -7,25 +7,26 @@ from matplotlib.figure import Figure
 
 from studies.common import paper_machine, rise
 from studies.common.panels import WINDOWS, fit_height, legend, letters, time_ticks
+from studies.common.paper_machine import CLEARANCE_MM, CLEARANCE_PIN, case_name, ideal_name, ideal_of
 from studies.common.study import LivePanels
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
-CLEARANCE_MM = 1.5
-IDEAL = "ideal"
-DRY = f"{CLEARANCE_MM} mm, mu_d = {paper_machine.SLIDING_COEFFICIENT}"
-SMOOTH = f"{CLEARANCE_MM} mm, mu_d = 0"
-CASES = (IDEAL, SMOOTH, DRY)
-CURVES = {  # colour, width, dashes and label, the most restless one undermost
-    DRY: (style.WITH_CLEARANCE, 0.9, "-", f"{CLEARANCE_MM} mm, friction {paper_machine.SLIDING_COEFFICIENT}"),
+FRICTION = paper_machine.SLIDING_COEFFICIENT
+IDEAL, IDEAL_DRY = (ideal_name(friction) for friction in (0.0, FRICTION))
+SMOOTH, DRY = (case_name(CLEARANCE_MM, friction) for friction in (0.0, FRICTION))
+CASES = (IDEAL, SMOOTH, IDEAL_DRY, DRY)
+CURVES = {  # colour, width, dashes and label, the largest fluctuation undermost
+    DRY: (style.WITH_CLEARANCE, 0.9, "-", f"{CLEARANCE_MM} mm, friction {FRICTION}"),
     SMOOTH: (style.SMOOTH, 1.2, "-", f"{CLEARANCE_MM} mm, no friction"),
-    IDEAL: (style.IDEAL, 1.0, (0, (4, 2)), "ideal pin"),
+    IDEAL_DRY: (style.IDEAL, 1.0, (0, (1, 1)), f"ideal pin, friction {FRICTION}"),
+    IDEAL: (style.IDEAL, 1.0, (0, (4, 2)), "ideal pin, no friction"),
 }
-FRICTION = {0: f"friction {paper_machine.SLIDING_COEFFICIENT}", 1: "no friction"}  # in panels, apart
+PANELS = {0: f"friction {FRICTION}", 1: "no friction"}  # of the figures with a panel for each
 LIVE: dict[str, LivePanels] = {
-    "fig5_pin_force": {n: f"pin force, {which} [kN]" for n, which in FRICTION.items()},
+    "fig5_pin_force": {n: f"pin force, {which} [kN]" for n, which in PANELS.items()},
     "fig3_angular_velocity": (0,),
-    "fig4_angular_acceleration": {n: f"acceleration, {which} [deg/s²]" for n, which in FRICTION.items()},
+    "fig4_angular_acceleration": {n: f"acceleration, {which} [deg/s²]" for n, which in PANELS.items()},
 }
 
 
@@ -59,17 +60,17 @@ def _velocity_figure(results: Mapping[str, Result]) -> Figure:
     for letter, window in zip("bcd", WINDOWS.values(), strict=True):
         panels[0].axvspan(*window, color="#dddddd", zorder=0)
         panels[0].text(sum(window) / 2.0, 0.0, letter, ha="center", va="bottom", fontsize=7)
-    legend(drawing, panels[0], 3)
+    legend(drawing, panels[0], 2)
     letters(panels)
     return drawing
 
 
 def _split_figure(results: Mapping[str, Result], channel: str, scale: float, label: str) -> Figure:
-    """The whole run with and without friction apart, so that no peak hides another, and the rise below."""
+    """The whole run with friction and without, a panel each so that no peak hides another, and the rise."""
     drawing = Figure(figsize=style.size(170, 115))
     panels = drawing.subplot_mosaic([["dry", "smooth"], ["rise", "rise"]])
     for axes, case in ((panels["dry"], DRY), (panels["smooth"], SMOOTH)):
-        _draw(axes, results, channel, scale, case, IDEAL)
+        _draw(axes, results, channel, scale, case, ideal_of(case))
         axes.set(xlabel="time [s]", ylabel=label, xlim=(0.0, 5.0))
         _mark_peak(axes, results[case], channel, scale, label)
     limits = [limit for name in ("dry", "smooth") for limit in panels[name].get_ylim()]
@@ -82,17 +83,18 @@ def _split_figure(results: Mapping[str, Result], channel: str, scale: float, lab
     fit_height(panels["rise"], (scale * r[channel][rise.between(r, *inside)] for r in results.values()))
     for axes in panels.values():
         time_ticks(axes, rise.PAPER)
-    legend(drawing, panels["rise"], 3)
+    legend(drawing, panels["rise"], 2)
     letters(list(panels.values()))
     return drawing
 
 
 def _mark_peak(axes: Axes, run: Result, channel: str, scale: float, label: str) -> None:
-    """The largest value with its number."""
+    """The largest value with its number: of the force that of any step, which tables print, too."""
     values = scale * run[channel]
     n = int(abs(values).argmax())
     unit = label[label.index("[") + 1 : label.index("]")]
+    peak = scale * run.largest_force[CLEARANCE_PIN] if channel == rise.FORCE else values[n]
     axes.annotate(
-        f"{values[n]:.0f} {unit}", (run.time[n], values[n]), (8.0, 0.0), textcoords="offset points", fontsize=8,
+        f"{peak:.0f} {unit}", (run.time[n], values[n]), (8.0, 0.0), textcoords="offset points", fontsize=8,
         va="center", arrowprops={"arrowstyle": "-", "lw": 0.5},
     )  # fmt: skip

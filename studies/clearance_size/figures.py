@@ -5,11 +5,11 @@ from collections.abc import Mapping
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.clearance_size.measures import COLUMNS, IDEAL
+from studies.clearance_size.measures import COLUMNS
 from studies.common import rise
 from studies.common.numbers import Found
 from studies.common.panels import WINDOWS, fit_height, forward_arrow, legend, letters, time_ticks
-from studies.common.paper_machine import SIZES_MM, case_name
+from studies.common.paper_machine import SIZES_MM, case_name, ideal_name, ideal_of
 from studies.common.study import LivePanels
 from studies.common.subject import Subject
 from support_exudyn import Result
@@ -18,6 +18,7 @@ from support_exudyn.postprocessing.figures import style
 COLOURS = {0.5: "#009E73", 1.0: "#E69F00", 1.5: "#0072B2", 2.0: "#CC79A7"}  # Okabe and Ito
 DASHES = {0.5: "-", 1.0: (0, (5, 1)), 1.5: (0, (3, 1, 1, 1)), 2.0: (0, (1, 1))}  # for grey prints
 NO_FRICTION = "#777777"
+DASHED: style.Dashes = (0, (4, 2))  # of ideal pins
 Results = Mapping[str, Result]
 
 
@@ -32,10 +33,11 @@ def figures(subject: Subject, results: Results, found: Found) -> dict[str, Figur
         ),
         "fig8_pin_force": panel_figure(subject, results, watched.force, 1e-3, "pin force [kN]"),
     }
-    if "tip.x" in results[IDEAL].channels:
+    channels = results[ideal_name(0.0)].channels
+    if "tip.x" in channels:
         drawings["fig9_tip_path"] = tip_path_figure(subject, results)
         drawings["fig10_tip_shift"] = tip_shift_figure(subject, results)
-    if all(f"{column}.angle" in results[IDEAL].channels for column in COLUMNS):
+    if all(f"{column}.angle" in channels for column in COLUMNS):
         drawings["fig11_column_angles"] = angle_figure(subject, results)
     return drawings
 
@@ -94,7 +96,8 @@ def panel_figure(subject: Subject, results: Results, channel: str, scale: float,
         for case, colour, dashes, name in (
             (case_name(size, subject.friction), style.WITH_CLEARANCE, "-", f"friction {subject.friction:g}"),
             (case_name(size, 0.0), style.SMOOTH, "-", "no friction"),
-            (IDEAL, style.IDEAL, (0, (4, 2)), "ideal pin"),
+            (ideal_name(subject.friction), style.IDEAL, (0, (1, 1)), f"ideal, friction {subject.friction:g}"),
+            (ideal_name(0.0), style.IDEAL, DASHED, "ideal, no friction"),
         ):
             run = results[case]
             inside = rise.between(run, *span)
@@ -109,7 +112,7 @@ def panel_figure(subject: Subject, results: Results, channel: str, scale: float,
         axes.label_outer()
     for axes in panels[2:]:
         axes.set_xlabel("time [s]")
-    legend(drawing, panels[0], 3)
+    legend(drawing, panels[0], 2)
     letters(panels)
     return drawing
 
@@ -147,12 +150,12 @@ def tip_shift_figure(subject: Subject, results: Results) -> Figure:
     watched = subject.watched
     _curves(place, subject, results, "tip.x", 1e3, (watched.start, watched.end))
     for case, colour, dashes, label in _cases(subject):
-        if case != IDEAL:
+        if case != ideal_of(case):
             run = results[case]
-            moved = 1e3 * watched.departure(run, results[IDEAL], "tip.x")
+            moved = 1e3 * watched.departure(run, results[ideal_of(case)], "tip.x")
             shift.plot(run.time[watched.in_rise(run)], moved, color=colour, ls=dashes, label=label)
     place.set(ylabel="tip, horizontal [mm]")
-    shift.axhline(0.0, color=style.IDEAL, lw=0.8, ls=(0, (4, 2)))
+    shift.axhline(0.0, color=style.IDEAL, lw=0.8, ls=DASHED)
     shift.set(ylabel="shift of the tip [mm]", xlabel="time [s]", xlim=(watched.start, watched.end))
     for axes in panels:
         time_ticks(axes, watched)
@@ -169,7 +172,7 @@ def angle_figure(subject: Subject, results: Results) -> Figure:
     watched = subject.watched
     for n, column in enumerate(COLUMNS):
         whole, change = panels[:, n]
-        ideal = rise.rearward_angle(results[IDEAL], column)
+        ideal = rise.rearward_angle(results[ideal_name(subject.friction)], column)
         for case, colour, dashes, label in _cases(subject):
             run = results[case]
             inside = watched.in_rise(run)
@@ -201,7 +204,7 @@ FROM_ZERO = "rms_"  # such names begin their axis at 0
 
 def trend_figure(subject: Subject, found: Found) -> Figure:
     """Statistics over the clearance, with and without friction."""
-    shown = [trend for trend in TRENDS if (trend[0], IDEAL) in found]
+    shown = [trend for trend in TRENDS if (trend[0], ideal_name(0.0)) in found]
     drawing = Figure(figsize=style.size(170, 100))
     panels = list(drawing.subplots(2, 3).flat)
     for axes in panels[len(shown) :]:
@@ -217,13 +220,14 @@ def trend_figure(subject: Subject, found: Found) -> Figure:
             printed = [scale * n.paper for n in row if n.paper is not None]
             if len(printed) == len(SIZES_MM):
                 axes.plot(SIZES_MM, printed, "x", color=style.PAPER, ms=5, label="paper")
-        ideal = found[name, IDEAL]
-        axes.axhline(scale * ideal.value, color=style.IDEAL, lw=0.8, ls=(0, (4, 2)), label="ideal pin")
+            ideal = found[name, ideal_name(friction)]
+            tight = f"ideal, friction {friction:g}" if friction else "ideal, no friction"
+            axes.axhline(scale * ideal.value, color=colour, lw=0.8, ls=DASHED, label=tight)
         axes.set(xticks=SIZES_MM, ylabel=label, xlabel="clearance [mm]")
         axes.margins(y=0.12)
         if name.startswith(FROM_ZERO):
             axes.set_ylim(0.0, None)
-    legend(drawing, panels[0], 4)
+    legend(drawing, panels[0], 3)
     letters(panels[: len(shown)])
     return drawing
 
@@ -234,7 +238,7 @@ def _cases(subject: Subject) -> list[tuple[str, str, object, str]]:
         (case_name(size, subject.friction), COLOURS[size], DASHES[size], f"{size:.1f} mm")
         for size in reversed(SIZES_MM)
     ]
-    return [*with_clearance, (IDEAL, style.IDEAL, (0, (4, 2)), "ideal pin")]
+    return [*with_clearance, (ideal_name(subject.friction), style.IDEAL, DASHED, "ideal pin")]
 
 
 def _curves(

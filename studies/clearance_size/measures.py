@@ -6,10 +6,10 @@ import numpy as np
 
 from studies.common import paper_machine, rise
 from studies.common.numbers import Number, compared, measured
+from studies.common.paper_machine import ideal_of
 from studies.common.subject import Subject
 from support_exudyn import Result
 
-IDEAL = "ideal"
 COLUMNS = ("front_column", "rear_column")
 Against = Callable[[rise.MeasuredRun, rise.MeasuredRun], float]  # of a run and that of the ideal pin
 
@@ -19,10 +19,10 @@ def measures(subject: Subject, ideal: Result) -> dict[str, tuple[str, Against]]:
     watched, degrees = subject.watched, rise.DEGREES
 
     def mean(channel: str, scale: float = 1.0) -> Against:
-        return lambda run, ideal: scale * watched.mean(run, run[channel])
+        return lambda run, ideal: scale * watched.mean(run, channel)
 
     def spread(channel: str, scale: float = 1.0) -> Against:
-        return lambda run, ideal: scale * watched.spread(run, run[channel])
+        return lambda run, ideal: scale * watched.spread(run, channel)
 
     def shaking(channel: str, scale: float, *times: float) -> Against:
         return lambda run, ideal: scale * watched.rms_fluctuation(run, run[channel], *times)
@@ -62,8 +62,7 @@ def measures(subject: Subject, ideal: Result) -> dict[str, tuple[str, Against]]:
 
 
 def measure(subject: Subject, results: Mapping[str, Result]) -> list[Number]:
-    """All numbers of the study."""
-    ideal = results[IDEAL]
+    """All numbers of the study, each case compared with the ideal pin of the same friction."""
     numbers = []
     if subject.is_paper:
         numbers = [
@@ -72,10 +71,11 @@ def measure(subject: Subject, results: Mapping[str, Result]) -> list[Number]:
             for size in paper_machine.SIZES_MM
         ]  # fmt: skip
     for case, result in results.items():
+        ideal = results[ideal_of(case)]
         for name, (unit, get) in measures(subject, ideal).items():
             paper = of_paper(name, case) if subject.is_paper else None
             numbers.append(compared(name, case, unit, result, ideal, get, paper))
-        if case != IDEAL:
+        if result is not ideal:
             largest = measured("largest_pin_force_any_step", case, "N", result, _largest(subject.pin))
             numbers.append(largest)
     return numbers

@@ -1,17 +1,17 @@
 """What does the size of the clearance change in the rise: motion, force, posture? (Section 4 of the paper.)
 
-Ideal pin, 0.5, 1.0, 1.5 and 2.0 mm, with friction and without any: motion and force of the rear link, path of
-the canopy's tip, angles of the columns.
+Ideal pin, 0.5, 1.0, 1.5 and 2.0 mm, all with friction and all without: motion and force of the rear link, path
+of the canopy's tip, angles of the columns.
 """
 
 from collections.abc import Sequence
 
 from studies.clearance_size.figures import figures, live
-from studies.clearance_size.measures import IDEAL, measure
+from studies.clearance_size.measures import measure
 from studies.common import paper_machine
 from studies.common.numbers import Found, Number, by_case, cell, printed, rounded
 from studies.common.options import Options
-from studies.common.paper_machine import SIZES_MM, case_name
+from studies.common.paper_machine import SIZES_MM, case_name, ideal_name, ideal_of
 from studies.common.runs import run_cases
 from studies.common.study import Study, StudyOutcome
 from studies.common.subject import Subject
@@ -20,13 +20,14 @@ from support_exudyn import Scenario
 
 
 def scenarios(subject: Subject) -> dict[str, Scenario]:
-    """The ideal pin, and every clearance with and without friction."""
+    """The ideal pin and every clearance, with and without friction."""
+    frictions = (subject.friction, 0.0)
     with_clearance = {
         case_name(size, friction): subject.with_clearance(size, friction)
-        for friction in (subject.friction, 0.0)
+        for friction in frictions
         for size in SIZES_MM
     }
-    return with_clearance | {IDEAL: subject.ideal}
+    return with_clearance | {ideal_name(friction): subject.ideal(friction) for friction in frictions}
 
 
 # --- tables ---
@@ -40,10 +41,10 @@ KEY = {  # of the key table: heading and scale
 
 
 def key_table(found: Found, friction: float) -> TextTable:
-    """What an engineer asks for first, a row a clearance, with friction."""
-    shown = {name: about for name, about in KEY.items() if (name, IDEAL) in found}
+    """What an engineer asks for first, a row for each clearance, with friction."""
+    shown = {name: about for name, about in KEY.items() if (name, ideal_name(friction)) in found}
     rows = []
-    for case in (IDEAL, *(case_name(size, friction) for size in SIZES_MM)):
+    for case in _cases(friction):
         numbers = [(found[name, case], scale) for name, (_, scale) in shown.items()]
         cells = [rounded(scale * n.value, scale * n.numerical_error) for n, scale in numbers]
         rows.append((case.split(",")[0], *cells))
@@ -63,7 +64,7 @@ def stiffness_table(numbers: Sequence[Number]) -> TextTable:
 def force_table(found: Found, frictions: Sequence[float]) -> TextTable:
     """Counterpart of Table 3."""
     rows = []
-    for case in (IDEAL, *(case_name(size, mu) for mu in frictions for size in SIZES_MM)):
+    for case in [case for mu in frictions for case in _cases(mu)]:
         mean, spread, shaking = (found[f"{n}_pin_force", case] for n in ("mean", "std", "rms"))
         rows.append((case, cell(mean), printed(mean), cell(spread), printed(spread), cell(shaking)))
     header = ("case", "mean [N]", "paper", "standard deviation [N]", "paper", "RMS fluctuation [N]")
@@ -71,14 +72,19 @@ def force_table(found: Found, frictions: Sequence[float]) -> TextTable:
 
 
 def number_table(found: Found, friction: float) -> TextTable:
-    """All measures, a column a clearance."""
-    cases = [IDEAL, *(case_name(size, friction) for size in SIZES_MM)]
-    names = {name: number.unit for (name, case), number in found.items() if case == IDEAL}
+    """All measures, a column for each clearance."""
+    cases = _cases(friction)
+    names = {name: number.unit for (name, case), number in found.items() if case == ideal_name(friction)}
     rows = tuple(
         (name.replace("_", " "), unit, *(cell(found[name, case]) for case in cases))
         for name, unit in names.items()
     )
     return TextTable(("quantity", "unit", *(case.split(",")[0] for case in cases)), rows, left=2)
+
+
+def _cases(friction: float) -> list[str]:
+    """The ideal pin and every clearance, all with the same friction."""
+    return [ideal_name(friction), *(case_name(size, friction) for size in SIZES_MM)]
 
 
 # --- the study ---
@@ -100,10 +106,10 @@ def work(chosen: Options) -> StudyOutcome:
         **{name: number_table(found, friction) for name, friction in measures.items()},
     }
     words = {
-        "found": found, "goal": cases[IDEAL].goal, "mu": subject.friction, "frictions": frictions,
-        "sizes": SIZES_MM, "case_name": case_name, "all_measures": measures,
-        "has_tip": ("mean_tip_shift", IDEAL) in found, "watched": subject.watched,
-        "window": f"{subject.watched.window:g} s",
+        "found": found, "goal": subject.ideal().goal, "mu": subject.friction, "frictions": frictions,
+        "sizes": SIZES_MM, "case_name": case_name, "ideal_name": ideal_name, "ideal_of": ideal_of,
+        "all_measures": measures, "has_tip": ("mean_tip_shift", ideal_name(0.0)) in found,
+        "watched": subject.watched, "window": f"{subject.watched.window:g} s",
     }  # fmt: skip
     drawings = figures(subject, results, found)
     return StudyOutcome(numbers, words, drawings, tables, results, live=live(drawings))

@@ -55,8 +55,8 @@ class Tile:
 class JudgedClaim:
     """A statement of the paper and the verdict on it.
 
-    number: such as "12". where: section or figure of the paper. verdict: begins with "holds", "holds only",
-    "not supported" or "cannot be judged". why: in a sentence, with numbers. figure, table: what shows it, as
+    number: such as "12". where: section or figure of the paper. verdict: "holds", "in part", "fails", "needs
+    more machines" or "not measurable". why: in a sentence, with numbers. figure, table: what shows it, as
     "study/stem" and "study/name"; empty if nothing does.
     """
 
@@ -78,7 +78,7 @@ class Chapter:
     answer: one to three sentences. numbers: the three that matter, each "what: value". method: paragraphs.
     findings: bullet points, with the numbers of this very run. pictures, sheets: the key one first. tiles: for
     the first screen of the report. claims: of the study that judges them. machine: the name of the
-    user's machine that it is about; empty: the paper's.
+    user's machine that it is about; empty: the paper's. contact: of the user's pin, in a sentence.
     """
 
     __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
@@ -95,6 +95,7 @@ class Chapter:
     tiles: tuple[Tile, ...] = ()
     claims: tuple[JudgedClaim, ...] = ()
     machine: str = ""
+    contact: str = ""
 
     def save(self, out: Path) -> Path:
         """Write DIR/chapter.json, whole or not at all."""

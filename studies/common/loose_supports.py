@@ -1,11 +1,12 @@
-"""Four-column supports that come with the package, with clearance in any of their pins."""
+"""Four-column supports that come with the package, with clearance and friction in any of their pins."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import cache
 
-from support_exudyn import ClearancePin
+from studies.common.subject import without_clearance
+from support_exudyn import ClearancePin, IdealPin
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.files.scenarios.short_pin import ShortPin, pin_in_machine
 from support_exudyn.machines.four_column_support import HydraulicSupport
@@ -28,9 +29,12 @@ def support(name: str) -> HydraulicSupport:
 def loose_pins(
     machine: str, clearance_mm: float, friction: float, pins: Iterable[str]
 ) -> dict[str, ClearancePin]:
-    """These pins with this radial clearance, along their length in bores of the machine; none at 0 mm."""
-    if clearance_mm == 0.0:
-        return {}
+    """These pins with this radial clearance, > 0, along their length in bores of the machine."""
     data = machine_data(machine)
     short = ShortPin(clearance=clearance_mm / 1e3, friction=friction)
     return {name: pin_in_machine(short, data.machine, name, data.bore_radii[name]) for name in pins}
+
+
+def tight_pins(machine: str, friction: float, pins: Iterable[str]) -> dict[str, IdealPin]:
+    """These pins ideal, with the friction that they have with clearance."""
+    return {name: without_clearance(pin) for name, pin in loose_pins(machine, 1.0, friction, pins).items()}

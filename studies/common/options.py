@@ -8,6 +8,7 @@ from pathlib import Path
 
 from studies.common.subject import Subject, own_subject, paper_subject
 from support_exudyn.commands.command_line import count, folder, warn
+from support_exudyn.commands.parser import add_imports, import_modules
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
@@ -21,9 +22,9 @@ class Options:
 
     out: folder for output. workers: number of processes, or the pool that all studies share. kept: folder of
     runs that are made once and kept, see `studies.common.runs`; None: none is. machines: number of plausible
-    machines that claims draws; runs: number of scenes that extremes draws; with
-    any blow runs its small form; None: their own choice. subject: the
-    machine and pin that the study is about.
+    machines that claims draws; runs: number of scenes that extremes draws; with any blow runs its small form;
+    None: their own choice. subject: the machine and pin that the study is about. thorough: whether all studies
+    are run, so that there is time for more machines.
     """
 
     out: Path
@@ -32,6 +33,7 @@ class Options:
     machines: int | None = None
     runs: int | None = None
     subject: Subject = field(default_factory=paper_subject)
+    thorough: bool = False
 
     def of_study(self, name: str, workers: Workers) -> "Options":
         """These options for one of several studies, in a folder of its own."""
@@ -45,7 +47,7 @@ def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
     workers = partial(count, most=MOST_WORKERS)
     add("--workers", type=workers, default=os.cpu_count() or 1, metavar="N", help="processes (all cores)")
     machines = partial(count, most=MOST_MACHINES)
-    add("--machines", type=machines, metavar="N", help="plausible machines that claims draws")
+    add("--machines", type=machines, metavar="N", help="machines that claims draws (80; with --all more)")
     add(
         "--runs",
         type=partial(count, most=MOST_RUNS),
@@ -54,6 +56,7 @@ def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
     )
     own = "your machine or scenario in place of the paper's: a TOML file, or a shipped machine's name"
     add("--machine", type=folder, metavar="FILE", help=own)
+    add_imports(parser)
     add("--pin", metavar="PIN", help="the pin of your machine that gets clearance (rear_base)")
     add("--quick", action="store_true", help="has no effect: there is one form, as fast as the quick one was")
 
@@ -67,6 +70,7 @@ def read_options(given: argparse.Namespace) -> Options:
         warn("--quick has no effect: there is one form of every study, as fast as the quick one was")
     if given.machine is None and given.pin is not None:
         raise InputError(f"--pin {given.pin}: allowed: together with --machine FILE")
+    import_modules(given.imports)
     subject = own_subject(given.machine, given.pin) if given.machine else paper_subject()
     if subject.is_slow:
         only = "only the redundant formulation covers it: minutes where --list tells seconds"

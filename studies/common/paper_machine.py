@@ -24,9 +24,8 @@ from user_forces import (
     STEEL,
     STEEL_35CRMO,
     Ambrosio,
-    DampingSpeed,
+    Exact,
     Frictionless,
-    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -73,7 +72,9 @@ INLETS: dict[str, Inlet] = {
 ACCURACY = 1e-6  # of the runs that studies make: nothing is left open in what they print
 STEP = 1e-3  # [s] of scenarios before an accuracy chooses
 
+PAPERS_LAW = LankaraniNikravesh  # its Eq. 4
 SIZES_MM = (0.5, 1.0, 1.5, 2.0)  # the paper's clearances
+CLEARANCE_MM = 1.5  # of its section 3
 
 # printed values
 STIFFNESS = {0.5: 861300.557, 1.0: 859629.849, 1.5: 857942.947, 2.0: 856239.607}  # Table 2, N/mm^1.5
@@ -85,6 +86,16 @@ MEAN_ACCELERATION = {0.5: 0.0030, 1.0: -0.0515, 1.5: -0.2733, 2.0: -0.3219}  # s
 def case_name(clearance_mm: float, sliding_coefficient: float) -> str:
     """What studies call a case with clearance."""
     return f"{clearance_mm:.1f} mm, mu_d = {sliding_coefficient:g}"
+
+
+def ideal_name(sliding_coefficient: float) -> str:
+    """What studies call a case with the ideal pin."""
+    return f"ideal, mu_d = {sliding_coefficient:g}"
+
+
+def ideal_of(case: str) -> str:
+    """The case with the ideal pin of the same friction, with which a case is compared."""
+    return f"ideal,{case.partition(',')[2]}"
 
 
 def bearing(clearance_mm: float, bore_radius: float = BORE_RADIUS) -> JournalBearing:
@@ -101,7 +112,7 @@ def normal_law(
     contact: str,
     bearing: JournalBearing,
     support: HydraulicSupport,
-    law: type[Any] = LankaraniNikravesh,
+    law: type[Any] = Exact,
     backing: float = 1.0,
     **given: Any,
 ) -> NormalLaw:
@@ -113,7 +124,7 @@ def normal_law(
         support: whose pin it is.
         law: of K depth^1.5, whose damping factor cylinders have, too.
         backing: stiffness of pin and link behind cylinders, times estimated.
-        given: restitution and damping_speed of the law.
+        given: restitution and rest velocity of the law.
     """
     if contact in HERTZ:
         made: NormalLaw = law(stiffness=HERTZ[contact](bearing, STEEL, STEEL_35CRMO), **given)
@@ -140,24 +151,24 @@ def normal_law(
     )
 
 
-LAST_IMPACT = ImpactVelocity(floor=1e-3)  # by whose speed the paper damps a contact that does not part
-
-
 def clearance_joint(
     clearance_mm: float,
     sliding_coefficient: float,
     bore_radius: float = BORE_RADIUS,
     contact: str = PAPER,
-    damping_speed: DampingSpeed = LAST_IMPACT,
+    law: type[Any] = Exact,
 ) -> ClearancePin:
-    """The rear-link pin as a clearance pin; the bore is in the base. bore_radius: [m]; contact: of CONTACTS."""
+    """The rear-link pin as a clearance pin; the bore is in the base. bore_radius: [m]; contact: of CONTACTS.
+
+    law: see `normal_law`; studies on the paper take PAPERS_LAW.
+    """
     of_pin = bearing(clearance_mm, bore_radius)
     normal = normal_law(
         contact,
         of_pin,
         reference_support(),
+        law,
         restitution=RESTITUTION,
-        damping_speed=damping_speed,
     )
     friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
     return ClearancePin(contact=JournalContact(bearing=of_pin, normal=normal, friction=friction))
@@ -175,13 +186,15 @@ def clearance_rise(
     impact_steps: int = 512,
     *,
     symbolic: bool = False,
+    law: type[Any] = Exact,
 ) -> Scenario:
     """The rise with clearance in the rear-link pin, its journal concentric at the start.
 
-    symbolic: let the engine evaluate the contact, a quarter faster, the same within rounding.
+    symbolic: let the engine evaluate the contact, a quarter faster, the same within rounding. law: see
+    `clearance_joint`.
     """
     settings = SolverSettings(impact_steps=impact_steps, backend="symbolic" if symbolic else "python")
-    pins = {CLEARANCE_PIN: clearance_joint(clearance_mm, sliding_coefficient)}
+    pins = {CLEARANCE_PIN: clearance_joint(clearance_mm, sliding_coefficient, law=law)}
     return replace(ideal_rise(step), pins=pins, solver=settings)
 
 

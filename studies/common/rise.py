@@ -1,7 +1,8 @@
 """What is measured of a rise: posture, force and shaking, in the same words for every study.
 
-A run is anything that hands out channels by name (`support_exudyn.Result` and others). Means and spreads are
-integrals over time, by the trapezoidal rule through the records.
+A run is anything that hands out channels by name (`support_exudyn.Result` and others). Means, spreads and
+extremes of channels are taken from every step of a run; of what is computed from several channels, such as a
+departure from another run, they are integrals by the trapezoidal rule through the records.
 """
 
 from collections.abc import Callable
@@ -13,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn import Result
-from support_exudyn.mechanics.extremes import largest, missed
+from support_exudyn.mechanics.time_statistics import TimeWindow
 
 Series = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -37,20 +38,24 @@ class MeasuredRun(Protocol):
         """Values of a channel in SI, shape (n,)."""
         ...
 
+    def window(self, name: str, after: float, until: float) -> TimeWindow:
+        """What a channel does between two times [s], from every step."""
+        ...
+
 
 Measure = Callable[[MeasuredRun], float]
 
 
-TAKEN: dict[str, Callable[[Series], float]] = {
-    "largest": largest,
-    "max": lambda values: float(values.max()),
-    "min": lambda values: float(values.min()),
+TAKEN: dict[str, Callable[[TimeWindow], float]] = {
+    "largest": lambda window: window.largest[0],
+    "max": lambda window: window.greatest[0],
+    "min": lambda window: window.least[0],
 }
 
 
 @dataclass(frozen=True)
 class Peak:
-    """An extreme of a channel at the records between two times; what lies between these is part of its error.
+    """An extreme of a channel between two times, from every step.
 
     begin, end: [s]. extreme: "largest", of the magnitude, or "max" or "min", with its sign. scale: to the unit
     of the number.
@@ -62,15 +67,14 @@ class Peak:
     end: float = 5.0
     extreme: Literal["largest", "max", "min"] = "largest"
 
-    def __call__(self, run: MeasuredRun) -> float:
+    def __call__(self, run: Result) -> float:
         """The extreme, in the unit of the number."""
-        return self.scale * TAKEN[self.extreme](run[self.channel][between(run, self.begin, self.end)])
+        return self.scale * TAKEN[self.extreme](run.window(self.channel, self.begin, self.end))
 
     def missed(self, run: Result) -> float:
-        """The amount by which a peak may be exceeded between records."""
-        inside = between(run, self.begin, self.end)
-        values, time = run[self.channel][inside], run.time[inside]
-        return self.scale * missed(self.extreme, values, time, run.scenario.breaks)
+        """By how much the extreme may be off because its times lie inside intervals of the statistics."""
+        window = run.window(self.channel, self.begin, self.end)
+        return self.scale * max(window.least_doubt, window.greatest_doubt)
 
 
 def onset(pin: str, n: int, what: Literal["time", "speed"], scale: float = 1.0) -> Callable[[Result], float]:
@@ -88,17 +92,18 @@ def mean(time: Series, values: Series) -> float:
     return float(np.diff(time) @ (values[1:] + values[:-1]) / (2.0 * (time[-1] - time[0])))
 
 
-def spread(time: Series, values: Series) -> float:
-    """Standard deviation over time, from the mean over time."""
-    return float(np.sqrt(mean(time, (values - mean(time, values)) ** 2)))
-
-
 def trend(run: MeasuredRun, values: Series, window: float = TREND_WINDOW) -> Series:
-    """Moving mean over a window [s], centred, shape (n,)."""
-    period = float(run.time[1] - run.time[0])
-    from scipy.ndimage import uniform_filter1d  # takes a while to import
+    """Moving mean over a window [s], centred, by the trapezoidal rule through the records, shape (n,).
 
-    return uniform_filter1d(values, 2 * round(0.5 * window / period) + 1, mode="nearest")
+    Beyond the first and the last record the values stay what they are there.
+    """
+    half = 0.5 * window / float(run.time[1] - run.time[0])  # of the window, in records
+    beyond = int(half) + 1
+    padded = np.pad(values, beyond, mode="edge")
+    integral = np.concatenate([[0.0], np.cumsum(0.5 * (padded[1:] + padded[:-1]))])
+    places, at = np.arange(padded.size), np.arange(values.size) + beyond
+    before, after = (np.interp(at + side, places, integral) for side in (-half, half))
+    return np.asarray((after - before) / (2.0 * half))
 
 
 def rearward_angle(run: MeasuredRun, column: str) -> Series:
@@ -161,15 +166,16 @@ class Watched:
         """The measure of the largest magnitude of a channel in the motion."""
         return Peak(channel, scale, self.start, self.end)
 
-    def mean(self, run: MeasuredRun, values: Series) -> float:
-        """Mean over the motion's time of a quantity given at all records, in its unit."""
+    def mean(self, run: MeasuredRun, quantity: str | Series) -> float:
+        """Mean over the motion's time of a channel, or of a quantity given at all records, in its unit."""
+        if isinstance(quantity, str):
+            return run.window(quantity, self.start, self.end).mean
         inside = self.in_rise(run)
-        return mean(run.time[inside], values[inside])
+        return mean(run.time[inside], quantity[inside])
 
-    def spread(self, run: MeasuredRun, values: Series) -> float:
-        """Standard deviation over the motion's time of a quantity given at all records, in its unit."""
-        inside = self.in_rise(run)
-        return spread(run.time[inside], values[inside])
+    def spread(self, run: MeasuredRun, channel: str) -> float:
+        """Standard deviation of a channel over the motion's time, in its unit."""
+        return run.window(channel, self.start, self.end).std
 
     def rms_fluctuation(
         self, run: MeasuredRun, values: Series, begin: float | None = None, end: float | None = None

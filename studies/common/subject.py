@@ -8,14 +8,16 @@ from functools import cached_property
 from pathlib import Path
 
 from studies.common import paper_machine
+from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.rise import PAPER, Watched
-from support_exudyn import ClearancePin, CubicStep, Scenario, SolverSettings
+from support_exudyn import ClearancePin, CubicStep, IdealPin, Pin, Scenario, SolverSettings
 from support_exudyn.files import load_toml, read_scenario_file
 from support_exudyn.files.machines.read import load_machine, read_machine
 from support_exudyn.files.scenarios.short_pin import ShortPin, pin_in_machine
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.simulation.automatic_settings import cheapest
 from user_forces import Ambrosio, Frictionless
+from user_forces.catalogue import title
 from user_forces.friction.law import FrictionLaw
 from user_forces.values.value import InputError, short
 
@@ -53,9 +55,11 @@ class Subject:
 
     @property
     def friction(self) -> float:
-        """The sliding coefficient of cases with friction."""
+        """The sliding coefficient of cases with friction; 0 in space, where no ideal pin has any."""
+        if self.motion.dimensions == 3:
+            return 0.0
         law = self.given.contact.friction if self.given else None
-        return law.sliding_coefficient if isinstance(law, Ambrosio) else paper_machine.SLIDING_COEFFICIENT
+        return float(getattr(law, "sliding_coefficient", paper_machine.SLIDING_COEFFICIENT))
 
     @property
     def is_slow(self) -> bool:
@@ -66,15 +70,51 @@ class Subject:
 
     def with_clearance(self, clearance_mm: float, sliding_coefficient: float) -> Scenario:
         """The run with this radial clearance in the pin, to the accuracy of studies."""
-        if self.is_paper:
-            pin = paper_machine.clearance_joint(clearance_mm, sliding_coefficient, self.bore_radius)
-        elif self.given is None:
-            short = ShortPin(clearance=clearance_mm / 1e3, friction=sliding_coefficient)
-            pin = pin_in_machine(short, self.motion.machine, self.pin, self.bore_radius)
-        else:
-            contact = self.given.contact.with_clearance(clearance_mm / 1e3)
-            pin = replace(self.given, contact=replace(contact, friction=self._law(sliding_coefficient)))
+        return self._with(self.clearance_pin(clearance_mm, sliding_coefficient))
+
+    def ideal(self, sliding_coefficient: float = 0.0) -> Scenario:
+        """The run with the pin ideal, with the friction that the pin with clearance has, to that accuracy.
+
+        What clearance does is the difference between the two runs; against an ideal pin without friction the
+        difference would contain what friction does, too.
+        """
+        return self._with(without_clearance(self.clearance_pin(self.clearance_mm, sliding_coefficient)))
+
+    def _with(self, pin: Pin) -> Scenario:
         return to_accuracy(replace(self.motion, pins={**self.motion.pins, self.pin: pin}))
+
+    @property
+    def clearance_mm(self) -> float:
+        """The radial clearance of the scenario's pin, or the paper's of its section 3 [mm]."""
+        given = self.given
+        return CLEARANCE_MM if given is None else round(1e3 * given.contact.bearing.clearance, 9)
+
+    @property
+    def contact_in_words(self) -> str:
+        """The contact that all studies of this machine have in common."""
+        contact = self.clearance_pin(self.clearance_mm, self.friction).contact
+        length = getattr(contact.normal, "length", None)
+        touches = "as two spheres" if length is None else f"along its length of {1e3 * length:g} mm"
+        said = {
+            "restitution": getattr(contact.normal, "restitution", None),
+            "friction coefficient": getattr(contact.friction, "sliding_coefficient", None),
+        }
+        data = "".join(f", {what} {value:g}" for what, value in said.items() if value is not None)
+        return (
+            f"Pin {self.pin} touches its bore of {1e3 * contact.bearing.bore_radius:g} mm radius {touches} "
+            f"({title(type(contact.normal))}{data})."
+        )
+
+    def clearance_pin(self, clearance_mm: float, sliding_coefficient: float) -> ClearancePin:
+        """The pin with this radial clearance: the same contact in all studies."""
+        if self.is_paper:
+            law = paper_machine.PAPERS_LAW
+            return paper_machine.clearance_joint(clearance_mm, sliding_coefficient, self.bore_radius, law=law)
+        if self.given is None:
+            short = ShortPin(clearance=clearance_mm / 1e3, friction=sliding_coefficient)
+            return pin_in_machine(short, self.motion.machine, self.pin, self.bore_radius)
+        contact = self.given.contact.with_clearance(clearance_mm / 1e3)
+        return replace(self.given, contact=replace(contact, friction=self._law(sliding_coefficient)))
 
     def _law(self, sliding_coefficient: float) -> FrictionLaw:
         """The scenario's friction, or Ambrosio's if it has another kind, with this coefficient."""
@@ -84,10 +124,13 @@ class Subject:
         own = law if isinstance(law, Ambrosio) else Ambrosio(sliding_coefficient=sliding_coefficient)
         return replace(own, sliding_coefficient=sliding_coefficient)
 
-    @property
-    def ideal(self) -> Scenario:
-        """The run with the pin ideal, to the accuracy of studies."""
-        return to_accuracy(self.motion)
+
+def without_clearance(pin: ClearancePin) -> IdealPin:
+    """The ideal pin with the friction law and the radius of a pin with clearance."""
+    law = pin.contact.friction
+    if isinstance(law, Frictionless):
+        return IdealPin()
+    return IdealPin(friction=law, radius=pin.contact.bearing.bore_radius)
 
 
 def to_accuracy(scenario: Scenario) -> Scenario:

@@ -108,9 +108,11 @@ class Words:
         sheets = {name: table.sheet(name, *blocks[name]) for name, table in tables.items()}
         pictures = (_item(block).partition(": ") for block in blocks["Figures"])
         subject = told.get("subject")
+        own = subject if isinstance(subject, Subject) and not subject.is_paper else None
         chapter = Chapter(
             study=self.study,
-            machine=subject.name if isinstance(subject, Subject) else "",
+            machine=own.name if own else "",
+            contact=own.contact_in_words if own else "",
             title=title,
             question=" ".join(blocks[title]),
             answer=" ".join(blocks.get("Answer", ())),

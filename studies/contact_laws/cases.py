@@ -2,17 +2,22 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 import user_forces as forces
 from studies.common import paper_machine
+from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.subject import Subject, to_accuracy
 from studies.contact_laws import catalogue
 from studies.contact_laws.catalogue import CYLINDER_LAWS, POWER_LAWS
 from studies.contact_laws.free_impact import BORE_MASS, JOURNAL_MASS, one_dimensional_restitution
 from support_exudyn import ClearancePin, Scenario, SolverSettings
+from support_exudyn.model.pin_surroundings import contact_length
+from support_exudyn.scenario.timescales import loaded_contacts
 from support_exudyn.simulation.automatic_settings import cheapest, settings_for
+from user_forces.normal.hysteresis import REST_VELOCITY
 
 ASKED = (0.05, *(n / 10 for n in range(1, 10)))  # e = 0.05, 0.1, 0.2 ... 0.9
 FEW = (0.1, 0.3, 0.5, 0.7, 0.9)  # for laws whose damping factor is another's
@@ -22,15 +27,12 @@ IMPACT_STEPS = 96  # of the coarsest of three runs of a free impact; fewer tell 
 RISE_STEP, RISE_IMPACT_STEPS = 2e-3, 32  # [s]
 OWN_GOAL = 1e-2  # by which those of one's own machine are chosen
 LOOP_RESTITUTION = 0.5
-CLEARANCE_MM = 1.5
 RESTITUTION = paper_machine.RESTITUTION
-TEXTBOOK = {
-    "lankarani_nikravesh, last impact, floor 1 mm/s": 1e-3,
-    "lankarani_nikravesh, last impact, floor 100 mm/s": 0.1,
-}
+REST = {f"rest velocity {1e3 * w:g} mm/s": w for w in (1e-3, REST_VELOCITY, 5e-2, 0.1)}  # [m/s]
+SOFT = (5e-3, 2e-2, 0.2)  # impacts that tell which restitution a rest velocity leaves [m/s]
 KEY = (  # of the key table
     "exact", "lankarani_nikravesh", "anagnostopoulos", "johnson", "hertz", "friction ambrosio",
-    "friction lugre", "lankarani_nikravesh, last impact, floor 1 mm/s",
+    "friction lugre",
 )  # fmt: skip
 REDUCED_MASS = BORE_MASS * JOURNAL_MASS / (BORE_MASS + JOURNAL_MASS)  # of free impacts [kg]
 STIFFNESS = 1e8  # K of free impacts [N/m^1.5], or [N/m] of linear laws
@@ -91,11 +93,13 @@ class Joint:
     @cached_property
     def pin(self) -> ClearancePin:
         """The pin of the scenario, or one like the paper's; without friction."""
-        given = self.subject.given
-        size = CLEARANCE_MM if given is None else 1e3 * given.contact.bearing.clearance
-        pin = self.subject.with_clearance(size, 0.0).pins[self.subject.pin]
-        assert isinstance(pin, ClearancePin)
-        return pin
+        return self.subject.clearance_pin(self.subject.clearance_mm, 0.0)
+
+    @property
+    def length(self) -> float | None:
+        """Length of the pin's contact [m], as its law, its scenario or its machine has it; None: none does."""
+        own = getattr(self.pin.contact.normal, "length", self.pin.length)
+        return own or contact_length(self.subject.motion.machine, self.subject.pin)
 
     @property
     def clearance_mm(self) -> float:
@@ -117,18 +121,18 @@ class Joint:
         else:  # with which they are pressed as deep as the pin's own law by what it holds
             stiffness = self.load / own.resting_depth(self.load) ** 1.5
         normal = catalogue.normal_laws(
-            self.clearance_mm, self.restitution, bore_radius=bore, stiffness=stiffness, load=self.load
+            self.clearance_mm,
+            self.restitution,
+            bore_radius=bore,
+            stiffness=stiffness,
+            load=self.load,
+            length=self.length,
         )
         exact = normal["exact"]
         friction = catalogue.friction_laws(self.subject.friction)
-        textbook = forces.LankaraniNikravesh(stiffness=exact.stiffness, restitution=self.restitution)  # type: ignore[attr-defined]
         return {
             **{name: (law, none) for name, law in normal.items()},
             **{f"friction {name}": (exact, law) for name, law in friction.items()},
-            **{
-                name: (replace(textbook, damping_speed=forces.ImpactVelocity(floor=floor)), none)
-                for name, floor in TEXTBOOK.items()
-            },
         }
 
     @cached_property
@@ -146,6 +150,18 @@ class Joint:
         friction = catalogue.friction_laws(self.subject.friction)["ambrosio"]
         return {name: self._run(self.laws[name][0], friction) for name in POWER_LAWS}
 
+    @cached_property
+    def resting(self) -> dict[str, Scenario]:
+        """The motion from a settled start, clearance with friction in all pins, by rest velocity."""
+        normal: Any = self.laws["lankarani_nikravesh"][0]
+        friction = self.laws["friction ambrosio"][1]
+        found = {}
+        for name, velocity in REST.items():
+            case = self._run(replace(normal, rest_velocity=velocity), friction)
+            pins = dict.fromkeys(case.linkage.pins, case.pins[self.subject.pin])
+            found[name] = replace(case, pins=pins, start="settled", accuracy="standard")
+        return found
+
     def _run(self, normal: forces.NormalLaw, friction: forces.FrictionLaw) -> Scenario:
         motion = self.subject.motion
         pin = replace(self.pin, contact=replace(self.pin.contact, normal=normal, friction=friction))
@@ -158,3 +174,18 @@ class Joint:
         # of Newton's iterations a looser tolerance spares one a step; it changes means and spreads by 1e-6
         settings = SolverSettings(impact_steps=RISE_IMPACT_STEPS, newton_tolerance=1e-6, backend="symbolic")
         return replace(case, accuracy=None, step=RISE_STEP, solver=settings, formulation="redundant")
+
+
+def damping_ratio(case: Scenario, pin: str) -> float:
+    """Damping ratio of small vibrations of a pin under the weight, closed at the start: c / (2 sqrt(k m))."""
+    resting = next(one for one in loaded_contacts(case) if one.pin == pin)
+    law, step = resting.contact.normal, 1e-6  # [m/s]
+    depth = law.resting_depth(resting.load)
+    damping = (law(depth, step, 0.0) - law(depth, -step, 0.0)) / (2.0 * step)
+    return float(damping / (2.0 * np.sqrt(resting.stiffness * resting.mass)))
+
+
+def soft_restitution(case: Scenario, pin: str, speed: float) -> float:
+    """Restitution of a free impact of a speed [m/s] of the mass that moves with a pin."""
+    resting = next(one for one in loaded_contacts(case) if one.pin == pin)
+    return one_dimensional_restitution(resting.contact.normal, resting.mass, speed)

@@ -48,6 +48,7 @@ def normal_laws(
     bore_radius: float = paper_machine.BORE_RADIUS,
     stiffness: float | None = None,
     load: float = RESTING_FORCE,
+    length: float | None = None,
 ) -> dict[str, NormalLaw]:
     """Every normal law for a pin, by name; the rear-link pin's, unless told otherwise.
 
@@ -60,7 +61,9 @@ def normal_laws(
         bore_radius: of the pin [m].
         stiffness: K of the laws K depth^1.5 [N/m^1.5]; None: that of Eq. 5.
         load: that the pin holds at rest [N].
+        length: of the contact in laws of line contact [m]; None: assumed, see `pin_length`.
     """
+    along = pin_length(bore_radius) if length is None else length
     k = paper_machine.stiffness(clearance_mm, bore_radius) if stiffness is None else stiffness
     linear = load / Hertz(stiffness=k).resting_depth(load)
     given = {
@@ -75,7 +78,7 @@ def normal_laws(
             name: _filled(law, given | {"stiffness": linear if _is_linear(law) else k})
             for name, law in (POWER_LAWS | OTHER_LAWS).items()
         },
-        **{name: cylinder_law(name, bearing, restitution, pin_length(bore_radius)) for name in CYLINDER_LAWS},
+        **{name: cylinder_law(name, bearing, restitution, along) for name in CYLINDER_LAWS},
     }
 
 

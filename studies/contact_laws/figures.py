@@ -12,7 +12,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 from studies.common.numbers import Found, Number, by_case
 from studies.common.panels import fit_height, legend, letters
 from studies.common.rise import Watched, between
-from studies.contact_laws.cases import ASKED, KEY, TEXTBOOK
+from studies.contact_laws.cases import ASKED, KEY, REST
 from studies.contact_laws.catalogue import POWER_LAWS, title
 from studies.contact_laws.free_impact import PIN
 from support_exudyn import Result
@@ -158,21 +158,16 @@ def rise_figure(watched: Watched, numbers: Sequence[Number]) -> Figure:
 
 
 def permanent_figure(watched: Watched, results: Mapping[str, Result]) -> Figure:
-    """What becomes of the vibration after the last bounce, by how a contact that does not part is damped."""
+    """The pin force from a settled start with clearance in all pins, by rest velocity."""
     drawing = Figure(figsize=style.size(170, 125))
     whole, rest = drawing.subplots(2, 1)
-    curves = [
-        ("lankarani_nikravesh", style.WITH_CLEARANCE, "-", "damped by the depth (IndentationVelocity)"),
-        *zip(
-            TEXTBOOK,
-            (style.SMOOTH, style.THIRD),
-            ("-", (0, (5, 1.5))),  # for grey prints
-            (f"textbook: by the last impact, not below {floor:g} m/s" for floor in TEXTBOOK.values()),
-            strict=True,
-        ),
-    ]
-    end = min(1.5, results["lankarani_nikravesh"].time[-1])
-    for axes, span in ((whole, (0.0, end / 3.0)), (rest, (end / 3.0, end))):
+    colours = (style.SMOOTH, style.WITH_CLEARANCE, style.THIRD, style.IDEAL)
+    curves = [(case, colour, "-", case) for case, colour in zip(REST, colours, strict=True)]
+    end = results[curves[0][0]].time[-1]
+    for axes, span in (
+        (whole, (0.0, end)),
+        (rest, (watched.start, watched.start + 0.2 * (end - watched.start))),
+    ):
         for case, colour, dashes, label in curves:
             result = results[case]
             axes.plot(result.time, 1e-3 * result[watched.force], color=colour, ls=dashes, lw=0.9, label=label)

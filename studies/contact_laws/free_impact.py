@@ -8,7 +8,6 @@ from scipy.integrate import solve_ivp
 
 from support_exudyn import ClearancePin, ImpactStand, Result, Scenario, SolverSettings
 from user_forces import JournalBearing, JournalContact, NormalLaw
-from user_forces.normal.law import Impact
 
 PIN = "pin"
 BORE_MASS, JOURNAL_MASS = 3.0, 2.0  # [kg]
@@ -48,13 +47,12 @@ def delivered_restitution(result: Result) -> float:
 
 def one_dimensional_restitution(law: NormalLaw, mass: float, speed: float) -> float:
     """Restitution of a free impact by scipy: m depth'' = -F, tension cut, until the depth is zero again."""
-    impact = Impact(speed, mass)
     scale = law.turning_depth(0.5 * mass * speed**2)  # so that tolerances mean something
     time = scale / speed
 
     def motion(_: float, state: Series) -> list[float]:
         depth = state[0] * scale
-        force = max(0.0, law(float(depth), float(state[1] * speed), impact)) if depth > 0.0 else 0.0
+        force = max(0.0, law(float(depth), float(state[1] * speed), speed)) if depth > 0.0 else 0.0
         return [state[1], -force * time / (mass * speed)]
 
     def separation(_: float, state: Series) -> float:

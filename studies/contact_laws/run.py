@@ -2,7 +2,8 @@
 
 Every normal law is tried in free impacts through the engine: restitution asked for against delivered, beside
 the closed form, and loops of force over depth. Then the machine moves under each law: without friction under
-the normal laws, with each friction law, and with the textbook treatment of a contact that does not part.
+the normal laws, with each friction law, and with several rest velocities, by which a contact that stays closed
+is damped.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -15,7 +16,17 @@ from studies.common.runs import run_cases, run_with_errors
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
 from studies.contact_laws import cases, catalogue, free_impact
-from studies.contact_laws.cases import FEW, IMPACT_STEPS, KEY, SPEED, Joint
+from studies.contact_laws.cases import (
+    FEW,
+    IMPACT_STEPS,
+    KEY,
+    REST,
+    SOFT,
+    SPEED,
+    Joint,
+    damping_ratio,
+    soft_restitution,
+)
 from studies.contact_laws.catalogue import POWER_LAWS, title
 from studies.contact_laws.figures import (
     answer_figure,
@@ -52,8 +63,8 @@ RISE_UNITS = {
 def rise_numbers(watched: Watched, results: Mapping[str, Result]) -> list[Number]:
     """Mean and spread while the machine moves, the rest over the whole run, by case."""
     measures: dict[str, Callable[[Result], float]] = {
-        "mean_pin_force": lambda r: watched.mean(r, r[watched.force]),
-        "std_pin_force": lambda r: watched.spread(r, r[watched.force]),
+        "mean_pin_force": lambda r: watched.mean(r, watched.force),
+        "std_pin_force": lambda r: watched.spread(r, watched.force),
         "largest_pin_force_any_step": lambda r: float(r.largest_force[watched.pin]),
         "energy_dissipated": lambda r: r.dissipated,
         "energy_error": lambda r: r.energy_error,
@@ -127,13 +138,27 @@ def rise_table(numbers: Sequence[Number]) -> TextTable:
     return TextTable(header, tuple(rows), width=200)
 
 
+def rest_table(watched: Watched, results: Mapping[str, Result], numbers: Sequence[Number]) -> TextTable:
+    """What the rest velocity changes, a row a velocity: damping, soft impacts, the motion, its cost."""
+    found, rows = by_case(numbers), []
+    for case, velocity in REST.items():
+        result = results[case]
+        ratio = damping_ratio(result.scenario, watched.pin)
+        soft = [f"{soft_restitution(result.scenario, watched.pin, speed):.3f}" for speed in SOFT]
+        force = cell(found["std_pin_force", case])
+        rows.append((f"{1e3 * velocity:g}", f"{ratio:.2g}", *soft, force, f"{result.counts.steps}"))
+    impacts = (f"delivered at {1e3 * speed:g} mm/s" for speed in SOFT)
+    header = ("rest velocity [mm/s]", "damping ratio at rest", *impacts, "std pin force [N]", "steps")
+    return TextTable(header, tuple(rows))
+
+
 # --- the study ---
 
 
 def work(chosen: Options) -> StudyOutcome:
     """Free impacts, and the motion under every law."""
     subject = chosen.subject
-    ideal = run_cases({"ideal": subject.ideal}, chosen)["ideal"]
+    ideal = run_cases({"ideal": subject.ideal()}, chosen)["ideal"]
     joint = Joint(subject, subject.watched.mean(ideal, ideal[subject.watched.force]))
     laws = cases.impact_laws()
     impacts = {case: free_impact.free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
@@ -146,22 +171,25 @@ def work(chosen: Options) -> StudyOutcome:
     done = run_with_errors(impacts, made_anew) | run_cases(loops, made_anew)
     done |= run_with_errors(joint.runs, chosen)
     rubbed = run_with_errors({f"{name}{RUBBING}": case for name, case in joint.rubbing.items()}, chosen)
+    resting = run_with_errors(joint.resting, chosen)
     restitutions = restitution_numbers(done, {case: expected for case, (_, expected) in laws.items()})
     risen = {name: done[name] for name in joint.runs}
     numbers = rise_numbers(subject.watched, risen)
     with_friction = rise_numbers(subject.watched, rubbed)
+    rested = rise_numbers(subject.watched, resting)
     found = by_case([*restitutions, *numbers])
     drawings = {
         "laws_at_a_glance": answer_figure(found),
         "delivered_restitution": restitution_figure(restitutions),
         "force_depth_loops": loop_figure({name.removeprefix("loop "): done[name] for name in loops}),
         "rise_under_each_law": rise_figure(subject.watched, numbers),
-        "permanent_contact": permanent_figure(subject.watched, risen),
+        "permanent_contact": permanent_figure(subject.watched, resting),
     }
     tables = {
         "laws": key_table(found),
         "restitution_table": restitution_table(restitutions),
         "rise_table": rise_table(numbers),
+        "rest_table": rest_table(subject.watched, resting, rested),
     }
     words = (
         _of_impacts(joint, restitutions)
@@ -169,12 +197,15 @@ def work(chosen: Options) -> StudyOutcome:
         | {"rubbing": _spreads(by_case(with_friction), [f"{name}{RUBBING}" for name in POWER_LAWS])}
         | {
             "joint": joint,
+            "rested": by_case(rested),
             "at_steps": at_steps,
             "goal": ideal.goal,
         }
     )
     live = {"permanent_contact": (0, 1)}
-    return StudyOutcome([*restitutions, *numbers, *with_friction], words, drawings, tables, risen, live=live)
+    return StudyOutcome(
+        [*restitutions, *numbers, *with_friction, *rested], words, drawings, tables, risen | resting, live=live
+    )
 
 
 def _of_impacts(joint: Joint, numbers: Sequence[Number]) -> dict[str, object]:
@@ -187,7 +218,7 @@ def _of_impacts(joint: Joint, numbers: Sequence[Number]) -> dict[str, object]:
         "impact": free_impact,
         "title": title,
         "row_title": row_title,
-        "pin_length": catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
+        "pin_length": joint.length or catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
         "bore_radius": joint.pin.contact.bearing.bore_radius,
         "offs": [_off(found, case) for of_law in _impacts(numbers).values() for case in of_law],
         "low": low,

@@ -9,9 +9,9 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from studies.common import paper_machine, rise
-from studies.common.paper_machine import CONTACT_TITLES, CYLINDERS, PAPER
+from studies.common.paper_machine import CLEARANCE_MM, CONTACT_TITLES, CYLINDERS, PAPER
 from studies.common.words import TextTable
-from studies.drive_mode.cases import CLEARANCE_MM, PINS, ModePlan, case_name
+from studies.drive_mode.cases import PINS, ModePlan, case_name
 from support_exudyn import ClearancePin, Line, Result, Scenario, UniformSpeed
 
 MODULI = (1.5e9, 2.2e9)  # of the oil [Pa]; four published shields give 1.96 GPa
@@ -67,14 +67,16 @@ def _run(plan: ModePlan, pin: str, modulus: float, hoses: str) -> Scenario:
         name: replace(column, bulk_modulus=modulus, line=HOSES[hoses])
         for name, column in paper_machine.oil_columns().items()
     }
-    loose = {} if ideal else {paper_machine.CLEARANCE_PIN: _joint(plan, pin)}
+    pins = base.pins if ideal else {paper_machine.CLEARANCE_PIN: _joint(plan, pin)}
     return replace(
-        base, drive=drive, duration=START + AFTER, actuators=columns, pins=loose, channels=(rise.FORCE,)
+        base, drive=drive, duration=START + AFTER, actuators=columns, pins=pins, channels=(rise.FORCE,)
     )
 
 
 def _joint(plan: ModePlan, contact: str) -> ClearancePin:
-    return paper_machine.clearance_joint(CLEARANCE_MM, plan.subject.friction, contact=contact)
+    return paper_machine.clearance_joint(
+        CLEARANCE_MM, plan.subject.friction, contact=contact, law=paper_machine.PAPERS_LAW
+    )
 
 
 def bands(results: Mapping[str, Result]) -> dict[str, Band]:

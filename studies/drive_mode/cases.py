@@ -6,14 +6,15 @@ from functools import cached_property
 
 from studies.benchmarking.peers.stock import peak_acceleration
 from studies.common import paper_machine, rise
+from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.subject import Subject
 from support_exudyn import CubicStep, Scenario, SolverSettings, UniformSpeed
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.mechanics.channels import ALL_CHANNELS
+from support_exudyn.model.drives.coupled_drive import CoupledDrive
 from support_exudyn.model.drives.drive import Stroke
 from user_forces.values.value import InputError
 
-CLEARANCE_MM = 1.5
 MODES: dict[str, type[Stroke]] = {"mode 1": UniformSpeed, "mode 2": CubicStep}
 PINS = ("ideal pin", f"{CLEARANCE_MM} mm")  # of the paper's machine
 COLUMNS = ("rigid", "oil", "cylinder")
@@ -38,25 +39,29 @@ class ModePlan:
 
     subject: Subject
 
-    @cached_property
-    def clearance_mm(self) -> float:
-        """The radial clearance of the pin that gets some [mm]."""
-        given = self.subject.given
-        return CLEARANCE_MM if given is None else round(1e3 * given.contact.bearing.clearance, 9)
-
     @property
     def pins(self) -> tuple[str, str]:
         """What the pin is called, ideal and with clearance."""
-        return PINS[0], f"{self.clearance_mm:g} mm"
+        return PINS[0], f"{self.subject.clearance_mm:g} mm"
 
     @cached_property
     def actuators(self) -> tuple[str, ...]:
-        """The actuators that the drive moves.
+        """The actuators that drives move: those with a stroke, and those that follow one, as a shield's ram.
 
-        Raises InputError if there are none, or if one of them moves without a stroke.
+        Raises InputError if there are none, or if one of them moves in another way.
         """
+        return self.leading + tuple(name for name in self._driven if name not in self.leading)
+
+    @property
+    def _driven(self) -> tuple[str, ...]:
         motion = self.subject.motion
-        found = tuple(name for name in motion.driven if name in motion.unloaded.actuators)
+        return tuple(name for name in motion.driven if name in motion.unloaded.actuators)
+
+    @cached_property
+    def leading(self) -> tuple[str, ...]:
+        """The actuators with a stroke. Raises InputError as `actuators` does."""
+        motion = self.subject.motion
+        found = tuple(n for n in self._driven if not isinstance(motion.drive_of(n), CoupledDrive))
         if not found:
             raise InputError("machine: no drive moves a linear actuator of it; drive_mode needs one that does")
         for name in found:
@@ -94,15 +99,16 @@ class ModePlan:
     def _run(self, mode: str, pin: str, columns: str) -> Scenario:
         subject, watched = self.subject, self.subject.watched
         ideal = pin == self.pins[0]
-        base = subject.ideal if ideal else subject.with_clearance(self.clearance_mm, subject.friction)
+        friction = subject.friction
+        base = subject.ideal(friction) if ideal else subject.with_clearance(subject.clearance_mm, friction)
         duration = round(watched.end + AFTER * (watched.end - watched.start), 9)
-        first, *others = drives = [self.drive(mode, name) for name in self.actuators]
-        period = min(base.record_period, PERIOD)
+        first, *others = drives = [self.drive(mode, name) for name in self.leading]
+        period = min(base.recorded_every, PERIOD)
         base = replace(base, duration=duration, record_period=period, channels=ALL_CHANNELS)
         if all(one == first for one in others):
             base = replace(base, drive=first, drives={})
         else:
-            base = replace(base, drives=dict(zip(self.actuators, drives, strict=True)))
+            base = replace(base, drives=dict(zip(self.leading, drives, strict=True)))
         if columns == "cylinder":
             base = paper_machine.on_cylinders(replace(base, duration=END), paper_machine.INLETS[mode])
             return _first(base)

@@ -10,17 +10,22 @@ from studies.common import rise
 from studies.common.numbers import Number, measured_all
 from studies.drive_mode.cases import ModePlan
 from support_exudyn import Result
+from support_exudyn.simulation.impulses import impulses_of
 
 Get = Callable[[Result], float]
+START, STOP = "largest_pin_force_in_motion", "largest_pin_force_after_stop"  # from the stop to the run's end
+# what squares or extremes make endless where there is an impulse: of the pin, and of the body's velocity
+OF_PIN = (START, STOP, "std_pin_force", "rms_pin_force")
+OF_BODY = ("largest_angular_acceleration", "std_angular_acceleration")
 EXTREMES: tuple[Literal["largest", "max", "min"], ...] = ("largest", "max", "min")
 
 
 def _of_motion(watched: rise.Watched) -> dict[str, tuple[str, Get]]:
     def mean(channel: str) -> Get:
-        return lambda r: watched.mean(r, r[channel])
+        return lambda r: watched.mean(r, channel)
 
     def spread(channel: str, scale: float = 1.0) -> Get:
-        return lambda r: scale * watched.spread(r, r[channel])
+        return lambda r: scale * watched.spread(r, channel)
 
     def fluctuation(channel: str, scale: float = 1.0) -> Get:
         # from the very start on, which is where mode 1 strikes
@@ -30,7 +35,8 @@ def _of_motion(watched: rise.Watched) -> dict[str, tuple[str, Get]]:
         "mean_pin_force": ("N", mean(watched.force)),
         "std_pin_force": ("N", spread(watched.force)),
         "rms_pin_force": ("N", fluctuation(watched.force)),
-        "largest_pin_force_in_rise": ("N", watched.peak(watched.force)),
+        START: ("N", watched.peak(watched.force)),
+        STOP: ("N", rise.Peak(watched.force, begin=watched.end, end=math.inf)),
         "largest_angular_acceleration": ("deg/s^2", watched.peak(watched.acceleration, rise.DEGREES)),
         "std_angular_acceleration": ("deg/s^2", spread(watched.acceleration, rise.DEGREES)),
         "rms_angular_velocity": ("deg/s", fluctuation(watched.speed, rise.DEGREES)),
@@ -46,12 +52,19 @@ def _of_forces(watched: rise.Watched, actuators: Sequence[str]) -> dict[str, tup
     }
 
 
-def _of_jumps(actuators: Sequence[str]) -> dict[str, tuple[str, Get]]:
-    def impulse(name: str, place: int) -> Get:
-        return lambda r: r.impulses[place].actuators[name]
+def _of_jumps(watched: rise.Watched, actuators: Sequence[str]) -> dict[str, tuple[str, Get]]:
+    """Impulses of the sudden start and end; that of the pin is a magnitude."""
+    channels = {name: f"{name}.force" for name in actuators} | {"pin": watched.force}
+
+    def impulse(channel: str, place: int) -> Get:
+        return lambda r: impulses_of(r, channel, 0.0, math.inf)[place]
 
     ends = enumerate(("start", "end"))
-    return {f"impulse_{name}_{end}": ("N s", impulse(name, place)) for place, end in ends for name in actuators}
+    return {
+        f"impulse_{name}_{end}": ("N s", impulse(channel, place))
+        for place, end in ends
+        for name, channel in channels.items()
+    }
 
 
 # --- on hydraulic cylinders ---
@@ -103,7 +116,6 @@ def _of_column(column: str) -> dict[str, tuple[str, Get]]:
 ON_CYLINDERS: dict[str, tuple[str, Get]] = {
     **_of_column("front_column"),
     **_of_column("rear_column"),
-    "largest_pin_force_after_closing": ("N", rise.Peak(rise.FORCE, begin=rise.END, end=math.inf)),
     "loss_in_valves": ("kJ", lambda r: float(1e-3 * r["energy.damping_loss"][-1])),
     "work_of_pumps": ("kJ", lambda r: float(1e-3 * r["energy.work"][-1])),
 }
@@ -122,14 +134,21 @@ def measure(plan: ModePlan, results: Mapping[str, Result]) -> list[Number]:
 
 
 def measures_of(plan: ModePlan, result: Result) -> dict[str, tuple[str, Get]]:
-    """Unit and measure of every number of a case, by name."""
-    found = all_measures(plan)
-    if len(result.impulses) < 2:  # one at the start, one at the end
-        found = {name: what for name, what in found.items() if not name.startswith("impulse")}
+    """Unit and measure of every number of a case that has a limit, by name."""
+    watched = plan.subject.watched
+    of_forces = {watched.force: (OF_PIN, "impulse_pin")} | {
+        f"{name}.force": ([f"{extreme}_{name}_force" for extreme in EXTREMES], f"impulse_{name}")
+        for name in plan.actuators
+    }
+    without = set(OF_BODY if result.impulses else ())
+    for channel, (endless, impulse) in of_forces.items():
+        struck = len(impulses_of(result, channel, 0.0, math.inf)) == 2  # at the start and at the end
+        without |= set(endless) if struck else {f"{impulse}_start", f"{impulse}_end"}
+    found = {name: what for name, what in all_measures(plan).items() if name not in without}
     return found | (ON_CYLINDERS if result.scenario.valved else {})
 
 
 def all_measures(plan: ModePlan) -> dict[str, tuple[str, Get]]:
     """Unit and measure of every number but those of cylinders, by name."""
     watched = plan.subject.watched
-    return _of_motion(watched) | _of_forces(watched, plan.actuators) | _of_jumps(plan.actuators)
+    return _of_motion(watched) | _of_forces(watched, plan.actuators) | _of_jumps(watched, plan.actuators)

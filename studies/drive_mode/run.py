@@ -15,7 +15,7 @@ from studies.common.words import TextTable
 from studies.drive_mode import assumed, cases, tables
 from studies.drive_mode.cases import MODES, ModePlan, case_name, naive_peaks
 from studies.drive_mode.figures import LIVE, figures
-from studies.drive_mode.measures import measure
+from studies.drive_mode.measures import START, STOP, measure
 from support_exudyn import Result
 
 
@@ -72,10 +72,12 @@ def _words(
         "plan": plan,
         "found": found,
         "case_name": case_name,
+        "START": START,
+        "STOP": STOP,
         "ideal": ideal,
         "with_clearance": with_clearance,
         "softest": "oil" if "oil" in plan.columns else "rigid",
-        "drive": plan.drive("mode 1", plan.actuators[0]),
+        "drive": plan.drive("mode 1", plan.leading[0]),
         "impulses": [name for name, case in found if name.startswith("impulse") and case == _struck(plan)],
         "value": value,
         "heat": {mode: heat(mode) for mode in MODES} if "cylinder" in plan.columns else {},

@@ -8,37 +8,28 @@ from studies.common.numbers import Found, Number, against, cell
 from studies.common.runs import halvings
 from studies.common.words import TextTable
 from studies.drive_mode.cases import MODES, NAIVE, PINS, ModePlan, case_name
-from studies.drive_mode.measures import ON_CYLINDERS, all_measures, measures_of
+from studies.drive_mode.measures import ON_CYLINDERS, START, STOP, all_measures, measures_of
 from support_exudyn import Result
 
-SAVED = ("largest_pin_force_in_rise", "std_pin_force", "rms_pin_force", "largest_angular_acceleration")
+SAVED = (START, STOP, "std_pin_force", "rms_pin_force", "largest_angular_acceleration")
+IMPULSE = "an impulse"
 CONVERGES = "converges"
 DIVERGES = "does not converge"
 VELOCITY = "RMS fluctuation angular velocity"  # as the table of step halving has it
 Rows = Sequence[Sequence[str]]  # of that table
 
 
-PEAK = "largest_pin_force_in_rise"
-
-
 def key_table(found: Found, plan: ModePlan) -> TextTable:
-    """The largest pin force in both modes, by actuators and pin."""
-    rows = []
+    """The largest pin force in both modes, in the motion and after its end, by actuators and pin."""
+    watched, rows = plan.subject.watched, []
+    windows = {START: f"{watched.start:g} to {watched.end:g} s", STOP: f"after {watched.end:g} s"}
     for columns in plan.columns:
         for pin in plan.pins:
-            sudden, gentle = (in_kilonewtons(found[PEAK, case_name(mode, pin, columns)]) for mode in MODES)
-            if struck(plan, pin, columns):
-                cells = ("an impulse", cell(gentle), "")
-            else:
-                cells = (cell(sudden), cell(gentle), against(gentle, sudden))
+            numbers = [found.get((name, case_name(mode, pin, columns))) for mode in MODES for name in windows]
+            cells = (IMPULSE if one is None else cell(in_kilonewtons(one)) for one in numbers)
             rows.append((columns, pin, *cells))
-    header = ("actuators", "pin", *(f"{mode} [kN]" for mode in MODES), "mode 2 against mode 1")
-    return TextTable(header, tuple(rows), left=2)
-
-
-def struck(plan: ModePlan, pin: str, columns: str) -> bool:
-    """Whether nothing gives in a case: all of a sudden start is in an impulse, and no peak tells of it."""
-    return (pin, columns) == (plan.pins[0], "rigid")
+    headings = (f"{mode}, {window} [kN]" for mode in MODES for window in windows.values())
+    return TextTable(("actuators", "pin", *headings), tuple(rows), left=2)
 
 
 def in_kilonewtons(number: Number) -> Number:
@@ -74,8 +65,8 @@ def saving_table(found: Found, plan: ModePlan) -> TextTable:
     for name in (*SAVED, *(f"largest_{actuator}_force" for actuator in plan.actuators)):
         cells = []
         for pin, columns in headings:
-            sudden, gentle = (found[name, case_name(mode, pin, columns)] for mode in MODES)
-            cells.append("impulse" if struck(plan, pin, columns) else against(gentle, sudden))
+            sudden, gentle = (found.get((name, case_name(mode, pin, columns))) for mode in MODES)
+            cells.append(IMPULSE if sudden is None or gentle is None else against(gentle, sudden))
         rows.append((name.replace("_", " "), *cells))
     return TextTable(("quantity", *(f"{columns}, {pin}" for pin, columns in headings)), tuple(rows))
 

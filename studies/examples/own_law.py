@@ -1,7 +1,8 @@
 """A law of one's own
 
 A normal law and a friction law are written as classes, and a pin takes them as any other. Scenario files name
-them by file and class: `law = "own_law.py:SoftLanding"`. `support-exudyn init own_law` writes such files.
+them by file and class: `law = "own_law.py:SoftLanding"`, and `--import own_law.py` allows it. `support-exudyn
+init own_law` writes such files.
 """
 
 from matplotlib import pyplot as plt

@@ -15,7 +15,6 @@ from studies.extremes.ranges import Point
 from studies.extremes.scenes import IMPACT_STEPS, fallen
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.scenario.timescales import timescales
-from user_forces import Impact
 
 SMALLEST, LARGEST = 1e-6, 1.0  # of the colours
 SQUARE = 85.0  # area of the mark of a run [points^2]
@@ -25,7 +24,7 @@ MARKS: Mapping[str, Mapping[str, Any]] = {
     SILENT: {"marker": "D", "color": style.CONTACT, "markersize": 7},
 }
 PULL = 9.81  # [m/s^2]
-MASS = 3000.0  # [kg] that moves with the journal of the rear pin, see `effective_mass`
+MASS = 3000.0  # [kg] that moves with the journal of the rear pin
 Judged = Sequence[tuple[Case, Judgement]]
 Curve = tuple[str, Callable[[float], float]]
 
@@ -106,15 +105,15 @@ def _around(values: Sequence[float]) -> tuple[float, float]:
 # --- limits ---
 
 
-def _first_impact(point: Point) -> Impact:
-    """The first impact of a fall through the clearance."""
-    return Impact(math.sqrt(2.0 * PULL * point.clearance_m), MASS)
+def _first_impact(point: Point) -> float:
+    """The velocity of the first impact of a fall through the clearance [m/s]."""
+    return math.sqrt(2.0 * PULL * point.clearance_m)
 
 
 def _of_contact() -> list[Curve]:
     def duration(stiffness: float) -> float:
         point = Point(stiffness=stiffness)
-        return point.normal.impact_time(_first_impact(point))
+        return point.normal.impact_time(_first_impact(point), MASS)
 
     return [
         ("duration of the first contact", duration),

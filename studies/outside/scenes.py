@@ -15,7 +15,6 @@ from user_forces import (
     Exact,
     FrictionLaw,
     Frictionless,
-    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -29,9 +28,7 @@ GAP = 0.005  # of the four-bar's pins [m]
 STIFF, PLASTIC = 1e9, 0.05  # smooth contact in place of plastic impacts: K [N/m^1.5], restitution
 TRAPEZOIDAL = SolverSettings(integrator="trapezoidal", constraint_index=2)  # which has half the error
 SMOOTH = Frictionless()
-KEPT = ImpactVelocity(
-    floor=1e-9
-)  # sources damp a contact by the speed with which it began, as long as it lasts
+KEPT = 1e-9  # rest velocity [m/s]: sources damp a contact by its impact velocity alone
 
 
 def crank_rocker() -> Scenario:
@@ -43,7 +40,7 @@ def crank_rocker() -> Scenario:
 
 def loose_crank_rocker() -> Scenario:
     """The crank-rocker with a clearance of 0.5 mm in the pin of coupler and rocker, one turn."""
-    normal = LankaraniNikravesh(stiffness=1e10, restitution=0.9, damping_speed=KEPT)
+    normal = LankaraniNikravesh(stiffness=1e10, restitution=0.9, rest_velocity=KEPT)
     return Scenario(
         machine=machine("crank_rocker"),
         pins={"B": _pin(JournalBearing(bore_radius=0.01, clearance=0.0005), normal, "second")},
@@ -97,7 +94,7 @@ def guided(stiffness: float, duration: float, step: float, friction: FrictionLaw
     guide = ClearanceGuide(
         gaps=(1e-3, 1e-3),
         block=(0.1, 0.05),
-        normal=Exact(stiffness=stiffness, restitution=0.4, damping_speed=KEPT),
+        normal=Exact(stiffness=stiffness, restitution=0.4, rest_velocity=KEPT),
         friction=friction,
     )
     return Scenario(

@@ -30,9 +30,10 @@ MOST_ROWS = 8  # of a table on the page
 SENTENCES = 3  # on the first screen
 VERDICTS = {  # class, symbol and word of a verdict by its beginning
     "holds": ("holds", "✓", "holds"),
-    "holds only": ("partly", "◐", "holds in part"),
-    "not supported": ("unsupported", "✗", "not supported"),
-    "cannot be judged": ("open", "?", "cannot be judged"),
+    "in part": ("partly", "◐", "holds in part"),
+    "fails": ("unsupported", "✗", "fails"),
+    "needs more machines": ("more", "+", "needs more machines"),
+    "not measurable": ("open", "?", "not measurable"),
 }
 END_OF_SENTENCE = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")
 

@@ -59,7 +59,9 @@ def _part(name: str, part: Part) -> tuple[str, ...]:
 
 def contact_and_drive() -> TextTable:
     """Materials, bearing, laws and drive."""
-    contact = paper_machine.clearance_joint(CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT).contact
+    contact = paper_machine.clearance_joint(
+        CLEARANCE_MM, paper_machine.SLIDING_COEFFICIENT, law=paper_machine.PAPERS_LAW
+    ).contact
     normal: Any = contact.normal
     friction: Any = contact.friction
     drive = CubicStep()
@@ -75,7 +77,7 @@ def contact_and_drive() -> TextTable:
         *(_stiffness(clearance) for clearance in paper_machine.STIFFNESS),
         ("exponent of the normal force (Eq. 4)", PAPER, "1", f"{normal.exponent:g}"),
         ("restitution", ASSUMED, "1", f"{normal.restitution:g}"),
-        ("smallest speed that damps a contact", ASSUMED, "mm/s", millimetres(normal.damping_speed.floor)),
+        ("smallest speed that damps a contact", ASSUMED, "mm/s", millimetres(normal.rest_velocity)),
         ("sliding friction coefficient mu_d (Eq. 7)", ASSUMED, "1", f"{friction.sliding_coefficient:g}"),
         (
             "speed v_s below which there is no friction (Eq. 8)",

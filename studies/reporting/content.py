@@ -78,9 +78,11 @@ def around_chapters(sections: Sequence[ReportSection]) -> AroundChapters:
     """What is said around these chapters; the paper's machine is left out if none is about it."""
     support = reference_support()
     machines = tuple(dict.fromkeys(one.chapter.machine for one in sections if one.chapter.machine))
+    contacts = tuple(dict.fromkeys(one.chapter.contact for one in sections if one.chapter.contact))
     of_paper = any(not one.chapter.machine for one in sections)
     words = Words("reporting").blocks({
         "machines": machines,
+        "contacts": contacts,
         "of_paper": of_paper,
         "start_height": assumptions.millimetres(support.start_hinge_height),
         "total_mass": sum(part.mass for parts in support.parts.values() for part in parts),

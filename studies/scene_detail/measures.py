@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from studies.common import rise
 from studies.common.numbers import Number, measured
@@ -15,6 +15,7 @@ from studies.scene_detail.runs import Timed, timed
 from studies.scene_detail.scenes import FULLEST, REAR, DetailScene
 from support_exudyn import Estimate, Result
 from support_exudyn.formulations.redundant.inventory import Inventory, inventory
+from support_exudyn.mechanics.time_statistics import TimeWindow
 from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, fields_of
 from support_exudyn.simulation.recommend import STROKE, UNEQUAL
 
@@ -24,8 +25,9 @@ SMALLEST = {"N": 1e-3, "N m": 1e-3, "m": 1e-9, "m/s": 1e-9, "deg": 1e-8, "deg/s^
 IMPACTS = 3
 SHORT_RUN = 0.1  # shorter runs are timed again, alone [s]
 MM, DEGREES = 1e3, rise.DEGREES
-Series = npt.NDArray[np.float64]
 Get = Callable[[Result], float]
+MEAN: Callable[[TimeWindow], float] = operator.attrgetter("mean")
+STD: Callable[[TimeWindow], float] = operator.attrgetter("std")
 Numbers = dict[str, Estimate]
 FROM_REFERENCE, FROM_FULLEST = "tip_distance_from_reference", "tip_distance_from_fullest"
 
@@ -115,12 +117,8 @@ def measure(scenes: Mapping[str, DetailScene], runs: Mapping[str, Timed]) -> dic
 def _of_stroke(scene: DetailScene, result: Result) -> Numbers:
     force = f"pin.{REAR}.force"
 
-    def over_time(measure: Callable[[Series, Series], float], channel: str, scale: float = 1.0) -> Get:
-        def get(run: Result) -> float:
-            inside = rise.between(run, scene.begin, scene.end)
-            return scale * measure(run.time[inside], run[channel][inside])
-
-        return get
+    def over_time(statistic: Callable[[TimeWindow], float], channel: str, scale: float = 1.0) -> Get:
+        return lambda run: scale * statistic(run.window(channel, scene.begin, scene.end))
 
     def largest(channel: str, scale: float) -> Get:
         return rise.Peak(channel, scale, scene.begin, scene.end)
@@ -129,15 +127,15 @@ def _of_stroke(scene: DetailScene, result: Result) -> Numbers:
     if REAR in result.largest_force:  # at the ends of all steps
         at_all = lambda run: float(run.largest_force[REAR])  # noqa: E731
     measures: dict[str, tuple[str, Get]] = {
-        "mean_pin_force": ("N", over_time(rise.mean, force)),
-        "std_pin_force": ("N", over_time(rise.spread, force)),
+        "mean_pin_force": ("N", over_time(MEAN, force)),
+        "std_pin_force": ("N", over_time(STD, force)),
         "largest_pin_force_in_stroke": ("N", largest(force, 1.0)),
         "largest_pin_force": ("N", at_all),
-        "mean_tip_x": ("m", over_time(rise.mean, "tip.x")),
-        "mean_tip_y": ("m", over_time(rise.mean, "tip.y")),
+        "mean_tip_x": ("m", over_time(MEAN, "tip.x")),
+        "mean_tip_y": ("m", over_time(MEAN, "tip.y")),
         "std_angular_acceleration": (
             "deg/s^2",
-            over_time(rise.spread, "rear_link.angular_acceleration", DEGREES),
+            over_time(STD, "rear_link.angular_acceleration", DEGREES),
         ),
         "largest_canopy_acceleration": ("deg/s^2", largest("canopy.angular_acceleration", DEGREES)),
     }

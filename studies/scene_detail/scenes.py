@@ -98,7 +98,7 @@ def stroke() -> Scenario:
 
 
 def clearance_joint(sliding_coefficient: float) -> ClearancePin:
-    """The paper's pin, damped by the depth that it is pressed to (`IndentationVelocity`)."""
+    """The paper's pin."""
     normal = LankaraniNikravesh(
         stiffness=paper_machine.stiffness(CLEARANCE_MM), restitution=paper_machine.RESTITUTION
     )

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from studies.common.loose_supports import loose_pins, support
+from studies.common.loose_supports import loose_pins, support, tight_pins
 from studies.common.support_legs import PAIRS, legs_data
-from support_exudyn import OilColumn, Scenario
+from support_exudyn import OilColumn, Pin, Scenario
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.model.loads.applied_force import AppliedForce
 from support_exudyn.model.loads.course import TableCourse
@@ -15,7 +15,7 @@ from user_forces.values.value import Vector2
 MACHINES = ("reference", "zf18000")
 CLEARANCES_MM = (0.0, 0.25, 0.5, 1.0, 1.5, 2.0)  # radial, in all five pins; 0: ideal
 ROOF_SHARES = (0.1, 0.3, 0.6)  # of the rated force
-FRICTION = 0.25  # in loose pins
+FRICTION = 0.25  # in all pins, ideal or not
 PUSH = 0.3  # of the roof load, either way; underground 0.20 to 0.35 of it were measured (Barczak 1984)
 ROOF_IS_ON, BEGIN = 0.3, 0.5  # when all of the roof load is there, and when the push begins [s]
 QUARTER = 1.0  # of a loop [s]
@@ -39,7 +39,8 @@ class PushedSupport:
     @property
     def name(self) -> str:
         """What the study calls it."""
-        pins = f"{self.clearance_mm:g} mm, mu_d = {self.friction:g}" if self.clearance_mm else "ideal"
+        size = f"{self.clearance_mm:g} mm" if self.clearance_mm else "ideal"
+        pins = f"{size}, mu_d = {self.friction:g}"
         slow = "" if self.quarter == QUARTER else ", half as fast"
         return f"{self.machine}, roof {self.roof_share:g}, {pins}{slow}"
 
@@ -70,6 +71,11 @@ class PushedSupport:
         """The run: roof load first, then the push from 0 to the front, to the rear and to the front."""
         leg = legs_data().of(self.machine).cylinder
         oil = OilColumn(bore_area=leg.bore_area, oil_length=leg.oil_length, bulk_modulus=leg.bulk_modulus)
+        size, pins = self.clearance_mm, dict[str, Pin]()
+        if size:
+            pins |= loose_pins(self.machine, size, self.friction, PINS)
+        elif self.friction:
+            pins |= tight_pins(self.machine, self.friction, PINS)
         times = (0.0, *(self.time(n) for n in (0, 1, 3, 5)))
         course = TableCourse(times=times, shares=(0.0, 0.0, 1.0, -1.0, 1.0), between="linear")
         roof = AppliedForce(body="canopy", point=self.place, full_force=(0.0, -self.roof_load), end=ROOF_IS_ON)
@@ -77,7 +83,7 @@ class PushedSupport:
         return Scenario(
             machine=support(self.machine),
             actuators=dict.fromkeys(PAIRS, oil),
-            pins=loose_pins(self.machine, self.clearance_mm, self.friction, PINS),
+            pins=pins,
             loads={"roof": roof, "push": push},
             duration=self.time(5),
             record_period=PERIOD,
@@ -87,7 +93,7 @@ class PushedSupport:
 
 
 def cases() -> list[PushedSupport]:
-    """All cases; without friction in the pins the reference support under the middle roof load alone."""
+    """All cases; without friction the ideal pins, and the reference support under the middle roof load."""
     found = [
         PushedSupport(machine, size, share, FRICTION)
         for machine in MACHINES
@@ -95,4 +101,5 @@ def cases() -> list[PushedSupport]:
         for size in CLEARANCES_MM
     ]
     smooth = [PushedSupport(MACHINES[0], size, ROOF_SHARES[1], 0.0) for size in CLEARANCES_MM if size]
-    return [*found, *smooth, PushedSupport(*SLOW, quarter=2.0 * QUARTER)]
+    tight = [PushedSupport(machine, 0.0, share, 0.0) for machine in MACHINES for share in ROOF_SHARES]
+    return [*found, *smooth, *tight, PushedSupport(*SLOW, quarter=2.0 * QUARTER)]

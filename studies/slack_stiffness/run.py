@@ -82,7 +82,7 @@ def work(chosen: Options) -> StudyOutcome:
     runs = run_cases({name: case.scenario() for name, case in all_cases.items()}, chosen)
     ran = {name: (case, runs[name]) for name, case in all_cases.items()}
     shares = {
-        (machine, share): pin_shares(*ran[PushedSupport(machine, 0.0, share, FRICTION).name])
+        (machine, share): pin_shares(*ran[PushedSupport(machine, 0.0, share, 0.0).name])
         for machine in MACHINES
         for share in ROOF_SHARES
     }

@@ -29,7 +29,6 @@ from support_exudyn.postprocessing.figures.units import DisplayUnit
 from user_forces import (
     Ambrosio,
     Frictionless,
-    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -74,7 +73,7 @@ def scenarios() -> dict[str, Scenario]:
         solver=SolverSettings(impact_steps=128, backend="symbolic"),
     )
     stiffness = internal_contact_stiffness(BEARING, STEEL, STEEL)
-    normal = LankaraniNikravesh(stiffness=stiffness, restitution=0.9, damping_speed=ImpactVelocity(floor=1e-3))
+    normal = LankaraniNikravesh(stiffness=stiffness, restitution=0.9, rest_velocity=1e-3)
     frictions = {SMOOTH: Frictionless(), DRY: Ambrosio(sliding_coefficient=0.03)}
     with_clearance = {
         name: replace(

@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from studies.benchmarking import estimates
-from studies.benchmarking.estimates import Check
-from studies.benchmarking.references import GOALS, errors
+from studies.benchmarking.estimates import Check, Truth
+from studies.benchmarking.references import GOALS
 from studies.benchmarking.scenes import BenchmarkScene
 from studies.benchmarking.variants import BUILT_IN, STOCK, Way, WayRun, cheapest, front, ways
 from studies.common.numbers import Number, rounded
@@ -62,7 +62,7 @@ def _row(place: int, name: str, scene: BenchmarkScene, n: int, against: Known) -
     except (SimulationError, InputError, RuntimeError) as error:
         reason = str(error).splitlines()[0]
         return WayRun(name, way.family, way.label, float("nan"), 0, 0, failure=reason)
-    off = errors(done.sample, against.sample)
+    off = against.errors(done.sample)
     row = WayRun(name, way.family, way.label, times[0], done.steps, done.calls, off)
     return _with_times(row, times) if len(times) > 1 else row
 
@@ -96,7 +96,7 @@ def _known(place: int, name: str, scene: BenchmarkScene) -> Known:
 def checks(chosen: Scenes, against: Mapping[str, Known], pool: Workers) -> list[Check]:
     """Runs to an accuracy, each compared with the tight run of its scene."""
     jobs = [
-        (name, scene, scenario, against[name].numbers)
+        (name, scene, scenario, against[name].truth)
         for name, scene in chosen.items()
         for scenario in estimates.asked_for(scene)
     ]
@@ -104,14 +104,12 @@ def checks(chosen: Scenes, against: Mapping[str, Known], pool: Workers) -> list[
         return [found for found in pool.run(jobs, _check, told) if found is not None]
 
 
-def _check(
-    place: int, name: str, scene: BenchmarkScene, scenario: Scenario, numbers: Mapping[str, float]
-) -> Check | None:
+def _check(place: int, name: str, scene: BenchmarkScene, scenario: Scenario, truth: Truth) -> Check | None:
     """None if the accuracy is out of reach, as the program then says."""
     del place
     precompile()
     try:
-        return estimates.check(name, scene, scenario, numbers)
+        return estimates.check(name, scene, scenario, truth)
     except (SimulationError, InputError):
         return None
 
@@ -132,9 +130,10 @@ def numbers(found: Sequence[WayRun], checked: Sequence[Check], against: Mapping[
             unit = "m" if goal == "path" else "1"
             # of an error no more than the size is known
             said.append(Number(f"reference's own error, {goal}", name, error, unit, error))
-    covered, stated = estimates.coverage(checked), estimates.overstatement(checked)
-    said.append(Number("estimate_coverage", "all scenes", covered.value, "1", covered.error))
-    said.append(Number("estimate_overstatement_median", "all scenes", stated.value, "1", stated.error))
+    if judged := [one for one in checked if one.is_judged]:
+        covered, stated = estimates.coverage(judged), estimates.overstatement(judged)
+        said.append(Number("estimate_coverage", "all scenes", covered.value, "1", covered.error))
+        said.append(Number("estimate_overstatement_median", "all scenes", stated.value, "1", stated.error))
     return said
 
 
@@ -200,8 +199,9 @@ def accuracy_table(checked: Sequence[Check]) -> TextTable:
         "time [s]": lambda c: f"{c.seconds:.3g}",
         "worst error": lambda c: f"{c.off:.0e}",
         "numbers": lambda c: str(c.true.size),
-        "covered": lambda c: f"{100.0 * c.covered:.0f} %",
-        "overstated": lambda c: f"{estimates.overstatement([c]).value:.1f}",
+        "left out": lambda c: str(c.left_out),
+        "covered": lambda c: f"{100.0 * c.covered:.0f} %" if c.is_judged else "not judged",
+        "overstated": lambda c: f"{estimates.overstatement([c]).value:.1f}" if c.is_judged else "",
     }
     rows = tuple(tuple(get(c) for get in columns.values()) for c in checked)
     return TextTable(tuple(columns), rows, left=4, width=130)
@@ -233,13 +233,16 @@ def work(chosen: Options) -> StudyOutcome:
         stem: table(name, found) for stem, name in stems.items()
     }
     reached = list(_reached(looked_at, found))
+    judged = [one for one in checked if one.is_judged]
     words = {
         "scenes": {stem: looked_at[name] for stem, name in stems.items()},
         "reached": reached,
         "key": next((one for one in reached if one["name"] == KEY), reached[0] if reached else None),
-        "covered": estimates.coverage(checked),
-        "stated": estimates.overstatement(checked),
-        "judged": sum(c.true.size for c in checked),
+        "covered": estimates.coverage(judged) if judged else None,
+        "stated": estimates.overstatement(judged) if judged else None,
+        "judged": sum(c.true.size for c in judged),
+        "vague": {name: one.vague for name, one in against.items() if one.vague},
+        "left_out": sum(c.left_out if c.is_judged else c.left_out + c.true.size for c in checked),
         "same": same,
         "agree": formulations.agree(same),
     }

@@ -5,7 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from studies.benchmarking import estimates
-from studies.benchmarking.references import Sample, errors, of_result, own_errors, references
+from studies.benchmarking.estimates import TIGHTER, Truth
+from studies.benchmarking.references import GOALS, Sample, errors, of_result, own_errors, references
 from studies.benchmarking.scenes import CLEARANCE_MM, SCENES, BenchmarkScene
 from studies.common.paper_machine import BORE_RADIUS
 from studies.common.subject import Subject
@@ -39,7 +40,7 @@ def _own(label: str, subject: Subject, scenario: Scenario) -> BenchmarkScene:
     points = scenario.unloaded.points
     longest = settings_for(replace(plain, formulation="redundant"), GOAL).step
     # an even number in a record, so that records are at the ends of twice and of two fifths of it, too
-    step = 0.5 * plain.record_period / math.ceil(0.5 * plain.record_period / longest)
+    step = 0.5 * plain.recorded_every / math.ceil(0.5 * plain.recorded_every / longest)
     point = next(iter(points), watched.body)
     return BenchmarkScene(label, plain, watched.pin, watched.body, point, watched.start, step)
 
@@ -63,21 +64,30 @@ def tight_runs(scene: BenchmarkScene) -> tuple[Scenario, Scenario]:
 class Known:
     """What runs of a scene are compared with.
 
-    sample: what ways are compared with. own_errors: of it, by the names of `GOALS`. numbers: the usual ones,
+    sample: what ways are compared with. own_errors: of it, by the names of `GOALS`. truth: the usual numbers,
     which runs to an accuracy are compared with.
     """
 
     sample: Sample
     own_errors: Mapping[str, float]
-    numbers: Mapping[str, float]
+    truth: Truth
+
+    def errors(self, found: Sample) -> dict[str, float]:
+        """Errors of a sample by the names of `GOALS`, as far as the reference is close enough for the goal."""
+        off = errors(found, self.sample)
+        return {name: one for name, one in off.items() if name not in self.vague}
+
+    @property
+    def vague(self) -> list[str]:
+        """The goals that cannot be judged: the reference is not `TIGHTER` times closer than they ask for."""
+        return [name for name, error in self.own_errors.items() if TIGHTER * error > GOALS[name]]
 
 
 def known(name: str, scene: BenchmarkScene) -> Known:
     """What a scene is compared with: of the benchmark what is stored, else two tight runs made here."""
     if SCENES.get(name) == scene:
-        numbers = estimates.tight_numbers(scene.after, estimates.tight(scene))
-        return Known(references()[name], own_errors()[name], numbers)
+        return Known(references()[name], own_errors()[name], estimates.tight(scene))
     first, second = map(simulate, tight_runs(scene))
     sample = of_result(scene, first)
     own = errors(of_result(scene, second), sample)
-    return Known(sample, own, estimates.tight_numbers(scene.after, first))
+    return Known(sample, own, Truth.of(scene.after, first, second))

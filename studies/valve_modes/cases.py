@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from studies.common import paper_machine
+from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.subject import paper_subject
 from support_exudyn import (
     CheckValve,
@@ -18,7 +19,6 @@ from support_exudyn import (
     YieldValve,
 )
 
-CLEARANCE_MM = 1.5
 START, LONG, SHORT = 3.0, 15.0, 5.0  # the valve opens, and closes on the limited pump and on the other [s]
 AFTER = 1.0  # that is looked at after it has closed [s]
 PERIOD = 1e-3  # between records [s]
@@ -57,7 +57,8 @@ def scenarios() -> Mapping[str, Scenario]:
 
 def _run(mode: str, pump: str, pin: str, oil: str) -> Scenario:
     paper = paper_subject()
-    base = paper.ideal if pin == PINS[0] else paper.with_clearance(CLEARANCE_MM, paper.friction)
+    ideal = pin == PINS[0]
+    base = paper.ideal(paper.friction) if ideal else paper.with_clearance(CLEARANCE_MM, paper.friction)
     end = end_of(pump)
     inlet: Inlet = (
         SuddenOpening(start=START, end=end, extent=paper_machine.SUDDEN_OPENING)

@@ -1,27 +1,24 @@
 """Which pins are clearance, with how much clearance and friction, in the cases of `which_pin`."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
 
-from studies.common import paper_machine
 from studies.common.numbers import Found, Number
+from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.rise import Watched
-from studies.common.subject import Subject
+from studies.common.subject import Subject, without_clearance
 from support_exudyn import ClearancePin, CubicStep, Scenario, SolverSettings
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.simulation.automatic_settings import cheapest, settings_for
-from user_forces import IndentationVelocity
 from user_forces.values.value import InputError
 
-CLEARANCE_MM = 1.5
-FRICTIONS = (paper_machine.SLIDING_COEFFICIENT, 0.0)
 CONDITIONS = ((0.25, 1.5), (0.1, 1.5), (0.25, 0.5), (0.0, 1.5))  # friction and clearance [mm], single pins
 ADDS_UP = 2.0  # [%]: shifts whose sum is off by less are said to add up; ten times that for shaking
 ALIKE = 0.05  # pins whose effects differ by less of the larger are said to be alike
-IDEAL = "ideal"
+IDEAL = "ideal"  # without friction
 ALL = "all five"  # of the paper's machine
 SHAKEN = ("rear_link", "shield", "canopy")  # its bodies whose angular acceleration is looked at
 TIP, ROOF = "tip", "canopy"  # point whose shift is looked at, and body whose tilt is
@@ -33,19 +30,6 @@ STEP = 1e-3  # [s]
 SETTINGS = SolverSettings(impact_steps=16, spectral_radius=0.8, newton_tolerance=1e-6)
 
 OWN_GOAL = 1e-2  # by which the first steps of one's own machine are chosen
-
-
-def clearance_pin(
-    friction: float, clearance_mm: float = CLEARANCE_MM, bore_radius: float = paper_machine.BORE_RADIUS
-) -> ClearancePin:
-    """The paper's pin, with a damping that forgets how its contact once began; bore_radius: [m].
-
-    With the textbook's, which remembers it, a pin that was settled gently shakes eight times as much in the
-    same rise as one that was dropped: pins could not be compared.
-    """
-    return paper_machine.clearance_joint(
-        clearance_mm, friction, bore_radius, damping_speed=IndentationVelocity()
-    )
 
 
 def case_name(
@@ -87,7 +71,7 @@ class PinPlan:
         if self.subject.is_paper:
             drive = CubicStep(start=self.watched.start, end=self.watched.end)
             motion = replace(motion, drive=drive, duration=self.watched.end)
-        period = min(motion.record_period, STEP)
+        period = min(motion.recorded_every, STEP)
         return replace(motion, pins={}, channels=ALL_CHANNELS, accuracy=None, record_period=period, step=STEP)
 
     @cached_property
@@ -110,8 +94,7 @@ class PinPlan:
     @property
     def clearance_mm(self) -> float:
         """The radial clearance of the pins [mm]."""
-        given = self.subject.given
-        return CLEARANCE_MM if given is None else round(1e3 * given.contact.bearing.clearance, 9)
+        return self.subject.clearance_mm
 
     @property
     def frictions(self) -> tuple[float, float]:
@@ -137,30 +120,45 @@ class PinPlan:
         return {pin: found[name, self.case_name((pin,), friction, clearance_mm)] for pin in self.pins}
 
     def pin(self, friction: float, clearance_mm: float) -> ClearancePin:
-        """The pin that is put into every place: that of the scenario, or one like the paper's."""
-        if self.subject.given is None:
-            return clearance_pin(friction, clearance_mm, self.subject.bore_radius)
-        chosen = self.subject.with_clearance(clearance_mm, friction).pins[self.subject.pin]
-        assert isinstance(chosen, ClearancePin)
-        return chosen
+        """The pin that is put into every place: that of all studies of the machine."""
+        return self.subject.clearance_pin(clearance_mm, friction)
+
+    @cached_property
+    def loose(self) -> Mapping[str, tuple[Sequence[str], float, float]]:
+        """Pins with clearance, their friction and clearance [mm], by case.
+
+        Each pin alone and all together, with friction and without; of the paper's machine also pairs, and
+        single pins with less friction and with less clearance.
+        """
+        size = self.clearance_mm
+        chosen: list[tuple[Sequence[str], float, float]] = [(self.pins, mu, size) for mu in self.frictions]
+        chosen += [((pin,), *how) for how in self.conditions for pin in self.pins]
+        if self.subject.is_paper:
+            chosen += [(pins, 0.0, size) for pins in combinations(self.pins, 2)]
+        return {self.case_name(*how): how for how in chosen}
+
+    def ideal_name(self, pins: Sequence[str], friction: float) -> str:
+        """What the case is called in which all pins are ideal and these have friction."""
+        return f"{IDEAL}, {self.case_name(pins, friction)}" if friction else IDEAL
+
+    def ideal_of(self, case: str) -> str:
+        """The case with ideal pins, the same ones with the same friction, that a case is compared with."""
+        return self.ideal_name(*self.loose[case][:2]) if case in self.loose else case
 
     @cached_property
     def scenarios(self) -> dict[str, Scenario]:
-        """The ideal machine, each pin alone and all together, with friction and without.
+        """All cases with clearance, and the ideal pins that they are compared with.
 
-        Of the paper's machine also pairs, and single pins with less friction and with less clearance. Machines
-        on actuators start settled, as a support stands that waits to be raised.
+        Machines on actuators start settled, as a support stands that waits to be raised.
         """
-        period = min(self.motion.record_period, STEP)
+        period = min(self.motion.recorded_every, STEP)
         if self.watched.window < 2.0 * period:
             times = f"{self.watched.start:g} to {self.watched.end:g} s"
             least = 40.0 * period
             raise InputError(
                 f"motion from {times}, a record every {period:g} s: allowed: longer than {least:g} s, to tell "
-                "shaking by, or more records"
+                "fluctuations from the trend, or more records"
             )
-        ideal = replace(self.motion, formulation="auto", solver=SolverSettings())
-        ideal = replace(ideal, formulation=cheapest(ideal))
         motion = replace(self.motion, formulation="redundant")
         start = motion.start if motion.unloaded.cranks else "settled"
 
@@ -169,16 +167,12 @@ class PinPlan:
             case = replace(motion, pins=loose, solver=SETTINGS, start=start)
             return case if self.subject.is_paper else settings_for(case, OWN_GOAL)
 
-        size = self.clearance_mm
-        cases = {self.case_name(self.pins, mu): clearance(self.pins, mu, size) for mu in self.frictions}
-        cases[IDEAL] = ideal
-        cases |= {
-            self.case_name((pin,), *how): clearance((pin,), *how)
-            for how in self.conditions
-            for pin in self.pins
-        }
-        if self.subject.is_paper:
-            cases |= {
-                self.case_name(pins, 0.0): clearance(pins, 0.0, size) for pins in combinations(self.pins, 2)
-            }
-        return cases
+        cases = {name: clearance(*how) for name, how in self.loose.items()}
+        ideal = {self.ideal_name(*how[:2]): how for how in self.loose.values()}
+        return cases | {name: self._ideal(*how) for name, how in ideal.items()}
+
+    def _ideal(self, pins: Sequence[str], friction: float, clearance_mm: float) -> Scenario:
+        pin = without_clearance(self.pin(friction, clearance_mm))
+        motion = replace(self.motion, pins=dict.fromkeys(pins, pin) if friction else {})
+        motion = replace(motion, formulation="auto", solver=SolverSettings())
+        return replace(motion, formulation=cheapest(motion))

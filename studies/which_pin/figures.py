@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from studies.common.numbers import Found
 from studies.common.panels import forward_arrow, legend, letters
-from studies.which_pin.cases import IDEAL, PinPlan
+from studies.which_pin.cases import PinPlan
 from studies.which_pin.posture import UnderLoad
 from studies.which_pin.tables import SHAKING, SHIFT
 from support_exudyn.machines.four_bar_shield import PINS
@@ -119,7 +119,7 @@ def force_figure(plan: PinPlan, found: Found) -> Figure:
         return number.value, number.numerical_error
 
     def over_ideal(member: str, case: str) -> tuple[float, float]:
-        peak, ideal = (found[f"largest_force_{member}", one] for one in (case, IDEAL))
+        peak, ideal = (found[f"largest_force_{member}", one] for one in (case, plan.ideal_of(case)))
         ratio = peak.value / ideal.value
         error = (peak.numerical_error + ratio * ideal.numerical_error) / ideal.value
         return 100.0 * (ratio - 1.0), 100.0 * error
@@ -188,7 +188,7 @@ def shaking_figure(plan: PinPlan, found: Found) -> Figure:
                 places + side, [scale * n.value for n in row], [scale * n.numerical_error for n in row],
                 fmt=mark, color=colour, ms=5, capsize=3, lw=1.0, label=_friction(friction),
             )  # fmt: skip
-        ideal = scale * found[name, IDEAL].value
+        ideal = scale * found[name, plan.ideal_name(plan.pins, plan.frictions[0])].value
         axes.axhline(ideal, color=style.IDEAL, ls=(0, (4, 2)), label="ideal pins")
         axes.set_yscale("log")
         axes.set_ylabel(label)

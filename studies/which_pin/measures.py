@@ -1,4 +1,4 @@
-"""What `which_pin` measures of a run, against the one with ideal pins."""
+"""What `which_pin` measures of a run, against ideal pins with the same friction."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -7,7 +7,7 @@ import numpy as np
 
 from studies.common import rise
 from studies.common.numbers import Number, compared, measured_all
-from studies.which_pin.cases import IDEAL, ROOF, TIP, PinPlan
+from studies.which_pin.cases import ROOF, TIP, PinPlan
 from studies.which_pin.posture import posture_numbers
 from support_exudyn import Result
 
@@ -54,7 +54,7 @@ def measures(plan: PinPlan) -> dict[str, tuple[str, Get]]:
     watched = plan.watched
 
     def mean(channel: str) -> Get:
-        return lambda run, ideal: watched.mean(run, run[channel])
+        return lambda run, ideal: watched.mean(run, channel)
 
     def change(channel: str) -> Get:
         of = mean(channel)
@@ -103,28 +103,19 @@ def _peak_between_records(plan: PinPlan, run: Result, ideal: Result) -> float:
     )
 
 
-def _with_itself(number: Number) -> bool:
-    """Whether it compares the run of ideal pins with itself, which is exact."""
-    return number.case == IDEAL and number.value == (1.0 if number.name == OVER_IDEAL else 0.0)
-
-
 def measure(plan: PinPlan, results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the runs, and those of the closed form beside them."""
-    ideal = results[IDEAL]
-    numbers = [
-        compared(name, case, unit, result, ideal, get)
-        for case, result in results.items()
-        for name, (unit, get) in measures(plan).items()
-    ]
-    numbers = [
-        replace(n, numerical_error=n.numerical_error + _peak_between_records(plan, results[n.case], ideal))
-        if n.name == OVER_IDEAL
-        else n
-        for n in numbers
-    ]
-    numbers = [replace(n, numerical_error=0.0) if _with_itself(n) else n for n in numbers]
-    numbers += measured_all(results, {name: ("N", peak) for name, peak in peaks(plan).items()})
+    numbers = []
     for case, result in results.items():
-        if case != IDEAL and plan.subject.is_paper:
+        ideal = results[plan.ideal_of(case)]
+        for name, (unit, get) in measures(plan).items():
+            number = compared(name, case, unit, result, ideal, get)
+            if result is ideal and number.value == (1.0 if name == OVER_IDEAL else 0.0):
+                number = replace(number, numerical_error=0.0)  # of a run against itself, which is exact
+            elif name == OVER_IDEAL:
+                missed = _peak_between_records(plan, result, ideal)
+                number = replace(number, numerical_error=number.numerical_error + missed)
+            numbers.append(number)
+        if case in plan.loose and plan.subject.is_paper:
             numbers += posture_numbers(case, result.scenario)
-    return numbers
+    return numbers + measured_all(results, {name: ("N", peak) for name, peak in peaks(plan).items()})

@@ -9,7 +9,7 @@ from studies.common.options import Options
 from studies.common.runs import run_with_errors
 from studies.common.study import Study, StudyOutcome
 from studies.which_pin import cases, tables
-from studies.which_pin.cases import PinPlan, clearance_pin
+from studies.which_pin.cases import PinPlan
 from studies.which_pin.figures import figures
 from studies.which_pin.measures import measure
 from studies.which_pin.posture import loads
@@ -20,7 +20,7 @@ def work(chosen: Options) -> StudyOutcome:
     """The motion with clearance pins; of the paper's support also the closed form of where it stands."""
     plan = PinPlan(chosen.subject)
     results = run_with_errors(plan.scenarios, chosen)
-    under_loads = loads(clearance_pin(0.0)) if plan.subject.is_paper else {}
+    under_loads = loads(plan.pin(0.0, plan.clearance_mm)) if plan.subject.is_paper else {}
     numbers = measure(plan, results)
     found = by_case(numbers)
     rankings = {

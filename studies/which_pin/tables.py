@@ -54,7 +54,7 @@ def _pins_in_order(plan: PinPlan, found: Found, names: Sequence[str], friction: 
     for pins in [*((pin,) for pin in ranked(plan, found, names[0], friction)), plan.pins]:
         case = plan.case_name(pins, friction)
         rows.append((case.split(",")[0], *(cell(found[name, case]) for name in names)))
-    rows.append((IDEAL, *(cell(found[name, IDEAL]) for name in names)))
+    rows.append((IDEAL, *(cell(found[name, plan.ideal_name(plan.pins, friction)]) for name in names)))
     header = ("clearance pin", *(f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]" for name in names))
     return TextTable(header, tuple(rows))
 
@@ -227,8 +227,9 @@ def key_table(plan: PinPlan, found: Found) -> TextTable:
 
 
 def force_table(plan: PinPlan, found: Found, friction: float) -> TextTable:
-    """Mean forces with each clearance pin."""
-    cases = [IDEAL, *(plan.case_name(pins, friction) for pins in [*((pin,) for pin in plan.pins), plan.pins])]
+    """Mean forces with each clearance pin, with all of them, and with all ideal and the same friction."""
+    sets = [*((pin,) for pin in plan.pins), plan.pins]
+    cases = [*(plan.case_name(pins, friction) for pins in sets), plan.ideal_name(plan.pins, friction)]
     rows = []
     for kind in ("mean_force", "rms_force", "largest_force"):
         for name in plan.forces.values():

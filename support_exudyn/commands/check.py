@@ -52,6 +52,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> None:
     """Print what was found, and write the figure."""
     from support_exudyn.machines.check import check_machine  # and numpy's linear algebra
+    from support_exudyn.postprocessing.contact_description import contact_lines
     from support_exudyn.postprocessing.figures import style
     from support_exudyn.postprocessing.figures.checks import check_figure
     from support_exudyn.scenario.pin_pressure import statically_pressed
@@ -73,11 +74,13 @@ def run(given: argparse.Namespace) -> None:
     if scenario and scenario.clearance_pins and not outlooks:
         told.append(f"whether its pins shake: {NOT_TOLD}")
     pressed = statically_pressed(scenario) if scenario else []
+    contacts = contact_lines(scenario) if scenario else []
     report = replace(report, warnings=[*report.warnings, *pin_contact.warnings(pressed)])
     if given.json:
         more = {
             "pins_under_static_load": pin_contact.data(pressed),
             "pin_stability": pin_shaking.data(outlooks),
+            "contacts": contacts,
             "figures": [str(one) for one in written],
         }
         say(json.dumps(report.data() | more, indent=2))
@@ -88,7 +91,7 @@ def run(given: argparse.Namespace) -> None:
         say("")
         for line in table.lines():
             say(line)
-    for said in told:
+    for said in (*told, *contacts):
         say(f"  {said}")
     say("")
     for one in written:
@@ -104,7 +107,8 @@ def _looked_at(
     """
     if _is_scenario(given.machine):
         try:
-            return read_scenario(given.machine), []
+            scenario = read_scenario(given.machine)
+            return scenario, [f"a run is recorded every {1e3 * scenario.recorded_every:g} ms"]
         except InputError as error:  # its machine is all that had to be right so far
             first = str(error).splitlines()[0]
             return None, [f"nothing is told of its pins, the scenario has errors: {first}"]

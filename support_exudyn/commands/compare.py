@@ -107,7 +107,8 @@ def _compared(given: argparse.Namespace) -> str:
         if given.propose:
             from support_exudyn.postprocessing.comparing.propose import proposal
 
-            say(proposal(*read_files(files, given.map, channels, progress)).rstrip("\n"))
+            read = read_files(files, given.map, channels, progress)
+            say(proposal(*read, find_shift=given.shift).rstrip("\n"))
             return "told"
         found = compare_files(
             *files,

@@ -16,7 +16,7 @@ from typing import Protocol, cast
 
 from support_exudyn.commands.command_line import CommandParser, Parser, mendable, say
 from support_exudyn.formulations.contract import told
-from user_forces.values.texts import InputError, short
+from user_forces.values.texts import InputError
 
 NAMES = {  # of commands, each with a line of what it does
     "init": "write a commented set of files to start from: machine, scenarios, sweep",
@@ -85,14 +85,7 @@ def parser() -> Parser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     whole.add_argument("--version", action=_Versions, nargs=0, help="versions of all that makes the numbers")
-    whole.add_argument(
-        "--import",
-        dest="imports",
-        action="append",
-        default=[],
-        metavar="MODULE",
-        help="import this module first: files may then hold its machines, laws, drives, loads; repeatable",
-    )
+    add_imports(whole)
     several = whole.add_subparsers(
         dest="command", required=True, metavar="COMMAND", parser_class=CommandParser, title="commands"
     )
@@ -105,6 +98,20 @@ def parser() -> Parser:
 def _add_arguments(name: str, parser: argparse.ArgumentParser) -> None:
     """Tell the parser what a command takes."""
     command(name).add_arguments(parser)
+    add_imports(parser, "more_imports")
+
+
+def add_imports(parser: argparse.ArgumentParser, name: str = "imports") -> None:
+    """Take --import, which may stand before a command and behind it; name: of the list of files."""
+    parser.add_argument(
+        "--import",
+        dest=name,
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="import this Python file or module first, for you trust it: files may then name its laws, "
+        "machines, drives, loads; without it no file runs Python; repeatable",
+    )
 
 
 def _called() -> str:
@@ -126,31 +133,20 @@ class _Versions(argparse.Action):
 
 
 def import_modules(names: Iterable[str]) -> None:
-    """Import modules by name, from the working directory too.
+    """Import modules by file or name. Raises InputError that names what cannot be imported."""
+    from support_exudyn.files.own_modules import trusted
 
-    Raises InputError that names the module if there is none of this name, or if it cannot be imported.
-    """
-    for name in names:
-        if "" not in sys.path:  # a program that is installed does not look there
-            sys.path.insert(0, "")
-        try:
-            import_module(name)
-        except ModuleNotFoundError as error:
-            missing = "no such module" if error.name in (name, name.partition(".")[0]) else str(error)
-            raise InputError(
-                f"--import {short(name)}: {missing}; allowed: a module in the working directory, or one that "
-                "is installed"
-            ) from None
-        except Exception as error:  # whatever a user's module does wrong
-            raise InputError(f"--import {name}: {type(error).__name__}: {error}") from error
+    try:
+        trusted(*names)
+    except InputError as error:
+        raise InputError(f"--import {error}") from error.__cause__
 
 
 @contextmanager
 def at_work(names: Sequence[str]) -> Iterator[None]:
     """While a command works with modules of one's own, what they do wrong is an InputError that tells it.
 
-    Modules are imported by --import, or because a file names their classes. Without such modules an error that
-    nobody expected is one of this program, and stays as it is.
+    Without such modules an error that nobody expected is one of this program, and stays as it is.
     """
     try:
         yield

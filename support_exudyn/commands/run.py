@@ -4,12 +4,15 @@ import argparse
 import sys
 from pathlib import Path
 
+import numpy as np
 from rich.console import Console
 
-from support_exudyn.commands.command_line import add_json, add_out, answer, folder, shown_progress
+from support_exudyn.commands.command_line import add_json, add_out, answer, folder, shown_progress, warn
 from support_exudyn.commands.tables import facts, printed, show_legs, show_numbers, show_table, show_touches
 from support_exudyn.files import ScenarioFile, read_scenario_file
 from support_exudyn.files.whole_file import check_may_be_replaced, named, real_path
+from support_exudyn.machines.check.joint_warnings import guide_warnings, joint_warnings
+from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
@@ -80,14 +83,37 @@ def run(given: argparse.Namespace) -> None:
     result.save(out)
     if solution is not None:
         solution_file.save_solution(result, solution)
+    warnings = [*file.warnings, *joint_warnings_of(result)]
     if given.json:
         impacts = {pin: len(onsets) for pin, onsets in result.onsets.items()}
         said = {"run": out, **facts(result, *WHOLE), "impacts": impacts}
-        answer(said | ({} if solution is None else {"solution": solution}))
+        answer(said | {"warnings": warnings} | ({} if solution is None else {"solution": solution}))
     else:
         printed(lambda console: _tell(console, result, file, list(files.values())))
+        for warning in warnings:
+            warn(f"warning: {warning}")
     if result.goal is not None and not result.met:
         print(summary.unmet(result), file=sys.stderr)
+
+
+def joint_warnings_of(result: Result) -> list[str]:
+    """Warnings on the joints of a planar run, with its numbers as far as they were recorded."""
+    linkage, channels = result.scenario.linkage, result.channels
+    moments = {
+        name: float(np.abs(result[f"{name}.moment"]).max())
+        for name in linkage.gears
+        if f"{name}.moment" in channels
+    }
+    found = list(joint_warnings(linkage, moments))
+    starts = {
+        f"{name}.{key}": value
+        for name, body in linkage.bodies.items()
+        for key, value in (("x", body.centre[0]), ("y", body.centre[1]), ("angle", body.angle))
+    }
+    if linkage.slides and starts.keys() <= channels.keys():
+        position = np.column_stack([result[name] - start for name, start in starts.items()])
+        found += guide_warnings(BodyMotion(linkage, position, np.zeros_like(position), np.zeros_like(position)))
+    return found
 
 
 def _tell(console: Console, result: Result, file: ScenarioFile, written: list[Path]) -> None:

@@ -20,6 +20,7 @@ from support_exudyn.commands.tables import (
     show_table,
     show_touches,
 )
+from support_exudyn.files.own_modules import with_known_laws
 from support_exudyn.postprocessing import pin_contact, pin_shaking
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
@@ -103,7 +104,7 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
 
 def _outlooks(result: Result) -> list[PinOutlook]:
     """Whether the clearance pins of a run shake, by their postures alone."""
-    return pin_outlooks(result.scenario, pins=tuple(result.scenario.clearance_pins))
+    return pin_outlooks(result.scenario, pins=tuple(with_known_laws(result.scenario.clearance_pins)))
 
 
 def _asked(result: Result, given: argparse.Namespace) -> tuple[list[str], list[str]]:
@@ -115,7 +116,8 @@ def _asked(result: Result, given: argparse.Namespace) -> tuple[list[str], list[s
 
 def _tables(console: Console, result: Result, given: argparse.Namespace) -> None:
     ends = given.after, given.until
-    piece = f" at the records every {said(result.scenario.record_period, 's')}, {selection.said(result, *ends)}"
+    steps = "every step" if result.statistics else f"records every {said(result.scenario.recorded_every, 's')}"
+    piece = f" from {steps}, {selection.said(result, *ends)}"
     if given.impacts:
         rows = summary.impacts(result, None, *ends)
         show_impacts(console, f"impacts, {selection.said(result, *ends)}", rows)

@@ -146,6 +146,7 @@ def facts(result: Result, after: float, until: float) -> dict[str, Any]:
         "accuracy": {"asked": result.goal, "met": result.met if result.goal is not None else None},
         "counts": asdict(result.counts),
         "wall_time_s": result.wall_time,
+        "warnings": list(result.warnings),
         "numbers": {name: found._asdict() for name, found in summary.numbers(result, after, until).items()},
     }
 

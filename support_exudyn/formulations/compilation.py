@@ -27,7 +27,7 @@ except ImportError:  # Windows
 
 fcntl: Any = _fcntl
 SECONDS = {"compiled": 17}  # that compiling takes on a quiet machine of 2020
-COMPILED = ("compiled", "hydraulics")  # folders with compiled functions
+COMPILED = ("compiled", "hydraulics", "statistics")  # folders with compiled functions
 CONSTANTS_OF = (contact_events, contact, oil)  # modules of which compiled functions use constants
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -208,7 +208,7 @@ def _tell(module: str) -> None:
 
 
 NUMBER = numba.types.float64
-LAW = NUMBER(*6 * (NUMBER,), *2 * (numba.types.CPointer(NUMBER),))
+LAW = NUMBER(*5 * (NUMBER,), *2 * (numba.types.CPointer(NUMBER),))
 
 
 @cache
@@ -235,7 +235,6 @@ def call_law(
     rate: Any,
     slip: Any,
     speed: Any,
-    mass: Any,
     deflection: Any,
     constants: Any,
     out: Any,
@@ -246,11 +245,11 @@ def call_law(
     """
 
     def build(target: Any, builder: Any, signature: Any, values: Any) -> Any:
-        numbers, arrays = values[1:7], zip(signature.args[7:], values[7:], strict=True)
+        numbers, arrays = values[1:6], zip(signature.args[6:], values[6:], strict=True)
         places = [target.make_array(kind)(target, builder, array).data for kind, array in arrays]
         double = ir.DoubleType()
-        law = ir.FunctionType(double, [double] * 6 + [double.as_pointer()] * 2)
+        law = ir.FunctionType(double, [double] * 5 + [double.as_pointer()] * 2)
         number = builder.fptoui(values[0], ir.IntType(64))
         return builder.call(builder.inttoptr(number, law.as_pointer()), [*numbers, *places])
 
-    return NUMBER(*7 * (NUMBER,), constants, out), build
+    return NUMBER(*6 * (NUMBER,), constants, out), build

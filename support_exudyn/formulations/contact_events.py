@@ -42,7 +42,6 @@ class Verdict(NamedTuple):
     action: Action
     memory: PinMemory
     onset: Onset | None = None
-    anew: bool = False  # the contact has been pressed on again without having separated
     step: float = math.inf  # to repeat with, if cut [s]
     landing: float = math.inf  # where steps are to end, if cut [s]
 
@@ -155,7 +154,7 @@ def last_return(path: DepthPath) -> float | None:
 def goes_on(start: PinMemory, depth: float, rate: float, step: float) -> bool:
     """Whether in a step from `start` to this depth [m] and rate [m/s] surely nothing has happened to the pin.
 
-    It stayed closed without being pressed on anew, or apart without turning back. If not, `judge` says what.
+    It stayed closed without a dip, or apart without turning back. If not, `judge` says what.
     """
     before = start.rate
     change = 6.0 * (depth - start.depth) / step if step > 0.0 else 3.0 * (before + rate)
@@ -172,7 +171,6 @@ def judge(
     end_time: float,
     step: float,
     impact_step: Callable[[float], float],
-    forgets: bool,
 ) -> Verdict:
     """Whether a tried step may stand, seen from one clearance pin.
 
@@ -182,12 +180,11 @@ def judge(
         end_time: end of the step [s].
         step: its length [s].
         impact_step: the length that steps are to have in an impact that begins with a speed [m/s], [s].
-        forgets: whether a contact that is pressed on again begins anew (`NormalLaw.forgets`).
     """
     path = DepthPath(start.depth, start.rate, depth, rate, step)
     end = start.moved(depth, rate)
     if start.in_contact:
-        return _judge_contact(path, start, end, end_time, forgets)
+        return _judge_contact(path, start, end, end_time)
     impact = first_rise(path)
     if impact is None:
         return Verdict(Action.ACCEPT, end)
@@ -203,9 +200,7 @@ def judge(
     return Verdict(Action.REPEAT, start._replace(in_contact=True, impact_velocity=onset.speed), onset)
 
 
-def _judge_contact(
-    path: DepthPath, start: PinMemory, end: PinMemory, end_time: float, forgets: bool
-) -> Verdict:
+def _judge_contact(path: DepthPath, start: PinMemory, end: PinMemory, end_time: float) -> Verdict:
     """Judge a step that a pin begins in contact."""
     again = last_return(path)
     if again is not None:
@@ -216,19 +211,10 @@ def _judge_contact(
         if SHARE < separation < 1.0 - SHARE:  # else the last step would push too long or too hard
             return _cut(separation, SHARE, path, start, end_time)
         return Verdict(Action.ACCEPT, end._replace(in_contact=False, impact_velocity=0.0))
-    return _gone_on(end, path.turns_up() is not None, forgets)
+    return Verdict(Action.ACCEPT, end)
 
 
-def _gone_on(end: PinMemory, anew: bool, forgets: bool) -> Verdict:
-    """The verdict on a step over which the contact goes on; anew: it has been pressed on again."""
-    if anew and forgets:
-        end = end._replace(impact_velocity=0.0)
-    return Verdict(Action.ACCEPT, end, anew=anew)
-
-
-def judge_at_ends(
-    start: PinMemory, depth: float, rate: float, end_time: float, step: float, forgets: bool
-) -> Verdict:
+def judge_at_ends(start: PinMemory, depth: float, rate: float, end_time: float, step: float) -> Verdict:
     """The verdict without locating anything, as plain recipes do: every step stands.
 
     An impact or a separation counts from the end of the step in which it happens, so that a contact begins with
@@ -239,7 +225,7 @@ def judge_at_ends(
     end = start.moved(depth, rate)
     if start.in_contact:
         if depth > 0.0:
-            return _gone_on(end, start.rate < 0.0 <= end.rate, forgets)
+            return Verdict(Action.ACCEPT, end)
         return Verdict(Action.ACCEPT, end._replace(in_contact=False, impact_velocity=0.0))
     if depth <= 0.0:
         return Verdict(Action.ACCEPT, end)

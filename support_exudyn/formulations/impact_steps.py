@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 
 from user_forces.compilation.flat import flat_function
-from user_forces.normal.law import Impact, NormalLaw
+from user_forces.normal.law import NormalLaw
 
 # An impact that does not part is over after so many swings in a row, deep and back, that were small: by less
 # than this share of the depth. (With a tenth of it the rise takes a third more steps and no number changes.)
@@ -67,12 +67,12 @@ class ImpactSteps:
 
     def length(self, speed: float, mass: float) -> float:
         """Length of the steps in an impact of this speed [m/s] and mass [kg], [s]."""
-        return self._law.impact_time(Impact(speed, mass)) / self._number
+        return self._law.impact_time(speed, mass) / self._number
 
     def impact(self, depth: float, rate: float, mass: float) -> None:
         """The surfaces have been in contact at the end of the last step; state and effective mass then."""
         self.begin(depth, rate, mass)
-        if self._law.initial_force(Impact(self._speed, mass)) > 0.0:
+        if self._law.initial_force(self._speed, mass) > 0.0:
             self._set(self._length, HALVINGS)
 
     def _set(self, length: float, halvings: int = 0) -> None:

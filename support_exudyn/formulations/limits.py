@@ -2,6 +2,7 @@
 
 import math
 import sys
+from collections.abc import Mapping
 
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.journal import ContactGeometry
@@ -26,6 +27,16 @@ def too_deep(pin: str, depth: float, bearing: ContactGeometry) -> str:
         f"the journal of {pin} is {1e3 * depth:.3g} mm deep in {bearing.words}; "
         f"allowed: up to {DEEPEST:.0%} of it"
     )
+
+
+ENDS = "Close its inlet earlier, open it less, or take a longer cylinder."
+
+
+def past_ends(scenario: Scenario, lengths: Mapping[str, float]) -> str:
+    """The message on a piston beyond an end of its cylinder, by lengths of actuators [m]; empty: none is."""
+    starts = {name: scenario.linkage.actuators[name].start_length for name in scenario.valved}
+    messages = (one.past_end(lengths[name] - starts[name], name) for name, one in scenario.valved.items())
+    return next(filter(None, messages), "")
 
 
 ROUNDINGS = 20.0  # of the largest coordinate, that forces of the support show below steps of 2e-5 s

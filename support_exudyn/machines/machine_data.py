@@ -21,7 +21,8 @@ class MachineData:
     as two bodies. stroke: by how much its actuators extend from the start posture on in use [m], None if it is
     not said.
     sources: where the data come from, by what they are of. kind: as the file says. assumed: what was assumed
-    because the file does not say it, in sentences. sourced: numbers of the file that say their range or their
+    because the file does not say it, in sentences. warnings: what in the file is contradictory, in sentences,
+    with how far. sourced: numbers of the file that say their range or their
     source, by their dotted keys, such as "parts.shield.1.mass_kg", in the units of these. strength: bores,
     pressures, stages, eyes and base, for what it must stand; None if the file does not say them.
     """
@@ -35,6 +36,7 @@ class MachineData:
     sources: Mapping[str, str] = field(default_factory=dict)
     kind: str = ""
     assumed: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     sourced: Mapping[str, SourcedNumber] = field(default_factory=dict)
     strength: StrengthData | None = None
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from support_exudyn.mechanics.channels import CONTACT, ChannelDefinition, ChannelDefinitions
 from support_exudyn.mechanics.contact_places import GuideContactPlace, HasValues
-from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.guides import GuideContact
 from support_exudyn.model.linkage import Slide
@@ -38,12 +37,6 @@ class BlockContactPlace(GuideContactPlace):
         """Tell of what load it is."""
         super().__post_init__()
         object.__setattr__(self, "of", f"loads.{self.name}")
-
-    def relative(self, kinetics: Kinetics, position: Matrix) -> tuple[Matrix, Matrix]:
-        """What is across; 0 where the point is so far in front of the face that it is none of a contact."""
-        eccentricity, rate = super().relative(kinetics, position)
-        c, s = np.cos(self.slide.direction), np.sin(self.slide.direction)
-        return (eccentricity if c * eccentricity[1] > s * eccentricity[0] else 0.0 * eccentricity), rate
 
     def depth(self, channels: Mapping[str, HasValues]) -> Series | None:
         """A gap that is negative."""

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage
-from support_exudyn.model.plane_geometry import minus
+from support_exudyn.model.linkage import GROUND, ROUNDING, LinearActuator, Linkage, Slide
+from support_exudyn.model.plane_geometry import minus, rotated
 from user_forces.values.value import Vector2
 
 
@@ -119,6 +119,28 @@ class BodyMotion:
             arm,
             self.velocity[:, i : i + 2],
         )
+
+    def sliding(self, slide: Slide) -> tuple[Series, Series]:
+        """Direction of a guide (n, 2), and speed of its point along the guide (n,) [m/s]."""
+        angle = slide.direction + self.turn(slide.against)
+        along = pairs(np.cos(angle), np.sin(angle))
+        guided, carrier = self.point(slide.body, slide.point), self.point(slide.against, slide.point)
+        return along, (along * (guided.velocity - carrier.velocity)).sum(axis=1)
+
+    def along(self, slide: Slide) -> Series:
+        """Distance of a guided point along its line from where it starts (n,) [m]."""
+        x, y = (self.place(slide.body, slide.point) - self.place(slide.against, slide.point)).T
+        angle = slide.direction + self.turn(slide.against)
+        return np.asarray(np.cos(angle) * x + np.sin(angle) * y)
+
+    def past_ends(self, slide: Slide) -> Series:
+        """Distance of a guided point beyond the nearer end of its line (n,) [m]; 0 between the ends."""
+        along = self.along(slide)
+        if slide.ends is None:
+            return np.zeros_like(along)
+        low, high = sorted(rotated(minus(end, slide.point), -slide.direction)[0] for end in slide.ends)
+        beyond = np.maximum(along - high, low - along)
+        return np.where(beyond > ROUNDING * slide.length, beyond, 0.0)
 
     def lengthening(self, actuator: LinearActuator) -> tuple[Series, Series]:
         """Length of an actuator (n,) [m] and its rate (n,) [m/s]."""

@@ -6,14 +6,13 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion, PointMotion, pairs
-from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
+from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.joint_forces import PinForce
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.model.pins import ClearancePin
 from user_forces.contact import SHALLOWEST, Contact, ContactForce, SlipHistory
 from user_forces.expressions.arrays import as_number, values_of
-from user_forces.normal.law import Impact
 from user_forces.values.value import Vector2
 
 
@@ -34,7 +33,6 @@ class RelativeMotion(NamedTuple):
     """A journal in its bore over time, shape (n,) each, SI, ground's axes.
 
     x, y, vx, vy: journal's centre minus bore's, and its rate. bore_spin, journal_spin: of their bodies.
-    cos_bore, sin_bore: of the angle of the bore's axes.
     """
 
     x: Series
@@ -43,19 +41,16 @@ class RelativeMotion(NamedTuple):
     vy: Series
     bore_spin: Series
     journal_spin: Series
-    cos_bore: Series
-    sin_bore: Series
 
 
 def contact_series(
     motion: BodyMotion, place: PinPlace, pin: ClearancePin, memories: Series | Sequence[PinMemory]
 ) -> ContactSeries:
-    """The contact at every record, with the memory that the pin has there: PinMemory's fields, shape (n, 9)."""
+    """The contact at every record, with the memory that the pin has there: PinMemory's fields, shape (n, 6)."""
     bore, journal = ends(motion, place, pin)
     x, y = (journal.position - bore.position).T
     vx, vy = (journal.velocity - bore.velocity).T
-    c, s = np.cos(bore.angle), np.sin(bore.angle)
-    return series(pin.contact, RelativeMotion(x, y, vx, vy, bore.spin, journal.spin, c, s), memories)
+    return series(pin.contact, RelativeMotion(x, y, vx, vy, bore.spin, journal.spin), memories)
 
 
 def series(contact: Contact, moving: RelativeMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
@@ -120,33 +115,21 @@ def of_depth(function: Callable[[float], float], depth: Series) -> Series:
 
 def _one_by_one(contact: Contact, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
     """The contact's force, record by record."""
-    remembered = np.column_stack([memory[name] for name in PinMemory._fields]).tolist()
+    remembered = np.column_stack([memory[n] for n in ("impact_velocity", "deflection", "slip")]).tolist()
     found = []
-    for row, (x, y, vx, vy, bore_spin, journal_spin, c, s) in zip(
+    for (velocity, deflection, slip), (x, y, vx, vy, bore_spin, journal_spin) in zip(
         remembered, np.column_stack(moving).tolist(), strict=True
     ):
-        kept = PinMemory(row[0] > 0.5, *row[1:])
-        impact = Impact(kept.impact_velocity, kept.inverse_mass.mass(c * x + s * y, c * y - s * x))
-        now = SlipHistory(kept.deflection, kept.slip, 0.0)
-        found.append(contact.force(x, y, vx, vy, bore_spin, journal_spin, impact, now))
+        now = SlipHistory(deflection, slip, 0.0)
+        found.append(contact.force(x, y, vx, vy, bore_spin, journal_spin, velocity, now))
     return ContactForce(*(as_number(np.array(values)) for values in zip(*found, strict=True)))  # type: ignore[arg-type]
 
 
 def _at_once(contact: Contact, moving: RelativeMotion, memory: dict[str, Series]) -> ContactForce:
     """The contact's force, for all records at once."""
-    x, y, vx, vy, bore_spin, journal_spin, c, s = moving
-    inverse_mass = InverseMass(*(as_number(memory[f"inverse_mass_{axes}"]) for axes in ("xx", "xy", "yy")))
-    mass = inverse_mass.mass(as_number(c * x + s * y), as_number(c * y - s * x))  # in the bore's axes
     # the memory has been taken at the same instant: no time has passed since
     now = SlipHistory(as_number(memory["deflection"]), as_number(memory["slip"]), 0.0)
+    x, y, vx, vy, bore_spin, journal_spin = map(as_number, moving)
+    velocity = as_number(memory["impact_velocity"])
     with np.errstate(divide="ignore", invalid="ignore"):  # where the surfaces are apart
-        return contact.force(
-            as_number(x),
-            as_number(y),
-            as_number(vx),
-            as_number(vy),
-            as_number(bore_spin),
-            as_number(journal_spin),
-            Impact(as_number(memory["impact_velocity"]), mass),
-            now,
-        )
+        return contact.force(x, y, vx, vy, bore_spin, journal_spin, velocity, now)

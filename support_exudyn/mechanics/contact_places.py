@@ -62,11 +62,8 @@ class ContactPlace(ABC):
         """Angle [rad] of the bore's axes in the start posture."""
 
     @abstractmethod
-    def relative(self, kinetics: Kinetics, position: Matrix) -> tuple[Matrix, Matrix]:
-        """What counts of the eccentricity (2,) [m], and the matrix of its rate and of the slip (2, n).
-
-        In the ground's axes; with either sign, which effective masses do not depend on.
-        """
+    def rate(self, kinetics: Kinetics, position: Matrix) -> Matrix:
+        """The matrix of the eccentricity's rate and of the slip (2, n), ground's axes, with either sign."""
 
     @abstractmethod
     def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
@@ -110,9 +107,9 @@ class PinContactPlace(ContactPlace):
         """Those of the bore's body."""
         return 0.0 if self.bore == GROUND else linkage.bodies[self.bore].angle
 
-    def relative(self, kinetics: Kinetics, position: Matrix) -> tuple[Matrix, Matrix]:
-        """All of the eccentricity."""
-        return kinetics.relative(position, self.place)
+    def rate(self, kinetics: Kinetics, position: Matrix) -> Matrix:
+        """The rate of the eccentricity."""
+        return kinetics.relative(position, self.place)[1]
 
     def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
         """The journal in its bore."""
@@ -162,16 +159,13 @@ class GuideContactPlace(ContactPlace):
         del linkage
         return self.slide.direction
 
-    def relative(self, kinetics: Kinetics, position: Matrix) -> tuple[Matrix, Matrix]:
-        """What is across; rates are of the corner against what of the guide is there now."""
+    def rate(self, kinetics: Kinetics, position: Matrix) -> Matrix:
+        """The rate of the corner against that point of the guide which is there now."""
         corner, rate = kinetics.point(position, self.journal, self.journal_point)
         origin, origin_rate = kinetics.point(position, self.bore, self.bore_point)
         x, y = corner - origin
-        turned = 0.0 if self.bore == GROUND else position[kinetics.bodies[self.bore].first + 2]
-        angle = self.slide.direction + turned
-        across = np.array([-math.sin(angle), math.cos(angle)])
-        turning = np.outer((-y, x), kinetics.turning(position.size, self.bore))
-        return (across @ (corner - origin)) * across, rate - origin_rate - turning
+        moved: Matrix = rate - origin_rate - np.outer((-y, x), kinetics.turning(position.size, self.bore))
+        return moved
 
     def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
         """The corner between the walls, in the ground's axes."""
@@ -190,8 +184,6 @@ class GuideContactPlace(ContactPlace):
             _dot(rate, across) - origin.spin * x,
             origin.spin,
             corner.spin,
-            np.ones_like(x),
-            still,
         )
         found = series(self.contact, moving, memories)
         force = found.force_x[:, None] * along + found.force_y[:, None] * across

@@ -9,6 +9,7 @@ import numpy as np
 
 from support_exudyn.mechanics.channels import (
     CONTACT,
+    MOTION,
     ChannelDefinition,
     ChannelDefinitions,
     DataNeeds,
@@ -31,9 +32,9 @@ def guide_channels(guide: Guide, name: str, slide: Slide) -> ChannelDefinitions:
 
 @guide_channels.register
 def _of_ideal_guide(guide: IdealGuide, name: str, slide: Slide) -> ChannelDefinitions:
-    del guide, slide
+    del slide
     joints = DataNeeds.JOINTS
-    return {
+    found = {
         f"{name}.force": ChannelDefinition(
             "N",
             "magnitude of the guide's force, across it",
@@ -44,6 +45,14 @@ def _of_ideal_guide(guide: IdealGuide, name: str, slide: Slide) -> ChannelDefini
             "N m", "magnitude of the guide's moment", joints, lambda context: context.run.slides[name][:, 1]
         ),
     }
+    if guide.friction is not None:
+        found[f"{name}.friction_force"] = ChannelDefinition(
+            "N",
+            "of the guide on the body, along its direction",
+            MOTION | joints,
+            lambda context: context.run.friction_forces[name],
+        )
+    return found
 
 
 class _Block:

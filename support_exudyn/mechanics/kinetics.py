@@ -9,10 +9,9 @@ velocities dv and the impulses L under generalised impulses b and a change c of 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
@@ -108,8 +107,9 @@ class Kinetics:
         for slide in self.linkage.slides.values():
             rows += self._guided(position, slide)
         for gear in self.linkage.gears.values():
-            first, second = (self.turning(position.size, body) for body in (gear.first, gear.second))
-            rows.append(second - gear.ratio * first)
+            wheels = gear.first, gear.second, gear.carrier or GROUND
+            first, second, carrier = (self.turning(position.size, body) for body in wheels)
+            rows.append(second - gear.ratio * first - (1.0 - gear.ratio) * carrier)
         return np.array(rows).reshape(-1, position.size)
 
     def _guided(self, position: Matrix, slide: Slide) -> list[Matrix]:
@@ -133,6 +133,16 @@ class Kinetics:
         for name, slide in self.linkage.slides.items():
             owners += [("slides", name) for _ in range(slide.conditions)]
         return [*owners, *(("gears", name) for name in self.linkage.gears)]
+
+    def joint_impulses(self, impulses: Matrix) -> dict[str, float]:
+        """Magnitudes of the impulses [N s] of pins and guides among those of all rows, see `Impulse.joints`."""
+        found: dict[str, float] = {}
+        for (part, name), impulse in zip(self.owners(), impulses.tolist(), strict=True):
+            if part == "pins":
+                found[f"pin.{name}"] = math.hypot(found.get(f"pin.{name}", 0.0), impulse)
+            elif part == "slides":
+                found.setdefault(name, abs(impulse))  # its second row is that of a moment
+        return found
 
     def turning(self, size: int, body: str) -> Matrix:
         """The row that gives a body's angular velocity; that of the ground is none."""
@@ -207,29 +217,13 @@ class Kinetics:
         shares: Matrix = left[:, rank:] / self.counts[:, None]
         return shares
 
-    def pin_inverse_mass(
-        self, position: Matrix, name: str, pressed: Mapping[str, Matrix] = MappingProxyType({})
-    ) -> Matrix:
-        """Answer of a clearance pin's eccentricity to an impulse in it: J dv per impulse (2, 2) [1/kg].
+    def inverse_mass(self, position: Matrix, rate: Matrix) -> Matrix:
+        """Answer of rates to impulses in them, J dv per impulse (k, k) [1/kg], J the rows of the rates (k, n).
 
             M dv + C^T L = J^T,   C dv = 0
 
-        with J the rows that give the rate of the eccentricity. The inverse of n J dv n is the mass that an
-        impact along n feels. Other clearance pins transmit no impulse.
-
-        pressed: normals (2,) of other pins by name. Each adds a row to J, so that the answers, (2 + m, 2 + m),
-        tell what holding it changes; see `pressed.inverse effective masses`.
+        Of a clearance pin's eccentricity the inverse of n J dv n is the mass that an impact along n moves.
         """
-        rates = [self.relative(position, self.linkage.pins[name])[1]]
-        rates += [
-            along[None] @ self.relative(position, self.linkage.pins[other])[1]
-            for other, along in pressed.items()
-        ]
-        return self.inverse_mass(position, rates)
-
-    def inverse_mass(self, position: Matrix, rates: Sequence[Matrix]) -> Matrix:
-        """J dv per impulse (k, k) [1/kg] with rows J of rates, see `pin_inverse_mass`."""
-        rate = np.concatenate(rates)
         answers: Matrix = (rate @ self.respond(position, rate.T, 0.0)[0]).T
         return answers
 

@@ -35,7 +35,7 @@ from user_forces.contact import ContactForce, JournalContact
 from user_forces.friction.ambrosio import Ambrosio
 from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw, TwoCoefficients
-from user_forces.normal.law import Impact, LoadError
+from user_forces.normal.law import LoadError
 
 Matrix = npt.NDArray[np.float64]
 NEAR = 1e-4  # of the depth: distance over which slopes are taken
@@ -152,7 +152,7 @@ def sliding_pin(journal: LoadedJournal, contact: JournalContact, near: Matrix | 
     if near is None:
         near = -journal.load / load * (contact.bearing.clearance + contact.normal.resting_depth(load))
     place = _equilibrium(journal, contact, near)
-    pushes = _Pushes(journal, contact, place)
+    pushes = _Pushes(journal, contact)
     found = pushes.contact_at(place)
     normal = place / np.linalg.norm(place)
     by_place, by_velocity = pushes.slopes(place)
@@ -165,7 +165,7 @@ def sliding_pin(journal: LoadedJournal, contact: JournalContact, near: Matrix | 
         slip=found.slip,
         normal_force=found.normal_force,
         friction_along=found.friction_force * np.array([-normal[1], normal[0]]),
-        mass=pushes.impact.mass,
+        mass=1.0 / float(normal @ journal.inverse_mass @ normal),
         stiffness=-by_place,
         damping=-by_velocity,
         roots=np.linalg.eigvals(free).astype(complex),
@@ -259,14 +259,8 @@ def _between(margin: Callable[[float], float], low: float, high: float) -> float
 class _Pushes:
     """The generalised force of a contact on its journal's two coordinates."""
 
-    def __init__(self, journal: LoadedJournal, contact: JournalContact, place: Matrix) -> None:
-        """place: where it is loaded (2,) [m]; the mass that its law is told is that along the normal there."""
+    def __init__(self, journal: LoadedJournal, contact: JournalContact) -> None:
         self.journal, self.contact = journal, contact
-        self.impact = self._impact(place)
-
-    def _impact(self, place: Matrix) -> Impact:
-        normal = place / np.linalg.norm(place)
-        return Impact(0.0, 1.0 / float(normal @ self.journal.inverse_mass @ normal))
 
     def contact_at(self, place: Matrix, velocity: Matrix = STILL) -> ContactForce:
         """State and force of the contact at a place [m] and a velocity [m/s], (2,) each."""
@@ -274,7 +268,7 @@ class _Pushes:
         bore_spin = journal.bore_spin + float(journal.bore_turn @ velocity)
         journal_spin = journal.journal_spin + float(journal.journal_turn @ velocity)
         (x, y), (vx, vy) = place.tolist(), velocity.tolist()
-        return self.contact.force(x, y, vx, vy, bore_spin, journal_spin, self.impact)
+        return self.contact.force(x, y, vx, vy, bore_spin, journal_spin, 0.0)
 
     def at(self, place: Matrix, velocity: Matrix = STILL) -> Matrix:
         """Q (2,) [N]."""
@@ -297,8 +291,8 @@ class _Pushes:
 def _equilibrium(journal: LoadedJournal, contact: JournalContact, near: Matrix) -> Matrix:
     """The place (2,) [m] with Q = R, by Newton's method from one near it; steps stay inside the contact."""
     place, load = near, float(np.linalg.norm(journal.load))
+    pushes = _Pushes(journal, contact)
     for _ in range(ITERATIONS):
-        pushes = _Pushes(journal, contact, place)
         depth = contact.bearing.depth(float(np.linalg.norm(place)))
         missing = journal.load - pushes.at(place)
         if np.linalg.norm(missing) <= CLOSED * load:

@@ -23,9 +23,10 @@ from support_exudyn.mechanics.pin_channels import pin_channels
 from support_exudyn.mechanics.trajectory import CylinderSeries, Series
 from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
-from support_exudyn.model.linkage import Body, Linkage
+from support_exudyn.model.linkage import Body, Linkage, TracePoint
 from support_exudyn.model.loads.load import ActingLoad, LoadChannel
 from support_exudyn.model.pins import IdealPin, Pin
+from user_forces.values.value import InputError
 
 
 def channel_definitions(
@@ -51,34 +52,37 @@ def channel_definitions(
         legs: actuators on oil that have elements, by name. pump: whether they share one.
         blocks: names of those that fall on the machine.
     """
-    found = {"time": ChannelDefinition("s", "time", DataNeeds.NOTHING, lambda context: context.run.time)}
-    for n, (name, body) in enumerate(linkage.bodies.items()):
-        found |= _of_body(name, body, 3 * n)
-    for name in linkage.points:
-        found |= _of_point(name)
-    for name in linkage.actuators:
-        found |= _of_actuator(name, name in oil)
-        if name in cylinders:
-            found |= _of_cylinder(name)
-    found |= leg_channels(legs, pump)
-    for name in linkage.cranks:
-        found |= _of_crank(name)
-    for name, slide in linkage.slides.items():
-        found |= guide_channels(guides.get(name, IdealGuide()), name, slide)
-    for name in linkage.gears:
-        found |= _of_gear(name)
-    for name in linkage.pins:
-        found |= pin_channels(pins.get(name, IdealPin()), name)
-    for name, load in loads.items():
-        found |= _of_load(name, load)
-    for name in blocks:
-        found |= block_channels(name)
     compliant = not all(pin.holds for pin in pins.values()) or bool(guides) or bool(blocks)
-    return found | _of_energy(
-        _stored(compliant, bool(oil), bool(loads)),
-        bool(loads),
-        bool(cylinders) or bool(legs),
-    )
+    stored = _stored(compliant, bool(oil), bool(loads))
+    parts = [
+        {"time": ChannelDefinition("s", "time", DataNeeds.NOTHING, lambda context: context.run.time)},
+        *(_of_body(name, body, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())),
+        *map(_of_point, linkage.points),
+        *(_of_actuator(name, name in oil) for name in linkage.actuators),
+        *map(_of_cylinder, cylinders),
+        leg_channels(legs, pump),
+        *map(_of_crank, linkage.cranks),
+        *(guide_channels(guides.get(name, IdealGuide()), name, one) for name, one in linkage.slides.items()),
+        *map(_of_gear, linkage.gears),
+        *(pin_channels(pins.get(name, IdealPin()), name) for name in linkage.pins),
+        *(_of_load(name, load) for name, load in loads.items()),
+        *map(block_channels, blocks),
+        _of_energy(stored, bool(loads), bool(cylinders) or bool(legs)),
+    ]
+    # a traced centre of mass may have the name of its body, as its place is the same
+    centres = {name for name, one in linkage.points.items() if _is_centre(linkage, name, one)}
+    same = {f"{name}.{axis}" for name in centres for axis in "xy"}
+    found: ChannelDefinitions = {}
+    for part in parts:
+        if twice := (found.keys() & part.keys()) - same:
+            raise InputError(f"{min(twice)}: two parts have a channel of this name; allowed: names that differ")
+        found |= part
+    return found
+
+
+def _is_centre(linkage: Linkage, name: str, point: TracePoint) -> bool:
+    """Whether a traced point is the centre of mass of the body of the same name."""
+    return point.body == name and point.point == linkage.bodies[name].centre
 
 
 def _of_body(name: str, body: Body, i: int) -> ChannelDefinitions:

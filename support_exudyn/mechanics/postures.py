@@ -49,7 +49,10 @@ def missing(
         turned = carrier - turn(closed, position, slide.body)
         short += [math.sin(angle) * x - math.cos(angle) * y, turned][: slide.conditions]
     for gear in linkage.gears.values():
-        short.append(gear.ratio * turn(closed, position, gear.first) - turn(closed, position, gear.second))
+        first, second, carrier = (
+            turn(closed, position, body) for body in (gear.first, gear.second, gear.carrier or GROUND)
+        )
+        short.append(gear.ratio * (first - carrier) - (second - carrier))
     return np.array(short)
 
 
@@ -111,6 +114,7 @@ def laid_out(closed: Kinetics, position: Matrix) -> Linkage:
                 one,
                 point=at(one.body, one.point),
                 direction=one.direction + turn(closed, position, one.against),
+                ends=None if one.ends is None else (at(one.against, one.ends[0]), at(one.against, one.ends[1])),
             )
             for name, one in linkage.slides.items()
         },

@@ -91,6 +91,11 @@ class _Rows:
             row[:, self.motion.first(body) + 2] = 1.0
         return row
 
+    def gear(self, gear: Gear) -> Series:
+        """The rate of the second wheel less the ratio of that of the first, both against the carrier."""
+        first, second, carrier = map(self.turn, (gear.first, gear.second, gear.carrier or GROUND))
+        return second - gear.ratio * first - (1.0 - gear.ratio) * carrier
+
     def pin(self, place: PinPlace) -> list[Series]:
         """The rates of a pin's centre on its second body against that on its first, forward and up."""
         return [
@@ -136,7 +141,7 @@ def matrix(motion: BodyMotion, held: HeldJoints) -> Series:
     rows += [of.actuator(actuator) for actuator in held.actuators]
     rows += [of.turn(crank.body) for crank in held.cranks]
     rows += [row for slide in held.slides for row in of.slide(slide)]
-    rows += [of.turn(gear.second) - gear.ratio * of.turn(gear.first) for gear in held.gears]
+    rows += [of.gear(gear) for gear in held.gears]
     return np.stack(rows, axis=1) if rows else np.zeros((len(motion.position), 0, motion.position.shape[1]))
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.time_statistics import TimeStatistics
 
 Series = npt.NDArray[np.float64]
 
@@ -106,6 +107,7 @@ class Trajectory:
     time (n,) [s]. position, velocity, acceleration (n, 3 b): x, y, turn of each body in the order of
     `Linkage.bodies`, positions from those at the start. ideal_pins: force of the first body on the second
     (n, 2) [N], by name. friction_moments: of ideal pins with friction, on the second body (n,) [N m].
+    friction_forces: of ideal guides with friction, on the body along the guide (n,) [N].
     contacts: clearance pins by name. actuators: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all actuators (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
@@ -127,6 +129,7 @@ class Trajectory:
     damping_loss: Series
     friction_loss: Series
     friction_moments: Mapping[str, Series] = field(default_factory=dict)
+    friction_forces: Mapping[str, Series] = field(default_factory=dict)
     loads: Mapping[str, LoadSeries] = field(default_factory=dict)
     cylinders: Mapping[str, CylinderSeries] = field(default_factory=dict)
     legs: Mapping[str, LegSeries] = field(default_factory=dict)
@@ -176,13 +179,15 @@ class Impulse:
     """A jump of velocities at an instant.
 
     time: [s]. actuators: impulse of each rigid actuator [N s], positive in compression. energy: given to the
-    bodies by it [J]. cranks: angular impulse on each crank [N m s].
+    bodies by it [J]. cranks: angular impulse on each crank [N m s]. joints: magnitudes of the impulses of ideal
+    pins and guides [N s], by what the name of their force begins with, such as pin.rear_base.
     """
 
     time: float
     actuators: dict[str, float]
     energy: float
     cranks: dict[str, float] = field(default_factory=dict)
+    joints: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -192,7 +197,8 @@ class Outcome:
     trajectory: at the records. onsets: for each clearance pin the beginnings of contact. largest_force: for
     each clearance pin the largest force [N] at any time. largest_force_time: when that is [s]; in the redundant
     formulation the end of the step that has it. impulses: where the speed of rigid actuators or cranks jumped.
-    counts: what the solver did. oil_events: what happened in each hydraulic leg with elements.
+    counts: what the solver did. oil_events: what happened in each hydraulic leg with elements. statistics: of
+    all channels that the scenario asks for, from every step.
     """
 
     trajectory: Trajectory | ObservedRun
@@ -202,3 +208,4 @@ class Outcome:
     impulses: tuple[Impulse, ...]
     counts: Counts
     oil_events: Mapping[str, tuple[OilEvent, ...]] = field(default_factory=dict)
+    statistics: TimeStatistics | None = None

@@ -13,6 +13,7 @@ Upper is the side to which a quarter turn counterclockwise leads from the direct
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -25,7 +26,6 @@ from user_forces.contact import FaceContact, SlotContact
 from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.materials import STEEL, STEEL_35CRMO, Material, plane_contact_stiffness
-from user_forces.normal.damping_speed import DampingSpeed
 from user_forces.normal.exact import Exact
 from user_forces.normal.law import NormalLaw
 from user_forces.slot import Slot
@@ -78,12 +78,81 @@ class Guide(Value, ABC):
 
 @value
 class IdealGuide(Guide):
-    """A point stays on the line, and a block keeps its angle: constraints, whose multipliers are the forces."""
+    """A point stays on the line, and a block keeps its angle: constraints, whose multipliers are the forces.
+
+    With friction the guide's force F across and its moment M press the ends of the block on the walls by N1 and
+    N2, and each end rubs with law(slip, N) at its wall:
+
+        N1 + N2 = F,    (N1 - N2) length / 2 = M - the moment of both friction forces
+
+    Without a block F alone presses, and friction by the moment is left out. A pin in a slot rubs at its radius.
+
+    Arguments:
+        friction: law of the friction along the guide; None: none at all.
+        block: length and height of the block, in whose middle the guide's point is [m]; with friction only.
+        pin_radius: of a pin in place of a block [m]; with friction only.
+    """
+
+    friction: FrictionLaw | None = None
+    block: Metres[tuple[Positive, Positive]] | None = None
+    pin_radius: Metres[Positive] | None = None
+
+    @model_validator(mode="after")
+    def _shape_goes_with_friction(self) -> IdealGuide:
+        if self.block is not None and self.pin_radius is not None:
+            raise ValueError(f"block = {self.block}, pin_radius = {self.pin_radius}: allowed: one of them")
+        if self.friction is None and (self.block is not None or self.pin_radius is not None):
+            raise ValueError("friction = None: a block or a pin_radius serves friction only; allowed: a law")
+        return self
 
     @property
     def holds(self) -> bool:
         """An ideal guide holds its body."""
         return True
+
+    def refused_in_space(self) -> Refusal | None:
+        """Friction is of the plane alone."""
+        return None if self.friction is None else Refusal("", "IdealGuide with friction", "IdealGuide without")
+
+    def misfit(self, turns: bool) -> str:
+        """A pin needs a slide that lets turn, a block one that does not."""
+        return _misfit(self.block, self.pin_radius, turns)
+
+    def lever(self, across: float) -> float:
+        """Arm [m] of the friction force about the guide's point, for a force of the guide across [N]."""
+        return math.copysign(self.pin_radius, across) if self.pin_radius is not None else 0.0
+
+    def friction_force(self, across: float, moment: float, slip: float, deflection: float = 0.0) -> float:
+        """Friction force on the body [N] along the guide.
+
+        Arguments:
+            across, moment: of the guide on the body [N], [N m].
+            slip: of the body on the guide [m/s]. deflection: state of the law [m].
+        """
+        law = self.friction
+        if law is None:
+            return 0.0
+        if self.block is None:
+            return float(law(slip, abs(across), deflection))
+        half_length, half_height = 0.5 * self.block[0], 0.5 * self.block[1]
+        larger = max(abs(across), abs(moment) / half_length)
+        ratio = law(slip, larger, deflection) / larger if larger > 0.0 else 0.0
+        apart = (moment - ratio * across * half_height) / half_length
+        ends = (0.5 * abs(across + apart), 0.5 * abs(across - apart))
+        return float(sum(law(slip, end, deflection) for end in ends))
+
+    def losses(self) -> dict[str, object]:
+        """An ideal guide loses energy by friction."""
+        return {} if self.friction is None else {"friction_loss": self.friction}
+
+
+def _misfit(block: object, pin_radius: object, turns: bool) -> str:
+    """What does not fit a slide whose body may turn, or not, and what would; empty if nothing."""
+    if turns and block is not None:
+        return "has a block; allowed: pin_radius, for its body may turn"
+    if not turns and pin_radius is not None:
+        return "has a pin_radius; allowed: block, for its body does not turn"
+    return ""
 
 
 @value
@@ -127,7 +196,7 @@ class ClearanceGuide(Guide):
         restitution: float | None = None,
         friction: float | FrictionLaw = 0.0,
         law: type[NormalLaw] = Exact,
-        damping_speed: DampingSpeed | None = None,
+        rest_velocity: float | None = None,
         stiffness: float | None = None,
         corner_radius: float | None = None,
         wall_material: Material = STEEL,
@@ -143,7 +212,7 @@ class ClearanceGuide(Guide):
             restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
             friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law.
             law: class of the normal force, one that needs nothing but a stiffness and a restitution.
-            damping_speed: what the damping of the law is scaled with; the law's own default if None.
+            rest_velocity: smallest velocity that the damping is scaled with [m/s], > 0; the law's own if None.
             stiffness: K of K depth^1.5 [N/m^1.5], > 0; by default Hertz's of a sphere on a plane.
             corner_radius: of that sphere [m], > 0; by default the pin's, or a tenth of the block's height.
             wall_material, block_material: for the stiffness.
@@ -168,7 +237,7 @@ class ClearanceGuide(Guide):
         given = {"stiffness": stiffness} if "stiffness" in fields_of(law) else {}
         return cls(
             gaps=both,
-            normal=law_with(law, given, restitution, damping_speed),
+            normal=law_with(law, given, restitution, rest_velocity),
             friction=friction_of(friction),
             block=block,
             pin_radius=pin_radius,
@@ -190,10 +259,7 @@ class ClearanceGuide(Guide):
 
     def misfit(self, turns: bool) -> str:
         """A pin needs a slide that lets turn, a block one that does not."""
-        if turns == (self.pin_radius is not None):
-            return ""
-        asked = "pin_radius, for its body may turn" if turns else "block, for its body does not turn"
-        return f"has a {'block' if turns else 'pin_radius'}; allowed: {asked}"
+        return _misfit(self.block, self.pin_radius, turns)
 
     def contacts(self) -> Mapping[str, GuideContact]:
         """The corners of the block, or the pin, by name."""

@@ -236,6 +236,19 @@ class HydraulicCylinder(HydraulicLeg):
                 f"{self.tank_pressure} Pa"
             )
 
+    def past_end(self, extension: float, name: str) -> str:
+        """The message that an extension since the start [m] is beyond an end of the cylinder; empty: it is not.
+
+        A second stage has stops of its own.
+        """
+        low, high = -self.oil_length, self.rod_side_length
+        if self.second_stage is not None or low <= extension <= high:
+            return ""
+        return (
+            f"{name} is {'drawn in' if extension < low else 'extended'} by {abs(extension):.4g} m, beyond its "
+            f"cylinder's end; allowed: {low:.4g} to {high:.4g} m from the start"
+        )
+
     def check_elements(self, where: str) -> None:
         """Raise InputError if elements do not go together; where: path of the cylinder."""
         super().check_elements(where)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Annotated
 
 from pydantic import Field, model_validator
@@ -198,6 +198,7 @@ class Slide(Value):
         direction: of the line [rad], from +x, start posture.
         against: name of the body that carries the line, which moves and turns with it; or "ground".
         turns: whether the body may turn about the point, as a pin does in a slot; a block does not.
+        ends: of the line, start posture [m]; None: not known. A pin does not leave its slot at an end.
     """
 
     body: str
@@ -205,6 +206,12 @@ class Slide(Value):
     direction: Radians[Real] = 0.0
     against: str = GROUND
     turns: Annotated[bool, Field(strict=True)] = False
+    ends: tuple[Vector2, Vector2] | None = None
+
+    @property
+    def length(self) -> float:
+        """Distance of the ends of the line [m]; infinite where they are not known."""
+        return math.inf if self.ends is None else math.dist(*self.ends)
 
     @property
     def conditions(self) -> int:
@@ -216,16 +223,21 @@ class Slide(Value):
 class Gear(Value):
     """A pair of gears, or a belt or parallel crank: the second body turns in proportion to the first.
 
-        turn of the second body = ratio * turn of the first, both from the start on and against the ground
+        turn of the second body = ratio * turn of the first, both from the start on and against the carrier
+
+    That is Willis' equation. The gear acts on both wheels by moments, see `Linkage.pitch_radius`.
 
     Arguments:
         first, second: names of the bodies, which pins or guides hold in their places.
         ratio: [-], not 0; negative for gears that mesh outside, 1 for equal angles.
+        carrier: name of the body that carries both axes, or "ground"; None: a linkage takes the body on which
+            its pins hold both wheels.
     """
 
     first: str
     second: str
     ratio: Real = 1.0
+    carrier: str | None = None
 
     @model_validator(mode="after")
     def _turns_both(self) -> Gear:
@@ -298,6 +310,7 @@ class Linkage(Value):
         used += [(f"actuators.{k}", b) for k, c in self.actuators.items() for b in (c.foot, c.head)]
         used += [(f"slides.{k}.against", s.against) for k, s in self.slides.items()]
         used += [(f"points.{k}", p.body) for k, p in self.points.items()]
+        used += [(f"gears.{k}.carrier", g.carrier) for k, g in self.gears.items() if g.carrier is not None]
         moving = [(f"cranks.{k}", c.body) for k, c in self.cranks.items()]
         moving += [(f"slides.{k}", s.body) for k, s in self.slides.items()]
         moving += [(f"gears.{k}", body) for k, gear in self.gears.items() for body in (gear.first, gear.second)]
@@ -311,4 +324,50 @@ class Linkage(Value):
         for name, gear in self.gears.items():
             if gear.first == gear.second:
                 raise ValueError(f"gears.{name} = {gear.first!r} twice: allowed: two different bodies")
+            if gear.carrier in (gear.first, gear.second):
+                raise ValueError(f"gears.{name}.carrier = {gear.carrier!r}: is a wheel; allowed: another body")
+        found = {name: replace(one, carrier=self._carrier(name, one)) for name, one in self.gears.items()}
+        object.__setattr__(self, "gears", found)
         return self
+
+    def _axes(self, gear: Gear) -> dict[str, float]:
+        """The bodies on which pins or guides hold both wheels, each with the distance of the axes [m]."""
+        ends = [((p.first, p.first_point), (p.second, p.second_point)) for p in self.pins.values()]
+        ends += [((s.body, s.point), (s.against, s.point)) for s in self.slides.values()]
+        held = {}
+        for wheel in (gear.first, gear.second):
+            groups = [{wheel_end} for pair in ends for wheel_end in pair if wheel_end[0] == wheel]
+            for group in groups:  # pins in one place have one axis
+                while more := {end for pair in ends if group & {*pair} for end in pair} - group:
+                    group |= more
+            held[wheel] = {body: point for group in groups for body, point in group if body != wheel}
+        first, second = held.values()
+        return {
+            body: math.dist(second[body], point)
+            for body, point in first.items()
+            if body in second and body not in held and second[body] != point
+        }
+
+    def _carrier(self, name: str, gear: Gear) -> str:
+        """The body against which a gear turns. Raises ValueError if its joints do not say it."""
+        if gear.carrier is not None:
+            return gear.carrier
+        axes = self._axes(gear)
+        if gear.ratio == 1.0 or GROUND in axes:
+            return GROUND
+        if len(axes) != 1:
+            raise ValueError(
+                f"gears.{name}: {'several bodies carry' if axes else 'no body carries'} the axes of both "
+                f"{gear.first} and {gear.second}, so their turns have no reference; allowed: carrier = one of "
+                f"{', '.join(axes or (GROUND, *self.bodies))}"
+            )
+        return next(iter(axes))
+
+    def pitch_radius(self, gear: Gear) -> float | None:
+        """The pitch radius of a gear's second wheel [m]; None of a belt, or where no pins give the axes.
+
+        The tooth force is the gear's moment over this radius, along the pitch line, and over the cosine of the
+        pressure angle along the line of action.
+        """
+        distance = self._axes(gear).get(gear.carrier or GROUND)
+        return None if distance is None or gear.ratio == 1.0 else distance / abs(1.0 - gear.ratio)

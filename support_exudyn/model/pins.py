@@ -25,9 +25,7 @@ from user_forces.materials import (
     external_contact_stiffness,
     internal_contact_stiffness,
 )
-from user_forces.normal.damping_speed import DampingSpeed
 from user_forces.normal.exact import Exact
-from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
 from user_forces.normal.law import NormalLaw
 from user_forces.normal.pin_in_bore import PinInBore, lends_damping
 from user_forces.values.units import Metres
@@ -81,7 +79,7 @@ class IdealPin(Pin):
     With friction a moment radius * law(radius * spin, pin force) acts against the turning of the two bodies.
 
     Arguments:
-        friction: a law without a state; None: none at all.
+        friction: law of the friction in the pin; None: none at all.
         radius: of the pin's surface [m], > 0; given together with friction.
     """
 
@@ -94,8 +92,6 @@ class IdealPin(Pin):
             raise ValueError(
                 f"friction = {self.friction}, radius = {self.radius}: allowed: both, or None for both"
             )
-        if self.friction is not None and self.friction.has_state:
-            raise ValueError(f"friction = {type(self.friction).__name__}: allowed: laws without a state")
         return self
 
     @property
@@ -143,7 +139,7 @@ class ClearancePin(Pin):
         restitution: float | None = None,
         friction: float | FrictionLaw = 0.0,
         law: type[NormalLaw] | None = None,
-        damping_speed: DampingSpeed | None = None,
+        rest_velocity: float | None = None,
         stiffness: Stiffness | float | None = None,
         length: float | None = None,
         backing_stiffness: float | None = None,
@@ -161,9 +157,9 @@ class ClearancePin(Pin):
             bore_radius: [m], > clearance; `load_machine(NAME).bore_radii` has those of a machine.
             restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
             friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law.
-            law: class of the normal force, one that needs nothing but a stiffness and a restitution; `Exact` on
-                cylinders, `LankaraniNikravesh` else.
-            damping_speed: what the damping of the law is scaled with; the law's own default if None.
+            law: class of the normal force, one that needs nothing but a stiffness and a restitution; the
+                default `Exact` delivers the restitution.
+            rest_velocity: smallest velocity that the damping is scaled with [m/s], > 0; the law's own if None.
             stiffness: "cylinders": the pin along its length, `PinInBore`; the rest are K of K depth^1.5:
                 "paper": Eq. 5 of the paper, two spheres; "internal": a sphere in a hollow sphere; or a number
                 [N/m^1.5], > 0. By default "cylinders" with a length and a law that allows it, else "paper".
@@ -183,7 +179,7 @@ class ClearancePin(Pin):
         normal: NormalLaw
         if stiffness == CYLINDERS:
             normal = _on_cylinders(
-                bearing, law or Exact, length, backing_stiffness, restitution, damping_speed, materials
+                bearing, law or Exact, length, backing_stiffness, restitution, rest_velocity, materials
             )
         elif backing_stiffness is not None:
             raise InputError(
@@ -191,8 +187,7 @@ class ClearancePin(Pin):
                 "allowed: to leave it out"
             )
         else:
-            chosen = law or LankaraniNikravesh
-            normal = _of_power(bearing, chosen, stiffness, restitution, damping_speed, materials)
+            normal = _of_power(bearing, law or Exact, stiffness, restitution, rest_velocity, materials)
         return cls(
             contact=JournalContact(bearing=bearing, normal=normal, friction=friction_of(friction)),
             bore=bore,
@@ -240,7 +235,7 @@ def _on_cylinders(
     length: float | None,
     backing: float | None,
     restitution: float | None,
-    damping_speed: DampingSpeed | None,
+    rest_velocity: float | None,
     materials: tuple[Material, Material],
 ) -> PinInBore:
     """The pin along its length, with the damping of a law."""
@@ -254,7 +249,7 @@ def _on_cylinders(
         )
     if backing is None:
         backing = pin_stiffness(bearing.journal_radius, length, materials[1])
-    speed = {} if damping_speed is None else {"damping_speed": damping_speed}
+    own = {} if rest_velocity is None else {"rest_velocity": rest_velocity}
     return PinInBore(
         bearing=bearing,
         length=length,
@@ -262,7 +257,7 @@ def _on_cylinders(
         restitution=USUAL_RESTITUTION if restitution is None else restitution,
         backing_stiffness=None if backing == math.inf else backing,
         damping=law.__name__,
-        **speed,
+        **own,
     )
 
 
@@ -271,7 +266,7 @@ def _of_power(
     law: type[NormalLaw],
     stiffness: str | float | None,
     restitution: float | None,
-    damping_speed: DampingSpeed | None,
+    rest_velocity: float | None,
     materials: tuple[Material, Material],
 ) -> NormalLaw:
     """A law of a stiffness and a restitution at most."""
@@ -287,7 +282,7 @@ def _of_power(
             hint = "; what was 'external' is called 'paper'" if stiffness == "external" else ""
             raise InputError(f"stiffness = {short(stiffness)}: allowed: {allowed} or a number, > 0{hint}")
         given["stiffness"] = HERTZ[stiffness](bearing, *materials)
-    normal = law_with(law, given, restitution, damping_speed)
+    normal = law_with(law, given, restitution, rest_velocity)
     if named and getattr(normal, "exponent", HERTZ_EXPONENT) != HERTZ_EXPONENT:
         raise InputError(
             f"stiffness = {stiffness!r}: is of K depth^{HERTZ_EXPONENT}, and {law.__name__} is not; "

@@ -7,7 +7,6 @@ from typing import Any
 from user_forces.friction.ambrosio import Ambrosio
 from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
-from user_forces.normal.damping_speed import DampingSpeed
 from user_forces.normal.law import NormalLaw
 from user_forces.values.value import InputError, short
 
@@ -25,14 +24,14 @@ def law_with(
     law: type[NormalLaw],
     given: dict[str, Any],
     restitution: float | None,
-    damping_speed: DampingSpeed | None,
+    rest_velocity: float | None,
 ) -> NormalLaw:
-    """A law with some fields, and with restitution and damping speed if it has them.
+    """A law with some fields, and with restitution and rest velocity if it has them.
 
     Raises InputError if one is asked for that it has not.
     """
     has = fields_of(law)
-    for name, asked in (("restitution", restitution), ("damping_speed", damping_speed)):
+    for name, asked in (("restitution", restitution), ("rest_velocity", rest_velocity)):
         if asked is not None and name not in has:
             raise InputError(f"{name} = {short(asked)}: {law.__name__} has none; allowed: None with this law")
         if asked is not None:

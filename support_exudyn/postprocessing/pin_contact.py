@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from support_exudyn.files.own_modules import with_known_laws
 from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.scenario.pin_pressure import PressedPin, pressed_pin
 from support_exudyn.simulation.result import Result
@@ -25,7 +26,7 @@ DIGITS = 3  # of numbers of a theory that neglects edges, friction and roughness
 
 def hardest_pressed(result: Result) -> list[PressedPin]:
     """Every clearance pin of a run under its largest force at any step."""
-    pins, forces = result.scenario.clearance_pins, result.largest_force
+    pins, forces = with_known_laws(result.scenario.clearance_pins), result.largest_force
     return [
         pressed_pin(result.scenario.machine, name, pin, forces[name])
         for name, pin in pins.items()

@@ -4,11 +4,13 @@ from collections.abc import Mapping, Sequence
 
 from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.impulses import NO_PEAK
 from support_exudyn.simulation.result import Result
 
 LARGEST = ".largest_force"  # of a clearance pin, at any step of the run
 LARGEST_TIME = f"{LARGEST}_time"
 AT_ANY_STEP = (LARGEST, LARGEST_TIME)
+IMPULSE = ".force.impulse_"  # in place of a peak that has no limit
 TIME = "_time"  # of largest values, which may jump from peak to peak
 VAGUE = 0.1  # share of a window; a time with a larger error is one of several alike peaks
 AT_RECORDS = (".force.largest", ".force.largest_time")  # the same of the records only
@@ -95,6 +97,8 @@ def _is_vague(name: str, number: Estimate, run: Result, after: float, until: flo
 
 def label(name: str) -> str:
     """The name of a number with what it is taken from, where a clearance pin has two of a kind."""
+    if IMPULSE in name:
+        return f"{name}, {NO_PEAK.partition(', ')[2]}"
     if name.endswith(AT_ANY_STEP):
         return f"{name}, any step of the run"
     if name.startswith("pin.") and name.endswith(AT_RECORDS):

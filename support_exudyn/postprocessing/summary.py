@@ -8,13 +8,14 @@ from typing import Any
 from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, Formulation, formulation
 from support_exudyn.machines.check.freedoms import shared
 from support_exudyn.model.pins import ClearancePin, Pin
-from support_exudyn.postprocessing.figures.selection import inside
+from support_exudyn.postprocessing.contact_description import contact_lines
 from support_exudyn.postprocessing.figures.units import readable, said
 from support_exudyn.postprocessing.shown_numbers import AT_ANY_STEP, label, shown
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.horizon import agreed
+from support_exudyn.simulation.impulses import impulses_of
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.reported_numbers import FORCE, measures
 from support_exudyn.simulation.result import Result
@@ -38,7 +39,7 @@ def what_is_run(scenario: Scenario) -> list[Row]:
     space = "in the plane" if scenario.dimensions == 2 else "in space"
     rows: list[Row] = [
         ("machine", f"{type(scenario.machine).__name__}, {space}"),
-        ("duration", f"{scenario.duration:g} s, recorded every {said(scenario.record_period, 's')}"),
+        ("duration", f"{scenario.duration:g} s, recorded every {said(scenario.recorded_every, 's')}"),
         ("start", f"{scenario.start}, gravity {scenario.gravity[0]:g}, {scenario.gravity[1]:g} m/s²"),
     ]
     others = [name for name in scenario.linkage.pins if name not in scenario.pins]
@@ -76,7 +77,10 @@ def how(result: Result) -> list[Row]:
     steps = f"tolerance {scenario.solver.tolerance:g}"
     if not scenario.chooses_steps:
         steps = f"steps of {said(scenario.step, 's')} and less, {scenario.solver.impact_steps} to an impact"
+    contacts, warnings = contact_lines(scenario), result.warnings
     return [
+        *([("contact", "\n".join(contacts))] if contacts else []),
+        *([("warning", "\n".join(warnings))] if warnings else []),
         ("formulation", f"{_formulation(result)}; {steps}"),
         ("accuracy", accuracy),
         *(("not determined", sentence) for sentence in shared(scenario.held) if scenario.dimensions == 2),
@@ -151,7 +155,7 @@ def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
 
     Raises InputError if no record lies between.
     """
-    inside(result, after, until, fewest=1)
+    result.check_window(after, until)
     found: dict[str, Estimate] = {}
     if result.coarser is not None:
         found |= result.numbers(after, until)
@@ -229,7 +233,7 @@ def force_of_impact(result: Result, pin: str, n: int) -> float | None:
 def of_channels(result: Result, names: Iterable[str], after: float, until: float) -> list[Row]:
     """Channels between two times [s]: name, unit, least, mean and greatest value with their signs, meaning.
 
-    Raises InputError if no record lies between.
+    Raises InputError if the run does not last between them.
     """
     rows: list[Row] = []
     for name in names:
@@ -237,22 +241,24 @@ def of_channels(result: Result, names: Iterable[str], after: float, until: float
         values = [found[word] for word in ("min", "mean", "max")]
         size = max(map(abs, values))
         unit = readable(found["unit"], size)
-        told = (
+        least, mean, greatest = (
             f"{unit.scale * (value if abs(value) > ROUNDING * size else 0.0):.{DIGITS}g}" for value in values
         )
-        rows.append((name, unit.name, *told, found["meaning"]))
+        if impulses_of(result, name, after, until):
+            least = greatest = "impulse"  # which has no finite peak
+        rows.append((name, unit.name, least, mean, greatest, found["meaning"]))
     return rows
 
 
 def extent(result: Result, name: str, after: float, until: float) -> dict[str, Any]:
-    """Unit, meaning, and min, mean and max in SI of a channel between two times [s].
+    """Unit, meaning, and min, mean and max in SI of a channel between two times [s], from every step.
 
-    Raises InputError if no record lies between.
+    Raises InputError if the run does not last between them.
     """
     channel = result.channels[name]
-    values = channel.values[inside(result, after, until, fewest=1)]
-    extreme = {"min": values.min(), "mean": values.mean(), "max": values.max()}
-    return {"unit": channel.unit, "meaning": channel.meaning} | {k: float(v) for k, v in extreme.items()}
+    window = result.window(name, after, until)
+    extreme = {"min": window.least[0], "mean": window.mean, "max": window.greatest[0]}
+    return {"unit": channel.unit, "meaning": channel.meaning} | extreme
 
 
 def telling(result: Result) -> list[str]:

@@ -40,7 +40,9 @@ def evaluated(scenario: Scenario, run: Trajectory | ObservedRun) -> EvaluationCo
 def channels(scenario: Scenario, run: Trajectory | ObservedRun | EvaluationContext) -> dict[str, Channel]:
     """The channels that a scenario asks for, by name; all if the result checks look at all of them."""
     context = run if isinstance(run, EvaluationContext) else evaluated(scenario, run)
-    channel_definitions = scenario.channel_definitions if scenario.solver.result_checks else _asked(scenario)
+    channel_definitions = (
+        scenario.channel_definitions if scenario.solver.result_checks else asked_definitions(scenario)
+    )
     return {
         name: Channel(definition.values(context), definition.unit, definition.meaning)
         for name, definition in channel_definitions.items()
@@ -49,16 +51,19 @@ def channels(scenario: Scenario, run: Trajectory | ObservedRun | EvaluationConte
 
 def asked(scenario: Scenario, found: Mapping[str, Channel]) -> dict[str, Channel]:
     """Those of the channels found that a scenario asks for."""
-    return {name: found[name] for name in _asked(scenario)}
+    return {name: found[name] for name in asked_definitions(scenario)}
 
 
 def needs(scenario: Scenario) -> DataNeeds:
     """What of a run its channels are computed from: everything if results are checked."""
     if scenario.solver.result_checks or scenario.channels == ALL_CHANNELS:
         return EVERYTHING
-    return reduce(or_, (definition.needs for definition in _asked(scenario).values()), DataNeeds.NOTHING)
+    return reduce(
+        or_, (definition.needs for definition in asked_definitions(scenario).values()), DataNeeds.NOTHING
+    )
 
 
-def _asked(scenario: Scenario) -> dict[str, ChannelDefinition]:
+def asked_definitions(scenario: Scenario) -> dict[str, ChannelDefinition]:
+    """The channels that a scenario asks for, by name."""
     known = scenario.channel_definitions
     return {name: known[name] for name in chosen(known, scenario.channels)}

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cached_property
 
 from pydantic import field_validator, model_validator
 
 from support_exudyn.scenario.presentation import presenter
+from support_exudyn.scenario.record_period import default_period
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL, ScenarioData
 from support_exudyn.scenario.validation import check
 from user_forces.values.value import InputError, short, value
@@ -42,6 +44,11 @@ class Scenario(ScenarioData):
         """What is run, for notebooks."""
         return presenter().page_of_scenario(self)
 
+    @cached_property
+    def recorded_every(self) -> float:
+        """Time between records [s]: that which is given, or that which follows the machine."""
+        return self.record_period or default_period(self)
+
     def refined(self, factor: float = 2) -> Scenario:
         """The run with all steps, also those of impacts, so many times shorter.
 
@@ -66,5 +73,5 @@ class Scenario(ScenarioData):
         if self.dimensions == 3:
             finer = finer.with_more_sections(factor)
         # steps never reach over a record
-        step = min(self.step, self.record_period) / factor
-        return replace(self, step=step, solver=finer)
+        step = min(self.step, self.recorded_every) / factor
+        return replace(self, step=step, record_period=self.recorded_every, solver=finer)

@@ -16,6 +16,8 @@ from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.mechanics.contact_places import ContactPlace, contact_places
 from support_exudyn.mechanics.continuation import conditions_of
 from support_exudyn.mechanics.initial_eccentricity import eccentric
+from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
+from support_exudyn.mechanics.law_masses import guide_with_mass, lacks_mass, with_mass
 from support_exudyn.mechanics.leg_channels import leg_channels
 from support_exudyn.mechanics.plane_channels import channel_definitions
 from support_exudyn.mechanics.space.channels import channel_definitions as spatial_channel_definitions
@@ -28,7 +30,7 @@ from support_exudyn.model.actuators import (
     with_cylinder_and_rod,
 )
 from support_exudyn.model.drives.drive import Drive, Held
-from support_exudyn.model.guides import Guide
+from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.hydraulics.lines import PumpStation
@@ -39,6 +41,7 @@ from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, SolverSettings
+from user_forces.friction.law import FrictionLaw
 from user_forces.values.units import MetresPerSecondSquared, Seconds
 from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
 
@@ -86,7 +89,8 @@ class ScenarioData(Value, ABC):
             cheapest that covers the scene.
         step: largest time step [s], > 0, of the redundant formulation. Steps are equal parts of the time
             between two records; they are cut at impacts.
-        record_period: time between records [s], > 0.
+        record_period: time between records [s], > 0. Records are for curves; means, deviations and extremes are
+            taken from every step. None: as the machine moves, see `record_period.default_period`.
         channels: what is recorded: names of channels, or patterns of them as in a shell, case-sensitive,
             such as "tip.*"; all by default. `time` always is. The result checks looks at all of them; without
             it (`SolverSettings.result_checks`) what nothing asks for is neither kept nor computed. A run to an
@@ -111,7 +115,7 @@ class ScenarioData(Value, ABC):
     accuracy: Accuracy | None = None
     formulation: Literal["auto", "redundant", "compiled"] = "auto"
     step: Seconds[Annotated[Real, Field(gt=0, le=LARGEST_STEP)]] = 5e-4
-    record_period: Seconds[Positive] = 1e-3
+    record_period: Seconds[Positive] | None = None
     channels: tuple[str, ...] = ALL_CHANNELS
     solver: SolverSettings = field(default_factory=SolverSettings)
 
@@ -200,7 +204,7 @@ class ScenarioData(Value, ABC):
     @cached_property
     def contact_places(self) -> dict[str, ContactPlace]:
         """Where bodies may make contact and part: clearance pins, corners in guides, faces of blocks."""
-        joints = contact_places(self.linkage, self.clearance_pins, self.guides)
+        joints = contact_places(self.linkage, self.clearance_pins, self._guides_with_masses)
         return {**joints, **block_places(self.blocks, self.gravity)}
 
     def contact_stem(self, name: str) -> str:
@@ -322,16 +326,47 @@ class ScenarioData(Value, ABC):
         """Names of the pins that two constraints hold, in the order of the linkage."""
         return tuple(name for name in self.linkage.pins if self.pin(name).holds)
 
-    @property
+    @cached_property
     def clearance_pins(self) -> dict[str, ClearancePin]:
-        """The pins that have clearance, by name."""
-        return {name: pin for name, pin in self.pins.items() if isinstance(pin, ClearancePin)}
+        """The pins that have clearance, by name, with the masses that their laws need, see `law_masses`."""
+        found = {name: pin for name, pin in self.pins.items() if isinstance(pin, ClearancePin)}
+        for name, pin in found.items():
+            if lacks_mass(pin.contact.normal) and name in self.linkage.pins:
+                found[name] = with_mass(pin, name, self.linkage, self.open_kinetics)
+        return found
+
+    @cached_property
+    def _guides_with_masses(self) -> dict[str, Guide]:
+        """The guides with the masses that their laws need."""
+        found = dict(self.guides)
+        for name, guide in found.items():
+            if isinstance(guide, ClearanceGuide) and lacks_mass(guide.normal):
+                found[name] = guide_with_mass(guide, name, self.linkage, self.open_kinetics)
+        return found
+
+    @property
+    def open_kinetics(self) -> Kinetics:
+        """Masses and constraints with all clearance joints open and all actuators rigid."""
+        return kinetics_of(self.guided_linkage, self.held_pins)
 
     @property
     def friction_pins(self) -> dict[str, IdealPin]:
         """The ideal pins that have friction, by name."""
         ideal = {name: pin for name, pin in self.pins.items() if isinstance(pin, IdealPin)}
         return {name: pin for name, pin in ideal.items() if pin.friction is not None}
+
+    @property
+    def friction_guides(self) -> dict[str, IdealGuide]:
+        """The ideal guides that have friction, by name."""
+        ideal = {name: guide for name, guide in self.guides.items() if isinstance(guide, IdealGuide)}
+        return {name: guide for name, guide in ideal.items() if guide.friction is not None}
+
+    @property
+    def friction_laws(self) -> dict[str, FrictionLaw]:
+        """Laws of ideal pins with friction, then of ideal guides, as "pins.NAME" and "guides.NAME"."""
+        laws = {f"pins.{name}": pin.friction for name, pin in self.friction_pins.items()}
+        laws |= {f"guides.{name}": guide.friction for name, guide in self.friction_guides.items()}
+        return {name: law for name, law in laws.items() if law is not None}
 
     @cached_property
     def hydraulics(self) -> dict[str, HydraulicLeg]:

@@ -13,7 +13,7 @@ from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.model.drives.drive import Reciprocating, Stroke
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.linkage import Linkage
-from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scenario.scenario_data import ScenarioData
 from user_forces.contact import Contact
 from user_forces.friction.law import FrictionLaw
 from user_forces.normal.law import LoadError, NormalLaw
@@ -70,15 +70,15 @@ class LoadedContact(NamedTuple):
         return math.sqrt(self.mass / self.stiffness) if self.stiffness > 0.0 else math.inf
 
 
-def timescales(scenario: Scenario) -> Timescales:
+def timescales(scenario: ScenarioData) -> Timescales:
     """The shortest times of a scene.
 
         flight = sqrt(2 c / a),    resting = sqrt(m / k),  k the contact's stiffness at the static load
 
     a is gravity's acceleration and that of the fastest body of a machine that runs already; m the mass that
     moves with the journal in the start posture along the load, which is that of the weight on ideal pins, or
-    the smallest mass times a if there is no weight. It is the mass with all other clearance pins open; held by
-    those that are pressed it is larger, and the vibration slower.
+    the smallest mass times a if there is no weight. It is the mass with all other clearance pins open; while
+    others press it is larger, and the vibration slower.
     """
     linkage = scenario.linkage
     pull = _pull(scenario, kinetics_of(linkage))
@@ -93,7 +93,7 @@ def timescales(scenario: Scenario) -> Timescales:
     return Timescales(flight, min(rests), _drive_time(scenario, linkage), min(rubs))
 
 
-def loaded_contacts(scenario: Scenario) -> list[LoadedContact]:
+def loaded_contacts(scenario: ScenarioData) -> list[LoadedContact]:
     """Every contact under the weight, and under weight and largest loads, see `timescales`."""
     linkage, found = scenario.linkage, []
     closed = kinetics_of(linkage)
@@ -118,7 +118,7 @@ def loaded_contacts(scenario: Scenario) -> list[LoadedContact]:
     return found
 
 
-def _pull(scenario: Scenario, closed: Kinetics) -> float:
+def _pull(scenario: ScenarioData, closed: Kinetics) -> float:
     """What pulls a journal across its clearance [m/s^2]."""
     return math.hypot(*scenario.gravity) + _running(scenario, closed)
 
@@ -152,7 +152,7 @@ def _slope(law: NormalLaw, load: float) -> float:
         return 0.0
 
 
-def _static_loads(scenario: Scenario, closed: Kinetics) -> list[dict[str, Matrix]]:
+def _static_loads(scenario: ScenarioData, closed: Kinetics) -> list[dict[str, Matrix]]:
     """What every pin and guide carries in the start posture, all ideal, see `ContactPlace.loads`.
 
     Under the weight, and under weight and largest loads.
@@ -178,7 +178,7 @@ def _by_joint(closed: Kinetics, reactions: Matrix) -> dict[str, Matrix]:
     return found
 
 
-def _compliant(scenario: Scenario) -> list[float]:
+def _compliant(scenario: ScenarioData) -> list[float]:
     """One over the angular frequency of what stiff loads and compliant pins hold, in the start posture [s]."""
     linkage = scenario.linkage
     rigid = tuple(actuator for actuator in linkage.actuators if actuator not in scenario.compliant_actuators)
@@ -202,7 +202,7 @@ def _compliant(scenario: Scenario) -> list[float]:
     return found
 
 
-def _running(scenario: Scenario, closed: Kinetics) -> float:
+def _running(scenario: ScenarioData, closed: Kinetics) -> float:
     """Acceleration of the fastest body of a machine whose cranks turn from the start on [m/s^2]."""
     speeds = {name: scenario.drive_of(name).initial_speed for name in closed.linkage.cranks}
     fastest = max(map(abs, speeds.values()), default=0.0)
@@ -214,14 +214,13 @@ def _running(scenario: Scenario, closed: Kinetics) -> float:
     return fastest * float(np.hypot(velocity[0::3], velocity[1::3]).max())
 
 
-def _inverse_mass(scenario: Scenario, place: ContactPlace) -> Matrix:
+def _inverse_mass(scenario: ScenarioData, place: ContactPlace) -> Matrix:
     """Inverse effective mass of a journal in the start posture, ground's axes (2, 2) [1/kg]."""
-    linkage = scenario.guided_linkage
-    still, free = np.zeros(3 * len(linkage.bodies)), kinetics_of(linkage, scenario.held_pins)
-    return free.inverse_mass(still, [place.relative(free, still)[1]])
+    still = np.zeros(3 * len(scenario.linkage.bodies))
+    return scenario.open_kinetics.inverse_mass(still, place.rate(scenario.open_kinetics, still))
 
 
-def _drive_time(scenario: Scenario, linkage: Linkage) -> float:
+def _drive_time(scenario: ScenarioData, linkage: Linkage) -> float:
     times = [math.inf]
     cranks = bool(linkage.cranks)
     driving = [(drive, cranks) for drive in scenario.drives_in_use]

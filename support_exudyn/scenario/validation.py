@@ -1,5 +1,6 @@
 """What of a scenario has to fit its machine."""
 
+import dataclasses
 import math
 from collections.abc import Collection, Mapping
 
@@ -14,7 +15,7 @@ from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.loads.load import ActingLoad, AnyLoad
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.scenario_data import ScenarioData
-from user_forces.values.value import InputError
+from user_forces.values.value import InputError, check_names
 
 TURNED = 1e-9  # least share by which a condition holds how a body turns
 
@@ -50,7 +51,7 @@ def check(scenario: ScenarioData) -> None:
                 "allowed for an ideal pin: 0, for a clearance pin: any"
             )
     _check_guides(scenario, linkage)
-    if scenario.record_period > scenario.duration:
+    if scenario.record_period is not None and scenario.record_period > scenario.duration:
         raise ValueError(
             f"record_period = {scenario.record_period} s: allowed: at most the duration, {scenario.duration} s"
         )
@@ -196,6 +197,9 @@ def _check_loads(scenario: ScenarioData) -> None:
     taken = {"pin", "energy", "time", *linkage.bodies, *linkage.points, *linkage.driven, *linkage.actuators}
     taken |= {*linkage.pins, *linkage.slides, *linkage.gears}
     own: Mapping[str, AnyLoad] = scenario.machine.loads
+    tables = {field.name: getattr(linkage, field.name) for field in dataclasses.fields(linkage)}
+    for what, names in {**tables, "machine.loads": own, "loads": scenario.loads}.items():
+        check_names(what, names)
     for name, load in own.items():
         _check_load(scenario, f"machine.loads.{name}", name, load, taken)
     for name, load in scenario.loads.items():

@@ -72,6 +72,8 @@ def _is_command(words: list[str]) -> bool:
     return False
 
 
+if Path(sys.argv[0]).stem == INSTALLED:  # which imports nothing from the working directory; nor do its workers
+    os.environ.setdefault("PYTHONSAFEPATH", "1")
 if _is_command(sys.orig_argv) and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
     signal.signal(signal.SIGINT, _end)
     be_readable()

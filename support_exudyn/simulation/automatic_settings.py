@@ -31,7 +31,7 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
 
     Raises InputError if the formulation that the scenario asks for does not cover it.
     """
-    plain = replace(scenario, accuracy=None)
+    plain = replace(scenario, accuracy=None, record_period=scenario.recorded_every)
     name = scenario.formulation
     if name == "auto":
         # a Python function of the contact is what the redundant formulation may call; it decides of no other
@@ -49,7 +49,7 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
         tolerance=min(max(TOLERANCE_FOR_GOAL * goal, SMALLEST_TOLERANCE), LARGEST_TOLERANCE),
     )
     # else a vibration that all runs damp out by their steps would be missing in all of them alike
-    step = min(step, ringing_step(plain), scenario.record_period, LARGEST_STEP)
+    step = min(step, ringing_step(plain), scenario.recorded_every, LARGEST_STEP)
     return replace(plain, formulation=name, step=step, solver=solver)
 
 

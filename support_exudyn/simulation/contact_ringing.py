@@ -24,7 +24,6 @@ import numpy as np
 
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.timescales import LoadedContact, loaded_contacts
-from user_forces import Impact
 from user_forces.expressions.roots import bracketed_root
 from user_forces.normal.law import LoadError
 
@@ -106,9 +105,8 @@ def vibrations(contact: LoadedContact) -> list[Vibration]:
     if not (0.0 < contact.stiffness < math.inf and 0.0 < depth < math.inf):
         return []
     rate = SMALL * depth / contact.time
-    impact = Impact(0.0 if law.forgets else FASTEST, contact.mass)
     try:
-        damping = (law(depth, rate, impact) - law(depth, -rate, impact)) / (2.0 * rate)
+        damping = (law(depth, rate, FASTEST) - law(depth, -rate, FASTEST)) / (2.0 * rate)
     except (LoadError, ArithmeticError):
         damping = 0.0
     damping = damping if math.isfinite(damping) else 0.0

@@ -45,6 +45,7 @@ from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import (
     ROUNDING,
+    STATISTICS,
     Measure,
     ReportedNumber,
     left_by_newton,
@@ -144,7 +145,7 @@ def errors(
         own = error(kind.measure, result, r, values, least)
         if own <= 2.0 * ROUNDING * values:
             own = max(own, kind.step)
-        found[name] = own + kind.left * values + kind.missed(result)
+        found[name] = own + kind.left * values + kind.missed(result) + kind.rounding
     return found
 
 
@@ -235,7 +236,7 @@ def rounding_of_forces(scenario: Scenario) -> float:
     """
     if scenario.chooses_steps or scenario.dimensions == 2:
         return 0.0
-    step = min(scenario.step, scenario.record_period)
+    step = min(scenario.step, scenario.recorded_every)
     heaviest = max(body.mass for body in scenario.linkage.bodies.values())
     return heaviest * rounding_of_positions(scenario) / step**2
 
@@ -257,11 +258,11 @@ def _worst(
     off = [0.0]
     for pin in scenario.linkage.pins:
         name = f"pin.{pin}.force"
-        scale = float(np.abs(result[name]).mean())
-        for statistic in (np.mean, np.std, np.max):
-            measure = over(name, statistic, 0.0, math.inf)
+        scale = result.window(name).mean
+        for word in ("mean", "std", "largest"):
+            measure = over(name, STATISTICS[word], 0.0, math.inf)
             value, scatter = measure(result), rounding if scenario.pin(pin).holds else 0.0
-            if statistic is np.std:
+            if word == "std":
                 scatter = math.hypot(value, scatter) - value + left_of_spread(left, value, scale)
             else:
                 scatter += left * value

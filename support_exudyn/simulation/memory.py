@@ -14,13 +14,13 @@ def check_room(scenario: Scenario) -> None:
 
     What is asked for is the least that it takes.
     """
-    records = scenario.duration / scenario.record_period + 1.0
+    records = scenario.duration / scenario.recorded_every + 1.0
     count = len(chosen(scenario.channel_definitions, scenario.channels))
     needed, there = records * count * NUMBER, available()
     if needed > there:
-        period = scenario.record_period * needed / there
+        period = scenario.recorded_every * needed / there
         raise InputError(
-            f"duration = {scenario.duration:g} s, record_period = {scenario.record_period:g} s: {records:.3g} "
+            f"duration = {scenario.duration:g} s, record_period = {scenario.recorded_every:g} s: {records:.3g} "
             f"records of {count} channels take {needed / GIGA:.3g} GB and more, {there / GIGA:.3g} GB are "
             f"free; allowed: a shorter duration, fewer channels, or records at least {_up(period):g} s apart"
         )

@@ -7,6 +7,7 @@ from importlib.metadata import PackageNotFoundError, version
 
 PACKAGES = ("support-exudyn", "exudyn", "numpy", "scipy", "matplotlib", "meshio", "h5py", "pydantic")
 OPTIONAL = ("numba",)
+WARNINGS = "warnings"  # key of what is to be known of a run that has passed its checks, a line each
 FORMULATION_ASKED = "formulation_asked"  # key of a run for which another one was chosen
 
 

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.time_statistics import TimeStatistics, TimeWindow, statistics_of_records
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Series
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.provenance import WARNINGS
 from user_forces.values.names import Named, UnknownNameError, no_attribute
 from user_forces.values.value import InputError, short
 
@@ -31,6 +35,7 @@ class RecordedRun:
     filled, and stops were met.
     wall_time: [s], of building, settling and integrating, of all runs that an accuracy took.
     provenance: versions and platform.
+    statistics: of all channels, from every step; None: of a file of an earlier version, see `over_time`.
     goal: the accuracy that was asked for, None if none was; `scenario` then has the settings that were chosen.
     coarser: the same run with longer steps, which has one of its own; from their distances errors are
     estimated.
@@ -46,6 +51,7 @@ class RecordedRun:
     provenance: Mapping[str, str]
     largest_force_time: Mapping[str, float] = field(default_factory=dict)
     oil_events: Mapping[str, tuple[OilEvent, ...]] = field(default_factory=dict)
+    statistics: TimeStatistics | None = None
     goal: float | None = None
     coarser: RecordedRun | None = None
 
@@ -61,6 +67,11 @@ class RecordedRun:
 
         def __getattr__(self, name: str) -> Any:
             return no_attribute(self, name, f"; channels are taken by name, {type(self).__name__}['time']")
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Sentences on friction that a law cannot hold, see `slow_slip`."""
+        return tuple(self.provenance.get(WARNINGS, "").splitlines())
 
     def __repr__(self) -> str:
         """In a line; all else is asked for by name."""
@@ -100,6 +111,33 @@ class RecordedRun:
     def time(self) -> np.ndarray:
         """Times of the records [s], shape (n,)."""
         return self["time"]
+
+    @cached_property
+    def over_time(self) -> TimeStatistics:
+        """Statistics of all channels over time: from every step, or from the records if that is not known."""
+        if self.statistics is not None:
+            return self.statistics
+        return statistics_of_records(self.time, {name: one.values for name, one in self.channels.items()})
+
+    def window(self, name: str, after: float = 0.0, until: float = math.inf) -> TimeWindow:
+        """What a channel does between two times [s]: mean, deviation, extremes; in its unit.
+
+        Raises InputError if the run does not last between them, UnknownNameError if it has no such channel.
+        """
+        values = self._channel(name).values
+        self.check_window(after, until)
+        known = self.over_time
+        if name not in known.channels:  # the time itself
+            known = statistics_of_records(self.time, {name: values})
+        return known.window(name, after, until)
+
+    def check_window(self, after: float, until: float) -> None:
+        """Raise InputError if the run does not last between two times [s]."""
+        if not self.over_time.lasts(after, until):
+            raise InputError(
+                f"after = {after} s, until = {until} s: the run does not last between them; allowed: times "
+                f"around at least one from {self.time[0]:g} to {self.time[-1]:g} s"
+            )
 
     @property
     def dissipated(self) -> float:

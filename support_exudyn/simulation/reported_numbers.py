@@ -2,32 +2,45 @@
 
 import math
 import numbers
+import operator
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.contact_state import Onset
-from support_exudyn.mechanics.extremes import largest, missed
+from support_exudyn.mechanics.time_statistics import GREATEST, LEAST, TimeWindow
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation import impulses
 from support_exudyn.simulation.recorded_run import RecordedRun
 from user_forces.values.value import InputError, short
 
 Series = npt.NDArray[np.float64]
 NEWTON = 5.0  # tolerances of Newton's method that are left of a number at any step; 1.6 of an impact's speed
+# share of the largest force in a machine that is rounding of every force: forces balance each other
+ROUNDING_OF_FORCES = 1e-12
 ROUNDING = 1e-10  # share of a number, or of the largest of its kind, that no estimate is below
 # of gravity over the machine's size: the angular acceleration [rad/s^2] of which rounding is counted as a share
 # in a machine at rest, which has none of its own
 SLOW = 1e-3
 # of forces; the largest is of the magnitude, the extremes have their sign
-STATISTICS: Mapping[str, Callable[[Series], float]] = {
-    "mean": np.mean,
-    "std": np.std,
-    "largest": largest,
-    "min": np.min,
-    "max": np.max,
+STATISTICS: Mapping[str, Callable[[TimeWindow], float]] = {
+    "mean": lambda window: window.mean,
+    "std": lambda window: window.std,
+    "largest": lambda window: window.largest[0],
+    "min": lambda window: window.least[0],
+    "max": lambda window: window.greatest[0],
 }
+DOUBTS: Mapping[str, Callable[[TimeWindow], float]] = {  # of the same, where a window ends inside intervals
+    "mean": lambda window: window.mean_doubt,
+    "std": lambda window: window.std_doubt,
+    "largest": lambda window: max(window.least_doubt, window.greatest_doubt),
+    "min": lambda window: window.least_doubt,
+    "max": lambda window: window.greatest_doubt,
+}
+LARGEST: Callable[[TimeWindow], tuple[float, float]] = operator.attrgetter("largest")
 SIGNED, AVERAGED = ("min", "max"), ("mean", "std")
 FORCE, ANGULAR_ACCELERATION = ".force", ".angular_acceleration"  # how names of channels end
 ONSETS = 3  # of every clearance pin that are reported; each multiplies the errors of those before
@@ -56,9 +69,10 @@ class ReportedNumber(NamedTuple):
 
     unit: its unit. measure: gives it, from a result. size: of the largest number of its kind. family: of
     numbers that are wrong by like shares; empty: none. of: the force or impact that it is of; empty: of none.
-    left: share of it that steps do not make smaller. missed: by how much it may be off because it is taken
-    from records; of extremes, see `extremes.missed`. values: the largest value that it is computed from, which
-    rounding and what Newton's method leaves are shares of: a least value can be next to nothing beside it.
+    left: share of it that steps do not make smaller. missed: by how much it may be off because its window ends
+    inside an interval of the statistics. values: the largest value that it is computed from, which rounding and
+    what Newton's method leaves are shares of: a least value can be next to nothing beside it. rounding: what is
+    left of the largest numbers that it is a difference of, in its unit.
     step: by how much a single step may be wrong, which counts where runs agree but for rounding.
     settles: whether it tends to something as steps become shorter; the time of a largest value may jump from
     peak to peak, and says nothing of how fast other numbers settle.
@@ -72,6 +86,7 @@ class ReportedNumber(NamedTuple):
     left: float = 0.0
     missed: Measure = _nothing
     values: float = 0.0
+    rounding: float = 0.0
     step: float = 0.0
     settles: bool = True
 
@@ -83,58 +98,55 @@ def measures(
 
     sized: whether sizes are told, too, which take as long as the numbers and which errors alone are told by.
 
-    Raises InputError if no record lies between the times.
+    Raises InputError if the run does not last between the times.
     """
     after, until = _time(after, "after"), _time(until, "until")
-    chosen = inside(result, after, until)
-    if chosen.start == chosen.stop:
-        first, last = result.time[[0, -1]]
-        raise InputError(
-            f"after = {after} s, until = {until} s: no record lies between; allowed: times around at least "
-            f"one, from {first:g} to {last:g} s"
-        )
+    result.check_window(after, until)
     found: dict[str, ReportedNumber] = {}
     left = left_by_newton(result.scenario)
     turning = [name for name in result.channels if name.endswith(ANGULAR_ACCELERATION)]
-    fastest = max([_slow(result.scenario), *(largest(result[name]) for name in turning)]) if sized else 0.0
+    fastest = max([_slow(result.scenario), *(_most(result, name) for name in turning)]) if sized else 0.0
+    rounded = ROUNDING_OF_FORCES * _strongest(result) if sized else 0.0
     for name, channel in result.channels.items():
         if name.endswith(FORCE) and channel.is_determined:
-            forces = result[name][chosen]
-            most = largest(forces) if sized else 0.0
+            window = result.window(name, after, until)
+            most = window.largest[0] if sized else 0.0
             for word, statistic in STATISTICS.items():
                 if word in SIGNED and name.startswith("pin."):
                     continue  # a magnitude, which has no sign
-                measure, between = over(name, statistic, after, until), _missed(word, name, after, until)
-                of = name if word in AVERAGED else ""  # of a single record, which others average out
+                measure, between = over(name, statistic, after, until), over(name, DOUBTS[word], after, until)
+                of = name if word in AVERAGED else ""  # of a single time, which others average out
                 share, values = left, most
                 if word == "std" and sized:
-                    spread, mean = measure(result), float(np.abs(forces).mean())
+                    spread, mean = window.std, window.rms
                     # rounding of the forces scatters, and what scatters beside more adds next to nothing
                     values = spread + (math.hypot(spread, ROUNDING * most) - spread) / ROUNDING
                     share = left_of_spread(left, spread, mean) / values if values > 0.0 else left
                 family = f"force.{word}"
                 found[f"{name}.{word}"] = ReportedNumber(
-                    channel.unit, measure, 0.0, family, of, share, between, values
+                    channel.unit, measure, 0.0, family, of, share, between, values, rounded
                 )
                 if word == "largest":
                     found[f"{name}.largest_time"] = ReportedNumber(
                         "s",
-                        time_of_largest(name, after, until),
-                        missed=_other_times(name, after, until),
+                        time_of(name, LARGEST, after, until),
+                        missed=other_times(name, LARGEST, after, until),
                         settles=False,
                     )
         elif name in turning:
-            measure = over(name, np.std, after, until)
+            measure, between = (over(name, of["std"], after, until) for of in (STATISTICS, DOUBTS))
             found[f"{name}.std"] = ReportedNumber(
-                channel.unit, measure, fastest, ANGULAR_ACCELERATION, left=left
+                channel.unit, measure, fastest, ANGULAR_ACCELERATION, left=left, missed=between
             )
     for point in result.scenario.linkage.points:
         if not {f"{point}.x", f"{point}.y"} <= result.channels.keys():
             continue  # it was not asked for, and no error either, for whose sake it would have been recorded
-        farthest = largest(path_of(result, point)) if sized else 0.0
+        farthest = max([_size_of(result.scenario), *(_most(result, f"{point}.{axis}") for axis in ("x", "y"))])
         for axis in ("x", "y"):
-            measure = over(f"{point}.{axis}", np.mean, after, until)
-            found[f"{point}.{axis}.mean"] = ReportedNumber("m", measure, farthest, "place")
+            measure, between = (
+                over(f"{point}.{axis}", of["mean"], after, until) for of in (STATISTICS, DOUBTS)
+            )
+            found[f"{point}.{axis}.mean"] = ReportedNumber("m", measure, farthest, "place", missed=between)
     for pin in result.onsets:
         stem = result.scenario.contact_stem(pin)
         # not of an edge in space: a section's share of the force is the less the more sections there are
@@ -147,12 +159,42 @@ def measures(
                     "s", _time_at_any_step(pin), missed=_other_impacts(pin), settles=False
                 )
         found.update(impact_numbers(result, pin, ONSETS))
-    return found
+    return _without_endless(found, result, after, until)
+
+
+def _without_endless(
+    found: Mapping[str, ReportedNumber], result: RecordedRun, after: float, until: float
+) -> dict[str, ReportedNumber]:
+    """The numbers with impulses in place of those that have no limit, see `impulses`."""
+    no_limit = impulses.refused(result, after, until)
+    kept = {name: kind for name, kind in found.items() if name not in no_limit}
+    for name in impulses.struck(result, after, until):
+        for n in range(len(impulses.impulses_of(result, name, after, until))):
+            measure = partial(impulses.nth_impulse, channel=name, n=n, after=after, until=until)
+            kept[f"{name}.impulse_{n + 1}"] = ReportedNumber("N s", measure)
+    return kept
+
+
+def _most(run: RecordedRun, name: str) -> float:
+    """The largest magnitude of a channel over the run, in its unit."""
+    return run.window(name).largest[0]
+
+
+def _strongest(run: RecordedRun) -> float:
+    """The largest force in the machine over the run, at least its weight [N]."""
+    weight = math.hypot(*run.scenario.gravity) * sum(one.mass for one in run.scenario.linkage.bodies.values())
+    forces = (_most(run, name) for name in run.channels if name.endswith(FORCE))
+    return max([weight, *forces, *run.largest_force.values()])
+
+
+def _size_of(scenario: Scenario) -> float:
+    """How far the machine reaches from the origin [m]."""
+    return max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())
 
 
 def _slow(scenario: Scenario) -> float:
     """See `SLOW` [rad/s^2]."""
-    size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())
+    size = _size_of(scenario)
     return SLOW * math.hypot(*scenario.gravity) / size if size > 0.0 else 0.0
 
 
@@ -202,57 +244,50 @@ def _time(item: Any, name: str) -> float:
     raise InputError(f"{name} = {short(item)}: allowed: a time in s")
 
 
-def inside(run: RecordedRun, after: float, until: float) -> slice:
-    """Which records lie between two times [s]; none if one of these is no number."""
-    after, until = after - 1e-9, until + 1e-9  # times of records are sums of periods
-    first = int(run.time.searchsorted(after))
-    return slice(first, int(run.time.searchsorted(until, "right")) if until >= after else first)
+def over(name: str, statistic: Callable[[TimeWindow], float], after: float, until: float) -> Measure:
+    """A statistic of a channel between two times [s], in its unit."""
+    return lambda run: statistic(run.window(name, after, until))
 
 
-def over(name: str, statistic: Callable[[np.ndarray], float], after: float, until: float) -> Measure:
-    """A statistic of a channel's records between two times [s], in its unit."""
-
-    def measure(run: RecordedRun) -> float:
-        return float(statistic(run[name][inside(run, after, until)]))
-
-    return measure
+def time_of(
+    name: str, extreme: Callable[[TimeWindow], tuple[float, float]], after: float, until: float
+) -> Measure:
+    """The time [s], between two times [s], of an extreme of a channel."""
+    return lambda run: extreme(run.window(name, after, until))[1]
 
 
-def time_of_largest(name: str, after: float, until: float) -> Measure:
-    """The time [s] of the record, between two times [s], at which a channel is largest in magnitude."""
+def other_times(
+    name: str, extreme: Callable[[TimeWindow], tuple[float, float]], after: float, until: float
+) -> Measure:
+    """How far the time of an extreme may be off [s].
 
-    def measure(run: RecordedRun) -> float:
-        chosen = inside(run, after, until)
-        return float(run.time[chosen][np.abs(run[name][chosen]).argmax()])
-
-    return measure
-
-
-def _other_times(name: str, after: float, until: float) -> Measure:
-    """How far the time of a largest value may be off [s].
-
-    To the farthest record whose magnitude comes as near to the largest as the runs differ in that, and as
-    records may miss of it; and one period of the records.
+    To the farthest interval whose extreme comes as near to it as the runs differ in both; within its own
+    interval as far as a parabola falls by that; and as far as the runs are apart in the time.
     """
 
+    def by_interval(window: TimeWindow) -> Series:
+        rows = (
+            TimeWindow(window.durations[n : n + 1], window.rows[n : n + 1]) for n in range(len(window.rows))
+        )
+        return np.array([extreme(row) for row in rows]).T
+
     def measure(run: RecordedRun) -> float:
-        chosen = inside(run, after, until)
-        time, values = run.time[chosen], np.abs(run[name][chosen])
-        doubt, other = missed("largest", run[name][chosen], time, run.scenario.breaks), run.coarser
+        window = run.window(name, after, until)
+        (values, times), (value, time) = by_interval(window), extreme(window)
+        doubts = np.full(values.size, max(window.least_doubt, window.greatest_doubt) + ROUNDING * abs(value))
+        apart, other = 0.0, run.coarser
         while other is not None:
-            doubt = max(doubt, abs(float(values.max()) - largest(other[name][inside(other, after, until)])))
+            its = other.window(name, after, until)
+            apart = max(apart, abs(extreme(its)[1] - time))
+            if len(its.rows) == values.size:
+                doubts = np.maximum(doubts, np.abs(by_interval(its)[0] - values))
             other = other.coarser
-        # the one may be less and the other more
-        near = time[values >= values.max() - 2.0 * doubt]
-        return float(np.abs(near - time[values.argmax()]).max()) + float(np.diff(time).max(initial=0.0))
-
-    return measure
-
-
-def _missed(word: str, name: str, after: float, until: float) -> Measure:
-    def measure(run: RecordedRun) -> float:
-        chosen = inside(run, after, until)
-        return missed(word, run[name][chosen], run.time[chosen], run.scenario.breaks)
+        own = int(np.abs(times - time).argmin())
+        sign = -1.0 if extreme(window) == window.least else 1.0
+        near = sign * values + doubts >= sign * value - doubts[own]  # the one may be less and the other more
+        fall = float(window.rows[own, GREATEST] - window.rows[own, LEAST])
+        flat = min(1.0, math.sqrt(2.0 * doubts[own] / fall)) if fall > 0.0 and run.statistics else 1.0
+        return max(float(np.abs(times[near] - time).max()), apart) + flat * float(window.durations[own])
 
     return measure
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import math
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -15,14 +16,17 @@ import h5py
 import numpy as np
 
 from support_exudyn.files.free_memory import available
-from support_exudyn.files.hdf5 import Inside, check_checksum, checksum_block, file_image, write_texts
-from support_exudyn.files.own_modules import import_modules_of, modules_of
-from support_exudyn.files.series.own_runs import RUN
+from support_exudyn.files.hdf5 import Inside, Series, check_checksum, checksum_block, file_image, write_texts
+from support_exudyn.files.own_modules import modules_of, refusals, without_modules
+from support_exudyn.files.series.own_runs import RUN, format_of
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.time_statistics import COLUMNS as COLUMNS_OF_STATISTICS
+from support_exudyn.mechanics.time_statistics import TimeStatistics
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent
 from support_exudyn.scenario.presentation import presenter
 from support_exudyn.scenario.recorded_channels import Channel
+from support_exudyn.simulation import impulses
 from support_exudyn.simulation.data_frames import to_pandas, to_xarray
 from support_exudyn.simulation.estimate import Estimate, error, errors, fall, worst_error
 from support_exudyn.simulation.horizon import horizon
@@ -78,20 +82,24 @@ class Result(RecordedRun):
     def numbers(self, after: float = 0.0, until: float = math.inf) -> Named[Estimate]:
         """The usual numbers with their estimated errors, by names such as `pin.rear_base.force.mean`.
 
-        Of the records between two times [s]: mean, standard deviation (`std`) and largest magnitude of all
-        forces and when that is (`largest_time`), with `min` and `max` of those that have a sign; `std` of
-        angular accelerations, mean place of traced points; and of clearance pins the largest force at any step
-        of the run and when it is (`pin.NAME.largest_force` and `largest_force_time`, not only of the records)
+        Over time between two times [s], from every step and not from the records: mean, standard deviation
+        (`std`) and largest magnitude of all forces and when that is (`largest_time`), with `min` and `max` of
+        those that have a sign; `std` of angular accelerations, mean place of traced points; and of clearance
+        pins the largest force of the run and when it is (`pin.NAME.largest_force` and `largest_force_time`)
         and the first three impacts.
 
-        Errors are those of the steps, and of extremes also what may lie between the records; that a mean over
-        few records is not the mean over time is not among them.
+        Where velocities jump, as of rigid actuators with a sudden drive, the forces of ideal pins and rigid
+        actuators have no finite peak: `largest`, `min`, `max` and `std` are refused, and their impulses
+        (`pin.NAME.force.impulse_1` [N s]) stand in their place. Means leave the impulse out.
+
+        Errors are those of the steps, of rounding, and of a time that lies inside an interval for which
+        statistics are kept (1000 of a run). Of files of earlier versions numbers are those of the records.
         """
         self._check()
         kinds = measures(self, after, until)
         known = errors(kinds, self, self.fall)
         found = {name: Estimate(kind.measure(self), known[name], kind.unit) for name, kind in kinds.items()}
-        return Named(found, "number")
+        return Named(found, "number", impulses.refused(self, after, until))
 
     @cached_property
     def fall(self) -> float:
@@ -193,10 +201,12 @@ class Result(RecordedRun):
 
     @staticmethod
     def load(path: str | Path) -> Result:
-        """Read what `save` wrote; modules of one's own that it needs are imported from where they were.
+        """Read what `save` wrote. Modules of one's own are not imported: see `support_exudyn.trusted`.
 
-        Raises InputError if the file is not a whole result file, or was changed, or if a module that it needs
-        is not there; OSError if it cannot be opened at all.
+        A law without its module stands as text in the scenario, and a warning says what to do.
+
+        Raises InputError if the file is not a whole result file, or was changed, or if nothing can be read
+        without its modules; OSError if it cannot be opened at all.
         """
         if not Path(path).exists():
             raise missing_file(path, "files that Result.save has written")
@@ -208,20 +218,23 @@ class Result(RecordedRun):
             raise InputError(
                 f"{path}: is {other.format(path=path)}; allowed: files that Result.save has written"
             )
-        data = contents(path, available())
+        data, missing = contents(path, available()), dict[str, str]()
         try:
-            check_checksum(data, FORMAT)
+            check_checksum(data, format_of(data))
             with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
                 whole = Inside(file, len(data))
                 if "own_classes" in whole.attributes:
-                    import_modules_of(whole.data("own_classes"))
-                return _read(whole)
+                    missing = refusals(whole.data("own_classes"))
+                result = _read(whole, missing)
         except InputError as error:  # of a value that is not known or does not fit
-            raise InputError(f"{path}: {error}") from None
+            raise InputError(f"{path}: {'; '.join(missing.values()) or error}") from None
         except DAMAGES as error:
             raise InputError(
                 f"{path}: not a result file of this program, or damaged ({cleaned(str(error))})"
             ) from None
+        for sentence in missing.values():
+            warnings.warn(f"{path}: {sentence}", stacklevel=2)
+        return result
 
 
 def with_digest(image: bytearray) -> tuple[bytes, bytearray]:
@@ -234,6 +247,10 @@ def _series(result: Result, above: str = "") -> Iterator[tuple[str, tuple[np.nda
     for name, channel in result.channels.items():
         texts = {"unit": channel.unit, "meaning": channel.meaning}
         yield f"{above}channels/{name}", (channel.values, texts)
+    if result.statistics is not None:
+        yield f"{above}statistics/time", (result.statistics.edges, {"unit": "s"})
+        for name, rows in result.statistics.channels.items():
+            yield f"{above}statistics/{name}", (rows.ravel(), {"columns": ", ".join(COLUMNS_OF_STATISTICS)})
     if result.coarser is not None:
         yield from _series(result.coarser, f"{above}coarser/")
 
@@ -261,18 +278,19 @@ def _write(group: h5py.Group, result: Result, scenario: Mapping[str, Any]) -> No
         _write(group["coarser"], result.coarser, result.coarser.scenario.plain)
 
 
-def _read(group: Inside) -> Result:
+def _read(group: Inside, missing: Mapping[str, str]) -> Result:
+    """The run of a group. missing: refusals of the classes that are not imported, by name."""
     onsets = group.inside("onsets").series() if "onsets" in group else {}
     channels = {
         name: Channel(data.values, data.text("unit"), data.text("meaning"))
         for name, data in group.inside("channels").series().items()
     }
     _check_channels(channels)
-    coarser = _read(group.inside("coarser")) if "coarser" in group else None
+    coarser = _read(group.inside("coarser"), missing) if "coarser" in group else None
     if coarser is not None:
         _check_coarser(channels, coarser.channels)
     return Result(
-        scenario=Value.from_data(group.data("scenario")),
+        scenario=Value.from_data(without_modules(group.data("scenario"), missing)),
         channels=channels,
         onsets={name: _onsets(name, data.values) for name, data in onsets.items()},
         largest_force={name: float(data.attributes["largest_force_N"]) for name, data in onsets.items()},
@@ -286,9 +304,30 @@ def _read(group: Inside) -> Result:
         wall_time=float(group.attributes["wall_time_s"]),
         provenance=group.data("provenance"),
         oil_events=_oil_events(group.data("oil_events")) if "oil_events" in group.attributes else {},
+        statistics=_statistics(group.inside("statistics").series(), channels)
+        if "statistics" in group
+        else None,
         goal=group.data("goal"),
         coarser=coarser,
     )
+
+
+def _statistics(found: Mapping[str, Series], channels: Mapping[str, Channel]) -> TimeStatistics:
+    """Raises ValueError unless each channel has a row for each interval."""
+    if found.keys() != channels.keys():
+        raise ValueError("statistics and channels do not have the same names")
+    edges, width = found["time"].values, len(COLUMNS_OF_STATISTICS)
+    rows = {name: one.values for name, one in found.items() if name != "time"}
+    for name, one in found.items():
+        size = edges.size if name == "time" else (edges.size - 1) * width
+        if one.values.dtype != np.float64 or one.values.shape != (size,) or edges.size < 2:
+            raise ValueError(
+                f"statistics of {name!r} are of {one.values.dtype} and shape {one.values.shape}; allowed: "
+                f"float64, {width} numbers for each of the intervals between {edges.size} times"
+            )
+    if not np.isfinite(edges).all() or not (np.diff(edges) > 0.0).all():
+        raise ValueError("the times of the statistics do not increase")
+    return TimeStatistics(edges, {name: one.reshape(-1, width) for name, one in rows.items()})
 
 
 def _oil_events(data: Mapping[str, Any]) -> dict[str, tuple[OilEvent, ...]]:

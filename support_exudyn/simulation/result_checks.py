@@ -10,13 +10,13 @@ import numpy as np
 
 from support_exudyn.formulations import change_points
 from support_exudyn.formulations.contract import Failure
-from support_exudyn.formulations.limits import DEEPEST, SOFT, too_deep
+from support_exudyn.formulations.limits import DEEPEST, ENDS, SOFT, too_deep
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.contact_history import of_depth
 from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.lawful import UNLAWFUL
+from user_forces.lawful import UNLAWFUL, is_own
 from user_forces.values.value import Vector2
 
 # Energy that the balance may be open by, as a share of what was turned over: kinetic, potential and elastic
@@ -32,7 +32,7 @@ COARSE = (
     "whether friction is steep (its ramp from static to dynamic speed), or ask for an accuracy."
 )
 UNSAID = " If that does not help: a drive of one's own whose speed jumps has to say so in its `breaks`."
-ENDS = "Close its inlet earlier, open it less, or take a longer cylinder."
+SLOT = "Slots have ends, and stops are not covered: end the motion before, or draw a longer slot (`along`)."
 APART = 1e-4  # [m] that what is joined may be apart
 DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
 
@@ -74,6 +74,7 @@ def _reasons(
         yield Failure(reason, COARSE + UNSAID, float(time[first]), finer=True)
     yield from _losses(scenario, outcome, channels)
     yield from _pistons_at_ends(scenario, outcome)
+    yield from _slots_left(scenario, outcome)
     if (gap := joints_apart(scenario, outcome, motion)) is not None and (gap > APART).any():
         first = int(np.argmax(gap > APART))
         reason = f"what is joined is {1e3 * gap.max():.3g} mm apart; allowed: {1e3 * APART:g} mm"
@@ -95,7 +96,8 @@ def _change_points(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
 def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:
     """Whether what is lost becomes less, though nothing is given back but what friction laws have stored.
 
-    Laws are looked at one by one while a run goes on, too, see `lawful`; what has a state only here.
+    Laws are checked one by one during the run, see `lawful`; laws with a state only here. By as much as the
+    balance is open, the integral of a loss may be off, too.
     """
     largest = max(outcome.largest_force.values(), default=0.0)
     stored = sum(
@@ -106,6 +108,7 @@ def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel
         if contact.deflection is not None
     )
     time, allowed = channels["time"].values, GIVEN_BACK * turned_over(channels) + rounding_of_energy(scenario)
+    allowed += float(energy_open(scenario, channels)[0].max())
     lost = {name: channels[ENERGY + name].values for name in ("damping_loss", "friction_loss")}
     for name, more in (("damping_loss", 0.0), ("friction_loss", stored)):
         back = np.maximum.accumulate(lost[name]) - lost[name]
@@ -114,9 +117,19 @@ def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel
             yield Failure(
                 f"{ENERGY}{name} becomes less by {back.max():.3g} J; allowed: {allowed + more:.3g} J, "
                 f"{_who_loses(scenario, name)}",
-                UNLAWFUL,
+                UNLAWFUL if _has_own_law(scenario) else COARSE,
                 float(time[first]),
             )
+
+
+def _has_own_law(scenario: Scenario) -> bool:
+    """Whether a user's class takes part in what is lost: those of the package keep to the signs of losses."""
+    laws: list[object] = [*scenario.acting_loads.values(), *scenario.actuators.values()]
+    for pin in scenario.pins.values():
+        laws += pin.losses().values()
+    for guide in scenario.guides.values():
+        laws += guide.losses().values()
+    return any(map(is_own, laws))
 
 
 def _who_loses(scenario: Scenario, kind: str) -> str:
@@ -139,24 +152,30 @@ def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
         return
     motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
     for name, cylinder in scenario.valved.items():
-        if cylinder.second_stage is not None:  # whose stops are asked for
-            continue
         actuator = scenario.linkage.actuators[name]
-        span = motion.place(actuator.head, actuator.head_point) - motion.place(
-            actuator.foot, actuator.foot_point
-        )
-        extension = np.hypot(*span.T) - actuator.start_length
-        for end, beyond in (
-            ("drawn in", extension < -cylinder.oil_length),
-            ("extended", extension > cylinder.rod_side_length),
-        ):
-            if beyond.any():
-                first = int(np.argmax(beyond))
-                reason = (
-                    f"{name} is {end} by {abs(extension[first]):.4g} m, beyond its cylinder's end; allowed: "
-                    f"{-cylinder.oil_length:.4g} to {cylinder.rod_side_length:.4g} m from the start"
-                )
-                yield Failure(reason, ENDS, float(run.time[first]))
+        extension = motion.lengthening(actuator)[0] - actuator.start_length
+        reasons = (cylinder.past_end(float(one), name) for one in extension)
+        first, reason = next(((n, one) for n, one in enumerate(reasons) if one), (0, ""))
+        if reason:
+            yield Failure(reason, ENDS, float(run.time[first]))
+
+
+def _slots_left(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
+    """Whether a pin has left its slot at an end, which the model has no stop for."""
+    run, slides = outcome.trajectory, scenario.linkage.slides.items()
+    if not isinstance(run, Trajectory):
+        return
+    motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
+    for name, slide in slides:
+        beyond = motion.past_ends(slide)
+        if slide.turns and beyond.any():
+            first = int(np.argmax(beyond > 0.0))
+            x, y = 1e3 * motion.place(slide.body, slide.point)[first]
+            reason = (
+                f"guides.{name}: its pin leaves the slot at ({x:.4g}, {y:.4g}) mm and goes up to "
+                f"{1e3 * beyond.max():.4g} mm beyond the end; the slot is {1e3 * slide.length:.4g} mm long"
+            )
+            yield Failure(reason, SLOT, float(run.time[first]))
 
 
 def energy_open(scenario: Scenario, channels: Mapping[str, Channel]) -> tuple[Series, float]:

@@ -13,7 +13,7 @@ from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.single_run import single_run
 from support_exudyn.simulation.to_accuracy import run_to_accuracy
-from user_forces.lawful import UNLAWFUL, LawError, look_at_rest
+from user_forces.lawful import UNLAWFUL, LawError, check_friction_law, check_laws
 from user_forces.values.value import InputError, short
 
 OWN = "A law, load or machine of one's own does that; allowed: to raise an exception."
@@ -93,9 +93,11 @@ def _run(run: Callable[[Scenario, Progress], Result], scenario: Scenario, progre
 
 
 def _look_at_laws(scenario: Scenario) -> None:
-    """Raise SimulationError if the law of a pin cannot be one even at rest."""
+    """Raise SimulationError if a law is none, as far as calls before the run show."""
     try:
         for name, place in scenario.contact_places.items():
-            look_at_rest(place.contact, name)
+            check_laws(place.contact, name)
+        for name, law in scenario.friction_laws.items():
+            check_friction_law(law, name)
     except LawError as error:
         raise SimulationError(Failure(str(error), UNLAWFUL, 0.0)) from error

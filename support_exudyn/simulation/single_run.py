@@ -11,9 +11,10 @@ from support_exudyn.mechanics.channels import EvaluationContext
 from support_exudyn.scenario.recorded_channels import asked, channels, evaluated
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.memory import check_room
-from support_exudyn.simulation.provenance import provenance
+from support_exudyn.simulation.provenance import WARNINGS, provenance
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.result_checks import result_checks
+from support_exudyn.simulation.slow_slip import friction_warnings
 from user_forces.lawful import UNLAWFUL
 
 
@@ -34,10 +35,12 @@ def single_run(scenario: Scenario, progress: Progress) -> Result:
             found = channels(scenario, context)
     except ArithmeticError as error:  # of a law or a drive, where nothing is computed step by step
         raise SimulationError(Failure(first_line(error), UNLAWFUL, 0.0)) from error
+    warnings: list[str] = []
     if scenario.solver.result_checks:
         motion = context.motion if isinstance(context, EvaluationContext) else None
         if (failure := result_checks(scenario, outcome, found, motion)) is not None:
             raise SimulationError(failure)
+        warnings = friction_warnings(scenario, outcome, motion)
     return Result(
         scenario=scenario,
         channels=asked(scenario, found),
@@ -46,9 +49,10 @@ def single_run(scenario: Scenario, progress: Progress) -> Result:
         largest_force_time=outcome.largest_force_time,
         impulses=outcome.impulses,
         oil_events=outcome.oil_events,
+        statistics=outcome.statistics,
         counts=outcome.counts,
         wall_time=time.perf_counter() - began,
-        provenance=provenance(),
+        provenance=provenance() | ({WARNINGS: "\n".join(warnings)} if warnings else {}),
     )
 
 

@@ -6,14 +6,16 @@ A scenario is made of the table of a scenario file, with fields of it and of its
 import copy
 import math
 import tempfile
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from support_exudyn.files import machines
 from support_exudyn.files.machines.read import shipped
+from support_exudyn.files.scenarios.own_classes import modules_named
 from support_exudyn.files.scenarios.scenario_file import scenario_of
 from support_exudyn.files.toml.text import load_toml, parsed, text_of, toml_text
 from support_exudyn.files.whole_file import missing_file
@@ -73,7 +75,9 @@ def read_sweep(path: str | Path) -> Plan:
         told = where if isinstance(data.get("scenario"), dict) else f"{where} as {path} varies it"
         return Plan(
             points=_points(data, varied),
-            scenario=maker(table, told, folder, tuple(varied)),
+            scenario=replace(
+                maker(table, told, folder, tuple(varied)), modules=modules_named([table, data], folder)
+            ),
             record=_record(_table(data, "record")),
             errors=table.get("errors") is True,
             text=text_of(path),
@@ -288,7 +292,7 @@ class FromTables:
 
     table: of the scenario file. where: what errors call it. folder: from which paths in it go on. file,
     machine: the machine's file and its table, if fields of that vary; keys: of these fields, by how the sweep
-    calls them.
+    calls them. modules: of classes of one's own, which are imported where the sweep is read; workers do so too.
     """
 
     table: Table
@@ -297,9 +301,12 @@ class FromTables:
     file: Path = Path()
     machine: Table = field(default_factory=dict)
     keys: Mapping[str, str] = field(default_factory=dict)
+    modules: Iterable[str] = ()
 
     def __call__(self, inputs: Inputs) -> Scenario:
         """The scenario of a point; raises InputError."""
+        for module in self.modules:
+            import_module(module)
         if not self.keys:
             return scenario_of(replaced(self.table, inputs), self.where, self.folder)
         changed = replaced(self.machine, {self.keys[name]: inputs[name] for name in self.keys})

@@ -6,31 +6,34 @@ from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 
-import numpy as np
-
-from support_exudyn.mechanics.extremes import largest, missed
+from support_exudyn.mechanics.time_statistics import TimeWindow
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import errors
-from support_exudyn.simulation.recorded_run import RecordedRun
-from support_exudyn.simulation.reported_numbers import ReportedNumber, inside, measures
+from support_exudyn.simulation.impulses import ENDLESS, impulses_of
+from support_exudyn.simulation.reported_numbers import (
+    DOUBTS,
+    LARGEST,
+    ReportedNumber,
+    measures,
+    other_times,
+    over,
+    time_of,
+)
+from support_exudyn.simulation.reported_numbers import STATISTICS as USUAL
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.plan import Record
 from support_exudyn.sweeps.store import StoredNumber
 from user_forces.values.value import InputError, short
 
-STATISTICS: Mapping[str, Callable[[np.ndarray], float]] = {
-    "mean": np.mean,
-    "std": np.std,
-    "max": np.max,
-    "min": np.min,
-    "first": lambda values: float(values[0]),
-    "last": lambda values: float(values[-1]),
-    "largest": largest,
+STATISTICS: Mapping[str, Callable[[TimeWindow], float]] = {
+    **USUAL,
+    "first": lambda window: window.first,
+    "last": lambda window: window.last,
 }
-TIMES: Mapping[str, Callable[[np.ndarray], int]] = {  # of extremes: which record it is
-    "largest_time": lambda values: int(np.abs(values).argmax()),
-    "max_time": lambda values: int(values.argmax()),
-    "min_time": lambda values: int(values.argmin()),
+TIMES: Mapping[str, Callable[[TimeWindow], tuple[float, float]]] = {  # of extremes
+    "largest_time": LARGEST,
+    "max_time": lambda window: window.greatest,
+    "min_time": lambda window: window.least,
 }
 WORDS = (*STATISTICS, *TIMES)
 OF_SIGNED = ("max", "max_time")  # of a magnitude the greatest is the largest
@@ -41,7 +44,7 @@ OF_IMPACTS = re.compile(r"(?P<stem>.+)\.(largest_force|largest_force_time|onset_
 def numbers(result: Result, record: Record) -> dict[str, StoredNumber]:
     """What is to be noted of a run, as far as it has it, with errors if the run tells them.
 
-    Raises InputError if no record lies between the times.
+    Raises InputError if the run does not last between the times.
     """
     usual = measures(result, record.after, record.until, sized=result.coarser is not None)
     found: dict[str, ReportedNumber] = {}
@@ -110,6 +113,8 @@ def _matching(
         channel, _, statistic = pattern.rpartition(".")
         if pattern in usual:
             return {pattern: usual[pattern]}
+        if statistic in ENDLESS and impulses_of(result, channel, record.after, record.until):
+            return {name: kind for name, kind in usual.items() if name.startswith(f"{channel}.impulse_")}
         if channel in result.channels and statistic in WORDS:
             return {pattern: _kind(result, channel, statistic, record)}
         return {}
@@ -119,6 +124,8 @@ def _matching(
             name = f"{channel}.{statistic}"
             if _is_magnitude(channel) and statistic in OF_SIGNED:
                 continue
+            if statistic in ENDLESS and impulses_of(result, channel, record.after, record.until):
+                continue  # it has no limit; its impulses are among the usual numbers
             if channel != "time" and name not in found and fnmatchcase(name, pattern):
                 found[name] = _kind(result, channel, statistic, record)
     return found
@@ -129,30 +136,14 @@ def _is_magnitude(channel: str) -> bool:
 
 
 def _kind(result: Result, channel: str, statistic: str, record: Record) -> ReportedNumber:
-
-    def chosen(run: RecordedRun) -> slice:
-        return inside(run, record.after, record.until)
-
+    between = record.after, record.until
     if statistic in TIMES:
-        place = TIMES[statistic]
-
-        def when(run: RecordedRun) -> float:
-            return float(run.time[chosen(run)][place(run[channel][chosen(run)])])
-
-        def apart(run: RecordedRun) -> float:
-            """Half the time between records, among which the extreme may be."""
-            return 0.5 * float(np.diff(run.time).max(initial=0.0))
-
-        return ReportedNumber("s", when, missed=apart)
-    compute = STATISTICS[statistic]
-
-    def measure(run: RecordedRun) -> float:
-        return float(compute(run[channel][chosen(run)]))
-
-    def between(run: RecordedRun) -> float:
-        return missed(statistic, run[channel][chosen(run)], run.time[chosen(run)], run.scenario.breaks)
-
-    return ReportedNumber(result.unit(channel), measure, missed=between)
+        extreme = TIMES[statistic]
+        when, doubt = time_of(channel, extreme, *between), other_times(channel, extreme, *between)
+        return ReportedNumber("s", when, missed=doubt, settles=False)
+    measure = over(channel, STATISTICS[statistic], *between)
+    missed = over(channel, DOUBTS.get(statistic, lambda window: 0.0), *between)
+    return ReportedNumber(result.unit(channel), measure, missed=missed)
 
 
 def _finite(error: float | None) -> float | None:

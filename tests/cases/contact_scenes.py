@@ -37,8 +37,6 @@ from user_forces import (
     Ambrosio,
     Exact,
     Frictionless,
-    ImpactVelocity,
-    IndentationVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -50,15 +48,15 @@ OFF = 5.0  # errors by which a number may be off
 
 
 def contact(rng: np.random.Generator, radius: float, clearance: float) -> JournalContact:
-    """A drawn contact: law, restitution, stiffness, whether it forgets, friction."""
+    """A drawn contact: law, restitution, stiffness, rest velocity, friction."""
     bearing = JournalBearing(bore_radius=radius, clearance=clearance)
     stiffness = external_contact_stiffness(bearing, STEEL, STEEL_35CRMO) * 10.0 ** rng.uniform(-1.0, 1.0)
     law = (Exact, LankaraniNikravesh)[rng.integers(2)]
-    speed = (IndentationVelocity(), ImpactVelocity())[rng.choice(2, p=(0.75, 0.25))]
+    rest = (1e-2, 1e-3)[rng.choice(2, p=(0.75, 0.25))]
     rubs = rng.random() < 0.2
     return JournalContact(
         bearing=bearing,
-        normal=law(stiffness=stiffness, restitution=round(rng.uniform(0.2, 0.95), 2), damping_speed=speed),
+        normal=law(stiffness=stiffness, restitution=round(rng.uniform(0.2, 0.95), 2), rest_velocity=rest),
         friction=Ambrosio(sliding_coefficient=round(rng.uniform(0.05, 0.3), 2)) if rubs else Frictionless(),
     )
 

@@ -18,7 +18,7 @@ from scipy.integrate import solve_ivp
 from support_exudyn import Body, Linkage, Machine, Scenario, Slide, SolverSettings
 from support_exudyn.model.guides import ClearanceGuide
 from support_exudyn.model.linkage import GROUND, pinned
-from user_forces import Ambrosio, Exact, FrictionLaw, Frictionless, ImpactVelocity, exact_damping_factor, value
+from user_forces import Ambrosio, Exact, FrictionLaw, Frictionless, exact_damping_factor, value
 
 GRAVITY = 9.81
 CRANK, ROD = 0.153, 0.306  # lengths [m]
@@ -77,7 +77,7 @@ def slider_crank(
 
     The speed that damping is scaled with is that of the impact as long as the contact lasts.
     """
-    normal = Exact(stiffness=stiffness, restitution=RESTITUTION, damping_speed=ImpactVelocity(floor=1e-9))
+    normal = Exact(stiffness=stiffness, restitution=RESTITUTION, rest_velocity=1e-9)
     return Scenario(
         machine=FreeSliderCrank(),
         guides={"guide": ClearanceGuide(gaps=(GAP, GAP), normal=normal, friction=friction, block=BLOCK)},

@@ -32,7 +32,6 @@ from user_forces import (
     Hertz,
     HuGuo,
     HuntCrossley,
-    Impact,
     Johnson,
     JournalBearing,
     KelvinVoigt,
@@ -102,7 +101,7 @@ NORMAL_LAWS: tuple[NormalLaw, ...] = (
     *(cylinder_law(kind) for kind in CYLINDER_LAWS),
     Hertz(stiffness=2.7e10),
     KelvinVoigt(stiffness=1e9, damping=5e4),
-    Anagnostopoulos(stiffness=1e9, restitution=0.7),
+    Anagnostopoulos(stiffness=1e9, restitution=0.7, mass=700.0),
     AdamsImpact(stiffness=3.16e9, full_damping=5e4, full_damping_depth=1e-4),
 )
 STATELESS_FRICTION: tuple[FrictionLaw, ...] = (
@@ -160,6 +159,6 @@ def rebound(force: Callable[[float, float], float], mass: float, speed: float, d
 
 def law_rebound(law: NormalLaw, mass: float, speed: float) -> float:
     """The same for a law."""
-    impact = Impact(speed, mass)
+    impact = speed
     depth = law.turning_depth(0.5 * mass * speed**2)
     return rebound(lambda x, rate: law(x, rate, impact), mass, speed, depth)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from support_exudyn import HydraulicSupport, Part
-from user_forces import Ambrosio, ImpactVelocity, JournalBearing, JournalContact, LankaraniNikravesh
+from user_forces import Ambrosio, JournalBearing, JournalContact, LankaraniNikravesh
 
 Point = tuple[float, float]
 
@@ -58,8 +58,6 @@ def contact(sliding_coefficient: float = 0.25, restitution: float = 0.9) -> Jour
     """A pin of the support's size, with textbook damping."""
     return JournalContact(
         bearing=JournalBearing(bore_radius=0.0655, clearance=0.0015),
-        normal=LankaraniNikravesh(
-            stiffness=2.7e10, restitution=restitution, damping_speed=ImpactVelocity(floor=1e-3)
-        ),
+        normal=LankaraniNikravesh(stiffness=2.7e10, restitution=restitution, rest_velocity=1e-3),
         friction=Ambrosio(sliding_coefficient=sliding_coefficient),
     )

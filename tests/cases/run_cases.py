@@ -21,7 +21,6 @@ from user_forces import (
     STEEL_35CRMO,
     Ambrosio,
     Frictionless,
-    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -42,9 +41,7 @@ def paper_contact(clearance_mm: float, sliding_coefficient: float) -> JournalCon
     friction = Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless()
     return JournalContact(
         bearing=bearing,
-        normal=LankaraniNikravesh(
-            stiffness=stiffness, restitution=0.9, damping_speed=ImpactVelocity(floor=1e-3)
-        ),
+        normal=LankaraniNikravesh(stiffness=stiffness, restitution=0.9, rest_velocity=1e-3),
         friction=friction,
     )
 
@@ -88,9 +85,7 @@ def slider_crank_contact(sliding_coefficient: float = 0.0) -> JournalContact:
     stiffness = internal_contact_stiffness(bearing, steel, steel)
     return JournalContact(
         bearing=bearing,
-        normal=LankaraniNikravesh(
-            stiffness=stiffness, restitution=0.9, damping_speed=ImpactVelocity(floor=1e-3)
-        ),
+        normal=LankaraniNikravesh(stiffness=stiffness, restitution=0.9, rest_velocity=1e-3),
         friction=Ambrosio(sliding_coefficient=sliding_coefficient) if sliding_coefficient else Frictionless(),
     )
 

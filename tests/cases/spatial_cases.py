@@ -18,8 +18,6 @@ from user_forces import (
     Ambrosio,
     FrictionLaw,
     Frictionless,
-    ImpactVelocity,
-    IndentationVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -68,14 +66,14 @@ class InSpace(Machine):
 
 
 def contact(friction: float = 0.0, by_depth: bool = False) -> JournalContact:
-    """The paper's law with textbook damping, or the default damping speed."""
+    """The paper's law with a rest velocity of 1 mm/s, or the default."""
     law: FrictionLaw = Ambrosio(sliding_coefficient=friction) if friction else Frictionless()
     return JournalContact(
         bearing=JournalBearing(bore_radius=0.02, clearance=CLEARANCE),
         normal=LankaraniNikravesh(
             stiffness=STIFFNESS,
             restitution=0.8,
-            damping_speed=IndentationVelocity() if by_depth else ImpactVelocity(floor=1e-3),
+            rest_velocity=1e-2 if by_depth else 1e-3,
         ),
         friction=law,
     )

@@ -109,7 +109,7 @@ def test_a_scenario_has_its_own_machine_checked(
     text = texts["ideal.toml"].replace("crank_rocker.py:CrankRocker", f"{name}.py:{kind}")
     path = tmp_path / "ideal.toml"
     path.write_text(text.replace("crank = 0.10", f"crank = {crank}"), encoding="utf-8")
-    assert main(["check", str(path)]) == 0
+    assert main(["--import", str(tmp_path / f"{name}.py"), "check", str(path)]) == 0
     said = capsys.readouterr()
     assert message in said.out
     assert said.err == ""

@@ -66,7 +66,17 @@ def test_the_four_bar_of_siconos_is_compared_through_its_table_alone(
     text = text.replace("duration_s = 1\n", f"duration_s = {seconds}\n").replace("../", f"{FOUR_BAR.parent}/")
     (tmp_path / "four_bar_run.toml").write_text(text, encoding="utf-8")
     run, table, mapping = tmp_path / "four_bar_run.h5", FOUR_BAR / "siconos.csv", FOUR_BAR / "compare.toml"
-    assert ended(["run", str(tmp_path / "four_bar_run.toml")]) == 0
+    assert (
+        ended(
+            [
+                "--import",
+                str(FOUR_BAR.parent / "computed_torque.py"),
+                "run",
+                str(tmp_path / "four_bar_run.toml"),
+            ]
+        )
+        == 0
+    )
     capsys.readouterr()
     assert ended(["compare", str(table), str(run), "--map", str(mapping), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)

@@ -234,13 +234,14 @@ def test_what_has_no_end_is_not_read(tmp_path: Path) -> None:
 
 
 TAKE = """
-import os, sys, time
+import os, sys
 from pathlib import Path
 from support_exudyn.files.whole_file import writing_alone
 folder, mark = Path(sys.argv[1]), Path(sys.argv[1]) / "mark"
-taken, end = 0, time.monotonic() + 0.4
+taken = 0
 print("ready", flush=True)
-while time.monotonic() < end:
+input()  # both begin together
+while taken < 500:
     try:
         with writing_alone(folder):
             os.close(os.open(mark, os.O_CREAT | os.O_EXCL))  # fails if another is inside
@@ -255,15 +256,17 @@ print(taken)
 @posix_only
 def test_no_two_processes_that_hurry_are_ever_in_a_folder_together(tmp_path: Path) -> None:
     command = [sys.executable, "-c", TAKE, str(tmp_path)]
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
     running = [
         subprocess.Popen(command, cwd=ROOT, env=environment(), text=True, **pipes)  # type: ignore[call-overload]
         for _ in range(2)
     ]
-    said = [process.communicate(timeout=60) for process in running]
-    assert [errors for _, errors in said] == [""] * 2
-    taken = [int(out.split()[1]) for out, _ in said]
-    assert sum(taken) > 20  # it takes some 0.1 ms
+    for process in running:
+        assert process.stdout.readline() == "ready\n"
+    for process in running:
+        process.stdin.write("\n")
+        process.stdin.flush()
+    assert [process.communicate(timeout=120) for process in running] == 2 * [("500\n", "")]
     assert wait_until(lambda: names(tmp_path) == [], 0.0)
 
 

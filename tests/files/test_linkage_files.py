@@ -251,7 +251,11 @@ def test_pins_know_their_bores_and_lengths(tmp_path: Path) -> None:
         ('O = ["ground", "crank"]', 'O = ["floor", "crank"]', "pins.O = 'floor': there is no such body"),
         ('O = ["ground", "crank"]', 'O = ["crank", "crank"]', "two different bodies"),
         ('at = "B"', 'at = "C"', "pins.B.at = 'C': bodies.coupler, which has a frame of its own, has no such"),
-        ('motor = "crank"', 'motor = "crank"\nother = "rocker"', "cranks.motor, cranks.other: fight"),
+        (
+            'motor = "crank"',
+            'motor = "crank"\nother = "rocker"',
+            "cranks.motor, cranks.other: one drive too many",
+        ),
         ('motor = "crank"', 'motor = "ground"', "cranks.motor = 'ground': no moving body"),
         ('tip = ["coupler", "B"]', 'tip = ["coupler", "C"]', "traced_points.tip = 'C'"),
         (
@@ -424,7 +428,7 @@ def test_a_strut_is_no_drive(tmp_path: Path) -> None:
     assert (found.struts, found.driven, found.counted, found.free, found.left) == (1, 0, 0, 0, 0)
     assert "- 1 struts = 0" in found.said()
     said = refusal(tmp_path, "[start]", strut + "\n[start]")
-    assert said.startswith("cranks.motor: fight, for there are more driven parts (1) than ways to move (0)")
+    assert said.startswith("cranks.motor: one drive too many, 1 driven parts fight over 0 degrees of freedom")
 
 
 def test_cranks_stand_as_drawn_if_nothing_is_said(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import ClearancePin
+from support_exudyn import ClearancePin, trusted
 from support_exudyn.files import read_scenario
 from user_forces.values.value import InputError
 
@@ -60,6 +60,7 @@ clearance_mm = 1.5
 
 def write(folder: Path, lines: str, module: str, prefix: str) -> Path:
     (folder / f"{module}.py").write_text(LAWS.format(prefix), encoding="utf-8")
+    trusted(folder / f"{module}.py")
     (folder / "a.toml").write_text(TOP + lines, encoding="utf-8")
     return folder / "a.toml"
 
@@ -87,13 +88,13 @@ def test_a_law_of_its_own_in_full(tmp_path: Path) -> None:
     ("lines", "message"),
     [
         ('law = "no_laws.py:A"', "law = 'no_laws.py:A': allowed: a file that is there"),
-        ('law = "no_such_laws:A"', "no module 'no_such_laws'"),
+        ('law = "no_such_laws:A"', "is a class of no_such_laws, which is not imported"),
         ('friction_law = "own_laws_bad.py:BadFricton"', "did you mean 'BadFriction'"),
         ('friction_law = "own_laws_bad.py:BadPlain"', "made with @value"),
         ('law = "own_laws_bad.py:BadFriction"', "law = 'BadFriction': .*allowed: BadNormal"),
         ('law = "Lankarani"', "did you mean LankaraniNikravesh"),
         ('law = "Johnson"', "law takes laws of stiffness and restitution only, and Johnson has .*ClearancePin"),
-        ('law = "NoRig"', '[.]py:CLASS", or --import MODULE'),
+        ('law = "NoRig"', '[.]py:CLASS", with --import FILE'),
         ('friction_law = "Stribeck"', "takes laws of one coefficient only.*friction = {"),
         ('law = "own_laws_bad.py:BadRig"', r"BadRig has fields of its own: .*\[pins.NAME.contact\] normal = {"),
         ('friction_law = "Ambrosia"', "did you mean Ambrosio[?] allowed: (?!.*Stribeck).*Ambrosio, "),

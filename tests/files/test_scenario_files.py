@@ -77,7 +77,7 @@ def test_the_papers_rise_in_short_is_that_of_the_studies() -> None:
 
 
 def test_a_pin_in_short_is_that_of_the_studies() -> None:
-    text = 'friction = 0.25\nrestitution = 0.9\nstiffness = "paper"\ndamping_speed = {type = "ImpactVelocity"}'
+    text = 'friction = 0.25\nrestitution = 0.9\nstiffness = "paper"'
     assert scenario(TOP + WITH_CLEARANCE + text).pins["rear_base"] == clearance_joint(1.5, 0.25)
 
 
@@ -108,14 +108,21 @@ def test_a_friction_law_as_a_table() -> None:
     assert found.clearance_pins["rear_base"].contact.friction == CubicCoulomb(sliding_coefficient=0.2)
 
 
-def test_damping_speed_bore_and_eccentricity() -> None:
+@pytest.mark.parametrize(
+    ("said", "rest"),
+    [
+        ("rest_velocity_mm_per_s = 3", 0.003),
+        # as earlier versions had it
+        ('damping_speed = {type = "ImpactVelocity"}', 0.001),
+        ('damping_speed = {type = "ImpactVelocity", floor_mm_per_s = 2}', 0.002),
+    ],
+)
+def test_rest_velocity_bore_and_eccentricity(said: str, rest: float) -> None:
     found = scenario(
-        TOP
-        + WITH_CLEARANCE
-        + 'bore = "second"\neccentricity_mm = [0, -1]\ndamping_speed = {type = "ImpactVelocity"}'
+        TOP + WITH_CLEARANCE + 'bore = "second"\neccentricity_mm = [0, -1]\n' + said
     ).clearance_pins["rear_base"]
     assert (found.bore, found.eccentricity) == ("second", (0.0, -0.001))
-    assert type(found.contact.normal.damping_speed).__name__ == "ImpactVelocity"  # type: ignore[attr-defined]
+    assert found.contact.normal.rest_velocity == rest  # type: ignore[attr-defined]
 
 
 def test_an_ideal_pin() -> None:
@@ -303,7 +310,7 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         ),
         (
             TOP + WITH_CLEARANCE + "friction = 'wet'",
-            "a.toml: pins.rear_base.friction = 'wet': allowed: >= 0, or a table",
+            "a.toml: pins.rear_base.friction = 'wet': allowed: >= 0 and <= 5, or a table",
         ),
         (TOP + "[pins.rear_base]\nideal = false", "a.toml: pins.rear_base.ideal = false: allowed: true"),
         (TOP + "pins = 3", "a.toml: pins = 3: allowed: a table of names, each a table of type "),

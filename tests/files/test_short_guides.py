@@ -93,7 +93,7 @@ def test_a_block_is_that_of_the_machines_file() -> None:
             "clearance_mm = 1\npin_radius_mm = 5\n",
             "has a pin_radius; allowed: block, for its body does not turn",
         ),
-        ("ideal = false\n", "true, alone; a guide with clearance has a clearance_mm instead"),
+        ("ideal = false\n", "true; a guide with clearance has a clearance_mm instead"),
     ],
 )
 def test_what_is_wrong_is_told_by_its_key(text: str, said: str) -> None:

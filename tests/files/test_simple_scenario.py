@@ -18,7 +18,6 @@ from user_forces import (
     Anagnostopoulos,
     Flores,
     Hertz,
-    ImpactVelocity,
     InputError,
     JournalBearing,
     Threlfall,
@@ -81,10 +80,10 @@ def test_a_simple_pin_takes_law_friction_and_stiffness() -> None:
         law=Flores,
         friction=friction,
         stiffness="internal",
-        damping_speed=ImpactVelocity(),
+        rest_velocity=1e-3,
     )
     stiffness = internal_contact_stiffness(pin.contact.bearing, STEEL, STEEL_35CRMO)
-    assert pin.contact.normal == Flores(stiffness=stiffness, restitution=0.9, damping_speed=ImpactVelocity())
+    assert pin.contact.normal == Flores(stiffness=stiffness, restitution=0.9, rest_velocity=1e-3)
     assert pin.contact.friction == friction
 
 

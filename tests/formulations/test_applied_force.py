@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies.which_pin import cases as which_pin_cases
+from studies.common.subject import paper_subject
 from studies.which_pin import closed_form as clearance
 from support_exudyn import (
     AppliedForce,
@@ -22,7 +22,6 @@ from support_exudyn import (
 from support_exudyn.mechanics.kinetics import kinetics_of
 from tests.cases.run_cases import PIN, loose_support
 from tests.roof_cases import DAMPED, MASS, ON_OIL, OVER_THE_COLUMNS, TOP, Ram
-from user_forces import IndentationVelocity
 from user_forces.values.value import InputError, Vector2
 
 MEGANEWTON = 1e6
@@ -84,7 +83,7 @@ def test_actuators_and_pins_carry_what_statics_say(actuators: dict[str, object],
 
 def test_a_support_can_start_settled_under_it() -> None:
     base = loose_support().pins[PIN].contact
-    pin = ClearancePin(contact=replace(base, normal=replace(base.normal, damping_speed=IndentationVelocity())))
+    pin = ClearancePin(contact=replace(base, normal=replace(base.normal)))
     load = pressing(start=0.0, end=0.0)
     result = pressed(load, pins={PIN: pin}, actuators=ON_OIL, start="settled", drive=Held(), duration=0.05)
     # at rest at once: what is left of the static solver's tolerance
@@ -100,7 +99,7 @@ def test_times_in_disorder_are_refused() -> None:
 
 def test_worn_pins_let_a_roof_push_the_tip_forward() -> None:
     # all five pins clearance, without friction: to the rear under the weight, forward under a roof of 1 MN
-    pins = dict.fromkeys(reference_support().linkage().pins, which_pin_cases.clearance_pin(0.0))
+    pins = dict.fromkeys(reference_support().linkage().pins, paper_subject().clearance_pin(1.5, 0.0))
     stand = clearance.standing(reference_support())
     for presses, loads in (
         ([], {}),

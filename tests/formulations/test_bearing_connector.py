@@ -26,7 +26,7 @@ from support_exudyn.formulations.redundant.space.sections import Section
 from support_exudyn.mechanics.space.motion import UNTURNED, turning_matrix
 from tests.cases.law_cases import NORMAL_LAWS
 from tests.cases.machine_cases import contact
-from user_forces import Exact, Frictionless, Impact, JournalContact
+from user_forces import Exact, Frictionless, JournalContact
 from user_forces.compilation.flat import compiled
 
 PLACES = (-0.2, 0.0, 0.2)
@@ -50,7 +50,7 @@ def bearing(of: JournalContact, bore: bool, journal: bool, slides: bool) -> Bear
     return BearingGeometry(
         bore=end(0 if bore else None, (0.4, -0.3, 0.1) if bore else (0.0, 0.0, 0.0)),
         journal=end((7 if bore else 0) if journal else None, (-0.2, 0.5, 0.3) if journal else (0.0, 0.0, 0.0)),
-        at=attachment(of, not bore, not journal, in_space=True),
+        at=attachment(of, not bore, not journal),
         places=PLACES,
         slides=slides,
     )
@@ -63,7 +63,6 @@ def pressed(of: JournalContact, bore: bool, journal: bool, slides: bool) -> dict
     known = names(geometry)
     for n in range(len(PLACES)):
         known |= {f"in_contact{n}": True, f"speed{n}": SPEED}
-        known |= {f"inverse_mass_{axes}{n}": 1.0 / MASS for axes in ("xx", "yy")}
     contacts = [part_of(of, part) for part in PARTS_OF]
     return compiled(force_source(geometry, contacts), contacts[0], **known)
 
@@ -130,10 +129,10 @@ def test_forces_are_those_of_all_sections_and_keep_momenta(
         np.testing.assert_allclose(bore + journal, 0.0, atol=1e-12 * size)
     expected = np.zeros(3)
     for n, (((*_, bore_spin), (x, y, vx, vy, _, spin)), axes, apart) in enumerate(sections):
-        if geometry.at not in (Attachment.LINE, Attachment.SPACE):
+        if geometry.at is not Attachment.LINE:
             mine = force["last"][PARTS * n : PARTS * n + PARTS]
             np.testing.assert_allclose(mine[:2] + mine[3:5], (x, y, vx, vy), rtol=0.0, atol=1e-13)
-        one = contacts[n].force(x, y, vx, vy, bore_spin, spin, Impact(SPEED, MASS))
+        one = contacts[n].force(x, y, vx, vy, bore_spin, spin, SPEED)
         if isinstance(of.friction, Frictionless):  # it acts along both centres
             expected -= one.normal_force * apart / np.linalg.norm(apart)
         else:

@@ -40,7 +40,6 @@ from tests.roof_cases import STIFFNESS as HARD
 from user_forces import (
     Ambrosio,
     Frictionless,
-    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -207,9 +206,7 @@ def test_a_free_crank_rocker_moves_as_published() -> None:
 def test_two_loose_pins_impact_as_by_scipy(friction: float) -> None:
     contact = JournalContact(
         bearing=JournalBearing(bore_radius=loose.BORE, clearance=loose.CLEARANCE),
-        normal=LankaraniNikravesh(
-            stiffness=loose.STIFFNESS, restitution=loose.RESTITUTION, damping_speed=ImpactVelocity(floor=1e-9)
-        ),
+        normal=LankaraniNikravesh(stiffness=loose.STIFFNESS, restitution=loose.RESTITUTION, rest_velocity=1e-9),
         friction=Ambrosio(sliding_coefficient=friction) if friction else Frictionless(),
     )
     scene = Scenario(

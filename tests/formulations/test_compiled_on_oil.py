@@ -33,10 +33,8 @@ from support_exudyn import (
 from support_exudyn.model.linkage import GROUND, pinned
 from tests.cases.run_cases import FORCE, PIN, paper_contact, support
 from user_forces import (
-    Anagnostopoulos,
     BrownMcPhee,
     Flores,
-    IndentationVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -216,7 +214,7 @@ def test_records_do_not_change_the_run() -> None:
 @pytest.mark.parametrize("name", ["exact", "kelvin_voigt", "anagnostopoulos", "johnson"])
 @pytest.mark.parametrize("restitution", [0.3, pytest.param(0.9, marks=pytest.mark.slow)])
 def test_laws_of_every_kind(name: str, restitution: float) -> None:
-    # one that forgets an impact when it is pressed on again, a dashpot, one that asks for tension, cylinders
+    # one with hysteresis, a dashpot, one that asks for tension, cylinders
     pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), normal=normal_laws(1.5, restitution)[name]))
     coarse, fine = (simulate(on_oil(t, drive=Held(), duration=0.06, pins={PIN: pin})) for t in (1e-7, 1e-10))
     assert len(coarse.onsets[PIN]) == len(fine.onsets[PIN]) >= 1
@@ -375,30 +373,3 @@ class Torn(Bars):
 def test_velocities_that_tear_a_pin_are_refused(formulation: Literal["redundant", "compiled"]) -> None:
     with pytest.raises(SimulationError, match="energy does not add up: it is open by 1"):
         simulate(Scenario(machine=Torn(number=1), duration=0.1, formulation=formulation))
-
-
-# --- contacts that are pressed on again ---
-
-PRESSED_AGAIN = {
-    "forgets": replace(paper_contact(1.5, 0.0).normal, restitution=0.5, damping_speed=IndentationVelocity()),
-    "asks for the mass": Anagnostopoulos(stiffness=1e9, restitution=0.7),
-}
-
-
-@pytest.mark.parametrize(
-    ("law", "bore"),
-    [
-        ("forgets", "second"),
-        ("asks for the mass", "first"),
-        pytest.param("forgets", "first", marks=pytest.mark.slow),
-        pytest.param("asks for the mass", "second", marks=pytest.mark.slow),
-    ],
-)
-def test_a_contact_that_is_pressed_on_again_renews_what_it_remembers(law: str, bore: str) -> None:
-    pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), normal=PRESSED_AGAIN[law]), bore=bore)
-    scene = on_oil(1e-9, drive=Held(), duration=0.08, pins={PIN: pin})
-    ours = simulate(scene)
-    finest = SolverSettings(impact_steps=512)
-    theirs = simulate(replace(scene, formulation="redundant", step=1e-4, solver=finest))
-    # the redundant formulation's steps of impacts; measured 5e-5, and 2e-3 with the mass of the first impact
-    assert ours.dissipated == pytest.approx(theirs.dissipated, rel=2e-4)

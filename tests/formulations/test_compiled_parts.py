@@ -1,4 +1,4 @@
-"""Parts of the compiled formulation as they are written: joints, factors, effective masses, courses."""
+"""Parts of the compiled formulation as they are written: joints, factors, effective courses."""
 
 from __future__ import annotations
 
@@ -28,14 +28,13 @@ from support_exudyn import (
 )
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.formulations.compilation import plain
-from support_exudyn.formulations.compiled import forces, masses, motion
-from support_exudyn.formulations.compiled.arrays import SceneArrays, scratch
+from support_exudyn.formulations.compiled import motion
+from support_exudyn.formulations.compiled.arrays import SceneArrays
 from support_exudyn.formulations.compiled.courses import courses, segment_edges
 from support_exudyn.formulations.compiled.run import _Run
 from support_exudyn.formulations.compiled.setup import Model, model_of
 from support_exudyn.formulations.contract import silent
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
-from support_exudyn.mechanics.pressed_pins import inverse_masses, struck_together
 from support_exudyn.model.linkage import GROUND, pinned
 from tests.cases.guide_cases import FreePair, slider_crank
 from tests.cases.run_cases import loose_slider_crank, support
@@ -229,51 +228,6 @@ def test_every_step_ends_with_its_joints_closed() -> None:
     # within rounding; steps of this tolerance that nothing closes add up to some 1e-8 m
     assert np.abs(left.rows.off).max() < 3e-13
     assert np.abs(matrix(left, 9) @ run.y[9:18]).max() < 1e-12
-
-
-# --- effective masses ---
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        "support, two loose pins",
-        "support, all pins loose",
-        "slider-crank",
-        "slider between walls",
-        "a pin in a slot",
-    ],
-)
-@pytest.mark.parametrize("seed", range(8))  # corners of a face strike together in the seventh
-def test_effective_masses_are_those_of_mechanics(name: str, seed: int) -> None:
-    # so far that most journals lie in their walls, and some do not
-    at = instant(name, seed, apart=1e-3)
-    scenario = at.model.scenario
-    plain(motion.factor)(at.scene)
-    for n in range(at.scene.contacts.size):
-        plain(forces.observe)(at.scene, n, at.y)
-    room = scratch(at.scene, at.y.size)
-    places = scenario.contact_places
-    pressed = [one.depth > 0.0 for one in at.scene.contacts]
-    for n, (pin, place) in enumerate(places.items()):
-        plain(masses.renew_mass)(at.scene, room, n, at.y)
-        away, rate = place.relative(at.kinetics, at.position)
-        rows = [rate]
-        for m, other in enumerate(places.values()):
-            if m != n and pressed[m]:
-                apart, its_rate = other.relative(at.kinetics, at.position)
-                rows.append((apart / np.linalg.norm(apart) @ its_rate)[None])
-        turn = at.y[3 * at.scene.points[at.scene.contacts[n].first].body + 2] if place.bore != "ground" else 0.0
-        angle = place.axes(scenario.linkage) + turn
-        axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-        known = inverse_masses(at.kinetics.inverse_mass(at.position, rows), axes)
-        if place.contact.bearing.is_slot and away.any():
-            along = np.vstack([away / np.linalg.norm(away) @ rate, *rows[1:]])
-            known = struck_together(known, at.kinetics.inverse_mass(at.position, [along]), along @ at.velocity)
-        one = at.scene.contacts[n]
-        assert (one.xx, one.xy, one.yy) == pytest.approx(
-            tuple(known.held), rel=1e-7, abs=1e-9 * max(known.alone.xx, known.alone.yy)
-        ), pin
 
 
 # --- what follows time ---

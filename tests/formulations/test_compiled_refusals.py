@@ -35,7 +35,6 @@ from user_forces import (
     Exact,
     FrictionLaw,
     Hertz,
-    Impact,
     InputError,
     JournalBearing,
     JournalContact,
@@ -78,15 +77,15 @@ class Softened(LankaraniNikravesh):
 class Branching(LankaraniNikravesh):
     """A law that branches on its arguments."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
-        return super().__call__(depth, rate, impact) if rate > 0.0 else self.elastic_force(depth)
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
+        return super().__call__(depth, rate, impact_velocity) if rate > 0.0 else self.elastic_force(depth)
 
 
 @value
 class ByMath(LankaraniNikravesh):
     """A law whose elastic part takes floats alone."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         return self.stiffness * power(depth, 1.5)
 
     def elastic_force(self, depth: float) -> float:

@@ -31,7 +31,7 @@ from support_exudyn import (
     simulate,
 )
 from tests.roof_cases import MASS, OVER_THE_COLUMNS, TOP, Ram
-from user_forces import Impact, value
+from user_forces import value
 
 G = 9.81
 HEIGHT = 0.5
@@ -173,9 +173,9 @@ def bounced(rock: FallingBlock, duration: float) -> list[tuple[float, float, flo
             return found
         struck = math.sqrt(v * v + 2.0 * G * y)
 
-        told = Impact(struck, rock.mass)
+        told = struck
 
-        def rates(_: float, state: np.ndarray, told: Impact = told) -> list[float]:
+        def rates(_: float, state: np.ndarray, told: float = told) -> list[float]:
             depth = max(-state[0], 1e-30)
             return [state[1], max(0.0, law(depth, -state[1], told)) / rock.mass - G]
 

@@ -22,7 +22,7 @@ from support_exudyn.formulations.registry import FORMULATIONS, Formulation, form
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, slider_crank, support
 from tests.linkages import four_bar
-from user_forces import Impact, InputError, LankaraniNikravesh, LuGre, value
+from user_forces import InputError, LankaraniNikravesh, LuGre, value
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 BOTH = {"front_column": OIL, "rear_column": OIL}
@@ -40,8 +40,8 @@ def with_a_state() -> Scenario:
 class Branching(LankaraniNikravesh):
     """A law that branches on its arguments."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
-        return super().__call__(depth, rate, impact) if rate > 0.0 else self.elastic_force(depth)
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
+        return super().__call__(depth, rate, impact_velocity) if rate > 0.0 else self.elastic_force(depth)
 
 
 def with_a_branch() -> Scenario:

@@ -30,7 +30,6 @@ from tests.cases.run_cases import (
     slider_crank_contact,
     support,
 )
-from user_forces import IndentationVelocity
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 BOTH = {"front_column": OIL, "rear_column": OIL}
@@ -40,7 +39,7 @@ RISE = CubicStep(stroke=0.02, start=0.02, end=0.1)
 def pressed_apart(clearance_mm: float, mu: float, bore: str) -> dict[str, ClearancePin]:
     """The support's clearance pin, damped by its depth and losing half of the speed of an impact."""
     base = paper_contact(clearance_mm, mu)
-    law = replace(base.normal, restitution=0.5, damping_speed=IndentationVelocity())
+    law = replace(base.normal, restitution=0.5)
     return {PIN: ClearancePin(contact=replace(base, normal=law), bore=bore)}
 
 

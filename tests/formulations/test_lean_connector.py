@@ -20,20 +20,18 @@ from user_forces import (
     Ambrosio,
     FrictionLaw,
     Frictionless,
-    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
 )
-from user_forces.normal.damping_speed import DampingSpeed, IndentationVelocity
 
 Backend = Literal["python", "symbolic"]
 BEARING = JournalBearing(bore_radius=0.02, clearance=0.001)
 NEARLY = Ambrosio(sliding_coefficient=1e-12)  # no friction, but the connector of one
 
 
-def contact(damping: DampingSpeed, friction: FrictionLaw = Frictionless()) -> JournalContact:  # noqa: B008
-    normal = LankaraniNikravesh(stiffness=1e9, restitution=0.9, damping_speed=damping)
+def contact(friction: FrictionLaw = Frictionless()) -> JournalContact:  # noqa: B008
+    normal = LankaraniNikravesh(stiffness=1e9, restitution=0.9)
     return JournalContact(bearing=BEARING, normal=normal, friction=friction)
 
 
@@ -52,41 +50,27 @@ def fly(law: JournalContact, bore: Literal["first", "second"], backend: Backend)
 
 
 @pytest.mark.parametrize(
-    ("damping", "friction", "ends", "expected"),
+    ("friction", "ends", "expected"),
     [
-        (ImpactVelocity(), Frictionless(), (True, False), Attachment.LINE),
-        (ImpactVelocity(), Frictionless(), (False, False), Attachment.LINE),
-        (IndentationVelocity(), Frictionless(), (True, False), Attachment.CENTRAL),
-        (ImpactVelocity(), NEARLY, (True, False), Attachment.JOURNAL),
-        (ImpactVelocity(), NEARLY, (False, True), Attachment.BORE),
-        (IndentationVelocity(), NEARLY, (False, False), Attachment.MIDDLE),
+        (Frictionless(), (True, False), Attachment.LINE),
+        (Frictionless(), (False, False), Attachment.LINE),
+        (NEARLY, (True, False), Attachment.JOURNAL),
+        (NEARLY, (False, True), Attachment.BORE),
+        (NEARLY, (False, False), Attachment.MIDDLE),
     ],
 )
 def test_the_least_connector_that_does_is_taken(
-    damping: DampingSpeed, friction: FrictionLaw, ends: tuple[bool, bool], expected: Attachment
+    friction: FrictionLaw, ends: tuple[bool, bool], expected: Attachment
 ) -> None:
-    assert attachment(contact(damping, friction), *ends) is expected
+    assert attachment(contact(friction), *ends) is expected
 
 
-DAMPING = {"line": ImpactVelocity(), "central": IndentationVelocity()}
-WAYS = [
-    (connector, bore, backend)
-    for connector in DAMPING
-    for bore in ("first", "second")
-    for backend in ("python", "symbolic")
-]
-EVERY_WAY = pytest.mark.parametrize(
-    ("connector", "bore", "backend"),
-    # half of them have every connector with every bore and every backend
-    [pytest.param(*way, marks=[pytest.mark.slow] if n in (1, 2, 4, 7) else []) for n, way in enumerate(WAYS)],
-)
+EVERY_WAY = pytest.mark.parametrize(("bore", "backend"), [("first", "python"), ("second", "symbolic")])
 
 
 @EVERY_WAY
-def test_momentum_is_kept_without_friction(
-    connector: str, bore: Literal["first", "second"], backend: Backend
-) -> None:
-    result = fly(contact(DAMPING[connector]), bore, backend)
+def test_momentum_is_kept_without_friction(bore: Literal["first", "second"], backend: Backend) -> None:
+    result = fly(contact(), bore, backend)
     assert len(result.onsets["pin"]) >= 3  # else the test says nothing
     assert result["one.angular_velocity"].std() > 0.1
     linear, angular = momenta(result, ONE, TWO)
@@ -98,16 +82,12 @@ def test_momentum_is_kept_without_friction(
 
 @EVERY_WAY
 def test_two_free_bodies_move_alike_on_every_connector(
-    connector: str, bore: Literal["first", "second"], backend: Backend
+    bore: Literal["first", "second"], backend: Backend
 ) -> None:
-    lean, full = (
-        fly(contact(DAMPING[connector], friction), bore, backend) for friction in (Frictionless(), NEARLY)
-    )
+    lean, full = (fly(contact(friction), bore, backend) for friction in (Frictionless(), NEARLY))
     one, two = lean.onsets["pin"], full.onsets["pin"]
     assert len(one) == len(two) >= 3
-    # a coefficient of friction of 1e-12, and the axes of the inverse effective mass, which a bore that turns is
-    # expected to
-    # have: of second order in steps of 4e-6 s
+    # a coefficient of friction of 1e-12
     assert [impact.time for impact in one] == pytest.approx([impact.time for impact in two], rel=1e-8)
     assert [impact.speed for impact in one] == pytest.approx([impact.speed for impact in two], rel=1e-6)
     for name in ("one.x", "two.angle", "one.angular_velocity"):

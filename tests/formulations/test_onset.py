@@ -20,20 +20,19 @@ from support_exudyn.formulations.contact_events import (
 )
 from support_exudyn.mechanics.contact_state import HEAVIEST, InverseMass, Onset, PinMemory
 from tests.analytic import fall_through
-from user_forces import Impact
 
 H = 1e-3  # length of a step [s]
 BEHIND = BEYOND * SHARE  # how far behind an event a cut step is to end, in steps
-REST = (0.2, 1e-6, 0.5, 0.1, 0.25)  # slip, deflection and mobility: what no verdict changes
+REST = (0.2, 1e-6)  # slip and deflection: what no verdict changes
 
 
 def memory_of(in_contact: bool, impact_velocity: float, depth: float, rate: float) -> PinMemory:
     return PinMemory(in_contact, impact_velocity, depth, rate, *REST)
 
 
-def accepted(memory: PinMemory, anew: bool = False) -> Verdict:
+def accepted(memory: PinMemory) -> Verdict:
     """An ordinary step: no impact, nothing to repeat."""
-    return Verdict(Action.ACCEPT, memory, None, anew, math.inf, math.inf)
+    return Verdict(Action.ACCEPT, memory, None, math.inf, math.inf)
 
 
 def any_speed(step: float) -> Callable[[float], float]:
@@ -47,14 +46,13 @@ def judged(
     step: float = H,
     impact_step: float = H,
     speed: float | None = None,
-    forgets: bool = False,
 ) -> tuple[Verdict, PinMemory]:
     """Verdict on a step from `begin`, and the memory at its start, if the depth [m] is this function of
     time [s]; `speed`: of approach of a contact that is going on, None if there is none.
     """
     rate, end = depth.deriv(), begin + step
     memory = memory_of(speed is not None, speed or 0.0, float(depth(begin)), float(rate(begin)))
-    verdict = judge(memory, float(depth(end)), float(rate(end)), end, step, any_speed(impact_step), forgets)
+    verdict = judge(memory, float(depth(end)), float(rate(end)), end, step, any_speed(impact_step))
     return verdict, memory
 
 
@@ -185,7 +183,7 @@ def test_steps_of_an_impact_are_those_for_its_speed(impact: Rise) -> None:
     rate = impact.depth.deriv()
     memory = memory_of(False, 0.0, float(impact.depth(0.0)), float(rate(0.0)))
     end = float(impact.depth(impact.step)), float(rate(impact.step))
-    verdict = judge(memory, *end, impact.step, impact.step, impact_step, False)
+    verdict = judge(memory, *end, impact.step, impact.step, impact_step)
     assert verdict.onset is not None
     assert asked == [verdict.onset.speed]
 
@@ -195,7 +193,7 @@ def test_onset_is_located_wherever_the_step_lies(impact: Rise, begin: float) -> 
     rate = impact.depth.deriv()
     memory = memory_of(False, 0.0, float(impact.depth(0.0)), float(rate(0.0)))
     end = float(impact.depth(impact.step)), float(rate(impact.step))
-    verdict = judge(memory, *end, begin + impact.step, impact.step, any_speed(impact.step), False)
+    verdict = judge(memory, *end, begin + impact.step, impact.step, any_speed(impact.step))
     assert verdict.onset is not None
     # rounding of a time of 10 s
     assert verdict.onset.time == pytest.approx(begin + impact.share * impact.step, abs=4e-15)
@@ -206,9 +204,9 @@ def test_onset_is_located_wherever_the_step_lies(impact: Rise, begin: float) -> 
 
 def test_touch_exactly_at_the_end_is_found_in_the_next_step() -> None:
     depth = Polynomial([-0.5 * H, 0.5])
-    at_end = judge(memory_of(False, 0.0, -0.5 * H, 0.5), 0.0, 0.5, H, H, any_speed(H), False)
+    at_end = judge(memory_of(False, 0.0, -0.5 * H, 0.5), 0.0, 0.5, H, H, any_speed(H))
     assert (at_end.action, at_end.onset) == (Action.ACCEPT, None)
-    following = judge(at_end.memory, float(depth(2 * H)), 0.5, 2 * H, H, any_speed(H), False)
+    following = judge(at_end.memory, float(depth(2 * H)), 0.5, 2 * H, H, any_speed(H))
     assert following.action is Action.REPEAT
     # rounding
     assert following.onset == pytest.approx(Onset(H, 0.5), rel=1e-14)
@@ -262,35 +260,33 @@ def test_a_miss_within_one_step_is_free_flight(top: float, below: float) -> None
 # --- in contact at the start of the step ---
 
 
-@pytest.mark.parametrize("forgets", [False, True])
-def test_contact_that_goes_on_keeps_its_approach_speed(forgets: bool) -> None:
-    verdict, _ = judged(Polynomial([1e-4, 0.05]), speed=0.3, forgets=forgets)
+def test_contact_that_goes_on_keeps_its_approach_speed() -> None:
+    verdict, _ = judged(Polynomial([1e-4, 0.05]), speed=0.3)
     # rounding of the end depth
     end = memory_of(True, 0.3, pytest.approx(1e-4 + 0.05 * H, rel=1e-15), 0.05)
     assert verdict == accepted(end)
 
 
-@given(separation=impacts(1.01 * SHARE, 0.749), forgets=st.booleans())
-def test_parting_in_mid_step_cuts_the_step_to_end_just_behind_it(separation: Rise, forgets: bool) -> None:
-    verdict, memory = judged(-separation.depth, step=separation.step, speed=0.3, forgets=forgets)
+@given(separation=impacts(1.01 * SHARE, 0.749))
+def test_parting_in_mid_step_cuts_the_step_to_end_just_behind_it(separation: Rise) -> None:
+    verdict, memory = judged(-separation.depth, step=separation.step, speed=0.3)
     assert_cut(verdict, memory, separation.share + BEHIND, 1, separation.step)
     assert verdict.onset is None
 
 
-@given(separation=impacts(0.751, 1.0 - 1.01 * SHARE), forgets=st.booleans())
-def test_late_parting_is_reached_in_two_steps(separation: Rise, forgets: bool) -> None:
-    verdict, memory = judged(-separation.depth, step=separation.step, speed=0.3, forgets=forgets)
+@given(separation=impacts(0.751, 1.0 - 1.01 * SHARE))
+def test_late_parting_is_reached_in_two_steps(separation: Rise) -> None:
+    verdict, memory = judged(-separation.depth, step=separation.step, speed=0.3)
     assert_cut(verdict, memory, separation.share + BEHIND, 2, separation.step)
     assert verdict.onset is None
 
 
 @given(
     separation=impacts(1e-3 * SHARE, 0.99 * SHARE) | impacts(1.0 - 0.99 * SHARE, 1.0 - 1e-3 * SHARE),
-    forgets=st.booleans(),
 )
-def test_contact_is_released_in_a_step_that_parts_near_an_end_of_it(separation: Rise, forgets: bool) -> None:
+def test_contact_is_released_in_a_step_that_parts_near_an_end_of_it(separation: Rise) -> None:
     depth = -separation.depth
-    verdict, _ = judged(depth, step=separation.step, speed=0.3, forgets=forgets)
+    verdict, _ = judged(depth, step=separation.step, speed=0.3)
     end = memory_of(False, 0.0, float(depth(separation.step)), float(depth.deriv()(separation.step)))
     assert verdict == accepted(end)
 
@@ -300,19 +296,19 @@ def test_a_parting_is_located_wherever_the_step_lies(separation: Rise, begin: fl
     depth, rate = -separation.depth, -separation.depth.deriv()
     memory = memory_of(True, 0.3, float(depth(0.0)), float(rate(0.0)))
     end = float(depth(separation.step)), float(rate(separation.step))
-    verdict = judge(memory, *end, begin + separation.step, separation.step, any_speed(H), False)
+    verdict = judge(memory, *end, begin + separation.step, separation.step, any_speed(H))
     # rounding of a time of 10 s
     assert verdict.landing == pytest.approx(begin + (separation.share + BEHIND) * separation.step, abs=4e-15)
 
 
 def test_depth_zero_at_the_end_is_parted() -> None:
-    verdict = judge(memory_of(True, 0.3, 1e-4, -0.1), 0.0, -0.1, H, H, any_speed(H), False)
+    verdict = judge(memory_of(True, 0.3, 1e-4, -0.1), 0.0, -0.1, H, H, any_speed(H))
     assert verdict == accepted(memory_of(False, 0.0, 0.0, -0.1))
 
 
 def test_a_contact_without_depth_from_start_to_end_is_released() -> None:
     # what REPEAT leaves behind, if the surfaces part again at once
-    verdict = judge(memory_of(True, 0.2, -1e-6, 1e-3), -2e-6, -3e-3, H, H, any_speed(H), False)
+    verdict = judge(memory_of(True, 0.2, -1e-6, 1e-3), -2e-6, -3e-3, H, H, any_speed(H))
     assert verdict == accepted(memory_of(False, 0.0, -2e-6, -3e-3))
 
 
@@ -320,15 +316,14 @@ def test_a_contact_without_depth_from_start_to_end_is_released() -> None:
     bottom=st.floats(0.35, 0.65),
     width=st.floats(0.05, 0.9),
     bend=st.floats(10.0, 1e3),
-    forgets=st.booleans(),
 )
 def test_parting_and_touching_again_within_a_step_is_a_new_contact(
-    bottom: float, width: float, bend: float, forgets: bool
+    bottom: float, width: float, bend: float
 ) -> None:
     r = width * min(bottom, 1.0 - bottom)
     t = Polynomial([-bottom * H, 1.0])
     depth = bend * (t**2 - (r * H) ** 2)
-    verdict, _ = judged(depth, speed=0.3, forgets=forgets)
+    verdict, _ = judged(depth, speed=0.3)
     assert verdict.action is Action.ACCEPT
     assert verdict.onset is not None
     # the roots of a parabola whose bottom is r h deep; rounding over a slope of r >= 0.017
@@ -348,7 +343,7 @@ def test_a_swing_that_stays_in_contact_is_no_new_contact(bottom: float, above: f
 
 def test_a_repeated_step_in_contact_may_begin_before_the_touch() -> None:
     # what REPEAT leaves behind: in contact, depth still a little negative
-    verdict = judge(memory_of(True, 0.2, -1e-6, 0.2), 1e-4, 0.2, H, H, any_speed(H), True)
+    verdict = judge(memory_of(True, 0.2, -1e-6, 0.2), 1e-4, 0.2, H, H, any_speed(H))
     assert verdict == accepted(memory_of(True, 0.2, 1e-4, 0.2))
 
 
@@ -361,20 +356,14 @@ opening = st.floats(-0.5, -1e-300)
 State = tuple[float, float]  # depth, rate
 
 
-def gone_on(start: State, end: State, forgets: bool) -> Verdict:
+def gone_on(start: State, end: State) -> Verdict:
     """Verdict on a step in contact."""
-    return judge(memory_of(True, 0.3, *start), *end, H, H, any_speed(H), forgets)
+    return judge(memory_of(True, 0.3, *start), *end, H, H, any_speed(H))
 
 
 @given(start=st.tuples(deep, opening), end=st.tuples(deep, closing))
-def test_a_contact_pressed_on_again_forgets_its_approach_speed(start: State, end: State) -> None:
-    # no onset: it never parted
-    assert gone_on(start, end, True) == accepted(memory_of(True, 0.0, *end), anew=True)
-
-
-@given(start=st.tuples(deep, opening), end=st.tuples(deep, closing))
-def test_a_law_that_does_not_forget_keeps_the_approach_speed(start: State, end: State) -> None:
-    assert gone_on(start, end, False) == accepted(memory_of(True, 0.3, *end), anew=True)
+def test_a_contact_pressed_on_again_keeps_its_approach_speed(start: State, end: State) -> None:
+    assert gone_on(start, end) == accepted(memory_of(True, 0.3, *end))
 
 
 # far above what rounding makes of the mean of the rate
@@ -382,35 +371,18 @@ inward, outward = st.floats(1e-6, 0.5), st.floats(-0.5, -1e-6)
 even = st.floats(0.34, 0.66)  # share of the first rate in the mean of a rate that only rises, or only falls
 
 
-@given(depth=deep, first=inward, last=inward | outward, share=even, forgets=st.booleans())
+@given(depth=deep, first=inward, last=inward | outward, share=even)
 def test_nothing_is_forgotten_on_the_way_in_and_where_it_turns(
-    depth: float, first: float, last: float, share: float, forgets: bool
+    depth: float, first: float, last: float, share: float
 ) -> None:
     end = depth + H * (share * first + (1.0 - share) * last), last
-    assert gone_on((depth, first), end, forgets) == accepted(memory_of(True, 0.3, *end))
+    assert gone_on((depth, first), end) == accepted(memory_of(True, 0.3, *end))
 
 
-@given(depth=deep, first=outward, last=outward, share=even, forgets=st.booleans())
-def test_nothing_is_forgotten_on_the_way_out(
-    depth: float, first: float, last: float, share: float, forgets: bool
-) -> None:
+@given(depth=deep, first=outward, last=outward, share=even)
+def test_nothing_is_forgotten_on_the_way_out(depth: float, first: float, last: float, share: float) -> None:
     end = 2.0 * depth + H * (share * first + (1.0 - share) * last), last
-    assert gone_on((2.0 * depth, first), end, forgets) == accepted(memory_of(True, 0.3, *end))
-
-
-@given(turn=st.floats(0.05, 0.9), back=st.floats(0.02, 0.5), speed=st.floats(1e-3, 0.1), closes=st.booleans())
-def test_a_dip_within_a_step_is_a_contact_pressed_on_again(
-    turn: float, back: float, speed: float, closes: bool
-) -> None:
-    # the rate passes zero twice: up at one fraction of the step, down at another
-    other = turn + back * (1.0 - turn) if closes else turn - back * turn
-    first, last = sorted((turn, other))
-    x = Polynomial([0.0, 1.0 / H])
-    rate = (1.0 if last == turn else -1.0) * speed * (x - first) * (x - last)
-    depth = rate.integ() + 5e-4
-    verdict, _ = judged(depth, speed=0.3, forgets=True)
-    assert (verdict.action, verdict.anew, verdict.onset) == (Action.ACCEPT, True, None)
-    assert verdict.memory[:2] == (True, 0.0)
+    assert gone_on((2.0 * depth, first), end) == accepted(memory_of(True, 0.3, *end))
 
 
 # --- nothing has surely happened ---
@@ -429,7 +401,7 @@ def test_what_surely_goes_on_is_judged_to(
     # whatever the rate does in the midst of the step
     start, end = memory_of(in_contact, 0.3, depth, first), (depth + H * mean, last)
     if goes_on(start, *end, H):
-        assert judge(start, *end, H, H, any_speed(H), True) == accepted(start.moved(*end))
+        assert judge(start, *end, H, H, any_speed(H)) == accepted(start.moved(*end))
 
 
 @pytest.mark.parametrize("back", [1.0, -1.0])
@@ -490,24 +462,6 @@ def test_mass_where_the_joints_leave_no_motion_is_very_large(noise: float) -> No
     mass = InverseMass(0.01, 0.0, noise).mass(0.0, 1e-3)
     # the noise is a thousandth of 1/HEAVIEST
     assert mass == pytest.approx(HEAVIEST, rel=2e-3)
-
-
-def test_mobility_is_remembered() -> None:
-    other = InverseMass(3.0, 2.0, 1.0)
-    memory = memory_of(True, 0.3, 1e-4, 0.1)
-    assert memory.inverse_mass == REST[2:]
-    assert memory.with_inverse_mass(other) == memory[:6] + other
-
-
-def test_laws_are_told_speed_and_mass_of_the_touch() -> None:
-    # mobility 0.5/kg along x, 0.25/kg along y; rounding
-    memory = memory_of(True, 0.3, 1e-4, 0.1)
-    assert memory.impact(1e-3, 0.0) == pytest.approx(Impact(speed=0.3, mass=2.0), rel=1e-14)
-    assert memory.impact(0.0, -1e-3) == pytest.approx(Impact(speed=0.3, mass=4.0), rel=1e-14)
-
-
-def test_laws_are_told_nothing_while_the_surfaces_are_apart() -> None:
-    assert memory_of(False, 0.3, -1e-4, 0.1).impact(1e-3, 0.0) is None
 
 
 # --- one step after the other ---
@@ -571,8 +525,8 @@ def test_cutting_leads_to_the_parting_in_a_few_tries(depth: float, speed: float,
 # --- nothing located ---
 
 
-def at_ends(start: PinMemory, depth: float, rate: float, forgets: bool = False) -> Verdict:
-    return judge_at_ends(start, depth, rate, 2.0 * H, H, forgets)
+def at_ends(start: PinMemory, depth: float, rate: float) -> Verdict:
+    return judge_at_ends(start, depth, rate, 2.0 * H, H)
 
 
 def test_a_touch_counts_from_the_end_of_its_step() -> None:
@@ -594,12 +548,9 @@ def test_a_graze_within_one_step_is_missed() -> None:
     )
 
 
-@pytest.mark.parametrize("forgets", [False, True])
-def test_a_contact_goes_on_as_if_it_were_located(forgets: bool) -> None:
+def test_a_contact_goes_on_as_if_it_were_located() -> None:
     start, end = (1e-4, -0.1), (1e-4, 0.1)
-    assert at_ends(memory_of(True, 0.3, *start), *end, forgets) == gone_on(
-        (1.0, -0.1), (1.0, 0.1), forgets
-    )._replace(memory=memory_of(True, 0.0 if forgets else 0.3, *end))
+    assert at_ends(memory_of(True, 0.3, *start), *end) == accepted(memory_of(True, 0.3, *end))
 
 
 def test_the_speed_of_a_touch_that_is_noticed_late_is_not_negative() -> None:

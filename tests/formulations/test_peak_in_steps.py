@@ -16,12 +16,12 @@ from support_exudyn.formulations.redundant.clearance.connector_force import Rela
 from support_exudyn.formulations.redundant.clearance.pin_motion import Course
 from tests.cases.run_cases import PIN, paper_contact, support
 from tests.compiled_runs import simulate_compiled, simulate_redundant
-from user_forces import Flores, IndentationVelocity
+from user_forces import Flores
 from user_forces.contact import ContactForce
 from user_forces.lawful import LawError
 
 # what limits its damping changes while it is pressed in ever faster: a corner at the top of the force
-LAW = Flores(restitution=0.485, stiffness=5.7e8, exponent=1.167, damping_speed=IndentationVelocity())
+LAW = Flores(restitution=0.485, stiffness=5.7e8, exponent=1.167)
 
 
 def with_a_corner() -> Scenario:

@@ -24,7 +24,7 @@ from support_exudyn import (
 from support_exudyn.model.linkage import pinned
 from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
 from tests.cases.run_cases import paper_contact, support
-from user_forces import Ambrosio, InputError, LuGre, value
+from user_forces import Ambrosio, InputError, value
 
 MASS, INERTIA, G, RADIUS, MU = 50.0, 2.0, 9.81, 0.05, 0.3
 RUBBING = IdealPin(friction=Ambrosio(sliding_coefficient=MU), radius=RADIUS)
@@ -151,9 +151,3 @@ def test_friction_and_radius_go_together() -> None:
             IdealPin(**given)
     with pytest.raises(InputError, match=r"IdealPin\.radius = -1\.0: .*greater than 0"):
         IdealPin(friction=Ambrosio(sliding_coefficient=0.1), radius=-1.0)
-    with pytest.raises(InputError, match=r"friction = LuGre: allowed: laws without a state"):
-        IdealPin(friction=lugre(), radius=0.1)
-
-
-def lugre() -> LuGre:
-    return LuGre(static_coefficient=0.3, sliding_coefficient=0.25)

@@ -44,7 +44,6 @@ from tests.roof_cases import (
     pressed_support,
     thrown,
 )
-from user_forces import IndentationVelocity
 
 W = math.sqrt(STIFFNESS / MASS)
 # landings at many places of a step, see `test_steps_that_miss_the_landing...`
@@ -240,9 +239,7 @@ def test_the_roof_on_rigid_actuators_is_known_to_the_last_digit() -> None:
 def test_a_loose_pin_is_pressed_with_the_force_of_statics(kind: str) -> None:
     # one that soon rests
     base = WITH_CLEARANCE[PIN].contact
-    pin = ClearancePin(
-        contact=replace(base, normal=replace(base.normal, restitution=0.3, damping_speed=IndentationVelocity()))
-    )
+    pin = ClearancePin(contact=replace(base, normal=replace(base.normal, restitution=0.3)))
     result = simulate(replace(press(kind), pins={PIN: pin}, start="settled"))
     place = list(result.scenario.linkage.pins).index(PIN)
     late = np.flatnonzero(result.time > 0.25)

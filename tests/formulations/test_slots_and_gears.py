@@ -1,6 +1,7 @@
 """A pin in a slot, and bodies that turn in proportion, against closed forms."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from support_exudyn import (
     Body,
     Crank,
     Gear,
+    Held,
     Linkage,
     Machine,
     PinPlace,
@@ -19,6 +21,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.machines.check.statics import mobility, statics
+from support_exudyn.model.linkage import pinned
 from user_forces import InputError, value
 
 RADIUS, SPEED = 0.1, 20.0  # of the crank [m], [rad/s]
@@ -69,6 +72,30 @@ class GearPair(Machine):
         )
 
 
+@value
+class Planetary(Machine):
+    """A sun at rest or driven, an arm, and a planet on the arm, whose centre of mass may be beside its axis."""
+
+    driven: tuple[str, ...] = ("sun", "arm")
+    beside: float = 0.02
+
+    def linkage(self) -> Linkage:
+        return Linkage(
+            bodies={
+                "sun": Body(mass=1.0, inertia=0.01, centre=(0.0, 0.0), angle=0.3),
+                "arm": Body(mass=2.0, inertia=0.015, centre=(0.15, 0.0)),
+                "planet": Body(mass=3.0, inertia=0.02, centre=(0.3 + self.beside, 0.0), angle=0.7),
+            },
+            pins={
+                "sun": pinned("ground", "sun", (0.0, 0.0)),
+                "arm": pinned("ground", "arm", (0.0, 0.0)),
+                "planet": pinned("arm", "planet", (0.3, 0.0)),
+            },
+            cranks={name: Crank(body=name) for name in self.driven},
+            gears={"mesh": Gear(first="sun", second="planet", ratio=-2.0)},
+        )
+
+
 @pytest.fixture(scope="module")
 def yoke() -> Result:
     scenario = Scenario(machine=ScotchYoke(), drive=Steady(rate=SPEED), duration=0.3, step=1e-4)
@@ -114,6 +141,30 @@ def test_slots_and_gears_count_one_condition_each() -> None:
     held = statics(GearPair().linkage(), np.zeros(6))
     assert held.gears["mesh"] == pytest.approx(G * 0.05)
     assert held.cranks["wheel"] == pytest.approx(RATIO * G * 0.05)
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+def test_a_planet_turns_by_willis_equation(formulation: Any) -> None:
+    """A planet turns at 9 rad/s for an arm at 3 rad/s on a sun at rest; the moment holds its weight."""
+    drives = {"sun": Steady(rate=0.0), "arm": Steady(rate=3.0)}
+    run = simulate(Scenario(machine=Planetary(), drives=drives, duration=0.4, formulation=formulation))
+    np.testing.assert_allclose(run["planet.angular_velocity"], 9.0, atol=1e-8)
+    a, b = 3.0 * run.time, 9.0 * run.time  # angles of the arm and of the planet
+    pull = -0.3 * 9.0 * np.array([np.cos(a), np.sin(a)]) + [[0.0], [G]]
+    moment = 3.0 * 0.02 * (np.cos(b) * pull[1] - np.sin(b) * pull[0])
+    np.testing.assert_allclose(run["mesh.moment"], moment, atol=1e-6)
+    np.testing.assert_allclose(run["sun.moment"], -2.0 * moment, atol=1e-6)
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+def test_a_planet_adds_inertia_to_its_arm(formulation: Any) -> None:
+    """A free arm falls as a pendulum whose planet turns three times as fast: energy as the angle says."""
+    machine = Planetary(driven=("sun",), beside=0.0)
+    run = simulate(Scenario(machine=machine, drive=Held(), duration=0.3, formulation=formulation))
+    inertia = 0.015 + 2.0 * 0.15**2 + 3.0 * 0.3**2 + 9.0 * 0.02
+    fallen = -(2.0 * 0.15 + 3.0 * 0.3) * G * np.sin(run["arm.angle"])
+    np.testing.assert_allclose(0.5 * inertia * run["arm.angular_velocity"] ** 2, fallen, atol=1e-4)
+    assert run["arm.angle"][-1] < -0.5
 
 
 @pytest.mark.parametrize(

@@ -25,7 +25,6 @@ from support_exudyn import (
 )
 from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import PIN, loose_support, paper_contact, support
-from user_forces import IndentationVelocity
 
 RISE = CubicStep(start=0.02, end=0.2, stroke=0.03)
 PLACES = (".z", ".roll", ".yaw")
@@ -35,9 +34,7 @@ RATES = (".velocity_z", ".angular_velocity_x", ".angular_velocity_y")
 def default_law(clearance_mm: float = 1.5) -> ClearancePin:
     """The law with the speed at which depth grows, which does without the impact."""
     contact = paper_contact(clearance_mm, 0.0)
-    return ClearancePin(
-        contact=replace(contact, normal=replace(contact.normal, damping_speed=IndentationVelocity()))
-    )
+    return ClearancePin(contact=replace(contact, normal=replace(contact.normal)))
 
 
 def with_clearance(friction: float, **pins: float) -> dict[str, ClearancePin]:

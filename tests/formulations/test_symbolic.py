@@ -24,7 +24,7 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
 )
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce, engine
-from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
+from support_exudyn.mechanics.contact_state import Onset, PinMemory
 from tests.cases.law_cases import (
     BEARING,
     FRICTION_LAWS,
@@ -46,7 +46,6 @@ from user_forces import (
     Exact,
     FrictionLaw,
     Frictionless,
-    ImpactVelocity,
     Johnson,
     JournalBearing,
     JournalContact,
@@ -65,7 +64,7 @@ CLEARANCE = BEARING.clearance
 SYSTEMS = exudyn.SystemContainer()  # expressions belong to a system of the engine
 SMOOTH = Frictionless()
 EXACT = Exact(stiffness=2.7e10, restitution=0.7)  # any normal law, for the friction laws
-TEXTBOOK = LankaraniNikravesh(stiffness=2.7e10, restitution=0.9, damping_speed=ImpactVelocity())
+TEXTBOOK = LankaraniNikravesh(stiffness=2.7e10, restitution=0.9, rest_velocity=1e-3)
 
 
 # --- the expression, outside of a simulation ---
@@ -89,7 +88,7 @@ MIDDLE = replace(REST, velocity=(0.1, 0.2))
 PRESSED = replace(
     REST,
     displacement=(0.0, -0.0016),
-    memory=PinMemory(True, 0.0, 0.0, 0.0).with_inverse_mass(InverseMass(2e-3, 0.0, 2e-3)),
+    memory=PinMemory(True, 0.0, 0.0, 0.0),
 )
 
 # in the gap, up to a tenth of a millimetre in the wall, and near the surface, but not so near that rounding
@@ -100,17 +99,8 @@ depths = st.one_of(st.floats(-CLEARANCE, 0.0), st.floats(0.0, 1e-4), st.floats(-
 
 
 @st.composite
-def inverse_masses(draw: st.DrawFn) -> InverseMass:
-    """From the masses that move in two directions at right angles."""
-    one, two = (1.0 / draw(st.floats(0.5, 1e4)) for _ in range(2))
-    angle = draw(st.floats(0.0, math.pi))
-    c, s = math.cos(angle), math.sin(angle)
-    return InverseMass(one * c * c + two * s * s, (one - two) * c * s, one * s * s + two * c * c)
-
-
-@st.composite
 def memories(draw: st.DrawFn) -> PinMemory:
-    memory = PinMemory(
+    return PinMemory(
         in_contact=draw(st.sampled_from([True, True, False])),
         impact_velocity=draw(st.one_of(st.just(0.0), st.floats(1e-6, 1.0))),
         depth=0.0,
@@ -118,7 +108,6 @@ def memories(draw: st.DrawFn) -> PinMemory:
         slip=draw(st.floats(-1.0, 1.0)),
         deflection=draw(st.floats(-2e-6, 2e-6)),
     )
-    return memory.with_inverse_mass(draw(inverse_masses()))
 
 
 @st.composite
@@ -146,7 +135,7 @@ def expression(contact: JournalContact, ground: Ground) -> Callable[[State], np.
     _, _, _, *arguments = made["argList"]
 
     def evaluate(state: State) -> np.ndarray:
-        force.load(state.memory, state.memory.inverse_mass, state.step, state.bore_spin, state.turn)
+        force.load(state.memory, state.step, state.bore_spin, state.turn)
         for argument, value in zip(arguments, handed_over(at, state), strict=False):
             if isinstance(value, float):
                 argument.SetValue(value)
@@ -165,7 +154,7 @@ def python_function(contact: JournalContact, ground: Ground) -> Callable[[State]
     force = PythonForce(contact, at, lambda: spin[0])
 
     def evaluate(state: State) -> np.ndarray:
-        force.load(state.memory, state.memory.inverse_mass, state.step)
+        force.load(state.memory, state.step)
         spin[0] = state.bore_spin
         arguments = handed_over(at, state)
         others = [0.0] * (force.function.__code__.co_argcount - 3 - len(arguments))
@@ -181,8 +170,6 @@ def handed_over(at: Attachment, state: State) -> list[Any]:
         rate = np.dot(state.displacement, state.velocity) / eccentricity if eccentricity else 0.0
         return [BEARING.depth(eccentricity), float(rate)]
     displacement, velocity = [*state.displacement, 0.0], [*state.velocity, 0.0]
-    if at is Attachment.CENTRAL:
-        return [displacement, velocity]
     return [displacement, [0.0, 0.0, state.turn], velocity, [0.0, 0.0, state.turning]]
 
 
@@ -198,11 +185,10 @@ def computed(contact: JournalContact, ground: Ground, state: State) -> np.ndarra
     memory = state.memory
     history = SlipHistory(memory.deflection, memory.slip, state.step)
     spins = spin, spin + state.turning
-    found = contact.force(x, y, *state.velocity, *spins, memory.impact(x, y), history)
+    impact = memory.impact_velocity if memory.in_contact else None
+    found = contact.force(x, y, *state.velocity, *spins, impact, history)
     if at is Attachment.LINE:
         return np.array([found.normal_force])
-    if at is Attachment.CENTRAL:
-        return np.array([-found.force_x, -found.force_y, 0.0])
     # of the point of action from the journal's centre, against n: that centre, the bore's, the middle
     share = {"bore": 0.0, "journal": 1.0, None: 0.5}[ground]
     moment = -(found.journal_arm + share * math.hypot(x, y)) * found.friction_force

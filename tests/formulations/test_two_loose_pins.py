@@ -13,7 +13,6 @@ from tests.linkage_cases import LENGTHS, MASSES, CrankRocker, closed, rates
 from user_forces import (
     Ambrosio,
     Frictionless,
-    ImpactVelocity,
     JournalBearing,
     JournalContact,
     LankaraniNikravesh,
@@ -140,9 +139,7 @@ def test_impacts_of_two_pins_are_those_of_an_independent_solution(friction: floa
     known = Equations(friction).impacts(until)
     contact = JournalContact(
         bearing=JournalBearing(bore_radius=BORE, clearance=CLEARANCE),
-        normal=LankaraniNikravesh(
-            stiffness=STIFFNESS, restitution=RESTITUTION, damping_speed=ImpactVelocity(floor=1e-9)
-        ),
+        normal=LankaraniNikravesh(stiffness=STIFFNESS, restitution=RESTITUTION, rest_velocity=1e-9),
         friction=Ambrosio(sliding_coefficient=friction) if friction else Frictionless(),
     )
     scene = Scenario(

@@ -23,7 +23,12 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
+from support_exudyn.files.machines.read import read_machine
 from support_exudyn.model.linkage import GROUND, pinned
+from support_exudyn.postprocessing import summary
+from support_exudyn.simulation import impulses
+from support_exudyn.sweeps.measures import numbers as noted
+from support_exudyn.sweeps.plan import Record
 from tests.cases.run_cases import FORCE, loose_support, slider_crank, support
 from user_forces import value
 
@@ -94,6 +99,11 @@ def test_a_crank_that_jumps_to_speed_gets_an_angular_impulse() -> None:
     assert impulse.cranks == pytest.approx({"crank": inertia * speed}, rel=1e-12)
     assert impulse.energy == pytest.approx(0.5 * inertia * speed**2, rel=1e-12)
     assert impulse.actuators == {}
+    # pins pass on the momentum of what they move; across it the guide keeps the rod from turning
+    across = 0.5 * (0.35 + 0.14) * speed * 0.05 * 0.05 / math.sqrt(0.12**2 - 0.05**2)
+    along = {"pin.slider_pin": 0.14 * 0.5, "pin.crank_pin": 0.35 * 0.5, "pin.main": 0.35 * 0.5 + 0.3 * 0.25}
+    expected = {name: math.hypot(one, across) for name, one in along.items()}
+    assert impulse.joints == pytest.approx(expected | {"guide": across}, rel=1e-9)
     # the crank has turned by a thousandth of a radian since, and the slider is faster by as much
     assert result["energy.kinetic"][-1] == pytest.approx(impulse.energy, rel=1e-3)
     # the work of the drive counts it
@@ -127,8 +137,38 @@ def test_actuators_and_cranks_get_impulses_of_their_own() -> None:
     assert impulse.actuators == pytest.approx({"jack": 12.0}, rel=1e-12)
     assert impulse.cranks == pytest.approx({"motor": 0.8}, rel=1e-12)
     assert impulse.energy == pytest.approx(24.0 + 1.6, rel=1e-12)
+    # neither the wheel's axle nor the ram's guide is struck: their forces keep their peaks, the jack's has none
+    assert impulse.joints == pytest.approx({"pin.axle": 0.0, "guide": 0.0}, abs=1e-12)
+    assert list(impulses.struck(result, 0.0, math.inf)) == ["jack.force"]
+    assert not list(impulses.struck(result, 1e-3, math.inf))  # after it
     # after it the actuator carries the weight of 3 kg, and nothing turns the wheel, or the ram in its guide
     np.testing.assert_allclose(result["jack.force"][1:], 3.0 * 9.81, rtol=1e-6)
     for name in ("motor.moment", "guide.moment", "guide.force"):
         np.testing.assert_allclose(result[name][1:], 0.0, atol=1e-6)
     np.testing.assert_allclose(result["pin.axle.force_y"][1:], 5.0 * 9.81, rtol=1e-6)
+
+
+@pytest.mark.parametrize(("dimensions", "formulation"), [(2, "compiled"), (2, "redundant"), (3, "redundant")])
+def test_a_force_without_limit_is_refused_and_its_impulse_printed(dimensions: int, formulation: str) -> None:
+    # two-leg shield on rigid legs, ideal pins: a sudden start within the run, none after 0.2 s
+    drive = UniformSpeed(stroke=0.1, start=0.1, end=1.0)
+    scene = Scenario(machine=read_machine("two_leg_shield").machine, drive=drive, duration=0.3, step=1e-3)
+    result = simulate(replace(scene, dimensions=dimensions, formulation=formulation), errors=True)
+    numbers, later = result.numbers(), result.numbers(after=0.2)
+    for force in ("pin.rear_base.force", "leg.force"):
+        for word in ("largest", "std"):
+            assert f"{force}.{word}" not in numbers
+            with pytest.raises(KeyError, match=r"impulse, no finite peak; allowed: .*\.impulse_1"):
+                _ = numbers[f"{force}.{word}"]
+            assert f"{force}.{word}" in later  # nothing jumps there
+        assert f"{force}.mean" in numbers
+    # of the three ways to compute them, in N s
+    for force, expected in (("pin.rear_base.force", 169.784), ("leg.force", 1031.087)):
+        number = numbers[f"{force}.impulse_1"]
+        assert (number.value, number.unit) == (pytest.approx(expected, rel=1e-5), "N s")
+        assert number.error <= 1e-6 * expected
+        (row,) = summary.of_channels(result, [force], 0.0, math.inf)
+        assert row[2::2][:2] == ("impulse", "impulse")
+    asked = Record(numbers=("pin.rear_base.force.max_time", "pin.*.largest", "leg.force.largest"), after=0.0)
+    assert all(name.endswith(".impulse_1") for name in noted(result, asked))
+    assert noted(replace(result), replace(asked, after=0.2))["leg.force.largest"].value > 0.0

@@ -45,15 +45,12 @@ from user_forces import (
     Ambrosio,
     BrownMcPhee,
     CubicCoulomb,
-    DampingSpeed,
     Exact,
     Flores,
     FrictionLaw,
     Frictionless,
     Hertz,
     HuntCrossley,
-    ImpactVelocity,
-    IndentationVelocity,
     Johnson,
     JournalBearing,
     JournalContact,
@@ -99,8 +96,7 @@ def normals(
     compiled: of those that are. jumps: its force may jump at an impact.
     """
     stiff = stiffness * 2.0 ** draw(st.integers(-2, 1))
-    speeds: tuple[DampingSpeed, ...] = (IndentationVelocity(), ImpactVelocity(floor=1e-3))
-    hysteresis = {"restitution": draw(between(0.3, 0.95)), "damping_speed": draw(st.sampled_from(speeds))}
+    hysteresis = {"restitution": draw(between(0.3, 0.95)), "rest_velocity": draw(st.sampled_from((1e-2, 1e-3)))}
     if compiled:
         return draw(st.sampled_from(COMPILED))(stiffness=stiff, **hysteresis)
     depth = 0.1 * bearing.clearance  # at which a linear law is as stiff

@@ -52,7 +52,7 @@ class Scale:
             if unit is None:
                 new[name] = self._parts(old)
             elif unit.symbol:
-                new[name] = _times(old, self.of(unit.symbol))
+                new[name] = _times(old, self.of(unit.symbol.partition(" or ")[0]))
             else:  # K of a law K depth^n
                 new[name] = old * self.of("N", length=-typing.cast(Any, item).exponent)
         return replace(typing.cast(Any, item), **new)

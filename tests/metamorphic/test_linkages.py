@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -79,6 +80,25 @@ def test_compiled_and_redundant_move_a_linkage_alike(scene: Scenario) -> None:
         compare(scene, other, 2.0)
     except AssertionError:  # an error that is told too small by chance shrinks with the steps
         compare(scene, other, 8.0)
+
+
+@given(scene=drawn_linkages.driven(), formulation=st.sampled_from(("compiled", "redundant")))
+@scenes(12)
+def test_statistics_do_not_depend_on_records(scene: Scenario, formulation: str) -> None:
+    # of the redundant formulation records cut steps, whose errors impacts multiply: without them
+    pins = scene.pins if formulation == "compiled" else {}
+    scene = replace(scene, formulation=formulation, pins=pins)  # type: ignore[arg-type]
+    fine, coarse = (told(replace(scene, record_period=one)) for one in (2e-5, scene.duration / 3.0))
+    share = 1e-9 if formulation == "compiled" else 2e-3
+    for name in [name for name in fine.channels if name.endswith((".force", ".angular_acceleration"))]:
+        one, other = (run.window(name, 1e-3, scene.duration) for run in (fine, coarse))
+        size = one.largest[0] + 1e-6
+        assert [one.mean, one.std, one.least[0], one.greatest[0]] == pytest.approx(
+            [other.mean, other.std, other.least[0], other.greatest[0]], rel=share, abs=share * size
+        )
+        inside = fine.time >= 1e-3 - 1e-9  # 500 fine records and more are a curve
+        mean = np.trapezoid(fine[name][inside], fine.time[inside]) / np.ptp(fine.time[inside])
+        assert abs(one.mean - mean) <= 2e-3 * size, name
 
 
 @given(scene=drawn_linkages.driven())

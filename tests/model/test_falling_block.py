@@ -16,7 +16,7 @@ from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.look.plain import blocks, look
 from support_exudyn.postprocessing.look.solid import Role
 from tests.roof_cases import TOP, Ram
-from user_forces import Exact, Impact, InputError, delivered_restitution
+from user_forces import Exact, InputError, delivered_restitution
 from user_forces.values.value import Value, value
 
 ROCK = FallingBlock(body="ram", point=TOP, mass=400.0, height=0.2, stiffness=2e8, restitution=0.4)
@@ -38,9 +38,7 @@ def test_what_an_applied_force_does_is_work(vx: float, vy: float, t: float) -> N
 @given(depth=st.floats(-0.1, 0.1), rate=st.floats(-20.0, 20.0))
 def test_a_block_never_pulls(depth: float, rate: float) -> None:
     contact = ROCK.contact
-    found = contact.force(
-        0.0, contact.bearing.clearance + depth, 0.0, rate, 0.0, 0.0, Impact(speed=2.0, mass=400.0)
-    )
+    found = contact.force(0.0, contact.bearing.clearance + depth, 0.0, rate, 0.0, 0.0, 2.0)
     assert (found.depth, found.rate) == (pytest.approx(depth, abs=1e-12), rate)
     assert found.normal_force >= 0.0
     assert found.normal_force == 0.0 or found.depth > 0.0
@@ -50,7 +48,7 @@ def test_a_block_never_pulls(depth: float, rate: float) -> None:
 @pytest.mark.parametrize("far", [0.1, 2.0, 1e3])
 def test_a_face_is_met_from_one_side_alone(far: float) -> None:
     contact = ROCK.contact
-    found = contact.force(0.0, -far, 0.0, -1.0, 0.0, 0.0, Impact(speed=2.0, mass=400.0))
+    found = contact.force(0.0, -far, 0.0, -1.0, 0.0, 0.0, 2.0)
     assert found.normal_force == 0.0
     assert found.depth == pytest.approx(-far - contact.bearing.clearance)
     assert found.rate == -1.0
@@ -61,7 +59,7 @@ def test_its_law_is_the_exact_one(restitution: float) -> None:
     law = replace(ROCK, restitution=restitution, exponent=1.0, stiffness=1e6).contact.normal
     assert isinstance(law, Exact)
     # the root of an equation, and back; with the force at a rate of the speed of the impact twice the elastic
-    chi = law(1e-3, 2.0, Impact(speed=2.0, mass=400.0)) / law.elastic_force(1e-3) - 1.0
+    chi = law(1e-3, 2.0, 2.0) / law.elastic_force(1e-3) - 1.0
     assert delivered_restitution(chi) == pytest.approx(restitution, rel=1e-9)
 
 

@@ -170,7 +170,7 @@ def test_numbers_stand_side_by_side_with_their_errors(runs: Mapping[str, Result]
     both = compare(**runs)
     numbers = both.numbers[f"{FORCE}.mean"]
     assert numbers["ideal"] == runs["ideal"].numbers()[f"{FORCE}.mean"]
-    assert numbers["loose"].value == pytest.approx(float(runs["loose"][FORCE].mean()))
+    assert numbers["loose"].value == pytest.approx(runs["loose"].window(FORCE).mean)
     assert math.isnan(numbers["loose"].error)
     assert [*both.numbers[f"pin.{SLIDER_PIN}.largest_force"]] == ["loose"]
     rows = {row[0]: row for row in Cells(both._repr_html_()).rows}
@@ -183,9 +183,8 @@ def test_numbers_stand_side_by_side_with_their_errors(runs: Mapping[str, Result]
 
 def test_a_window_is_that_of_all_runs(runs: Mapping[str, Result]) -> None:
     part = compare(runs["ideal"], runs["loose"], after=0.002, until=0.003)
-    inside = (runs["loose"].time > 0.002 - 1e-9) & (runs["loose"].time < 0.003 + 1e-9)
     found = part.numbers[f"{FORCE}.largest"]["run 2"].value
-    assert found == runs["loose"][FORCE][inside].max()
+    assert found == runs["loose"].window(FORCE, 0.002, 0.003).largest[0]
     figure = part.plot(FORCE)
     assert len(figure.axes[0].lines) >= 2
     assert part.plot("slider.x", difference=True).axes

@@ -248,10 +248,10 @@ def test_some_channels_are_shown_by_pattern(runs: Path, capsys: pytest.CaptureFi
     said = shown(runs / "crank.h5", capsys, "slider.*x", "pin.slider_pin.depth")
     rows = [line.split() for line in said.splitlines() if line.startswith((" slider.", " pin."))]
     assert [row[0] for row in rows] == ["slider.velocity_x", "slider.x", "pin.slider_pin.depth"]
-    x = Result.load(runs / "crank.h5")["slider.x"]
+    x = Result.load(runs / "crank.h5").window("slider.x")
     # six digits are shown
     assert [float(cell) for cell in rows[1][2:5]] == pytest.approx(
-        [1e3 * x.min(), 1e3 * x.mean(), 1e3 * x.max()], rel=1e-5
+        [1e3 * x.least[0], 1e3 * x.mean, 1e3 * x.greatest[0]], rel=1e-5
     )
 
 
@@ -262,7 +262,7 @@ def test_narrow_terminals_keep_the_numbers(
     said = shown(runs / "space.h5", capsys)
     result = Result.load(runs / "space.h5")
     assert max(map(len, said.splitlines())) <= 80
-    assert f"{result['pin.rear_base.depth'].min() * 1e3:.6g}" in said
+    assert f"{result.window('pin.rear_base.depth').least[0] * 1e3:.6g}" in said
     assert "…" not in said
 
 
@@ -372,7 +372,7 @@ def test_show_for_scripts_has_what_the_tables_have(runs: Path, capsys: pytest.Ca
     assert Value.from_data(told["scenario"]) == result.scenario
     numbers = {name: tuple(number.values()) for name, number in told["numbers"].items()}
     assert {name: numbers[name] for name in result.numbers()} == dict(result.numbers())
-    assert told["channels"]["tip.x"]["max"] == result["tip.x"].max()
+    assert told["channels"]["tip.x"]["max"] == result.window("tip.x").greatest[0]
     assert set(told["channels"]) == set(result.channels) - {"time"}
     assert [one["time_s"] for one in told["impacts"]["rear_base"]] == [
         o.time for o in result.onsets["rear_base"]

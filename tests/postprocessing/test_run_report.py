@@ -147,7 +147,7 @@ def opened(browser: Any, page: Path, width: int) -> None:
     size = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
     browser.get(page.as_uri())
-    until = time.monotonic() + 20.0
+    until = time.monotonic() + 120.0
     script = "return Boolean(window.Bokeh) && Bokeh.index.roots.length > 0"
     while not browser.execute_script(script):
         assert time.monotonic() < until, "the live figures do not appear"
@@ -173,7 +173,7 @@ def test_the_value_under_the_pointer_is_that_of_the_file(chromium: Any, page: Pa
     chromium.execute_script("arguments[0].scrollIntoView({block: 'start'})", place)
     ActionChains(chromium).move_to_element_with_offset(place, 60, 150 - place.size["height"] // 2).perform()
     told = ""
-    until = time.monotonic() + 10.0
+    until = time.monotonic() + 120.0
     while not told and time.monotonic() < until:
         told = chromium.execute_script(TOOLTIPS)
     values = dict(re.findall(r"(\S+):\s+(\S+) \S+", told))

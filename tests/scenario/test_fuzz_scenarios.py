@@ -31,7 +31,6 @@ from tests.sound import sensible, sound, taken_or_refused
 from user_forces import (
     FrictionLaw,
     Frictionless,
-    Impact,
     InputError,
     JournalBearing,
     JournalContact,
@@ -107,11 +106,11 @@ def short_runs(draw: st.DrawFn) -> Scenario:
             speed=draw(st.floats(0.0, 100.0)),
             eccentricity=clearance * draw(st.sampled_from((0.0, 0.9, 0.999999, 1.0, 1.001))),
         )
-        impact = Impact(machine.speed + 0.01, machine.reduced_mass)
+        impact = machine.speed + 0.01
         pins: dict[str, Pin] = {"pin": pin}
     else:
         machine = dataclasses.replace(ravn_slider_crank(), start_angle=draw(st.floats(-4.0, 4.0)))
-        impact = Impact(10.0, 0.1)
+        impact = 10.0
         pins = {"slider_pin": IdealPin() if draw(st.booleans()) else pin}
     steps = draw(st.integers(1, 20))
     duration = min(draw(st.floats(1e-5, 5e-3)), MOST_IMPACTS * pin.contact.normal.impact_time(impact))

@@ -28,7 +28,6 @@ from user_forces import (
     STEEL,
     STEEL_35CRMO,
     Exact,
-    IndentationVelocity,
     InputError,
     JournalBearing,
     JournalContact,
@@ -87,9 +86,9 @@ def test_a_pin_in_short_is_what_python_makes_of_the_same_inputs(law: str) -> Non
     assert read(f'{TOP}{WITH_CLEARANCE}law = "{law}"\n{stiffness}') == expected
 
 
-def test_a_pin_of_which_nothing_is_said_is_damped_by_its_depth() -> None:
+def test_the_rest_velocity_of_a_pin_is_the_default() -> None:
     law = read(TOP + WITH_CLEARANCE).clearance_pins["rear_base"].contact.normal
-    assert law.damping_speed == IndentationVelocity()  # type: ignore[attr-defined]
+    assert law.rest_velocity == 0.01  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize("short", MADE, ids=lambda cls: cls.__name__)

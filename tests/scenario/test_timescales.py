@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import (
+    ClearanceGuide,
     ClearancePin,
     CubicStep,
     Held,
@@ -19,6 +20,7 @@ from support_exudyn import (
     Scenario,
     Steady,
     UniformSpeed,
+    machine,
 )
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.scenario.timescales import SLOWEST_FALL, timescales
@@ -32,7 +34,18 @@ from tests.cases.run_cases import (
     support,
 )
 from tests.cases.run_cases import SLIDER_PIN as SLIDER
-from user_forces import Ambrosio, Hertz, Impact, JournalContact, KelvinVoigt, LoadError, LuGre, NormalLaw, value
+from user_forces import (
+    Ambrosio,
+    Anagnostopoulos,
+    Hertz,
+    JournalBearing,
+    JournalContact,
+    KelvinVoigt,
+    LoadError,
+    LuGre,
+    NormalLaw,
+    value,
+)
 
 CLEARANCE = 1.5e-3
 RADIUS, ROD = 0.05, 0.12  # of the slider-crank [m]
@@ -183,10 +196,10 @@ class Weak(Hertz):
     def resting_depth(self, force: float) -> float:
         raise LoadError(f"Weak: force = {force} N: allowed: less")
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         if depth > 1e-6:
             raise LoadError("Weak: too deep")
-        return super().__call__(depth, rate, impact)
+        return super().__call__(depth, rate, impact_velocity)
 
 
 def test_a_law_that_cannot_hold_the_load_is_left_to_the_run() -> None:
@@ -221,7 +234,8 @@ def test_on_the_support_friction_stops_what_moves_most_easily() -> None:
     friction = scene.clearance_pins[PIN].contact.friction
     ideal = tuple(pin for pin in scene.linkage.pins if pin != PIN)
     kinetics = kinetics_of(scene.linkage, ideal)
-    inverse_mass = kinetics.pin_inverse_mass(np.zeros(3 * len(scene.linkage.bodies)), PIN)
+    still = np.zeros(3 * len(scene.linkage.bodies))
+    inverse_mass = kinetics.inverse_mass(still, kinetics.relative(still, scene.linkage.pins[PIN])[1])
     mass = 1.0 / float(np.linalg.eigvalsh(inverse_mass)[-1])
     # 58 779 N is the load of the ideal pin, as above
     expected = mass * (friction.dynamic_speed - friction.static_speed) / (0.25 * 58778.944)
@@ -279,3 +293,32 @@ def test_what_friction_holds_swings_on_its_bristles() -> None:
     found = timescales(replace(scene, pins={"pin": ClearancePin(contact=contact)})).resting
     # the load is m g, and so the mass falls out of sqrt(m / (s0 m g)); the contact itself swings in 1.4 ms
     assert found == pytest.approx(1.0 / math.sqrt(1e6 * 9.81), rel=1e-6)
+
+
+# --- masses of laws that need one ---
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+def test_a_law_without_its_mass_has_that_of_the_joint_in_the_start_posture(bore: str) -> None:
+    law = Anagnostopoulos(stiffness=1e8, restitution=0.5)
+    stand = ImpactStand(bore_mass=3.0, journal_mass=2.0, speed=0.1)
+    contact = JournalContact(bearing=JournalBearing(bore_radius=0.02, clearance=1e-3), normal=law)
+    scene = Scenario(machine=stand, pins={"pin": ClearancePin(contact=contact, bore=bore)}, duration=0.01)
+    # two free bodies: 3 times 2 over 5 kg in every direction
+    assert scene.contact_places["pin"].contact.normal.mass == pytest.approx(1.2, rel=1e-12)  # type: ignore[attr-defined]
+    assert scene.pins["pin"].contact.normal.mass is None  # type: ignore[attr-defined]
+    given = replace(contact, normal=replace(law, mass=7.0))
+    found = replace(scene, pins={"pin": ClearancePin(contact=given, bore=bore)})
+    assert found.clearance_pins["pin"].contact == given
+
+
+def test_the_mass_of_a_guide_is_that_along_the_normals_of_its_corners() -> None:
+    law = Anagnostopoulos(stiffness=1e8, restitution=0.5)
+    guide = ClearanceGuide(gaps=(1e-3, 1e-3), block=(0.1, 0.05), normal=law)
+    scene = Scenario(machine=machine("slider_crank_guide"), guides={"slot": guide}, duration=0.01)
+    places = scene.contact_places.values()
+    masses = [place.contact.normal.mass for place in places]  # type: ignore[attr-defined]
+    free, still = scene.open_kinetics, np.zeros(9)
+    # of the four corners, by hand: the second row of each answer is that across a guide along x
+    across = [free.inverse_mass(still, place.rate(free, still))[1, 1] for place in places]
+    assert masses == [pytest.approx(1.0 / np.mean(across), rel=1e-12)] * 4

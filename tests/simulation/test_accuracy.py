@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from studies.benchmarking.estimates import numbers_of_records
 from support_exudyn import (
     ClearancePin,
     CubicStep,
@@ -45,8 +44,6 @@ from user_forces import (
     FrictionLaw,
     Frictionless,
     Hertz,
-    ImpactVelocity,
-    IndentationVelocity,
     JournalContact,
     LankaraniNikravesh,
     value,
@@ -309,16 +306,16 @@ class Case(NamedTuple):
     said: np.ndarray
 
 
-def dropping(c_mm: float, restitution: float, mu: float, bore: str, speed: object, drive: Drive) -> Scenario:
+def dropping(c_mm: float, restitution: float, mu: float, bore: str, speed: float, drive: Drive) -> Scenario:
     base = paper_contact(c_mm, mu)
-    law = LankaraniNikravesh(stiffness=base.normal.stiffness, restitution=restitution, damping_speed=speed)
+    law = LankaraniNikravesh(stiffness=base.normal.stiffness, restitution=restitution, rest_velocity=speed)
     pin = ClearancePin(contact=replace(base, normal=law), bore=bore)
     return support(pins={PIN: pin}, drive=drive, duration=0.3)
 
 
-def turning(c_mm: float, restitution: float, mu: float, gravity: float, speed: object) -> Scenario:
+def turning(c_mm: float, restitution: float, mu: float, gravity: float, speed: float) -> Scenario:
     base = slider_crank_contact(mu)
-    law = LankaraniNikravesh(stiffness=base.normal.stiffness, restitution=restitution, damping_speed=speed)
+    law = LankaraniNikravesh(stiffness=base.normal.stiffness, restitution=restitution, rest_velocity=speed)
     contact = JournalContact(
         bearing=replace(base.bearing, clearance=c_mm / 1e3),
         normal=law,
@@ -329,7 +326,7 @@ def turning(c_mm: float, restitution: float, mu: float, gravity: float, speed: o
     )
 
 
-SPEEDS = (ImpactVelocity(floor=1e-3), IndentationVelocity())
+SPEEDS = (1e-3, 1e-2)  # rest velocities [m/s]
 RISE = CubicStep(stroke=0.06, start=0.05, end=0.25)
 
 
@@ -375,7 +372,7 @@ def checked(request: pytest.FixtureRequest) -> list[Case]:
                 assert run.scenario.formulation == "compiled"
                 numbers = {
                     n: number
-                    for n, number in numbers_of_records(run).items()
+                    for n, number in run.numbers().items()
                     if n in known and not n.endswith("largest_time") and not n.endswith("largest_force_time")
                 }
                 true = np.array([abs(number.value - known[n]) for n, number in numbers.items()])

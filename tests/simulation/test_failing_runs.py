@@ -23,7 +23,7 @@ from support_exudyn.formulations.contract import explained
 from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import Pair, loose_support, paper_contact
 from tests.formulations.test_momentum import ONE, TWO
-from user_forces import FrictionLaw, Impact, LankaraniNikravesh, LoadError, value
+from user_forces import FrictionLaw, LankaraniNikravesh, LoadError, value
 from user_forces.lawful import UNLAWFUL
 
 
@@ -47,10 +47,10 @@ class Breaking(FrictionLaw):
 class Thin(LankaraniNikravesh):
     """Is not valid below 10 micrometres."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         if depth > 1e-5:
             raise LoadError(f"Thin: depth = {depth} m: allowed: up to 1e-05 m")
-        return super().__call__(depth, rate, impact)
+        return super().__call__(depth, rate, impact_velocity)
 
 
 def breaking(kind: str) -> Scenario:

@@ -218,7 +218,8 @@ def test_a_coarser_run_that_is_no_group_is_refused(estimated: Result, tmp_path: 
 def test_a_coarser_run_without_a_channel_is_refused(estimated: Result, tmp_path: Path, group: str) -> None:
     path = estimated.save(tmp_path / "run.h5")
     with changed(path) as file:
-        del file[f"{group}/channels/pin.rear_base.force"]
+        for kind in ("channels", "statistics"):
+            del file[f"{group}/{kind}/pin.rear_base.force"]
     with pytest.raises(
         InputError, match=r"run\.h5: .*damaged \(the coarser run lacks .*'pin\.rear_base\.force'"
     ):
@@ -228,11 +229,11 @@ def test_a_coarser_run_without_a_channel_is_refused(estimated: Result, tmp_path:
 def test_a_file_of_another_version_says_so(result: Result, tmp_path: Path) -> None:
     path = result.save(tmp_path / "run.h5")
     image = path.read_bytes()[BLOCK:]
-    path.write_bytes(with_checksum(image, "support_exudyn result 6"))
-    with pytest.raises(InputError, match=r"format is '.* result 6', expected '.* result 5'"):
+    path.write_bytes(with_checksum(image, "support_exudyn result 7"))
+    with pytest.raises(InputError, match=r"format is '.* result 7', expected '.* result 6'"):
         Result.load(path)
     path.write_bytes(image)  # versions before had no digest
-    with pytest.raises(InputError, match=r"an HDF5 file without a digest, as no version from '.* result 5' on"):
+    with pytest.raises(InputError, match=r"an HDF5 file without a digest, as no version from '.* result 6' on"):
         Result.load(path)
 
 

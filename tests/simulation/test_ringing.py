@@ -12,7 +12,6 @@ from support_exudyn import ClearancePin, Held, Scenario, SolverSettings, simulat
 from support_exudyn.scenario.timescales import loaded_contacts
 from support_exudyn.simulation.automatic_settings import settings_for
 from support_exudyn.simulation.contact_ringing import (
-    FASTEST,
     GONE,
     KEPT,
     numerical_damping,
@@ -20,7 +19,7 @@ from support_exudyn.simulation.contact_ringing import (
     vibrations,
 )
 from tests.cases.run_cases import paper_contact, support
-from user_forces import Frictionless, ImpactVelocity, KelvinVoigt, LankaraniNikravesh, NormalLaw
+from user_forces import Frictionless, KelvinVoigt, LankaraniNikravesh, NormalLaw
 
 PIN = "rear_base"
 GAP = 1e-6  # [m]: across the load a journal then swings ten times as fast as along it
@@ -74,14 +73,6 @@ def test_along_the_load_a_contact_vibrates_as_its_law_is_stiff_and_across_it_lik
     assert along.time == pytest.approx(1.0 / math.sqrt(stiffness / 300.0 - fall**2), rel=1e-3)
     assert across.fall == pytest.approx(0.0, abs=1e-6)
     assert across.time == pytest.approx(math.sqrt(300.0 * (GAP + free.load / stiffness) / free.load), rel=1e-3)
-
-
-def test_laws_that_keep_the_speed_of_their_touch_are_taken_as_damped_least() -> None:
-    forgets = LankaraniNikravesh(restitution=0.5, stiffness=2.7e10)
-    keeps = replace(forgets, damping_speed=ImpactVelocity())
-    falls = [max(v.fall for v in vibrations(loaded_contacts(narrow(law))[0])) for law in (forgets, keeps)]
-    assert falls[1] < 0.1 * falls[0]
-    assert FASTEST > 1.0
 
 
 def test_a_pin_that_carries_nothing_does_not_ring() -> None:

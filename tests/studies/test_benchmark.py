@@ -93,7 +93,7 @@ def test_measurements_are_made_by_a_process_that_can_be_ended() -> None:
         assert watch.measure(failing, ("left out",), 60.0) == Heard([1], "there is no C compiler")
         assert watch.measure(failing, ("other",), 60.0) == Heard([1], "ZeroDivisionError: by nothing")
         # what came before it was ended is kept, and the next goes on
-        assert watch.measure(counted, (2, 600.0), 1.0) == Heard([0, 1], "ended after 1 s")
+        assert watch.measure(counted, (2, 600.0), 5.0) == Heard([0, 1], "ended after 5 s")
         assert watch.measure(counted, (1, 0.0), 60.0) == Heard([0], "")
 
 

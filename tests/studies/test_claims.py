@@ -1,10 +1,9 @@
-"""The verdicts, on eight plausible machines; the rough form has two. And what fewer machines may say."""
+"""The verdicts, on eight machines of the first hypercube; the rough form has two."""
 
 from __future__ import annotations
 
 import csv
 import json
-import random
 import re
 from pathlib import Path
 from typing import Any
@@ -13,13 +12,12 @@ import pytest
 
 from studies.claims import run as study
 from studies.claims.claim_list import CLAIMS, Claim
-from studies.claims.evidence import Evidence, Measured
-from studies.claims.plausible import ON_OIL_EVERY, REFERENCE
-from studies.claims.verdicts import KINDS, Ruling, rule
+from studies.claims.verdicts import BOUNDS, KINDS, Count, Ruling
 from studies.common.chapter import Chapter
+from studies.common.options import Options
 from tests.studies.forms import FORMS, ROUGH, WHOLE, written
 
-MACHINES = {ROUGH: 2, WHOLE: 8}
+MACHINES = {ROUGH: 2, WHOLE: 8}  # of the first hypercube; half as many of the second, and the reference support
 
 
 @pytest.fixture(scope="module", params=FORMS)
@@ -37,7 +35,7 @@ def rows(out: Path) -> dict[str, dict[str, str]]:
     """Rows of the table of claims, by the claim's text."""
     sheet = Chapter.load(out).sheets[1]
     found = [dict(zip(sheet.header, row, strict=True)) for row in sheet.rows]
-    return {row["claim (where)"].rsplit(" (", 1)[0]: row for row in found}
+    return {row["statement (where)"].rsplit(" (", 1)[0]: row for row in found}
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +47,7 @@ def numbers(out: Path) -> dict[tuple[str, str], dict[str, Any]]:
 def test_every_claim_has_a_verdict(rows: dict[str, dict[str, str]]) -> None:
     assert len(rows) == len(CLAIMS) > 20
     for row in rows.values():
-        assert row["verdict"].startswith(KINDS)
+        assert row["verdict"] in KINDS
 
 
 def test_posture_follows_from_geometry_on_every_machine(rows: dict[str, dict[str, str]]) -> None:
@@ -60,23 +58,31 @@ def test_posture_follows_from_geometry_on_every_machine(rows: dict[str, dict[str
         "Clearance brings the front column nearer to the vertical.",
         "Clearance takes the rear column away from the vertical.",
     ):
-        assert re.fullmatch(r"cannot be judged \(\d machines: holds for \d+ to 100 %\)", rows[claim]["verdict"])
-        assert rows[claim]["machines"].startswith("100 %")  # of so few: with 256 it holds, see below
+        assert rows[claim]["verdict"] == "needs more machines"  # so few
+        assert rows[claim]["machines"].startswith("100 % (")
 
 
-def test_what_is_claimed_of_mean_accelerations_and_capacity_is_not_supported(
-    rows: dict[str, dict[str, str]],
-) -> None:
-    # four numbers next to zero are in the paper's order by chance, one time in 24
-    assert rows["The mean angular acceleration orders the clearances."]["verdict"] != "holds"
-    assert rows["That changes the supporting capacity of the columns noticeably."]["machines"].startswith("0 %")
+def test_the_summary_counts_verdicts_and_repetitions(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+    counts = {kind: numbers["claims", kind]["value"] for kind in KINDS}
+    apart = {kind: numbers["claims", f"{kind}, without repetitions"]["value"] for kind in KINDS}
+    assert sum(counts.values()) == numbers["claims", "all"]["value"] == len(CLAIMS)
+    assert counts["not measurable"] >= sum(claim.judge is None for claim in CLAIMS)
+    assert apart["not measurable"] == 0
+    assert all(apart[kind] <= counts[kind] for kind in KINDS)
+    assert numbers["claims", "holds"]["numerical_error"] == counts["needs more machines"]
+    for (name, case), number in numbers.items():
+        if (
+            name == "share_of_machines" and case != "claim 20"
+        ):  # of few machines no share is known to be at a bound
+            assert number["numerical_error"] > 1.0 - BOUNDS[1]
 
 
 def test_our_numbers_are_those_of_the_engine(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
     # the engine at 0.5 ms and half of it, see clearance_size: 52658.42 and 6551.5 N; its error is 1e-5 and 2e-4
-    assert numbers["mean_force", "1.5 mm"]["value"] == pytest.approx(52658.42, rel=1e-5)
+    assert numbers["mean_force", "1.5 mm"]["value"] == pytest.approx(52658.42, rel=2e-5)
     assert numbers["std_force", "1.5 mm"]["value"] == pytest.approx(6551.5, rel=3e-4)
-    assert numbers["mean_force", "ideal"]["value"] == pytest.approx(51290.66, rel=1e-6)
+    # 52496.84 N by the engine, of records every millisecond, which count the ends of the rise in full
+    assert numbers["mean_force", "ideal"]["value"] == pytest.approx(52496.84, rel=3e-5)
     # mode 1, rigid columns: 294.95 and 859.99 N s
     assert numbers["impulse", "1.5 mm, mode 1"]["value"] == pytest.approx(1154.94, rel=1e-4)
 
@@ -84,25 +90,20 @@ def test_our_numbers_are_those_of_the_engine(numbers: dict[tuple[str, str], dict
 def test_every_machine_is_a_row_with_its_data_and_judgements(out: Path, form: str) -> None:
     with (out / "machines.csv").open(encoding="utf-8", newline="") as file:
         machines = list(csv.DictReader(file))
-    assert len(machines) == MACHINES[form]
+    assert len(machines) == 1 + MACHINES[form] + MACHINES[form] // 2
     judged = [name for name in machines[0] if name.startswith("claim_")]
-    assert len(judged) == sum(c.judge is not None and not c.alone for c in CLAIMS)
-    on_oil = [f"claim_{n}" for n, claim in enumerate(CLAIMS, 1) if claim.on_oil]
-    for number, machine in enumerate(machines):
+    assert len(judged) == sum(c.judge is not None and not c.closed_form for c in CLAIMS)
+    assert [machine["contact"] for machine in machines].count("cylinders") == MACHINES[form] // 2
+    for machine in machines:
         assert float(machine["scale"]) > 0.5
-        if number % ON_OIL_EVERY and not machine["failure"]:
-            assert {machine.pop(name) for name in on_oil} == {""}
-        assert (
-            all(machine[name] in ("holds", "fails", "open") for name in judged if name in machine)
-            or machine["failure"]
-        )
+        assert machine["failure"] or {machine[name] for name in judged} <= {"holds", "fails", "undecided"}
 
 
 def test_every_claim_is_told_with_its_reason_and_what_shows_it(out: Path) -> None:
     claims = Chapter.load(out).claims
     assert [claim.number for claim in claims] == [str(n) for n in range(1, len(CLAIMS) + 1)]
     for claim in claims:
-        assert claim.verdict.startswith(KINDS)
+        assert claim.verdict in KINDS
         assert claim.why[0].isupper()
         assert claim.why.endswith(".")
 
@@ -116,10 +117,6 @@ def test_a_finished_hypercube_is_not_run_again(out: Path, form: str) -> None:
     assert (out / "table.txt").read_text(encoding="utf-8") == text
 
 
-def test_the_number_of_machines_is_a_parameter(out: Path, form: str) -> None:
-    assert len(list((out / "machines").iterdir())) == MACHINES[form]
-
-
 @pytest.mark.parametrize("wrong", ["0", "-3", "many"])
 def test_a_wrong_number_of_machines_is_refused(wrong: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:
@@ -128,53 +125,32 @@ def test_a_wrong_number_of_machines_is_refused(wrong: str, capsys: pytest.Captur
     assert "allowed" in capsys.readouterr().err
 
 
-# --- fewer machines than 256 ---
+class Drawn:
+    """How many machines were run, with a number of statements that need more of them."""
 
-STORED = (
-    Path(__file__).parent / "claims_of_256.txt"
-)  # a line a claim, a mark a machine: + holds, - fails, ? open
-SHOWN = {"+": Measured(1.0), "-": Measured(-1.0), "?": Measured(1.0, 2.0)}
-
-
-@pytest.fixture(scope="module")
-def judged() -> dict[str, str]:
-    """How each of 256 machines judges the claims, by their numbers."""
-    lines = (line.split() for line in STORED.read_text(encoding="utf-8").splitlines())
-    return dict(lines)
-
-
-def ruled(marks: str) -> Ruling:
-    """The ruling of machines that judge so; conditions, of which data decide, are not looked for."""
-    claim = Claim("section 0", "It is.", "m > 0", lambda e: e["run", "m"].above(0.0), lambda e: "")
-    machines = [(REFERENCE, Evidence({"run": {"m": SHOWN[mark]}})) for mark in marks]
-    return rule(claim, Evidence({"run": {"m": SHOWN["?"]}}), machines)
-
-
-def test_of_256_machines_every_claim_that_has_a_measure_is_stored(judged: dict[str, str]) -> None:
-    asked = [n for n, c in enumerate(CLAIMS, 1) if c.judge is not None and not c.alone and not c.on_oil]
-    assert list(judged) == [str(n) for n in asked]
-    assert {len(marks) for marks in judged.values()} == {256}
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, needs_more: int) -> None:
+        self.numbers: list[int] = []
+        claim = CLAIMS[1]
+        found = [Ruling(claim)] * needs_more + [Ruling(claim, first=Count(100, 0))] * (50 - needs_more)
+        monkeypatch.setattr(study, "_run", lambda samples, chosen: self.numbers.append(len(samples)))
+        monkeypatch.setattr(study, "judged", lambda rows: found)
 
 
 @pytest.mark.parametrize(
-    "number", [2, 8, *(pytest.param(number, marks=pytest.mark.slow) for number in (16, 64))]
+    ("options", "needs_more", "drawn"),
+    [
+        ({}, 50, [80]),
+        ({"machines": 8, "thorough": True}, 50, [8]),
+        ({"thorough": True}, 5, [80]),
+        ({"thorough": True}, 6, list(range(80, 801, 80))),
+    ],
 )
-def test_fewer_machines_say_less_and_nothing_else(judged: dict[str, str], number: int) -> None:
-    chance = random.Random(number)
-    drawings, wrong, covered, all_shares = 10, 0, 0, 0
-    for marks in judged.values():
-        full = ruled(marks)
-        for _ in range(drawings):
-            few = ruled("".join(chance.sample(marks, number)))
-            decided = {few.kind, full.kind} - {"cannot be judged"}
-            wrong += len(decided) == 2
-            if few.share is not None and few.interval is not None and full.share is not None:
-                low, high = few.interval
-                all_shares += 1
-                # as an error on both sides, as summary.json has it
-                covered += abs(full.share - few.share) <= max(high - few.share, few.share - low) + 1e-12
-    assert covered >= 0.95 * all_shares
-    assert wrong == 0
+def test_machines_are_drawn_until_few_statements_need_more(
+    options: dict[str, Any], needs_more: int, drawn: list[int], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    found = Drawn(monkeypatch, needs_more)
+    study.draw(Options(tmp_path, **options))
+    assert found.numbers == [1 + number + number // 2 for number in drawn]
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=[f"no. {n}" for n in range(1, len(CLAIMS) + 1)])

@@ -12,17 +12,21 @@ from typing import Any
 
 import pytest
 
+from studies.clearance_influence import contacts
+from studies.clearance_influence import run as influence
 from studies.clearance_size import run as study
 from studies.clearance_size.measures import measure
 from studies.common import rise
 from studies.common.chapter import Chapter
-from studies.common.paper_machine import SLIDING_COEFFICIENT
+from studies.common.paper_machine import SLIDING_COEFFICIENT, ideal_name
+from studies.common.runs import file_name
 from studies.common.subject import own_subject, paper_subject
 from support_exudyn import Result
 from tests.studies.another_way import by_a_tight_run, off
 from tests.studies.forms import FORMS, ROUGH, written
 
 DRY = [study.case_name(size, SLIDING_COEFFICIENT) for size in study.SIZES_MM]
+IDEAL = ideal_name(SLIDING_COEFFICIENT)
 SMOOTH = [study.case_name(size, 0.0) for size in study.SIZES_MM]
 
 MACHINES = Path(str(resources.files("support_exudyn.files.machines")))
@@ -54,9 +58,9 @@ def test_table_2_is_met_to_every_printed_digit(numbers: Numbers) -> None:
 @pytest.mark.slow  # scipy's method takes seconds a run
 def test_printed_errors_cover_the_distance_from_a_tight_run(out: Path, numbers: Numbers) -> None:
     # of the case whose mean stood here as 52542.79 with an error of 0.01; it is 52543.015
-    stems = {"ideal": "ideal", DRY[0]: "0p5mm_mu0p25"}
     runs = {
-        case: by_a_tight_run(Result.load(out / "runs" / f"{stem}.h5").scenario) for case, stem in stems.items()
+        case: by_a_tight_run(Result.load(out / "runs" / f"{file_name(case)}.h5").scenario)
+        for case in (IDEAL, DRY[0])
     }
     shares = off(numbers, measure(paper_subject(), runs))
     assert max(shares.values()) < 5.0, max(shares, key=lambda name: shares[name])
@@ -73,6 +77,19 @@ def test_table_3_agrees_with_an_independent_integrator(numbers: Numbers) -> None
     ):
         assert numbers["mean_pin_force", case]["value"] == pytest.approx(mean, rel=1e-4)
         assert numbers["std_pin_force", case]["value"] == pytest.approx(spread, rel=2e-3)
+
+
+def test_one_name_is_one_run_in_all_studies() -> None:
+    # a quantity of a case has one value on all pages, for it comes from the same run
+    paper = paper_subject()
+    of_sizes, of_influence = study.scenarios(paper), influence.scenarios() | contacts.scenarios(paper)
+    shared = of_sizes.keys() & of_influence.keys()
+    assert {study.case_name(1.5, friction) for friction in (0.25, 0.0)} <= shared
+    assert {ideal_name(friction) for friction in (0.25, 0.0)} <= shared
+    for case in shared:
+        assert of_sizes[case] == of_influence[case]
+    # the paper's contact among others is that of the study, and not a run of its own
+    assert {contacts.case_name("paper", friction) for friction in (0.25, 0.0)} <= shared
 
 
 def test_the_mean_force_grows_by_the_same_little_amount_each_time(numbers: Numbers) -> None:
@@ -99,19 +116,19 @@ def test_the_tip_moves_to_the_rear_in_proportion(numbers: Numbers) -> None:
     steps = [after - before for before, after in pairwise(shifts)]
     # quasi-static: -0.98 to -1.27 mm per 0.5 mm over the rise
     assert all(-1.27 < step < -0.98 for step in steps)
-    ranges = row(numbers, "tip_range", ["ideal", *DRY])
+    ranges = row(numbers, "tip_range", [IDEAL, *DRY])
     # smaller by 5 % at 2 mm; the paper calls them similar
     assert all(0.94 < other / ranges[0] < 1.0 for other in ranges[1:])
 
 
 def test_both_columns_tilt_to_the_rear(numbers: Numbers) -> None:
     for side, sign in (("front", -1.0), ("rear", 1.0)):
-        angles = row(numbers, f"mean_{side}_column_angle", ["ideal", *DRY])
+        angles = row(numbers, f"mean_{side}_column_angle", [IDEAL, *DRY])
         steps = [after - before for before, after in pairwise(angles[1:])]
         # quasi-static: 0.034 degrees per 0.5 mm, printed to a thousandth
         assert all(step == pytest.approx(-0.034, abs=1e-3) for step in steps)
         assert angles[1] < angles[0]
-        leans = row(numbers, f"mean_{side}_column_lean", ["ideal", *DRY])
+        leans = row(numbers, f"mean_{side}_column_lean", [IDEAL, *DRY])
         # the front column comes nearer to the vertical, the rear one leaves it
         assert all(sign * (after - before) > 0.03 for before, after in pairwise(leans))
 
@@ -134,12 +151,12 @@ def test_a_larger_clearance_does_not_shake_the_link_more(numbers: Numbers) -> No
 
 def test_the_mean_acceleration_says_nothing(numbers: Numbers) -> None:
     # from rest to rest: 30 deg/s^2 at the start; what the vibration leaves is below half a per cent of it
-    for case in ("ideal", *DRY, *SMOOTH):
+    for case in (IDEAL, *DRY, *SMOOTH):
         assert abs(numbers["mean_angular_acceleration", case]["value"]) < 0.5
 
 
 def test_the_angular_velocity_keeps_its_course(out: Path) -> None:
-    ideal = Result.load(out / "runs" / "ideal.h5")
+    ideal = Result.load(out / "runs" / f"{file_name(IDEAL)}.h5")
     for size in ("0p5", "1p0", "1p5", "2p0"):
         run = Result.load(out / "runs" / f"{size}mm_mu0p25.h5")
         assert (

@@ -20,7 +20,7 @@ from studies.contact_laws.free_impact import delivered_restitution, free_impact
 from support_exudyn import Result, simulate
 from support_exudyn.files import machines
 from tests.studies.forms import ONLY_WHOLE, ROUGH, written
-from user_forces import FrictionLaw, Frictionless, ImpactVelocity, NormalLaw
+from user_forces import FrictionLaw, Frictionless, NormalLaw
 
 ASKED = (0.1, 0.5, 0.9)  # restitutions
 
@@ -58,10 +58,6 @@ def test_every_law_moves_the_machine_and_is_tried_in_impacts() -> None:
     assert {type(case.pins["rear_base"].contact.normal) for case in rises.values()} == laws(NormalLaw)
     assert {type(case.pins["rear_base"].contact.friction) for case in rises.values()} == laws(FrictionLaw)
     assert {type(law) for law, _ in contact_law_cases.impact_laws().values()} == laws(NormalLaw)
-    textbook = [
-        rises[name].pins["rear_base"].contact.normal.damping_speed for name in contact_law_cases.TEXTBOOK
-    ]
-    assert textbook == [ImpactVelocity(floor=1e-3), ImpactVelocity(floor=0.1)]
 
 
 def test_restitution_cases_are_named_as_agreed_and_right(
@@ -102,13 +98,11 @@ def _check(case: str) -> None:
     assert abs(fine - closed_form) < abs(fine - coarse) < 1e-4
 
 
-def test_the_way_a_resting_contact_is_damped_matters(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
-    depth, *textbook = (
-        numbers["std_pin_force", case] for case in ("lankarani_nikravesh", *contact_law_cases.TEXTBOOK)
-    )
-    # by depth: the same for all steps; by the last impact: it hangs on which impact that was
-    assert depth["numerical_error"] < 1e-4 * depth["value"]
-    assert max(n["value"] for n in textbook) > 1.01 * depth["value"]
+def test_the_rest_velocity_matters(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+    slow, usual, *fast = (numbers["std_pin_force", case] for case in contact_law_cases.REST)
+    # measured: 1 % from 1 to 10 mm/s, 44 % from 10 to 100 mm/s
+    assert abs(slow["value"] / usual["value"] - 1.0) < 0.05
+    assert max(n["value"] for n in fast) > 1.2 * usual["value"]
     for number in numbers.values():
         assert math.isfinite(number["value"])
 

@@ -87,7 +87,7 @@ class TestInterrupted:
         assert "KeyboardInterrupt" not in story.said
 
     def test_it_ends_soon_with_all_its_processes(self, story: Story) -> None:
-        assert story.seconds < 10.0  # a second or two on an idle machine; the runs would take minutes
+        assert story.seconds < 40.0  # a second or two on an idle machine; the runs would take minutes
         assert story.left_over == set()
 
     def test_what_was_finished_stays_and_nothing_else(self, story: Story) -> None:

@@ -14,32 +14,31 @@ from hypothesis import strategies as st
 from studies.claims import plausible
 from studies.claims.plausible import (
     BODIES,
-    COLUMNS,
+    CONTACT,
     FACTORS,
+    LOT,
     MEMBERS,
-    ON_OIL,
     REFERENCE,
     REFERENCE_SCALE,
-    RIGID,
     Factor,
+    ideal_pin,
     machine,
     oil_columns,
     pin,
     samples,
 )
+from studies.claims.plausible_runs import CASES, scenario
 from studies.common import paper_machine
 from studies.contact_laws.catalogue import POWER_LAWS
-from support_exudyn import HydraulicSupport, Line, reference_support
+from support_exudyn import CubicStep, HydraulicSupport, Line, UniformSpeed, reference_support
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.pin_surroundings import links_stiffness
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
-    ImpactVelocity,
-    IndentationVelocity,
     InputError,
+    LankaraniNikravesh,
     PinInBore,
-    internal_contact_stiffness,
 )
 from user_forces.backing import pin_stiffness
 
@@ -86,47 +85,80 @@ def can_be_built(sample: plausible.Sample) -> bool:
 # --- drawing ---
 
 
+@pytest.mark.parametrize("second", [False, True])
 @pytest.mark.parametrize("factor", RANGES, ids=lambda f: f.name)
-@pytest.mark.parametrize("number", [1, 8, 37, 128])
-def test_every_stratum_of_every_range_has_one_machine(factor: Factor, number: int) -> None:
-    drawn = sorted(float(sample[factor.name]) for sample in samples(number, 11))
-    if factor.powers:
-        shares = [math.log(x / factor.low) / math.log(factor.high / factor.low) for x in drawn]
-    else:
-        shares = [(x - factor.low) / (factor.high - factor.low) for x in drawn]
-    for n, share in enumerate(shares):
-        # rounding may carry a value over the border of its stratum
-        assert n / number - 1e-12 <= share <= (n + 1) / number + 1e-12
-    assert factor.low <= drawn[0] <= drawn[-1] <= factor.high
+def test_every_stratum_of_every_range_has_one_machine_of_a_lot(factor: Factor, second: bool) -> None:
+    drawn = [float(sample[factor.name]) for sample in samples(2 * LOT, 11, second=second)]
+    if factor.second_only and not second:
+        assert set(drawn) == {factor.reference}
+        return
+    low, high = (float(factor.at(end, second=second)) for end in (0.0, 1.0))
+    for lot in (drawn[:LOT], drawn[LOT:]):
+        for n, x in enumerate(sorted(lot)):
+            share = math.log(x / low) / math.log(high / low) if factor.powers else (x - low) / (high - low)
+            # rounding may carry a value over the border of its stratum
+            assert n / LOT - 1e-12 <= share <= (n + 1) / LOT + 1e-12
 
 
 @pytest.mark.parametrize("factor", LISTS, ids=lambda f: f.name)
-@pytest.mark.parametrize("number", [24, 128, 256])
+@pytest.mark.parametrize("number", [LOT, 3 * LOT])
 def test_every_choice_occurs_equally_often(factor: Factor, number: int) -> None:
-    drawn = Counter(sample[factor.name] for sample in samples(number, 11))
+    drawn = Counter(sample[factor.name] for sample in samples(number, 11, second=True))
     assert set(drawn) == set(factor.choices)
     for times in drawn.values():
-        # a choice covers so many whole strata, and parts of one at either end
-        assert abs(times - number / len(factor.choices)) < 2.0
+        # a choice covers so many whole strata of each lot, and parts of one at either end
+        assert abs(times - number / len(factor.choices)) < 2.0 * number / LOT
 
 
 def test_factors_are_drawn_independently() -> None:
-    drawn = np.array([[float(sample[f.name]) for f in RANGES] for sample in samples(256, 11)])
+    drawn = np.array([[float(sample[f.name]) for f in RANGES] for sample in samples(256, 11, second=True)])
     off = np.abs(np.corrcoef(drawn, rowvar=False) - np.eye(len(RANGES)))
     # correlations of 256 independent draws have a standard deviation of 1/16; none of 136 is beyond five of it
     assert off.max() < 5 / 16
 
 
-def test_the_same_number_and_seed_give_the_same_machines() -> None:
-    assert samples(16, 3) == samples(16, 3)
+def test_more_machines_begin_with_the_same_ones() -> None:
+    assert samples(LOT + 7, 3)[:16] == samples(16, 3)
     assert samples(16, 3) != samples(16, 4)
-    assert [*samples(16, 3)[0]] == [*(factor.name for factor in FACTORS), COLUMNS]
+    assert [*samples(16, 3)[0]] == [*(factor.name for factor in FACTORS), CONTACT]
 
 
-def test_one_machine_in_three_is_asked_on_oil() -> None:
-    asked = [sample[COLUMNS] == ON_OIL for sample in samples(7, 3)]
-    assert asked == [True, False, False, True, False, False, True]
-    assert REFERENCE[COLUMNS] == RIGID
+def test_machines_of_the_first_hypercube_have_what_the_paper_prints() -> None:
+    steel_sphere = [paper_machine.STIFFNESS[size] for size in (0.5, 1.0, 1.5, 2.0)]  # Table 2
+    for sample in samples(LOT, 1):
+        support = machine(sample)
+        for size, printed in zip((0.5, 1.0, 1.5, 2.0), steel_sphere, strict=True):
+            scene = scenario(sample, f"{size} mm", support)
+            bearing, normal = (getattr(scene.pins["rear_base"].contact, name) for name in ("bearing", "normal"))
+            assert (1e3 * bearing.bore_radius, 1e3 * bearing.clearance) == pytest.approx((65.5, size))
+            assert isinstance(normal, LankaraniNikravesh)
+            assert normal.stiffness / 1e3**1.5 == pytest.approx(printed, abs=5.1e-4)
+        for case in CASES:
+            scene = scenario(sample, case, support)
+            assert scene.drive == (UniformSpeed if "mode 1" in case else CubicStep)(
+                stroke=0.5, start=3.0, end=5.0
+            )
+            assert scene.duration == 5.0
+
+
+def test_machines_of_the_second_hypercube_differ_by_contact_times_and_masses_alone() -> None:
+    for first, second in zip(samples(LOT, 1), samples(LOT, 1, second=True), strict=True):
+        changed_data = {name for name in first if first[name] != second[name]}
+        engineers = {CONTACT, "stroke_time", "backing", "law", "rest_velocity"}
+        assert changed_data <= engineers | {name for name in first if name.startswith("mass_")}
+        assert isinstance(pin(second, 1.5, machine(second)).contact.normal, PinInBore)
+        assert isinstance(pin(first, 1.5, machine(first)).contact.normal, LankaraniNikravesh)
+
+
+def test_the_ideal_pin_has_the_friction_of_the_pin_with_clearance() -> None:
+    for sample in samples(4, 1):
+        support = machine(sample)
+        with_clearance = scenario(sample, "1.5 mm", support).pins["rear_base"]
+        for case in ("ideal", "ideal, mode 1", "ideal, mode 1, oil"):
+            (ideal,) = scenario(sample, case, support).pins.values()
+            assert ideal == ideal_pin(sample)
+            assert ideal.friction == with_clearance.contact.friction
+            assert ideal.radius == with_clearance.contact.bearing.bore_radius
 
 
 @pytest.mark.parametrize("number", [0, -1])
@@ -139,7 +171,9 @@ def test_no_machines_at_all_are_refused(number: int) -> None:
 def test_a_share_of_a_factor_is_one_of_its_values(place: int, share: float) -> None:
     factor = FACTORS[place]
     value = factor.at(share)
-    if factor.choices:
+    if factor.second_only:
+        assert value == factor.reference
+    elif factor.choices:
         assert value in factor.choices
     else:
         # rounding at the upper end
@@ -154,11 +188,11 @@ def test_powers_have_their_middle_at_the_geometric_mean() -> None:
     assert BY_NAME["bore"].at(0.51) == BY_NAME["bore"].at(1.0) == "rear link"
 
 
-def test_all_that_the_requirement_names_is_varied() -> None:
+def test_the_data_are_named_with_reasons() -> None:
     assert len(BY_NAME) == len(FACTORS)
-    assert set(REFERENCE) == {*BY_NAME, COLUMNS}
-    asked = {"scale", "start_height", "restitution", "law", "contact", "sliding_coefficient"}
-    assert asked | {"static_speed", "dynamic_speed", "stroke_time", "bulk_modulus"} <= set(BY_NAME)
+    assert set(REFERENCE) == {*BY_NAME, CONTACT}
+    fixed = {factor.name for factor in FACTORS if factor.second_only}
+    assert fixed == {"law", "rest_velocity", "backing", "stroke_time"}
     for factor in FACTORS:
         assert factor.meaning
         assert factor.reason
@@ -268,16 +302,15 @@ def test_words_for_a_number_are_refused(name: str) -> None:
 @pytest.mark.parametrize("size", [0.5, 1.0, 1.5, 2.0])
 def test_the_reference_pin_is_the_papers(size: float) -> None:
     assert pin(REFERENCE, size, reference_support()) == paper_machine.clearance_joint(
-        size, paper_machine.SLIDING_COEFFICIENT
+        size, paper_machine.SLIDING_COEFFICIENT, law=paper_machine.PAPERS_LAW
     )
 
 
-def test_a_sample_decides_law_stiffness_friction_and_bore() -> None:
+def test_a_sample_decides_law_friction_and_bore() -> None:
     sample = changed(
         law="flores",
         restitution=0.4,
-        damping_speed="depth",
-        contact="internal",
+        rest_velocity=0.02,
         bore="rear link",
         sliding_coefficient=0.11,
         static_speed=2e-5,
@@ -287,13 +320,11 @@ def test_a_sample_decides_law_stiffness_friction_and_bore() -> None:
     normal, friction = with_clearance.contact.normal, with_clearance.contact.friction
     assert type(normal) is POWER_LAWS["flores"]
     assert normal.restitution == 0.4
-    assert type(normal.damping_speed) is IndentationVelocity
-    bearing = paper_machine.bearing(1.0)
-    assert normal.stiffness == internal_contact_stiffness(bearing, STEEL, STEEL_35CRMO)
-    assert with_clearance.contact.bearing == bearing
+    assert with_clearance.contact.bearing == paper_machine.bearing(1.0)
     assert with_clearance.bore == "second"
     assert (friction.sliding_coefficient, friction.static_speed, friction.dynamic_speed) == (0.11, 2e-5, 3e-3)
-    assert type(pin(REFERENCE, 1.0, reference_support()).contact.normal.damping_speed) is ImpactVelocity
+    assert normal.rest_velocity == 0.02
+    assert pin(REFERENCE, 1.0, reference_support()).contact.normal.rest_velocity == 0.01
 
 
 def test_cylinders_are_as_long_as_the_machines_pin_and_held_by_pin_and_link() -> None:
@@ -322,26 +353,21 @@ def test_columns_of_oil_are_as_large_as_the_machine() -> None:
     assert column.line == Line(volume=5e-3, nominal_flow=200e-3 / 60.0, nominal_drop=5e5)
 
 
-def test_every_sample_has_a_pin() -> None:
-    drawn = [(sample, pin(sample, 2.0, machine(sample)).contact.normal) for sample in samples(64, 5)]
-    for sample, law in drawn:
-        assert isinstance(law, PinInBore) == (sample["contact"] == "cylinders")
-    assert {type(law) for _, law in drawn} == {*POWER_LAWS.values(), PinInBore}
-
-
 # --- words ---
 
 
 def test_factors_are_said_in_words() -> None:
-    assert BY_NAME["sliding_coefficient"].said == "mu_d"
-    assert BY_NAME["mass_tail_beam"].said == "mass tail beam"
-    assert BY_NAME["scale"].span == "0.6 to 1"
-    assert BY_NAME["static_speed"].span == "1e-05 to 0.001, even in powers"
-    assert BY_NAME["bore"].span == "base, rear link"
+    assert BY_NAME["sliding_coefficient"].label == "mu_d"
+    assert BY_NAME["mass_tail_beam"].label == "mass tail beam"
+    assert BY_NAME["mass_tail_beam"].span(second=True) == "0.6 to 2.5, even in powers"
+    assert BY_NAME["scale"].span(second=False) == "0.6 to 1"
+    assert BY_NAME["static_speed"].span(second=False) == "1e-05 to 0.001 m/s, even in powers"
+    assert BY_NAME["stroke_time"].span(second=False) == "2.0 s"
+    assert BY_NAME["bore"].span(second=False) == "base, rear link"
     assert BY_NAME["bore"].chosen("base") == "the bore in the base"
     assert BY_NAME["dynamic_speed"].bound("below", 0.012) == "v_d below 0.012 m/s"
     assert BY_NAME["sliding_coefficient"].bound("above", 0.2) == "mu_d above 0.2"
     phrases = [factor.chosen(choice) for factor in LISTS for choice in factor.choices]
     assert len(set(phrases)) == len(phrases)
-    said = sorted(factor.said for factor in FACTORS)
+    said = sorted(factor.label for factor in FACTORS)
     assert all(one != other for one, other in pairwise(said))

@@ -34,10 +34,9 @@ class Record:
 
 
 def response(frequency: float, period: float) -> float:
-    """What a centred mean over so many records leaves of a sine of a frequency [Hz]: Dirichlet's kernel."""
-    records = 2 * round(0.05 / period) + 1
-    phase = np.pi * frequency * period
-    return float(np.sin(records * phase) / (records * np.sin(phase)))
+    """How much of a sine the trend keeps: the trapezoidal rule over the window."""
+    half, turn = 0.05 / period, 2.0 * np.pi * frequency * period
+    return float(np.sin(half * turn) / (2.0 * half * np.tan(0.5 * turn)))
 
 
 def rms(values: Series) -> float:
@@ -88,15 +87,16 @@ def test_the_ripple_of_a_sine_on_a_slope_is_known(period: float, frequency: floa
 @pytest.mark.parametrize("period", PERIODS)
 def test_the_ripple_hardly_depends_on_how_often_is_recorded(period: float) -> None:
     run = Record(period, {"x": lambda time: np.sin(2 * np.pi * 20.0 * time)})
-    # at 20 Hz the window holds two whole periods, and one record: the whole sine is RMS fluctuation
-    assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(np.sqrt(0.5), rel=0.025)
+    # at 20 Hz the window holds two whole periods: the whole sine is RMS fluctuation, but for rounding
+    assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(np.sqrt(0.5), rel=1e-9)
 
 
 @pytest.mark.parametrize("period", PERIODS)
 def test_a_bend_leaves_a_known_rest(period: float) -> None:
-    records = 2 * round(0.05 / period) + 1
     run = Record(period, {"x": lambda time: 3.0 * (time - 4.0) ** 2})
-    rest = 3.0 * period**2 * (records**2 - 1) / 12  # mean of the squares of a centred window's times
+    rest = 3.0 * (
+        0.1**2 / 12 + period**2 / 6
+    )  # mean of the squares of a window's times, by the trapezoidal rule
     # rounding of the moving sum over values of 3
     assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(rest, abs=1e-12)
 

@@ -290,13 +290,18 @@ def test_the_study_is_about_the_users_machine(
 
 def test_an_estimate_that_is_too_small_is_seen() -> None:
     scene = SCENES["slider-crank"]
-    tight = estimates.tight(scene)
+    truth = estimates.tight(scene)
     scenario = replace(scene.scenario, accuracy="draft")
-    honest = estimates.check("slider-crank", scene, scenario, estimates.tight_numbers(scene.after, tight))
+    honest = estimates.check("slider-crank", scene, scenario, truth)
+    assert honest.is_judged
     planted = replace(honest, estimated=1e-3 * honest.estimated)
     assert honest.covered >= 0.95
     assert planted.covered < 0.5
     assert estimates.overstatement([planted]).value < 1.0
+    # a tight run as vague as what it is to judge judges nothing
+    vague = estimates.Truth(truth.numbers, {name: 1.0 + abs(value) for name, value in truth.numbers.items()})
+    unjudged = estimates.check("slider-crank", scene, scenario, vague)
+    assert (unjudged.is_judged, unjudged.true.size, unjudged.left_out) == (False, 0, len(truth.numbers))
 
 
 def test_a_wrong_run_is_seen() -> None:

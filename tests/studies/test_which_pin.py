@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from studies.common.chapter import Chapter
-from studies.common.subject import own_subject, paper_subject
+from studies.common.subject import own_subject, paper_subject, without_clearance
 from studies.which_pin import cases as which_pin_cases
 from studies.which_pin import closed_form as clearance
 from studies.which_pin.measures import measures
@@ -24,7 +24,7 @@ from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, 
 from user_forces.values.value import InputError
 
 PINS = tuple(reference_support().linkage().pins)
-DRY, SMOOTH = which_pin_cases.FRICTIONS
+FRICTIONS = DRY, SMOOTH = 0.25, 0.0
 SUPPORT = reference_support()
 
 Numbers = dict[tuple[str, str], dict[str, Any]]
@@ -45,14 +45,14 @@ def alone(numbers: Numbers, name: str, friction: float) -> dict[str, float]:
     return {pin: numbers[name, which_pin_cases.case_name((pin,), friction)]["value"] for pin in PINS}
 
 
-@pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
+@pytest.mark.parametrize("friction", FRICTIONS)
 def test_front_links_pins_move_the_tip_most_and_the_hinge_hardly(numbers: Numbers, friction: float) -> None:
     effects = alone(numbers, "mean_tip_shift_forward", friction)
     # a link between two pins is pressed alike at both ends: those differ by 1 %, links by a quarter
     assert in_order(effects) == "front_base = front_shield > rear_base = rear_shield > shield_canopy"
 
 
-@pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
+@pytest.mark.parametrize("friction", FRICTIONS)
 @pytest.mark.parametrize("axis", ["tip_shift_forward", "tip_shift_up", "canopy_tilt"])
 def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis: str, friction: float) -> None:
     for pins in (*((pin,) for pin in PINS), PINS):
@@ -64,7 +64,7 @@ def test_virtual_work_tells_where_the_worn_support_stands(numbers: Numbers, axis
         )
 
 
-@pytest.mark.parametrize("friction", which_pin_cases.FRICTIONS)
+@pytest.mark.parametrize("friction", FRICTIONS)
 def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Numbers, friction: float) -> None:
     whole = which_pin_cases.case_name(PINS, friction)
     shift = sum(alone(numbers, "mean_tip_shift_forward", friction).values())
@@ -107,7 +107,7 @@ def test_influence_is_that_of_the_linkage_laid_out_anew() -> None:
 
 def test_shift_is_the_work_of_a_unit_force_at_the_tip() -> None:
     stand = clearance.standing(SUPPORT)
-    pins = dict.fromkeys(PINS, which_pin_cases.clearance_pin(0.0))
+    pins = dict.fromkeys(PINS, paper_subject().clearance_pin(1.5, 0.0))
     tip = SUPPORT.linkage().points["tip"].point
     weight = clearance.forces(stand, {})
     for axis, unit in ((clearance.TIP_X, (1.0, 0.0)), (clearance.TIP_Y, (0.0, 1.0))):
@@ -120,7 +120,7 @@ def test_shift_is_the_work_of_a_unit_force_at_the_tip() -> None:
 
 def test_journals_lie_along_their_load_by_clearance_and_depth() -> None:
     stand = clearance.standing(SUPPORT)
-    pin = which_pin_cases.clearance_pin(0.0)
+    pin = paper_subject().clearance_pin(1.5, 0.0)
     for name, opening in clearance.openings(stand, dict.fromkeys(PINS, pin)).items():
         first = 2 * PINS.index(name)
         load = clearance.forces(stand, {})[first : first + 2]
@@ -131,7 +131,7 @@ def test_journals_lie_along_their_load_by_clearance_and_depth() -> None:
 
 
 def test_a_roof_turns_the_shift_around() -> None:
-    under = loads(which_pin_cases.clearance_pin(0.0))
+    under = loads(paper_subject().clearance_pin(1.5, 0.0))
     whole = {name: sum(one.mean(pin) for pin in PINS) for name, one in under.items()}
     # the weight of links and shield leans the four-bar to the rear, what presses on the canopy in front pushes
     # it forward: -17 and +19 mm
@@ -149,7 +149,7 @@ def test_every_pin_may_have_its_own_law_and_clearance(out: Path) -> None:
 
     own = {
         "rear_base": pin(0.5e-3, Exact(stiffness=2.7e10, restitution=0.5), Ambrosio(sliding_coefficient=0.1)),
-        "front_base": pin(1.0e-3, which_pin_cases.clearance_pin(0.0).contact.normal),
+        "front_base": pin(1.0e-3, paper_subject().clearance_pin(1.5, 0.0).contact.normal),
         "rear_shield": pin(2.0e-3, KelvinVoigt(stiffness=4e8, damping=4e5)),
         "front_shield": pin(
             0.8e-3, Exact(stiffness=2e10, restitution=0.3), Threlfall(sliding_coefficient=0.15)
@@ -192,15 +192,16 @@ def test_every_file_is_there_and_the_chapter_can_be_read(out: Path) -> None:
         "closed_form",
     ):
         assert "all five" in (out / f"table_{table}.txt").read_text(encoding="utf-8")
-    assert len(list((out / "runs").glob("*.h5"))) == 33
+    assert len(list((out / "runs").glob("*.h5"))) == 44
 
 
 def test_the_peak_over_ideal_has_the_error_of_the_peaks_that_it_is_made_of(numbers: Numbers) -> None:
     cases = {case for name, case in numbers if name == "largest_peak_over_ideal"}
-    for case in cases - {which_pin_cases.IDEAL}:
+    plan = which_pin_cases.PinPlan(paper_subject())
+    for case in cases & plan.loose.keys():
         shares = []  # of each force: its peak over the ideal one, and what the errors of both make of it
-        for force in which_pin_cases.PinPlan(paper_subject()).forces.values():
-            peak, ideal = (numbers[f"largest_force_{force}", one] for one in (case, which_pin_cases.IDEAL))
+        for force in plan.forces.values():
+            peak, ideal = (numbers[f"largest_force_{force}", one] for one in (case, plan.ideal_of(case)))
             shares.append((peak["value"] / ideal["value"], peak["numerical_error"] / ideal["value"]))
         ratio = numbers["largest_peak_over_ideal", case]
         largest, error = max(shares)
@@ -228,9 +229,13 @@ def test_every_pin_of_ones_own_machine_is_loose_alone_and_with_all(tmp_path: Pat
     assert set(plan.pins) == set(PINS)
     loose = {tuple(case.pins) for case in plan.scenarios.values()}
     assert loose == {(), plan.pins, *((pin,) for pin in plan.pins)}
-    assert {pin for case in plan.scenarios.values() for pin in case.pins.values()} == {
-        plan.pin(friction, 1.5) for friction in plan.frictions
-    }
+    # the contact of all studies of the machine, and ideal pins with the same friction to compare with
+    usual = {plan.subject.clearance_pin(1.5, friction) for friction in plan.frictions}
+    tight = without_clearance(plan.subject.clearance_pin(1.5, plan.frictions[0]))
+    assert {pin for case in plan.scenarios.values() for pin in case.pins.values()} == usual | {tight}
+    for name, case in plan.scenarios.items():
+        ideal = plan.scenarios[plan.ideal_of(name)]
+        assert ideal.pins == (dict.fromkeys(case.pins, tight) if "mu_d = 0.25" in name else {})
 
 
 def test_of_a_machine_without_canopy_and_columns_only_forces_and_shaking_are_told(tmp_path: Path) -> None:

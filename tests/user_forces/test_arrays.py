@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.cases.law_cases import BEARING, FRICTION_LAWS, NORMAL_LAWS, kind_of
-from user_forces import FrictionLaw, Impact, JournalContact, NormalLaw
+from user_forces import FrictionLaw, JournalContact, NormalLaw
 from user_forces.contact import SlipHistory
 from user_forces.expressions import scalar
 from user_forces.expressions.arrays import Array, as_number, values_of
@@ -105,11 +105,11 @@ def test_nothing_is_written_into_what_was_given(values: list[float]) -> None:
 @pytest.mark.parametrize("law", NORMAL_LAWS, ids=kind_of)
 @given(rows=columns)
 def test_normal_laws(law: NormalLaw, rows: list[tuple[float, ...]]) -> None:
-    depth, _, rate, speed, mass = (as_number(column) for column in np.array(rows).T)
-    forces = [law(d, r, Impact(v, m)) for d, _, r, v, m in rows]
+    depth, _, rate, speed, _ = (as_number(column) for column in np.array(rows).T)
+    forces = [law(d, r, v) for d, _, r, v, _ in rows]
     # a dashpot's force is a difference of larger ones
     scale = max(law.elastic_force(d) + abs(f) for (d, *_), f in zip(rows, forces, strict=True))
-    assert_same(law(depth, rate, Impact(speed, mass)), forces, scale)
+    assert_same(law(depth, rate, speed), forces, scale)
     assert_same(law.elastic_force(depth), [law.elastic_force(d) for d, *_ in rows])
     assert_same(law.elastic_energy(depth), [law.elastic_energy(d) for d, *_ in rows])
 
@@ -139,15 +139,12 @@ def test_a_whole_contact(friction: FrictionLaw, rows: list[tuple[float, ...]]) -
     still = SlipHistory(1e-6, 1e-3, 0.0)  # no time passes between records
     result = contact.force(
         *(as_number(values) for values in given_motion),
-        Impact(as_number(speed), as_number(np.full(len(rows), 700.0))),
+        as_number(speed),
         SlipHistory(as_number(np.full(len(rows), 1e-6)), as_number(np.full(len(rows), 1e-3)), 0.0),
     )
     # places are known to their last digit, and a damped force that jumps at the impact hangs on it
     expected = [
-        [
-            contact.force(near * x, near * y, *others, Impact(v, 700.0), still)
-            for near in (1.0 - 2.0**-51, 1.0, 1.0 + 2.0**-51)
-        ]
+        [contact.force(near * x, near * y, *others, v, still) for near in (1.0 - 2.0**-51, 1.0, 1.0 + 2.0**-51)]
         for (x, y, *others), v in zip(given_motion.T.tolist(), speed.tolist(), strict=True)
     ]
     names = ["depth", "rate", "slip", "normal_force", "friction_force", "force_x", "force_y", "journal_arm"]

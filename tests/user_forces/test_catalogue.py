@@ -21,7 +21,7 @@ LAWS = Path(user_forces.__file__).parent / "laws.md"
 def test_every_file_holds_a_law_or_says_why_not() -> None:
     rooms = (Path(user_forces.__file__).parent / room for room in ("normal", "friction"))
     files = {path.stem for room in rooms for path in room.glob("*.py")}
-    bases = {"__init__", "law", "hysteresis", "power_law", "cylinder", "damping_speed"}
+    bases = {"__init__", "law", "hysteresis", "power_law", "cylinder"}
     assert files - bases - {"part", "frictionless"} == FOUND.keys()
 
 

@@ -11,8 +11,6 @@ from tests.cases.machine_cases import contact
 from user_forces import (
     ContactForce,
     Frictionless,
-    Impact,
-    IndentationVelocity,
     InputError,
     JournalContact,
     LankaraniNikravesh,
@@ -23,7 +21,7 @@ from user_forces import (
 CONTACT = contact()
 CLEARANCE = CONTACT.bearing.clearance
 BORE, JOURNAL = CONTACT.bearing.bore_radius, CONTACT.bearing.journal_radius
-IMPACT = Impact(speed=0.1, mass=500.0)
+IMPACT = 0.1
 
 angles = st.floats(-math.pi, math.pi)
 speeds = st.floats(-2.0, 2.0)
@@ -38,7 +36,7 @@ def pushed(
     velocity: tuple[float, float] = (0.0, 0.0),
     bore_spin: float = 0.0,
     journal_spin: float = 0.0,
-    impact: Impact | None = IMPACT,
+    impact: float | None = IMPACT,
     law: JournalContact = CONTACT,
     history: SlipHistory | None = None,
 ) -> ContactForce:
@@ -266,7 +264,7 @@ def test_force_turns_with_the_axes(
     def turned(x: float, y: float) -> tuple[float, float]:
         return c * x - s * y, s * x + c * y
 
-    impact = Impact(impact_velocity, 500.0)
+    impact = impact_velocity
     one = pushed(1e-4, angle, velocity, *spins, impact)
     two = pushed(1e-4, angle + turn, turned(*velocity), *spins, impact)
     # rounding of depth and slip: 1e-18 m of 1e-4 m, and 1e-15 m/s on a ramp of 1e-2 m/s
@@ -305,18 +303,10 @@ def test_there_is_no_friction_by_default() -> None:
 
 
 def test_approach_speed_is_handed_to_the_law() -> None:
-    soft, hard = (pushed(velocity=(0.05, 0.0), impact=Impact(v, 500.0)) for v in (0.1, 0.2))
+    soft, hard = (pushed(velocity=(0.05, 0.0), impact=v) for v in (0.1, 0.2))
     elastic = CONTACT.normal.elastic_force(soft.depth)
     # textbook damping is inverse to it; rounding of the difference
     assert soft.normal_force - elastic == pytest.approx(2.0 * (hard.normal_force - elastic), rel=1e-11)
-
-
-def test_mass_is_handed_to_the_law() -> None:
-    law = replace(CONTACT, normal=replace(CONTACT.normal, damping_speed=IndentationVelocity()))
-    light, heavy = (pushed(velocity=(0.05, 0.0), impact=Impact(0.0, m), law=law) for m in (100.0, 400.0))
-    elastic = CONTACT.normal.elastic_force(light.depth)
-    # damping without an initial impact velocity goes with the root of the mass; rounding of the difference
-    assert heavy.normal_force - elastic == pytest.approx(2.0 * (light.normal_force - elastic), rel=1e-11)
 
 
 # --- friction with a state ---
@@ -374,7 +364,7 @@ def test_a_normal_law_in_place_of_a_friction_law_is_refused() -> None:
 
 
 @pytest.mark.parametrize("impact", [None, IMPACT])
-def test_from_the_middle_every_way_leads_outwards(impact: Impact | None) -> None:
+def test_from_the_middle_every_way_leads_outwards(impact: float | None) -> None:
     got = CONTACT.force(0.0, 0.0, 0.3, -0.4, 0.0, 0.0, impact)
     assert got.depth == -CONTACT.bearing.clearance
     assert got.rate == 0.5

@@ -30,7 +30,6 @@ from user_forces import (
     DubowskyFreudenstein,
     Esdu78035,
     Goldsmith,
-    Impact,
     InputError,
     Johnson,
     JournalBearing,
@@ -276,7 +275,7 @@ def test_largest_depth(kind: type[CylinderLaw], limit: float) -> None:
 def test_deeper_than_the_range_is_refused(law: CylinderLaw) -> None:
     depth = 1.01 * law.largest_depth
     said = saying(f"{kind_of(law)}: depth = {depth:.6g} m ", f"allowed: up to {law.largest_depth:.6g} m")
-    for ask in (law.elastic_force, law.elastic_energy, lambda x: law(x, 0.1, Impact(0.2, 3.0))):
+    for ask in (law.elastic_force, law.elastic_energy, lambda x: law(x, 0.1, 0.2)):
         with pytest.raises(LoadError, match=said):
             ask(depth)
 

@@ -16,8 +16,6 @@ from user_forces import (
     Exact,
     FrictionLaw,
     Frictionless,
-    Impact,
-    ImpactVelocity,
     JournalContact,
     LankaraniNikravesh,
     LoadError,
@@ -26,13 +24,13 @@ from user_forces import (
     SlipHistory,
     value,
 )
-from user_forces.compilation.flat import FlatForce, asks_for_mass, flat_force, flat_function, nested
+from user_forces.compilation.flat import FlatForce, flat_force, flat_function, nested
 
 CLEARANCE = BEARING.clearance
 EXACT = power_law(Exact)
-# x, y, vx, vy, bore_spin, journal_spin; in_contact, speed, mass, deflection, slip, step
+# x, y, vx, vy, bore_spin, journal_spin; in_contact, speed, deflection, slip, step
 Arguments = tuple[float, ...]
-MIDDLE: Arguments = (0.0, 0.0, 0.1, 0.2, 1.0, 2.0, 1.0, 0.3, 5.0, 1e-7, 0.1, 1e-5)
+MIDDLE: Arguments = (0.0, 0.0, 0.1, 0.2, 1.0, 2.0, 1.0, 0.3, 1e-7, 0.1, 1e-5)
 
 
 @cache
@@ -52,7 +50,6 @@ def states(draw: st.DrawFn) -> Arguments:
         *(draw(st.floats(-10.0, 10.0)) for _ in range(2)),  # spins
         draw(st.sampled_from([0.0, 1.0])),
         draw(st.one_of(st.just(0.0), st.floats(1e-6, 1.0))),  # impact velocity
-        draw(st.floats(0.5, 1e4)),  # mass
         draw(st.floats(-2e-6, 2e-6)),  # deflection
         draw(st.floats(-1.0, 1.0)),  # slip
         draw(st.floats(1e-7, 1e-3)),  # step
@@ -60,8 +57,8 @@ def states(draw: st.DrawFn) -> Arguments:
 
 
 def assert_same(contact: JournalContact, state: Arguments) -> None:
-    *motion, in_contact, speed, mass, deflection, slip, step = state
-    impact = Impact(speed, mass) if in_contact else None
+    *motion, in_contact, speed, deflection, slip, step = state
+    impact = speed if in_contact else None
     expected = contact.force(*motion, impact, SlipHistory(deflection, slip, step))
     assert flat(contact)(*state) == expected
 
@@ -95,34 +92,22 @@ def test_nothing_is_kept_from_call_to_call(states: list[Arguments]) -> None:
 def test_a_load_outside_the_range_of_a_law_is_refused(normal: NormalLaw) -> None:
     contact = JournalContact(bearing=BEARING, normal=normal)
     deep = CLEARANCE + 1.01 * normal.largest_depth
-    state = (deep, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.1, 5.0, 0.0, 0.0, 1e-5)
+    state = (deep, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.1, 0.0, 0.0, 1e-5)
     with pytest.raises(LoadError) as flatly:
         flat(contact)(*state)
     with pytest.raises(LoadError) as plainly:
-        contact.force(*state[:6], Impact(0.1, 5.0))
+        contact.force(*state[:6], 0.1)
     assert type(normal).__name__ in str(flatly.value)
     assert str(flatly.value).split(":")[0] == str(plainly.value).split(":")[0]
     # apart nothing is asked of the law
     assert flat(contact)(*state[:6], 0.0, *state[7:]).normal_force == 0.0
 
 
-def test_which_laws_ask_for_the_mass() -> None:
-    def asks(normal: NormalLaw) -> bool:
-        return asks_for_mass(JournalContact(bearing=BEARING, normal=normal))
-
-    stiff = {"stiffness": 1e9, "restitution": 0.7}
-    assert asks(LankaraniNikravesh(**stiff))  # by default the damping follows the depth
-    assert not asks(LankaraniNikravesh(**stiff, damping_speed=ImpactVelocity()))
-    kinds = {kind_of(law) for law in NORMAL_LAWS if asks(law)}
-    assert not kinds & {"Hertz", "KelvinVoigt", "AdamsImpact"}
-    assert {"Anagnostopoulos", "Exact", "Johnson"} <= kinds
-
-
 @value
 class Branching(LankaraniNikravesh):
     """A law of a user who knows nothing of expressions."""
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         if depth > 1e-4:
             raise LoadError("Branching: too deep")
         return self.stiffness * depth**1.5 if rate > 0.0 else 0.5 * self.stiffness * depth**1.5
@@ -160,12 +145,12 @@ def test_a_law_that_branches_is_called(state: Arguments) -> None:
 def test_what_a_branching_law_raises_is_raised() -> None:
     contact = JournalContact(bearing=BEARING, normal=BRANCHING)
     with pytest.raises(LoadError, match="too deep"):
-        flat(contact)(CLEARANCE + 2e-4, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.1, 5.0, 0.0, 0.0, 1e-5)
+        flat(contact)(CLEARANCE + 2e-4, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.1, 0.0, 0.0, 1e-5)
 
 
 def test_frictionless_has_no_friction() -> None:
     contact = JournalContact(bearing=BEARING, normal=EXACT, friction=Frictionless())
-    found = flat(contact)(1.01 * CLEARANCE, 0.0, 0.1, 0.5, 1.0, 2.0, 1.0, 0.1, 5.0, 0.0, 0.0, 1e-5)
+    found = flat(contact)(1.01 * CLEARANCE, 0.0, 0.1, 0.5, 1.0, 2.0, 1.0, 0.1, 0.0, 0.0, 1e-5)
     assert found.normal_force > 0.0
     assert found.friction_force == 0.0
 

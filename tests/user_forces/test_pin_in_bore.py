@@ -15,7 +15,6 @@ from user_forces import (
     STEEL_35CRMO,
     Exact,
     Flores,
-    Impact,
     InputError,
     Johnson,
     JournalBearing,
@@ -98,7 +97,7 @@ def test_the_force_rises_and_joins_at_a_millionth_of_the_clearance(
 def test_a_free_impact_gives_back_what_was_asked_for(restitution: float, backing: float | None) -> None:
     one = law(backing=backing, restitution=restitution)
     speed, mass = 0.3, 400.0
-    impact = Impact(speed, mass)
+    impact = speed
 
     def motion(time: float, state: np.ndarray) -> list[float]:  # type: ignore[type-arg]
         del time

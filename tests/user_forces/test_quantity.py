@@ -81,7 +81,8 @@ def test_endings_are_what_pint_says(name: str) -> None:
             continue  # of an exponent that the law has
         spelled = re.sub("^per_", "1 / ", ending).replace("_per_", " / ").replace("_", " * ")
         spelled = "".join(f"**{c}" if c in "23" else c for c in spelled)
-        assert (1 * UREG(spelled)).to(unit.symbol).magnitude == pytest.approx(float(factor), rel=1e-14)
+        symbol = next(one for one in unit.symbol.split(" or ") if UREG(spelled).is_compatible_with(one))
+        assert (1 * UREG(spelled)).to(symbol).magnitude == pytest.approx(float(factor), rel=1e-14)
 
 
 def test_people_get_the_numbers_they_wrote() -> None:

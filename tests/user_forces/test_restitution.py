@@ -23,7 +23,6 @@ from user_forces import (
     Hertz,
     HuGuo,
     HuntCrossley,
-    ImpactVelocity,
     Johnson,
     JournalBearing,
     JournalContact,
@@ -139,7 +138,7 @@ def test_any_mass_stiffness_speed_and_step(
 ) -> None:
     chosen = law(stiffness=stiffness, restitution=asked, exponent=exponent)
     if textbook:
-        chosen = replace(chosen, damping_speed=ImpactVelocity(floor=1e-3))  # not above the speeds tried
+        chosen = replace(chosen, rest_velocity=1e-3)  # not above the speeds tried
     tried = scenario(chosen, bore_mass, journal_mass, speed)
     # a step that leaves hundreds of them in the run, so that the test stays fast
     tried = replace(tried, step=min(0.1, max(step, 3e-3 * tried.duration)))

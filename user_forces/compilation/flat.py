@@ -19,7 +19,7 @@ from user_forces.contact import Contact, ContactForce, SlipHistory
 from user_forces.expressions.scalar import Expression, maximum
 from user_forces.friction.law import FrictionLaw
 from user_forces.lawful import look
-from user_forces.normal.law import Impact, NormalLaw
+from user_forces.normal.law import NormalLaw
 
 NAMES = {
     name: getattr(math, name) for name in ("sqrt", "exp", "log", "tanh", "cos", "sin", "hypot", "inf", "nan")
@@ -28,7 +28,7 @@ CONSTANT = re.compile(r"\((-?(?:\d[^()]*|inf|nan))\)")  # a number as `text` wri
 TEMPORARY = re.compile(r"\b_\d+\b")  # the name of a line
 DEEPEST = 40  # brackets of a formula that stands in another; Python takes some 200
 Formulas = dict[str, str]  # formula: the name of the line that has it
-# x, y, vx, vy, bore_spin, journal_spin, in_contact, speed, mass, deflection, slip, step
+# x, y, vx, vy, bore_spin, journal_spin, in_contact, speed, deflection, slip, step
 FlatForce = Callable[..., ContactForce]
 
 
@@ -115,7 +115,7 @@ class SourceLine(Expression):
 
 ARGUMENTS = (
     *("x", "y", "vx", "vy", "bore_spin", "journal_spin"),
-    *("in_contact", "speed", "mass", "deflection", "slip", "step"),
+    *("in_contact", "speed", "deflection", "slip", "step"),
 )
 
 
@@ -129,12 +129,11 @@ def flat_force(contact: Contact) -> FlatForce:
     """`contact.force` as a flat function of floats, bit for bit the same, that raises LawError if it is none.
 
     Its arguments, all floats: x, y, vx, vy, bore_spin, journal_spin as of `Contact.force`; in_contact:
-    whether there is an impact, whose speed and mass follow; deflection, slip and step of SlipHistory.
+    whether the surfaces touch; speed: of their impact; deflection, slip and step of SlipHistory.
     """
-    formulas, (x, y, vx, vy, bore_spin, journal_spin, _, speed, mass, deflection, slip, step) = lines(ARGUMENTS)
+    formulas, (x, y, vx, vy, bore_spin, journal_spin, _, speed, deflection, slip, step) = lines(ARGUMENTS)
     history = SlipHistory(deflection, slip, step)
-    impact = Impact(speed, mass)
-    found = traceable(contact).force(x, y, vx, vy, bore_spin, journal_spin, impact, history)
+    found = traceable(contact).force(x, y, vx, vy, bore_spin, journal_spin, speed, history)
     free = "depth", "rate", "slip", "journal_arm"  # which do not depend on a contact
     texts = {name: text(value) for name, value in found._asdict().items()}
     apart = needed(formulas, (texts[name] for name in free))
@@ -183,25 +182,25 @@ class UnwrittenLawError(TypeError):
     """A law that cannot be written out as a formula: it branches on its arguments, or needs them as floats."""
 
 
-LAW_ARGUMENTS = ("depth", "rate", "slip", "speed", "mass", "deflection")
+LAW_ARGUMENTS = ("depth", "rate", "slip", "speed", "deflection")
 
 
 def law_source(contact: Contact) -> tuple[str, list[float]]:
     """Both laws of a contact as the source of one function `law` of floats, and the constants that it goes by.
 
-        law(depth, rate, slip, speed, mass, deflection, constants, out)
+        law(depth, rate, slip, speed, deflection, constants, out)
 
     gives the normal force [N] that the normal law asks for, negative if it asks for tension, and writes the
     friction force [N] and the elastic force [N] into out[0] and out[1], of a friction law with a state also the
     rate of its deflection [m/s] into out[2]. It gives nan beyond the depth for which the law is valid. speed
-    and mass are those of `Impact`; constants and out are arrays.
+    is the impact velocity [m/s]; constants and out are arrays.
 
     Raises UnwrittenLawError, with the name of the law, if there is no such source.
     """
-    formulas, (depth, rate, slip, speed, mass, deflection) = lines(LAW_ARGUMENTS)
+    formulas, (depth, rate, slip, speed, deflection) = lines(LAW_ARGUMENTS)
     law: NormalLaw | FrictionLaw = contact.normal
     try:
-        asked = contact.normal(depth, rate, Impact(speed, mass))
+        asked = contact.normal(depth, rate, speed)
         elastic = contact.normal.elastic_force(depth)
         law = contact.friction
         friction = contact.friction(slip, maximum(asked, 0.0), deflection)
@@ -218,17 +217,19 @@ def _unwritten(law: object, error: TypeError) -> str:
 
 
 def friction_source(friction: FrictionLaw) -> tuple[str, list[float]]:
-    """A friction law without a state as such a function: `depth` is the normal force [N], the rest but `slip`
-    is not looked at, and it gives the friction force [N].
+    """A friction law as such a function: `depth` is the normal force [N], the others are those of the law.
+
+    It gives the friction force [N], and writes the rate of a law's state [m/s] into out[0].
 
     Raises UnwrittenLawError, with the name of the law, if there is no such source.
     """
-    formulas, (normal, _, slip, *_) = lines(LAW_ARGUMENTS)
+    formulas, (normal, _, slip, _, deflection) = lines(LAW_ARGUMENTS)
     try:
-        force = friction(slip, normal)
+        force = friction(slip, normal, deflection)
+        rest = [friction.deflection_rate(deflection, slip)] if friction.has_state else []
     except TypeError as error:
         raise UnwrittenLawError(_unwritten(friction, error)) from error
-    return function_source(LAW_ARGUMENTS, formulas, force, [])
+    return function_source(LAW_ARGUMENTS, formulas, force, rest)
 
 
 def function_source(
@@ -270,10 +271,7 @@ class _Called:
         self._name = name
 
     def __call__(self, first: SourceLine, *others: Any) -> SourceLine:
-        impacts = [item for item in others if isinstance(item, Impact)]
-        parts = [f"Impact({text(item.speed)}, {text(item.mass)})" for item in impacts]
-        numbers = [text(item) for item in (first, *others) if not isinstance(item, Impact)]
-        return first.line(f"{self._name}({', '.join(numbers + parts)})")
+        return first.line(f"{self._name}({', '.join(map(text, (first, *others)))})")
 
 
 class _CalledFriction(_Called):
@@ -287,11 +285,11 @@ class _CalledFriction(_Called):
 
 def traceable(contact: Contact) -> Contact:
     """A contact that takes `SourceLine`s, whatever its laws: one that branches becomes a call."""
-    _, (one, two, three, four) = lines(["one", "two", "three", "four"])
+    _, (one, two, three) = lines(["one", "two", "three"])
     normal: Any = contact.normal
     friction: Any = contact.friction
     try:
-        normal(one, two, Impact(three, four))
+        normal(one, two, three)
     except TypeError:
         normal = _Called("normal_law")
     try:
@@ -319,7 +317,6 @@ def compiled(source: Iterable[str], contact: Contact, **known: object) -> dict[s
         "make": tuple.__new__,
         "ContactForce": ContactForce,
         "too_deep": contact.normal.elastic_force,  # which says so
-        "Impact": Impact,
         "normal_law": contact.normal,
         "friction_law": contact.friction,
         "not_finite": partial(look, contact),
@@ -371,12 +368,3 @@ def needed(formulas: Formulas, wanted: Iterable[str]) -> list[str]:
             kept.append(f"{name} = {formula}")
             names.update(re.findall(r"\b_\d+\b", formula))
     return kept[::-1]
-
-
-def asks_for_mass(contact: Contact) -> bool:
-    """Whether the force depends on the mass that moves with the depth, and so on where it was renewed."""
-    formulas, (x, y, vx, vy, bore_spin, journal_spin, _, speed, mass, deflection, slip, step) = lines(ARGUMENTS)
-    history = SlipHistory(deflection, slip, step)
-    impact = Impact(speed, mass)
-    found = traceable(contact).force(x, y, vx, vy, bore_spin, journal_spin, impact, history)
-    return any(re.search(r"\bmass\b", line) for line in needed(formulas, map(text, found)))

@@ -7,7 +7,7 @@ from pydantic import model_validator
 from user_forces.expressions.scalar import magnitude, maximum, minimum
 from user_forces.friction.law import FrictionLaw, against
 from user_forces.values.units import MetresPerSecond
-from user_forces.values.value import NonNegative, Positive, value
+from user_forces.values.value import Coefficient, NonNegative, Positive, value
 
 
 @value
@@ -22,7 +22,7 @@ class Ambrosio(FrictionLaw):
     The ramp damps like a dashpot of mu_d F_n / (v_d - v_s); steps longer than mass over that are coarse.
 
     Arguments:
-        sliding_coefficient: mu_d [-], >= 0.
+        sliding_coefficient: mu_d [-], >= 0 and <= 5.
         static_speed: v_s [m/s], >= 0.
         dynamic_speed: v_d [m/s], > v_s.
 
@@ -30,7 +30,7 @@ class Ambrosio(FrictionLaw):
     "Dynamic Analysis of Hydraulic Support with Single Clearance".
     """
 
-    sliding_coefficient: NonNegative
+    sliding_coefficient: Coefficient
     static_speed: MetresPerSecond[NonNegative] = 1e-4
     dynamic_speed: MetresPerSecond[Positive] = 1e-2
 

@@ -5,7 +5,7 @@ from typing import ClassVar
 from user_forces.expressions.scalar import magnitude, step
 from user_forces.friction.law import FrictionLaw, against
 from user_forces.values.units import MetresPerSecond
-from user_forces.values.value import NonNegative, Positive, value
+from user_forces.values.value import Coefficient, Positive, value
 
 
 @value
@@ -16,7 +16,7 @@ class CubicCoulomb(FrictionLaw):
     not stick: a loaded pin creeps.
 
     Arguments:
-        sliding_coefficient: mu [-], >= 0.
+        sliding_coefficient: mu [-], >= 0 and <= 5.
         dynamic_speed: v_d [m/s], > 0.
 
     Source: MSC Adams, function builder, STEP; regularised Coulomb friction as in Marques, Flores, Claro and
@@ -25,7 +25,7 @@ class CubicCoulomb(FrictionLaw):
 
     TITLE: ClassVar[str] = "Coulomb, cubic STEP"
 
-    sliding_coefficient: NonNegative
+    sliding_coefficient: Coefficient
     dynamic_speed: MetresPerSecond[Positive] = 1e-2
 
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:

@@ -7,8 +7,11 @@ from pydantic import model_validator
 from typing_extensions import Self
 
 from user_forces.expressions.scalar import sign
-from user_forces.values.value import NonNegative, Value, value
+from user_forces.values.value import Coefficient, Value, value
 
+LONG = 1.0  # [s], in which a deflection becomes that of steady slip
+SLIPS = tuple(1e-9 * 10.0 ** (0.025 * n) for n in range(401))  # [m/s] at which a law is evaluated
+HALVINGS = 40
 MOMENT = 1e-10  # [s], in which no bristle moves by more than a share of 1e-4 of its way
 
 
@@ -44,6 +47,27 @@ class FrictionLaw(Value, ABC):
         """Rate of the deflection [m/s]: what `next_deflection` makes of a step that tends to nothing."""
         return (self.next_deflection(deflection, slip, MOMENT) - deflection) / MOMENT
 
+    def steady_deflection(self, slip: float) -> float:
+        """Deflection [m] of a slip [m/s] that has lasted long: that of a joint which moves at the start."""
+        return self.next_deflection(0.0, slip, LONG)
+
+    @property
+    def largest_coefficient(self) -> float:
+        """Largest ratio of friction to normal force at any of SLIPS, of a law without a state."""
+        return float(max(abs(self(slip, 1.0)) for slip in SLIPS))
+
+    def slip_speed(self, share: float) -> float:
+        """Smallest slip [m/s] with this share of the largest coefficient; 0 of a law with a state."""
+        wanted = 0.0 if self.has_state else share * self.largest_coefficient
+        if wanted == 0.0:
+            return 0.0
+        first = next(n for n, slip in enumerate(SLIPS) if abs(self(slip, 1.0)) >= wanted)
+        low, high = float(SLIPS[max(0, first - 1)]), float(SLIPS[first])
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if abs(self(middle, 1.0)) >= wanted else (middle, high)
+        return high
+
     def swing_time(self, mass: float, normal_force: float) -> float:
         """One over the angular frequency [s] at which a mass [kg] that sticks swings under a normal force [N].
 
@@ -64,12 +88,12 @@ class TwoCoefficients(FrictionLaw, ABC):
     """Laws whose coefficient of friction is larger at rest than in fast slip.
 
     Arguments:
-        static_coefficient: mu_s [-], >= mu_d.
+        static_coefficient: mu_s [-], >= mu_d and <= 5.
         sliding_coefficient: mu_d [-], >= 0.
     """
 
-    static_coefficient: NonNegative
-    sliding_coefficient: NonNegative
+    static_coefficient: Coefficient
+    sliding_coefficient: Coefficient
 
     @model_validator(mode="after")
     def _static_is_larger(self) -> Self:

@@ -46,7 +46,7 @@ class LuGre(TwoCoefficients):
         """The state is the deflection of the bristles [m]."""
         return True
 
-    def steady_deflection(self, slip: float) -> float:
+    def largest_deflection(self, slip: float) -> float:
         """Size [m] of the deflection in steady slip, g / s0."""
         ratio = slip / self.stribeck_speed
         extra = (self.static_coefficient - self.sliding_coefficient) * exp(-ratio * ratio)
@@ -54,11 +54,11 @@ class LuGre(TwoCoefficients):
 
     def deflection_rate(self, deflection: float, slip: float) -> float:
         """dz/dt [m/s]."""
-        return slip - magnitude(slip) / self.steady_deflection(slip) * deflection
+        return slip - magnitude(slip) / self.largest_deflection(slip) * deflection
 
     def next_deflection(self, deflection: float, slip: float, step: float) -> float:
         """z [m] after a step [s] at constant slip [m/s]: nears the steady one as exp(-abs(slip) step s0/g)."""
-        size = self.steady_deflection(slip)
+        size = self.largest_deflection(slip)
         steady = sign(slip) * size
         return steady + (deflection - steady) * exp(-magnitude(slip) * step / size)
 
@@ -76,6 +76,6 @@ class LuGre(TwoCoefficients):
 
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection z [m]."""
-        lost = self.bristle_damping * magnitude(slip) / self.steady_deflection(slip)
+        lost = self.bristle_damping * magnitude(slip) / self.largest_deflection(slip)
         bristles = (self.bristle_stiffness - lost) * deflection
         return -normal_force * (bristles + (self.bristle_damping + self.viscosity) * slip)

@@ -5,7 +5,7 @@ import math
 from user_forces.expressions.scalar import exp, magnitude, where
 from user_forces.friction.law import FrictionLaw, against
 from user_forces.values.units import MetresPerSecond
-from user_forces.values.value import NonNegative, Positive, value
+from user_forces.values.value import Coefficient, Positive, value
 
 FULL = 1.0 - math.exp(-3.0)
 
@@ -18,13 +18,13 @@ class Threlfall(FrictionLaw):
     never reached. It does not stick: a loaded pin creeps.
 
     Arguments:
-        sliding_coefficient: mu [-], >= 0.
+        sliding_coefficient: mu [-], >= 0 and <= 5.
         dynamic_speed: v_r [m/s], > 0.
 
     Source: Threlfall, Mech. Mach. Theory 13 (1978) 475-483.
     """
 
-    sliding_coefficient: NonNegative
+    sliding_coefficient: Coefficient
     dynamic_speed: MetresPerSecond[Positive] = 1e-2
 
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:

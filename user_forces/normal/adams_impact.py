@@ -3,7 +3,6 @@
 from typing import ClassVar
 
 from user_forces.expressions.scalar import step
-from user_forces.normal.law import Impact
 from user_forces.normal.power_law import ElasticPower
 from user_forces.values.units import Metres, NewtonSecondsPerMetre
 from user_forces.values.value import NonNegative, Positive, value
@@ -32,7 +31,7 @@ class AdamsImpact(ElasticPower):
     full_damping: NewtonSecondsPerMetre[NonNegative]
     full_damping_depth: Metres[Positive]
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         """Normal force [N] at depth [m] > 0, rate [m/s]."""
         damping = self.full_damping * step(depth / self.full_damping_depth)
         return self.elastic_force(depth) + damping * rate

@@ -26,7 +26,7 @@ class CylinderLaw(Hysteresis, ABC):
         effective_modulus: E* [Pa], 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; see
             `user_forces.effective_modulus`.
         restitution: e [-], > 0 and <= 1.
-        damping_speed: what w is: the initial impact velocity v0 in a free impact.
+        rest_velocity: smallest w [m/s], > 0; see `Hysteresis`.
     """
 
     bearing: JournalBearing

@@ -1,6 +1,5 @@
 """Hertz's elastic contact."""
 
-from user_forces.normal.law import Impact
 from user_forces.normal.power_law import ElasticPower
 from user_forces.values.value import value
 
@@ -16,6 +15,6 @@ class Hertz(ElasticPower):
     Source: Hertz, J. reine angew. Math. 92 (1882) 156-171; Johnson, Contact Mechanics (1985), Eq. 4.23.
     """
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         """Normal force [N] at depth [m] > 0; rate and impact have no influence."""
         return self.elastic_force(depth)

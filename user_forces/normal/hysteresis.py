@@ -1,14 +1,19 @@
 """Laws F = F_el (1 + chi rate / w): an elastic force that is larger on the way in than on the way out."""
 
 import math
+import warnings
 from abc import abstractmethod
-from dataclasses import field
+from collections.abc import Mapping
 from functools import cached_property
+from typing import Any, ClassVar
 
 from user_forces.expressions.roots import bracketed_root
-from user_forces.normal.damping_speed import DampingSpeed, IndentationVelocity
-from user_forces.normal.law import Impact, NormalLaw
-from user_forces.values.value import Fraction, value
+from user_forces.expressions.scalar import maximum
+from user_forces.normal.law import NormalLaw
+from user_forces.values.units import MetresPerSecond
+from user_forces.values.value import Fraction, Positive, value
+
+REST_VELOCITY = 0.01  # [m/s], see the study `contact_laws`
 
 
 @value
@@ -23,13 +28,24 @@ class Hysteresis(NormalLaw):
 
     `delivered_restitution` solves that for e. The force is a pressure throughout: 1 - chi e > 0.
 
+    w = max(v0, rest velocity). v0 is the velocity of the last impact, kept for as long as the contact lasts; 0
+    for a contact that is closed at the start. A free impact faster than the rest velocity therefore delivers e.
+    Small vibrations of angular frequency omega about a depth d under a constant load have the damping ratio
+    chi omega d / (2 n w), n the exponent of F_el at d. The study `contact_laws` measures the default.
+
     Arguments:
         restitution: e that is asked for [-].
-        damping_speed: what w is; v0 in a free impact, see there for a contact that does not part.
+        rest_velocity: smallest w [m/s], > 0.
     """
 
+    _removed: ClassVar[Mapping[str, str]] = {"damping_speed": "give rest_velocity"}
+
     restitution: Fraction
-    damping_speed: DampingSpeed = field(default_factory=IndentationVelocity)
+    rest_velocity: MetresPerSecond[Positive] = REST_VELOCITY
+
+    @classmethod
+    def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        return without_damping_speed(given)
 
     @abstractmethod
     def factor(self, restitution: float) -> float:
@@ -45,15 +61,32 @@ class Hysteresis(NormalLaw):
         """Restitution [-] that a free impact delivers."""
         return delivered_restitution(self.damping_factor)
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         """Normal force [N] at depth [m] > 0, rate [m/s]."""
-        w = self.damping_speed(impact, self.elastic_energy(depth))
+        w = maximum(impact_velocity, self.rest_velocity)
         return self.elastic_force(depth) * (1.0 + self.damping_factor / w * rate)
 
-    @property
-    def forgets(self) -> bool:
-        """The law forgets as its damping speed does."""
-        return self.damping_speed.forgets
+
+def without_damping_speed(given: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Fields of a law, or keys of a file, with the rest velocity that an earlier version's damping speed means.
+
+    The floor of `ImpactVelocity` is the rest velocity. `IndentationVelocity`, which used an effective mass, is
+    gone: a warning says that the default rest velocity takes its place.
+    """
+    old = given.get("damping_speed")
+    kind = old.get("type") if isinstance(old, Mapping) else None
+    if not isinstance(old, Mapping) or kind not in ("ImpactVelocity", "IndentationVelocity"):
+        return given
+    kept = {key: item for key, item in given.items() if key != "damping_speed"}
+    if kind == "IndentationVelocity":
+        warnings.warn(
+            "damping_speed = IndentationVelocity is no longer there; the law damps with the default rest "
+            f"velocity of {1e3 * REST_VELOCITY:g} mm/s",
+            stacklevel=2,
+        )
+        return kept
+    floors = {key.replace("floor", "rest_velocity"): item for key, item in old.items() if key != "type"}
+    return kept | (floors or {"rest_velocity_mm_per_s": 1})
 
 
 def delivered_restitution(damping_factor: float) -> float:

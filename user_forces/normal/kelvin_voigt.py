@@ -6,7 +6,6 @@ from typing import Annotated
 
 from pydantic import Field
 
-from user_forces.normal.law import Impact
 from user_forces.normal.power_law import ElasticPower
 from user_forces.values.units import NewtonSecondsPerMetre
 from user_forces.values.value import NonNegative, Real, value
@@ -34,7 +33,7 @@ class KelvinVoigt(ElasticPower):
     damping: NewtonSecondsPerMetre[NonNegative]
     exponent: Annotated[Real, Field(ge=1, le=1)] = field(default=1.0)
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         """Normal force [N] at depth [m] > 0, rate [m/s]."""
         return self.stiffness * depth + self.damping * rate
 

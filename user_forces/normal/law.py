@@ -3,23 +3,9 @@
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import NamedTuple
 
 from user_forces.expressions.roots import bracketed_root
 from user_forces.values.value import InputError, Value
-
-
-class Impact(NamedTuple):
-    """What a law is told of the contact that is going on.
-
-    speed: of approach, the rate of depth at the instant of zero depth [m/s] >= 0; 0 for a contact that is
-    closed at the start, and for one that was pressed on without separation (see `NormalLaw.forgets`).
-    mass: that moves as the depth does [kg] > 0: of two free bodies hit centrally m1 m2 / (m1 + m2), in a
-    linkage what its joints make of it, and other clearance pins as far as they are pressed.
-    """
-
-    speed: float
-    mass: float
 
 
 class LoadError(InputError):
@@ -27,19 +13,23 @@ class LoadError(InputError):
 
 
 class NormalLaw(Value, ABC):
-    """Normal contact force as a function of depth, its rate and the impact that began it.
+    """Normal contact force as a function of depth, its rate and the impact velocity, and of nothing else.
 
     The contract:
-    1. `law(depth, rate, impact)` is called with depth > 0 only, all in SI.
-    2. `impact` stays the same until the surfaces part. The law owns no memory: who calls it keeps the impact.
+    1. `law(depth, rate, impact_velocity)` is called with depth > 0 only, all in SI.
+    2. `impact_velocity` [m/s] >= 0 is the rate of depth at zero depth when the contact began; 0 for a contact
+       that is closed at the start. It stays the same until the surfaces part. The law owns no memory: the
+       caller keeps the impact velocity.
     3. The result may be negative (tension). The caller cuts it at zero and counts that it did.
     4. `elastic_force` and `elastic_energy` are the part that is given back; the rest is dissipated.
     5. It is written with the functions of `user_forces.expressions.scalar`, so that it can be compiled too.
     6. A law that is valid up to some depth raises LoadError beyond it.
+    7. A law that needs a mass has a field `mass` [kg]. If that is None, a scenario takes the joint's effective
+       mass in the start posture, a constant of the run.
     """
 
     @abstractmethod
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         """Normal force [N], positive pushes apart, at depth [m] > 0 and rate [m/s]."""
 
     @abstractmethod
@@ -49,11 +39,6 @@ class NormalLaw(Value, ABC):
     @abstractmethod
     def elastic_energy(self, depth: float) -> float:
         """Energy [J] stored at this depth [m] > 0."""
-
-    @property
-    def forgets(self) -> bool:
-        """Whether a contact that is pressed on again without separation begins anew, with velocity 0."""
-        return False
 
     @property
     def largest_depth(self) -> float:
@@ -91,25 +76,28 @@ class NormalLaw(Value, ABC):
         """
         return self._depth_of(self.elastic_energy, energy)
 
-    def impact_time(self, impact: Impact) -> float:
-        """Duration [s] of an undamped impact that begins so, or less if a dashpot stops the body sooner.
+    def impact_time(self, speed: float, mass: float) -> float:
+        """Duration [s] of an undamped impact of a speed [m/s] and a mass [kg]; less if a dashpot stops it.
 
         2.94 times turning depth over speed, right for n = 1.5 and within 13 % for n from 1 to 3; or 3 m v / F0
         with the force F0 just after the impact. Infinite for no speed.
         """
-        if impact.speed <= 0.0:
+        if speed <= 0.0:
             return math.inf
-        time = 2.94 * self.turning_depth(0.5 * impact.mass * impact.speed**2) / impact.speed
-        first = self.initial_force(impact)
-        return min(time, 3.0 * impact.mass * impact.speed / first) if first > 0.0 else time
+        time = 2.94 * self.turning_depth(0.5 * mass * speed**2) / speed
+        first = self.initial_force(speed, mass)
+        return min(time, 3.0 * mass * speed / first) if first > 0.0 else time
 
-    def initial_force(self, impact: Impact) -> float:
-        """Force [N] just after the impact: zero unless the law jumps there, as one with a dashpot does."""
-        depth = 1e-9 * self.turning_depth(0.5 * impact.mass * impact.speed**2)
+    def initial_force(self, speed: float, mass: float) -> float:
+        """Force [N] just after an impact: zero unless the law jumps there, as a dashpot's force does.
+
+        speed: [m/s]. mass: that moves [kg].
+        """
+        depth = 1e-9 * self.turning_depth(0.5 * mass * speed**2)
         if depth == 0.0:
             return 0.0
-        force = self(depth, impact.speed, impact)
-        continuous = 1e-6 * impact.mass * impact.speed**2 / (1e9 * depth)  # far below that of the impact
+        force = self(depth, speed, speed)
+        continuous = 1e-6 * mass * speed**2 / (1e9 * depth)  # far below that of the impact
         return force if force > continuous else 0.0
 
     def _depth_of(self, rising: Callable[[float], float], wanted: float) -> float:

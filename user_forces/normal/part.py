@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import model_validator
 
-from user_forces.normal.law import Impact, NormalLaw
+from user_forces.normal.law import NormalLaw
 from user_forces.values.value import Share, value
 
 MOST_PARTS = 5
@@ -15,7 +15,7 @@ class PartOf(NormalLaw):
     """A share of the force of a law, and nothing else changed.
 
     Of a journal in its bore the law gives the force per whole length. Cut across the axis, each section has its
-    share of it at its own depth. Speed and mass of the impact stay those of the whole, so that sections at the
+    share of it at its own depth. The impact velocity stays that of the whole, so that sections at the
     same depth add up to the law.
 
     Arguments:
@@ -37,9 +37,9 @@ class PartOf(NormalLaw):
             f"law: is a part of a part, and so on; allowed: up to {MOST_PARTS - 1} parts of each other"
         )
 
-    def __call__(self, depth: float, rate: float, impact: Impact) -> float:
+    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         """Normal force [N] of the section."""
-        return self.share * self.law(depth, rate, impact)
+        return self.share * self.law(depth, rate, impact_velocity)
 
     def elastic_force(self, depth: float) -> float:
         """Force [N] at rest."""
@@ -50,19 +50,14 @@ class PartOf(NormalLaw):
         return self.share * self.law.elastic_energy(depth)
 
     @property
-    def forgets(self) -> bool:
-        """A part forgets as the whole does."""
-        return self.law.forgets
-
-    @property
     def largest_depth(self) -> float:
         """The largest depth is that of the whole [m]."""
         return self.law.largest_depth
 
-    def impact_time(self, impact: Impact) -> float:
+    def impact_time(self, speed: float, mass: float) -> float:
         """Duration [s] of an impact of the whole."""
-        return self.law.impact_time(impact)
+        return self.law.impact_time(speed, mass)
 
-    def initial_force(self, impact: Impact) -> float:
+    def initial_force(self, speed: float, mass: float) -> float:
         """Force [N] just after the impact."""
-        return self.share * self.law.initial_force(impact)
+        return self.share * self.law.initial_force(speed, mass)

@@ -53,7 +53,7 @@ class PinInBore(CylinderLaw):
         length: L of the contact, along the axis [m], > 0.
         effective_modulus: E* [Pa], see `user_forces.effective_modulus`.
         restitution: e [-], > 0 and <= 1.
-        damping_speed: what w is: the initial impact velocity v0 in a free impact.
+        rest_velocity: smallest w [m/s], > 0; see `Hysteresis`.
         backing_stiffness: k of pin and link, in series with the contact [N/m], > 0; None: they are rigid.
         damping: the law whose damping factor chi it has; "Exact" delivers the restitution asked for.
 

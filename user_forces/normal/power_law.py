@@ -53,5 +53,5 @@ class PowerLaw(ElasticPower, Hysteresis, ABC):
         stiffness: K [N/m^n], > 0; see `user_forces.materials`.
         restitution: e that is asked for [-].
         exponent: n [-], 1.5 for metals, from 1 to 3.
-        damping_speed: what w is: the initial impact velocity v0 in a free impact.
+        rest_velocity: smallest w [m/s], > 0; see `Hysteresis`.
     """

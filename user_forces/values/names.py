@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
+from types import MappingProxyType
 from typing import Any, NoReturn, TypeVar
 
 T = TypeVar("T")
@@ -25,13 +26,21 @@ class Named(dict[str, T]):
     Arguments:
         items: names and what they stand for.
         what: a name is of, such as "channel".
+        refused: names that have no value, and why.
     """
 
-    def __init__(self, items: Mapping[str, T] | Iterable[tuple[str, T]] = (), what: str = "entry") -> None:
+    def __init__(
+        self,
+        items: Mapping[str, T] | Iterable[tuple[str, T]] = (),
+        what: str = "entry",
+        refused: Mapping[str, str] = MappingProxyType({}),
+    ) -> None:
         super().__init__(items)
-        self.what = what
+        self.what, self.refused = what, dict(refused)
 
     def __missing__(self, name: Any) -> NoReturn:
+        if name in self.refused:
+            raise UnknownNameError(f"{name!r}: {self.refused[name]}")
         raise UnknownNameError(f"{name!r:.{LETTERS}}: no such {self.what}; {meant(name, self)}")
 
 

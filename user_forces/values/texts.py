@@ -5,6 +5,8 @@ It needs no library, so that a command line can refuse a word before any is impo
 
 from __future__ import annotations
 
+import unicodedata
+from collections.abc import Iterable
 from typing import Any
 
 
@@ -28,3 +30,16 @@ def short(item: Any) -> str:
     except Exception:  # of someone else's class, of data nested too deep, of a number of 5000 digits
         text = f"<{type(item).__name__}>"
     return text if len(text) <= 80 else text[:77] + "..."
+
+
+def check_names(where: str, names: Iterable[str]) -> None:
+    """Raise InputError that shows the first name with a character that channels and files cannot have.
+
+    where: the table of the names, such as "pins".
+    """
+    for name in names:
+        if not name or not all(one in "_-" or unicodedata.category(one)[0] in "LMN" for one in name):
+            raise InputError(
+                f"{where}: {short(name)}: cannot be used as a name; allowed: letters of any language, digits, "
+                '"_" and "-"'
+            )

@@ -29,7 +29,7 @@ LEVELS = 4  # of lists in lists, which is more than any field has
 class Unit:
     """The unit of a field, as metadata of its type.
 
-    symbol: in SI, in the words of pint; empty: whatever SI makes of it.
+    symbol: in SI, in the words of pint, with "or" between two; empty: whatever SI makes of it.
     endings: by which a file's key may end, each with what one of it is in SI; the first is usual.
     """
 
@@ -62,7 +62,10 @@ class Unit:
         if not carries_unit(item):
             return item
         try:
-            converted = item.to(self.symbol) if self.symbol else item.to_base_units()
+            symbol = next(
+                (one for one in self.symbol.split(" or ") if item.is_compatible_with(one)), self.symbol
+            )
+            converted = item.to(symbol) if symbol else item.to_base_units()
         except Exception:  # pint's own, which need not be installed
             raise ValueError(
                 f"Input should be a quantity that can be given in {self.symbol}, is one in {item.units}"
@@ -102,6 +105,20 @@ Radians = Annotated[T, _unit("rad", deg=EXACT.divide(PI, 180), rad="1")]
 RadiansPerSecond = Annotated[
     T,
     _unit("rad/s", deg_per_s=EXACT.divide(PI, 180), rad_per_s="1", rpm=EXACT.divide(PI, 30)),
+]
+# of drives: actuators extend by lengths, cranks turn by angles
+LENGTHS, ANGLES = ("mm", "m", "mm_per_s", "m_per_s"), ("deg", "rad", "deg_per_s", "rad_per_s", "rpm")
+Travel = Annotated[T, _unit("m or rad", mm="1e-3", m="1", deg=EXACT.divide(PI, 180), rad="1")]
+TravelRate = Annotated[
+    T,
+    _unit(
+        "rad/s or m/s",
+        deg_per_s=EXACT.divide(PI, 180),
+        rad_per_s="1",
+        rpm=EXACT.divide(PI, 30),
+        mm_per_s="1e-3",
+        m_per_s="1",
+    ),
 ]
 Newtons = Annotated[T, _unit("N", kN="1e3", N="1", MN="1e6")]
 Pascals = Annotated[T, _unit("Pa", MPa="1e6", GPa="1e9", Pa="1")]

@@ -31,6 +31,7 @@ from typing_extensions import Self, dataclass_transform
 from user_forces.values import places
 from user_forces.values.names import Named, no_attribute
 from user_forces.values.texts import InputError as InputError
+from user_forces.values.texts import check_names as check_names
 from user_forces.values.texts import cleaned as cleaned
 from user_forces.values.texts import short as short
 
@@ -85,6 +86,7 @@ Real = Annotated[float, BeforeValidator(_number)]
 Whole = Annotated[int, BeforeValidator(_whole)]
 Positive = Annotated[Real, Field(gt=0), AfterValidator(_not_next_to_zero)]
 NonNegative = Annotated[Real, Field(ge=0), AfterValidator(_not_next_to_zero)]
+Coefficient = Annotated[Real, Field(ge=0, le=5), AfterValidator(_not_next_to_zero)]  # of friction
 Fraction = Annotated[Real, Field(ge=0, le=1)]
 Share = Annotated[Real, Field(gt=0, le=1), AfterValidator(_not_next_to_zero)]
 Restitution = Share
@@ -134,6 +136,11 @@ class Value:
         fields = dataclasses.fields(self)  # type: ignore[arg-type]
         return {"type": type(self).__name__} | {f.name: _plain(getattr(self, f.name)) for f in fields}
 
+    @classmethod
+    def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The fields, or the keys of a file, that an earlier version wrote, as they are now."""
+        return given
+
     @staticmethod
     def of_name(name: str) -> type[Value]:
         """The class of this name. Raises KeyError that says which names are near if there is none."""
@@ -152,6 +159,11 @@ class Value:
 def removed_fields(cls: type[Value]) -> Mapping[str, str]:
     """Fields that a class once had, with what to do instead."""
     return cls._removed
+
+
+def of_earlier_version(cls: type[Value], given: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The fields, or the keys of a file, that an earlier version wrote of a class, as they are now."""
+    return cls._of_earlier(given)
 
 
 def known_class(name: str) -> type[Value] | None:
@@ -237,9 +249,10 @@ def _value_of(data: Any, depth: int) -> Any:
         near = ", ".join(get_close_matches(kind if isinstance(kind, str) else "", known, NEAR, 0.0))
         raise InputError(
             f"type = {short(kind)}: not a known type; allowed: those of {len(known)} classes, such as {near}; "
-            "one's own have to be imported first, on a command line by --import MODULE"
+            "one's own have to be imported first, on a command line by --import FILE"
         )
-    return found(**{_name(k): _rebuilt(v, depth + 1) for k, v in data.items() if k != "type"})
+    given = of_earlier_version(found, data)
+    return found(**{_name(k): _rebuilt(v, depth + 1) for k, v in given.items() if k != "type"})
 
 
 def _name(key: Any) -> str:

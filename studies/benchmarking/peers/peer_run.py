@@ -17,7 +17,6 @@ from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact import JournalContact
-from user_forces.normal.damping_speed import ImpactVelocity
 from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
 from user_forces.values.value import InputError
 
@@ -84,8 +83,8 @@ def _crossing(first: float, last: float, first_slope: float, last_slope: float) 
 
 def record_times(scenario: Scenario) -> Series:
     """The times of a scenario's records [s]."""
-    count = round(scenario.duration / scenario.record_period)
-    found: Series = np.arange(float(count + 1)) * scenario.record_period
+    count = round(scenario.duration / scenario.recorded_every)
+    found: Series = np.arange(float(count + 1)) * scenario.recorded_every
     return found
 
 
@@ -155,13 +154,11 @@ def undisturbed() -> Iterator[None]:
 
 
 def contact_numbers(contact: JournalContact) -> tuple[float, float, float]:
-    """Stiffness [N/m^1.5], damping factor [-], floor of the impact velocity [m/s]; InputError otherwise."""
+    """Stiffness [N/m^1.5], damping factor [-], rest velocity [m/s]; InputError otherwise."""
     law = contact.normal
     if not isinstance(law, LankaraniNikravesh) or law.exponent != 1.5:
         raise InputError(f"normal = {law}: allowed here: LankaraniNikravesh with exponent 1.5")
-    if not isinstance(law.damping_speed, ImpactVelocity):
-        raise InputError(f"damping_speed = {law.damping_speed}: allowed here: ImpactVelocity")
-    return law.stiffness, law.damping_factor, law.damping_speed.floor
+    return law.stiffness, law.damping_factor, law.rest_velocity
 
 
 def contact_forces(contact: JournalContact, depth: np.ndarray, rate: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from typing import Annotated, Literal
 
-from support_exudyn.files.machines.linkage_bodies import LinkageBodyData, drawn_body
+from support_exudyn.files.machines.linkage_bodies import DrawnBody, LinkageBodyData, drawn_body
 from support_exudyn.files.machines.linkage_joints import (
     DrawnPoints,
     LinkageActuatorData,
@@ -32,9 +32,11 @@ from support_exudyn.mechanics.start_rates import set_moving
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import GROUND, Crank, Linkage, TracePoint
 from support_exudyn.model.loads.load import ActingLoad
+from support_exudyn.model.plane_geometry import distance
 from user_forces.values.units import Metres, Radians, RadiansPerSecond
-from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
+from user_forces.values.value import InputError, Positive, Real, Value, Vector2, check_names, value
 
+MISDRAWN = 1e-3  # [m] by which a point may be drawn beside its place on the body without a warning
 NAMED = (  # whose channels begin with the names of their parts
     "bodies", "traced_points", "actuators", "guides", "gears", "springs", "torsion_springs", "torques",
     "forces",
@@ -152,8 +154,21 @@ class LinkageFile(Value):
             sources=self.sources,
             kind=self.kind,
             assumed=tuple(body.assumed for body in bodies.values() if body.assumed),
+            warnings=tuple(self._moved_points(bodies)),
             strength=self.strength,
         )
+
+    def _moved_points(self, bodies: Mapping[str, DrawnBody]) -> Iterator[str]:
+        """Warnings on points that the drawing has elsewhere than `points_mm` of their body."""
+        for name, body in bodies.items():
+            for point in self.bodies[name].points:
+                place = body.place(point, self.drawing, point)
+                apart = distance(place, self.drawing[point]) if point in self.drawing else 0.0
+                if apart > MISDRAWN:
+                    yield (
+                        f"bodies.{name}.points_mm.{point}: lies {1e3 * apart:.4g} mm beside the point of the "
+                        "drawing, which is moved there"
+                    )
 
     def _traced(self, name: str, places: DrawnPoints) -> TracePoint:
         body, point = self.traced_points[name]
@@ -190,6 +205,8 @@ class LinkageFile(Value):
 
     def _check_names(self, linkage: Linkage) -> None:
         """Raise InputError where something is said of what is not there, or two things share a name."""
+        for what in ("drawing", "pins", "cranks", *NAMED):
+            check_names(what, getattr(self, what))
         of_pins = {"bore_radius_mm": self.bore_radius, "width_mm.pins": self.width.get("pins", {})}
         for where, named in of_pins.items():
             _check_known(where, named, linkage.pins, "pin")
@@ -235,9 +252,13 @@ def _check_driven(linkage: Linkage) -> None:
         driven = [f"actuators.{name}" for name, one in linkage.actuators.items() if one.driven]
         driven += [f"cranks.{name}" for name in linkage.cranks]
         raise InputError(
-            f"{', '.join(driven)}: fight, for there are more driven parts ({free.driven}) than ways to move "
-            f"({free.free}); allowed: so many driven parts as ways to move, or fewer"
+            f"{', '.join(driven)}: {_too_many(free.driven - free.free)}, {free.driven} driven parts fight over "
+            f"{free.free} degrees of freedom; allowed: at most {free.free}"
         )
+
+
+def _too_many(count: int) -> str:
+    return "one drive too many" if count == 1 else f"{count} drives too many"
 
 
 def _check_known(where: str, named: Iterable[str], known: Iterable[str], what: str) -> None:

@@ -44,7 +44,8 @@ class LinkageGuideData(Value):
         body: what slides.
         at: the point of it that stays on the line.
         on: the body that carries the line, or "ground".
-        along: two points of that body, through which the line goes.
+        along: two points of that body, between which the line goes; of a slot these are its ends, at which a
+            run is refused.
         through: a point of that body through which the line goes; where `at` is drawn if nothing is said.
         direction: of the line [rad], from +x of the frame of that body, which is the drawing's unless it has
             one of its own; 0 if nothing is said.
@@ -69,10 +70,13 @@ class LinkageGearData(Value):
     Arguments:
         bodies: first and second, which pins or guides hold in their places.
         ratio: [-], not 0; negative for gears that mesh outside, 1 for equal angles.
+        carrier: the body that carries both axes, against which the turns count; by default the body, or the
+            ground, on which pins hold both wheels.
     """
 
     bodies: tuple[str, str]
     ratio: Real = 1.0
+    carrier: str | None = None
 
 
 @value
@@ -156,22 +160,26 @@ class DrawnPoints:
         for other in ("through", "direction"):
             if data.along is not None and getattr(data, other) is not None:
                 raise InputError(f"{where}.along and {where}.{other}: allowed: one of them")
+        ends = None
         if data.along is not None:
-            ends = [self.place(on, one, f"{where}.along") for one in data.along]
+            first, second = data.along
+            ends = self.place(on, first, f"{where}.along"), self.place(on, second, f"{where}.along")
             if ends[0] == ends[1]:
                 raise InputError(f"{where}.along = {list(data.along)}: allowed: two points at different places")
-            angle, origin = direction(ends[0], ends[1]), ends[0]
+            angle, origin = direction(*ends), ends[0]
         else:
             carrier = 0.0 if on == GROUND else self.bodies[on].angle
             angle = carrier + (data.direction or 0.0)
             drawn = self.drawn.get(data.at, point)
             origin = drawn if data.through is None else self.place(on, data.through, f"{where}.through")
-        return Slide(body=body, point=point, direction=angle, against=on, turns=data.turns), origin
+        slide = Slide(body=body, point=point, direction=angle, against=on, turns=data.turns, ends=ends)
+        return slide, origin
 
     def gear(self, name: str, data: LinkageGearData) -> Gear:
         """A pair of gears."""
         first, second = (self.moving(one, f"gears.{name}.bodies") for one in data.bodies)
-        return Gear(first=first, second=second, ratio=data.ratio)
+        carrier = None if data.carrier is None else self.body(data.carrier, f"gears.{name}.carrier")
+        return Gear(first=first, second=second, ratio=data.ratio, carrier=carrier)
 
     def actuator(self, name: str, data: LinkageActuatorData) -> LinearActuator:
         """An actuator."""

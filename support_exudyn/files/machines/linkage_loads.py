@@ -44,11 +44,13 @@ class LinkageSpringData(Value):
 
     def load(self, first: Vector2, second: Vector2) -> SpringDamper:
         """The spring between two places of the start posture [m]."""
+        ends = [(self.bodies[0], first), (self.bodies[1], second)]
+        (other, other_point), (body, point) = reversed(ends) if self.bodies[1] == GROUND else ends
         spring = SpringDamper(
-            body=self.bodies[1],
-            point=second,
-            other=self.bodies[0],
-            other_point=first,
+            body=body,
+            point=point,
+            other=other,
+            other_point=other_point,
             stiffness=self.stiffness,
             free_length=self.free_length or 0.0,
             damping=self.damping,
@@ -76,8 +78,11 @@ class LinkageTorsionData(Value):
     def load(self) -> TorsionSpring:
         """The spring."""
         first, second = self.bodies
+        free_turn = self.free_turn
+        if second == GROUND:  # the turn of the body against it is the opposite
+            first, second, free_turn = second, first, -free_turn
         return TorsionSpring(
-            body=second, other=first, stiffness=self.stiffness, free_turn=self.free_turn, damping=self.damping
+            body=second, other=first, stiffness=self.stiffness, free_turn=free_turn, damping=self.damping
         )
 
 

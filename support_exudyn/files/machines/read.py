@@ -99,7 +99,8 @@ def load_machine(path: str | Path, named: bool = False) -> MachineData:
     try:
         found = _of_text(text)
     except InputError as error:
-        parsed(text, str(path), named)  # what is no TOML is told with its line
+        if str(error).startswith(": "):  # no TOML: the message of a text without a name says no line
+            parsed(text, str(path), named)
         raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
     return found if found.name else replace(found, name=path.stem)
 

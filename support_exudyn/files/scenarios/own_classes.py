@@ -1,24 +1,24 @@
-"""Classes of one's own that a file names by where they are: "my_laws:MyLaw", "my_laws.py:MyLaw"."""
+"""Classes of one's own that a file names by where they are, "my_laws.py:MyLaw"; none is imported here."""
 
 import re
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from difflib import get_close_matches
-from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from support_exudyn.files.own_modules import ENDING, file_of, refusal
 from support_exudyn.files.toml.faults import Faults, Place, said, said_place
 from user_forces.values.value import DEEPEST, InputError, Value, kinds_of
 
 KEYS = ("type", "law", "friction_law", "damping")  # whose texts are names of classes
 NAMED = re.compile(r"(?P<module>[^:]+):(?P<name>\w+)")
-ENDING = ".py"
 
 
 def without_places(table: Mapping[str, Any], faults: Faults, folder: Path) -> dict[str, Any]:
-    """A table whose classes of one's own are imported, and named by their names alone.
+    """A table whose classes of one's own are named by their names alone, if their modules are imported.
 
     Arguments:
         table: of a file. faults: takes what is wrong with them.
@@ -37,40 +37,44 @@ def _inside(key: str, item: Any, place: Place, faults: Faults, folder: Path) -> 
     if key not in KEYS or not isinstance(item, str) or not (found := NAMED.fullmatch(item)):
         return item
     try:
-        _check_class(own_module(found["module"], folder), found["name"])
+        _check_class(_module(found["module"], folder, found["name"]), found["name"])
     except InputError as error:
         faults.add((), f"{said_place(place)} = {said(item)}: {error}")
     return found["name"]
 
 
-def own_module(name: str, folder: Path) -> ModuleType:
-    """A module by its name or its file. Raises InputError that says what is allowed."""
-    path = (folder / name).resolve() if name.endswith(ENDING) else None
-    if path is not None and not path.is_file():
+def modules_named(item: Any, folder: Path) -> set[str]:
+    """Names of the imported modules whose classes tables name; other processes have to import them, too."""
+    if isinstance(item, (dict, list)):
+        inside = item.values() if isinstance(item, dict) else item
+        return set().union(*(modules_named(one, folder) for one in inside))
+    if isinstance(item, str) and (found := NAMED.fullmatch(item)):
+        with suppress(InputError):  # which reading tells
+            return {_module(found["module"], folder, found["name"]).__name__}
+    return set()
+
+
+def _module(name: str, folder: Path, wanted: str) -> ModuleType:
+    """A module that is imported, by its name or by its file. Raises InputError that says what to do."""
+    if not name.endswith(ENDING):
+        if (module := sys.modules.get(name)) is None:
+            raise InputError(refusal(wanted, name, name))
+        return module
+    path = (folder / name).resolve()
+    if not path.is_file():
         raise InputError(f"allowed: a file that is there, from {folder.resolve()} on")
-    where, called = (folder.resolve(), name) if path is None else (path.parent, path.stem)
-    if str(where) not in sys.path:  # other processes that run it look there, too
-        sys.path.insert(0, str(where))
-    try:
-        module = import_module(called)
-    except ModuleNotFoundError as error:
-        missing = called if error.name in (called, called.partition(".")[0]) else error.name
-        raise InputError(
-            f"allowed: a module in {where}, or one that is installed (no module {missing!r})"
-        ) from None
-    except Exception as error:  # whatever a user's module does wrong
-        raise InputError(f"allowed: a module that can be imported ({type(error).__name__}: {error})") from None
-    if path is not None and Path(getattr(module, "__file__", None) or "").resolve() != path:
-        raise InputError(f"allowed: a file of another name, for {called} is the name of another module already")
-    return module
+    for module in list(sys.modules.values()):
+        if file_of(module) == path:
+            return module
+    raise InputError(refusal(wanted, name, path))
 
 
 def _check_class(module: ModuleType, name: str) -> None:
     """Raise InputError, which says what is allowed, unless a module has such a class of values."""
     known = [one for one, kind in kinds_of(Value).items() if kind.__module__ == module.__name__]
-    if kinds_of(Value).get(name) is getattr(module, name, ()):
+    if kinds_of(Value).get(name) is vars(module).get(name, ()):
         return
-    if hasattr(module, name):
+    if name in vars(module):
         raise InputError(
             f"allowed: a class that is made with @value and has all methods of its kind; {name} is not"
         )

@@ -1,6 +1,6 @@
 """Scenarios as TOML files, and the JSON Schema of these files."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -25,12 +25,13 @@ from support_exudyn.files.toml.writing import table_of
 from support_exudyn.files.whole_file import missing_file, whole_file
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import ActuatorModel, CylinderAndRod
-from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.sourced import SourcedNumber
+from user_forces.values.units import ANGLES, LENGTHS
 from user_forces.values.value import InputError, Value, value
 
 OTHER_FILES = {  # by a key that they have
@@ -67,7 +68,8 @@ class ScenarioFile:
     """A scenario's file, read.
 
     scenario: what is run. name, description: of people, for people. errors: whether it is run with estimated
-    errors, see `simulate`. assumed: of the machine, because its file does not say it, in sentences. bore_radii:
+    errors, see `simulate`. assumed: of the machine, because its file does not say it, in sentences. warnings:
+    what the files leave open or say twice, in sentences. bore_radii:
     that the machine's file says of its pins [m]. sourced: numbers of the file that say their range or their
     source, by their dotted keys, such as "actuators.leg.bulk_modulus_MPa", in the units of these.
     """
@@ -77,6 +79,7 @@ class ScenarioFile:
     description: str = ""
     errors: bool = False
     assumed: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     bore_radii: Mapping[str, float] = field(default_factory=dict)
     sourced: Mapping[str, SourcedNumber] = field(default_factory=dict)
 
@@ -158,8 +161,28 @@ def scenario_file_of(
     machine = read_machine_of(rest, faults, folder, sourced)
     scenario = _scenario(rest, faults, folder, machine, sourced)
     faults.check()
-    assumed, bores = (machine.assumed, machine.bore_radii) if machine else ((), {})
-    return ScenarioFile(scenario, head.name, head.description, head.errors, assumed, bores, sourced)
+    assert machine is not None  # else it is among the faults
+    warnings = (*machine.warnings, *_undriven(scenario, "drive" in rest))
+    return ScenarioFile(
+        scenario,
+        head.name,
+        head.description,
+        head.errors,
+        machine.assumed,
+        warnings,
+        machine.bore_radii,
+        sourced,
+    )
+
+
+def _undriven(scenario: Scenario, says_drive: bool) -> Iterator[str]:
+    """A warning on driven parts that stand still because no drive is given."""
+    still = [name for name in scenario.driven if isinstance(scenario.drive_of(name), Held)]
+    if still and not says_drive and not any(name in scenario.drives for name in still):
+        yield (
+            f"{', '.join(still)}: held, for the scenario has no [drive]; allowed: [drive], [drives.NAME], or "
+            '[drive] type = "Held" for parts that are to stand still'
+        )
 
 
 def _scenario(
@@ -170,7 +193,7 @@ def _scenario(
     sourced: dict[str, SourcedNumber],
 ) -> Any:
     """A scenario, or FAILED."""
-    forms = ShortForms(folder, machine)
+    forms = ShortForms(folder, machine, table)
     shorts = {Pin: forms.pin, Guide: forms.guide, ActuatorModel: forms.actuator, Drive: forms.drive}
     reader = Reader(faults, {**shorts, Machine: forms.machine}, sourced)
     apart = forms.drives(reader, table)
@@ -191,7 +214,15 @@ def scenario_text(scenario: Scenario, name: str = "", description: str = "", err
     Raises InputError if it holds a value of a class that files have no form for.
     """
     head = table_of(ScenarioHead(name=name, description=description, errors=errors), says_type=False)
-    table = {key: item for key, item in table_of(scenario, says_type=False).items() if item != {}}
+    table = table_of(scenario, says_type=False)
+    linkage = scenario.machine.linkage()
+    table["drives"] = {
+        name: table_of(one, endings=ANGLES if name in linkage.cranks else LENGTHS)
+        for name, one in scenario.drives.items()
+    }
+    turning = {name in linkage.cranks for name in linkage.driven if name not in scenario.drives}
+    table["drive"] = table_of(scenario.drive, endings=ANGLES if True in turning else LENGTHS)
+    table = {key: item for key, item in table.items() if item != {}}
     return toml_text({key: item for key, item in head.items() if item} | table)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import partial
@@ -17,16 +17,17 @@ from support_exudyn.files.scenarios.short_guide import ShortGuide
 from support_exudyn.files.scenarios.short_pin import ShortPin, pin_in_machine
 from support_exudyn.files.toml.faults import Faults, Place, said
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
-from support_exudyn.files.toml.shapes import GroupShape
+from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.drives.drive import CubicStep, Drive, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.guides import IdealGuide
+from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin
 from user_forces.values.sourced import SourcedNumber
-from user_forces.values.units import Metres, Seconds
+from user_forces.values.units import ANGLES, LENGTHS, Metres, Seconds
 from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, value
 
 
@@ -141,18 +142,23 @@ def _own(name: str, folder: Path) -> str:
     return said(near[0]) if near else ""
 
 
-OF_CRANKS = 'none of cranks, for modes extend actuators; type = "Steady" with rate_rpm, or a table in degrees'
+OF_CRANKS = (
+    'none of cranks, for modes extend actuators; type = "Steady" with rate_rpm, "CubicStep" with stroke_deg, '
+    "or a table in degrees"
+)
 
 
 class ShortForms:
     """Readers of the short forms.
 
-    folder: from which files lie. data: the machine, None if it could not be read.
+    folder: from which files lie. data: the machine, None if it could not be read. table: of the scenario.
     """
 
-    def __init__(self, folder: Path, data: MachineData | None) -> None:
+    def __init__(self, folder: Path, data: MachineData | None, table: Mapping[str, Any]) -> None:
         self.folder = folder
         self.data = data
+        self.table = table
+        self.columns: Collection[str] = ()  # of the file of all drives
 
     def machine(self, reader: Reader, item: Any, place: Place) -> Any:
         """The machine, which has been read before all else."""
@@ -173,11 +179,12 @@ class ShortForms:
         short = reader.value(ShortPin, item, place)
         if isinstance(short, Failed) or self.data is None:
             return FAILED
-        if short.clearance == 0.0:  # as at the end of a sweep over clearances
-            return IdealPin()
         try:
             name = place[-1]
-            return pin_in_machine(short, self.data.machine, name, self.data.bore_radii.get(name))
+            radius = self.data.bore_radii.get(name)
+            if short.clearance == 0.0:  # as at the end of a sweep over clearances
+                return short.ideal(radius)
+            return pin_in_machine(short, self.data.machine, name, radius)
         except InputError as error:
             if short.bore_radius is None and place[-1] not in self.data.bore_radii:
                 bores = ", ".join(self.data.bore_radii) or "no pin"
@@ -192,11 +199,12 @@ class ShortForms:
         if not isinstance(item, dict) or "type" in item:
             return None
         if "ideal" in item:
-            if item != {"ideal": True}:
-                told = "true, alone; a guide with clearance has a clearance_mm instead"
-                reader.faults.wrong((*place, "ideal"), item["ideal"], told)
+            if item["ideal"] is not True:
+                reader.faults.wrong(
+                    (*place, "ideal"), item["ideal"], "true; a guide with clearance has a clearance_mm instead"
+                )
                 return FAILED
-            return IdealGuide()
+            return reader.value(IdealGuide, {key: one for key, one in item.items() if key != "ideal"}, place)
         short = reader.value(ShortGuide, item, place)
         if isinstance(short, Failed) or self.data is None:
             return FAILED
@@ -216,10 +224,12 @@ class ShortForms:
         return reader.value(CylinderAndRod, item, place, self.data.actuators[place[-1]])
 
     def drive(self, reader: Reader, item: Any, place: Place) -> Any:
-        """A mode of the paper, or a column of a file."""
-        if not isinstance(item, dict) or "type" in item:
+        """A mode of the paper, or a column of a file; in the long form units have to fit what is driven."""
+        if not isinstance(item, dict):
             return None
-        if "mode" in item and self._turns(place[-1]):
+        if "type" in item:
+            return FAILED if self._misfits(reader, item, place) else None
+        if "mode" in item and True in self._turning(place):
             reader.faults.wrong((*place, "mode"), item["mode"], OF_CRANKS)
             return FAILED
         if "mode" in item:
@@ -231,8 +241,9 @@ class ShortForms:
             file = reader.value(DriveFile, item, place)
             if isinstance(file, Failed):
                 return FAILED
-            path, turns = self.folder / file.table, self._turns(place[-1])
-            read = partial(one_drive, path, file.column, file.between, turns)
+            turning = self._turning(place)
+            turns = next(iter(turning)) if len(turning) == 1 else None
+            read = partial(one_drive, self.folder / file.table, file.column, file.between, turns)
             return _read(read, reader.faults, file.table, (*place, "table"))
         kinds = ", ".join(GroupShape((Drive,)).kinds)
         reader.faults.add(
@@ -240,14 +251,46 @@ class ShortForms:
         )
         return FAILED
 
-    def _turns(self, name: str) -> bool | None:
-        """Whether what a drive of this name moves is a crank; None if nothing, or not only, is known."""
+    def _misfits(self, reader: Reader, item: Mapping[str, Any], place: Place) -> bool:
+        """Whether a key of a drive is in a unit that does not fit what it moves, which is noted."""
+        kind, kinds = item["type"], GroupShape((Drive,)).kinds
+        fields = field_shapes(kinds[kind]).values() if isinstance(kind, str) and kind in kinds else ()
+        turning, before = self._turning(place), len(reader.faults.lines)
+        for one in fields:
+            if one.unit is None:
+                continue
+            given = [key for key in one.keys if key in item]
+            if not given and True in turning and " or " in one.unit.symbol and one.default is not None:
+                keys = [key for key in one.keys if one.ending(key) in ANGLES]
+                reader.faults.add((*place, keys[0]), f"missing; allowed: {', '.join(keys)}, for cranks turn")
+            for key in given:
+                wrong = [turns for turns in turning if one.ending(key) in (LENGTHS if turns else ANGLES)]
+                if wrong:
+                    units, why = (ANGLES, "cranks turn") if wrong[0] else (LENGTHS, "linear actuators extend")
+                    fitting = [other for other in one.keys if one.ending(other) in units]
+                    both = "; a drive of its own for each kind, [drives.NAME]" if len(turning) > 1 else ""
+                    allowed = f"{', '.join(fitting or units)}, for {why}{both}"
+                    reader.faults.wrong((*place, key), item[key], allowed)
+        return len(reader.faults.lines) > before
+
+    def _turning(self, place: Place) -> set[bool]:
+        """Whether what the drive at a place moves turns: cranks do, actuators do not; both, or none known."""
         if self.data is None:
-            return None
+            return set()
         linkage = self.data.machine.linkage()
-        if name == "drive":  # of all
-            return None if linkage.cranks and linkage.actuators else bool(linkage.cranks)
-        return name in linkage.cranks if name in linkage.driven else None
+        if place[0] == "drives":
+            return {place[1] in linkage.cranks}
+        drives, models = (self.table.get(key) for key in ("drives", "actuators"))
+        own = {*self.columns, *(drives if isinstance(drives, dict) else ())}
+        if isinstance(models, dict):  # cylinders follow their inlets
+            cylinders = HydraulicCylinder.__name__
+            own |= {k for k, one in models.items() if isinstance(one, dict) and one.get("type") == cylinders}
+        return {name in linkage.cranks for name in linkage.driven if name not in own}
+
+    def _turns(self, name: str) -> bool | None:
+        """Whether what a column of this name moves is a crank; None if nothing is known."""
+        known = self.data is not None and name in self.data.machine.linkage().driven
+        return next(iter(self._turning(("drives", name)))) if known else None
 
     def drives(self, reader: Reader, table: Mapping[str, Any]) -> dict[str, Any]:
         """The drives that `[drives] table = FILE` gives, by name; empty if it names none."""
@@ -262,6 +305,7 @@ class ShortForms:
         found = _read(read, reader.faults, file.table, ("drives", "table"))
         if found is FAILED:
             return {"": FAILED}
+        self.columns = found.keys()
         for name in found.keys() & given.keys():
             reader.faults.add(("drives", name), f"is a column of {file.table} too; allowed: one of them")
         return dict(found)

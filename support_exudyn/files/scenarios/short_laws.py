@@ -57,7 +57,7 @@ def friction_in_full(name: str) -> str:
 def _in_full(name: str, base: type[Value], key: str, takes: str, place: str) -> str:
     known = GroupShape((base,)).kinds
     if name not in known:
-        return f'a law of your own: {key} = "FILE.py:CLASS", or --import MODULE before the command'
+        return f'a law of your own: {key} = "FILE.py:CLASS", with --import FILE'
     needed = ", ".join(sorted(needed_by(known[name]))) or "fields of its own"
     kind = "ClearanceGuide" if "guides" in place else "ClearancePin"
     pin = f'type = "{kind}" and ' if base is NormalLaw else ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Annotated, Any, Literal
 
@@ -22,14 +22,25 @@ from support_exudyn.files.scenarios.short_laws import (
 from support_exudyn.files.toml.shapes import GroupShape, Names
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
-from support_exudyn.model.pins import CYLINDERS, ClearancePin, Stiffness, on_cylinders
+from support_exudyn.model.pins import CYLINDERS, ClearancePin, IdealPin, Stiffness, on_cylinders
+from support_exudyn.model.simple_laws import friction_of
 from user_forces.backing import in_series, pin_stiffness
+from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
-from user_forces.normal.damping_speed import DampingSpeed
+from user_forces.normal.hysteresis import without_damping_speed
 from user_forces.normal.law import NormalLaw
-from user_forces.values.units import Metres, NewtonsPerMetre, NewtonsPerMetreToN
-from user_forces.values.value import InputError, NonNegative, Positive, Restitution, Value, Vector2, value
+from user_forces.values.units import Metres, MetresPerSecond, NewtonsPerMetre, NewtonsPerMetreToN
+from user_forces.values.value import (
+    Coefficient,
+    InputError,
+    NonNegative,
+    Positive,
+    Restitution,
+    Value,
+    Vector2,
+    value,
+)
 
 Length = Annotated[Positive, Field(le=10.0)]  # of any pin [m]: in a wrong unit it would be longer
 _law_in_full = partial(law_in_full, where="in [pins.NAME.contact] normal = ")
@@ -40,16 +51,16 @@ class ShortPin(Value):
     """A pin with clearance, in few words.
 
     Arguments:
-        clearance: radial, bore radius minus journal radius [m], >= 0; 0 is an ideal pin, whatever else is said.
+        clearance: radial, bore radius minus journal radius [m], >= 0; 0 is an ideal pin, which keeps its
+            friction at the radius of the bore and ignores all else.
         bore_radius: [m], > 0; the machine's file may say it for the pin.
         restitution: of an impact, > 0 and <= 1; 0.9 if nothing is said.
-        friction: sliding coefficient of Ambrosio's law, >= 0, 0: none; or a friction law as a table.
+        friction: sliding coefficient of Ambrosio's law, >= 0 and <= 5, 0: none; or a friction law as a table.
         friction_law: one that needs a single coefficient, which `friction` is; Ambrosio's if nothing is said.
             Of one's own by its place, "my_laws.py:MyFriction".
-        law: of the normal force: one that needs a stiffness and a restitution only; if nothing is said Exact
-            with stiffness = "cylinders", else LankaraniNikravesh. Of one's own by its place,
-            "my_laws.py:MyLaw".
-        damping_speed: what the damping of the law is scaled with; the law's own default if nothing is said.
+        law: of the normal force: one that needs a stiffness and a restitution only; Exact if nothing is said.
+            Of one's own by its place, "my_laws.py:MyLaw".
+        rest_velocity: smallest velocity that the damping is scaled with [m/s], > 0; the law's own by default.
         stiffness: "cylinders": the pin along its length; the rest are K of K depth^1.5: "paper": Eq. 5 of the
             paper, two spheres; "internal": a sphere in a hollow sphere; or a number [N/m^1.5], > 0. "cylinders"
             where the length is known and the law allows it, else "paper", if nothing is said.
@@ -65,10 +76,10 @@ class ShortPin(Value):
     clearance: Metres[NonNegative]
     bore_radius: Metres[Positive] | None = None
     restitution: Restitution | None = None
-    friction: NonNegative | FrictionLaw = 0.0
+    friction: Coefficient | FrictionLaw = 0.0
     friction_law: Annotated[str, Names(simple_friction_laws, instead=friction_in_full)] | None = None
     law: Annotated[str, Names(simple_laws, instead=_law_in_full)] | None = None
-    damping_speed: DampingSpeed | None = None
+    rest_velocity: MetresPerSecond[Positive] | None = None
     stiffness: Stiffness | NewtonsPerMetreToN[Positive] | None = None
     length: Metres[Length] | None = None
     backing_stiffness: Literal["estimated", "rigid"] | NewtonsPerMetre[Positive] | None = None
@@ -77,9 +88,13 @@ class ShortPin(Value):
     bore: Literal["first", "second"] = ClearancePin.bore
     eccentricity: Metres[Vector2] = ClearancePin.eccentricity
 
+    @classmethod
+    def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        return without_damping_speed(given)
+
     @model_validator(mode="after")
     def _nothing_is_left_unused(self) -> ShortPin:
-        for name in ("restitution", "damping_speed"):
+        for name in ("restitution", "rest_velocity"):
             if self.law and getattr(self, name) is not None and name not in fields_of_law(self.law):
                 raise ValueError(f"{name}: the law {self.law} has none; allowed with it: to leave this out")
         if self.friction_law is not None and isinstance(self.friction, FrictionLaw):
@@ -91,6 +106,23 @@ class ShortPin(Value):
                     "allowed: one of them"
                 )
         return self
+
+    def ideal(self, bore_radius: float | None) -> IdealPin:
+        """The pin without clearance; bore_radius: of the machine's file [m], if this has none."""
+        friction = friction_of(friction_in_short(self.friction, self.friction_law))
+        if isinstance(friction, Frictionless):
+            return IdealPin()
+        return IdealPin(friction=friction, radius=self._radius(bore_radius))
+
+    def _radius(self, bore_radius: float | None) -> float:
+        """Radius of the bore [m], of this or else of the machine's file. Raises InputError without either."""
+        radius = bore_radius if self.bore_radius is None else self.bore_radius
+        if radius is None:
+            raise InputError(
+                "bore_radius_mm: missing, and the machine's file says none for this pin; "
+                "allowed: > 0, here or there"
+            )
+        return radius
 
     def pin(
         self,
@@ -104,12 +136,7 @@ class ShortPin(Value):
             bore_radius, length: of the machine's file [m], if this has none.
             links: stiffness [N/m] of the links that the pin joins, of a material.
         """
-        radius = bore_radius if self.bore_radius is None else self.bore_radius
-        if radius is None:
-            raise InputError(
-                "bore_radius_mm: missing, and the machine's file says none for this pin; "
-                "allowed: > 0, here or there"
-            )
+        radius = self._radius(bore_radius)
         if self.clearance >= radius:  # which the class says in metres
             raise InputError(
                 f"clearance_mm = {1e3 * self.clearance:g}: leaves no journal in a bore of bore_radius_mm = "
@@ -137,7 +164,7 @@ class ShortPin(Value):
             restitution=self.restitution,
             friction=friction_in_short(self.friction, self.friction_law),
             law=law,
-            damping_speed=self.damping_speed,
+            rest_velocity=self.rest_velocity,
             stiffness=self.stiffness,
             length=length if along else self.length,
             backing_stiffness=backing,

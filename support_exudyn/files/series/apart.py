@@ -21,7 +21,10 @@ from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.columns import Numbers
 from user_forces.values.value import InputError, cleaned
 
-START = "from support_exudyn.files.series.apart import answer; answer()"
+START = (  # nothing is imported from the working directory
+    "import sys; sys.path = [one for one in sys.path if one]; "
+    "from support_exudyn.files.series.apart import answer; answer()"
+)
 LONGEST = 600.0  # seconds, after which reading is given up
 TOLD = 300  # letters of what went wrong
 Arrays = Iterable[tuple[dict[str, Any], Numbers]]  # what is said of an array, in JSON's words, and the array

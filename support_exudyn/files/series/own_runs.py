@@ -22,7 +22,8 @@ from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.whole_file import check_is_file, contents
 from user_forces.values.value import InputError, cleaned
 
-RUN = "support_exudyn result 5"  # what the file of a run begins with
+RUN = "support_exudyn result 6"  # what the file of a run begins with
+OLDER = "support_exudyn result 5"  # without statistics from every step
 EXPORTED = "support_exudyn channels 1"  # the attribute "format" of exported channels
 READER = "support_exudyn.files.series.own_runs:exported_arrays"
 DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
@@ -33,6 +34,11 @@ def is_run(head: bytes) -> bool:
     return head.startswith(RUN.rpartition(" ")[0].encode())
 
 
+def format_of(data: bytes) -> str:
+    """The format that a run's file is to be of: an older one that can be read if it says so."""
+    return OLDER if data.startswith(OLDER.encode()) else RUN
+
+
 def read_own_run(path: Path, asked: Asked) -> SeriesFile:
     """The channels of a run.
 
@@ -40,7 +46,7 @@ def read_own_run(path: Path, asked: Asked) -> SeriesFile:
     """
     data = contents(path, available() // 2)
     try:
-        check_checksum(data, RUN)
+        check_checksum(data, format_of(data))
         columns = [Column(said["name"], said["unit"], values[:, 0]) for said, values in _channels(data)]
     except DAMAGES as error:
         raise InputError(

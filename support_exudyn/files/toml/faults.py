@@ -24,6 +24,11 @@ class Faults:
         self.where = where
         self.lines: list[str] = []
 
+    @property
+    def is_full(self) -> bool:
+        """Whether more was noted than is shown, so that nothing needs to be said of what follows."""
+        return len(self.lines) > MOST_LINES
+
     def add(self, place: Place, text: str) -> None:
         """Note what is said of a place."""
         self.lines.append(": ".join(filter(None, (self.where, said_place(place), text))))
@@ -38,7 +43,7 @@ class Faults:
         if not self.lines:
             return
         rest = len(self.lines) - MOST_LINES
-        more = [f"{self.where}: and {rest} more"] if rest > 0 else []
+        more = [": ".join(filter(None, (self.where, f"and {rest} more")))] if rest > 0 else []
         raise InputError("\n".join([*dict.fromkeys(self.lines[:MOST_LINES]), *more]))
 
 

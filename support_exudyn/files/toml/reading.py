@@ -21,11 +21,12 @@ from support_exudyn.files.toml.shapes import (
 )
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Unit
-from user_forces.values.value import DEEPEST, LARGEST, InputError, Value, removed_fields
+from user_forces.values.value import DEEPEST, LARGEST, InputError, Value, of_earlier_version, removed_fields
 
 V = TypeVar("V", bound=Value)
 SMALLEST_EXPONENT = -1000  # of a decimal; what is smaller is 0
 ShortForm = Callable[["Reader", Any, Place], Any]
+UNKNOWN = "unknown key"
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 LENGTH = re.compile(rf"(?<![\w.])({NUMBER})(?: to ({NUMBER}))? m(?![\w^*])")
 POINT = re.compile(rf"\(({NUMBER}), ({NUMBER})\) m(?![\w^*])")
@@ -80,9 +81,13 @@ class Reader:
         keys = {key: one for one in shapes.values() for key in one.keys}
         given: dict[str, Any] = {}
         by: dict[str, str] = {}
-        for key, item in table.items():
+        for key, item in of_earlier_version(cls, table).items():
             here = (*place, key)
             if key == "type":
+                continue
+            if key not in keys and self.faults.is_full:
+                self.faults.lines.append(UNKNOWN)
+                given[key] = FAILED
                 continue
             if key not in keys:
                 meant, reason = _removed(cls, key) or _unknown(key, shapes, also)
@@ -188,7 +193,8 @@ class Reader:
         """The value of a number that is a table with its range and source; the whole is put into `found`."""
         before = len(self.faults.lines)
         for key in [one for one in table if one not in SOURCED_KEYS]:
-            self.faults.add((*place, key), f"unknown key; {nearest(key, SOURCED_KEYS)}")
+            guess = "" if self.faults.is_full else nearest(key, SOURCED_KEYS)
+            self.faults.add((*place, key), f"{UNKNOWN}; {guess}")
         numbers = {key: table[key] for key in ("value", "from", "to") if key in table}
         for key, item in numbers.items():
             if is_for(shape, item):
@@ -223,7 +229,10 @@ class Reader:
         found: dict[str, Any] = {}
         for name, item in table.items():
             here = (*place, name)
-            if inner := known.get(name, shape.get("additionalProperties")):
+            if self.faults.is_full:
+                self.faults.lines.append(UNKNOWN)
+                found[name] = FAILED
+            elif inner := known.get(name, shape.get("additionalProperties")):
                 found[name] = self.item(inner, item, here, unit, ending)
             else:
                 self.faults.add(here, f"unknown key; {nearest(name, known)}")
@@ -258,7 +267,7 @@ class Reader:
             return group.usual
         if not isinstance(name, str) or name not in group.kinds:
             known = nearest(name if isinstance(name, str) else "", group.kinds)
-            said_kinds = f"{known}; classes of one's own: --import MODULE"
+            said_kinds = f"{known}; classes of one's own: --import FILE"
             self.faults.add((), f"{said_place((*place, 'type'))} = {said(name)}: {said_kinds}")
             return None
         return group.kinds[name]

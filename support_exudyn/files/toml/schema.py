@@ -20,7 +20,7 @@ from support_exudyn.files.toml.shapes import (
     scaled,
 )
 from user_forces.values.sourced import SourcedNumber
-from user_forces.values.units import Unit
+from user_forces.values.units import ANGLES, Unit
 from user_forces.values.value import Value
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -168,7 +168,7 @@ def _help(field: FieldShape, ending: str) -> str:
         return field.help
     for found in BRACKETS.finditer(field.help):
         of_program = found[1].replace(" ", "_").replace("/", "_per_").replace("^", "")
-        if unit.endings.get(of_program) == 1:
+        if unit.endings.get(of_program) == 1 and (of_program in ANGLES) == (ending in ANGLES):
             before, after = field.help[: found.start()], field.help[found.end() :]
             here = ending.replace("_per_", "/").replace("_", " ")
             numbers = any(set(one) & set("123456789") for one in NUMBER.findall(BRACKETS.sub("", field.help)))
@@ -179,6 +179,10 @@ def _help(field: FieldShape, ending: str) -> str:
 def _default(field: FieldShape, ending: str) -> Any:
     """The default of a field, in the unit of a key; None if there is none, or it is long."""
     found = field.default
+    if (
+        ending in ANGLES and field.unit is not None and "m" in field.unit.endings
+    ):  # of a drive, whose default is a length
+        return None
     if isinstance(found, (str, bool)):
         return None if ending else found
     if isinstance(found, (int, float)) and (field.unit is None or ending):

@@ -37,22 +37,22 @@ PIECE = _record("", "begin half")
 # kinds: see PIN and so on. ratio: of a gear. length, angle: at the start
 JOINT = _record("kind row first second course conditions", "length angle ratio")
 PIN, ACTUATOR, CRANK, SLIDE, GEAR = range(5)
-# two bodies and what its rate takes of theirs; first: of the row in the factors | what C a has to be,
-# multiplier, what is left of the position, and the rate that it has to have
-ROW = _record("body other first", "x y t ox oy ot wanted held off rate")
+# two bodies and what its rate takes of theirs, and the carrier of a gear, of which the rate takes the turn;
+# first: of the row in the factors | what C a has to be, multiplier, what is left of the position, and the rate
+# that it has to have
+ROW = _record("body other carrier first", "x y t ox oy ot carrier_t wanted held off rate")
 # rows that share a body, i >= j; which of the bodies of each it is
 PAIR = _record("i j side other", "")
 # journal `second` in bore `first`, both points. slot: corner between walls, or ONE_SIDED of one wall alone.
 # law: address of both laws, with constants from `constants` on. state: of the friction law in y.
-# radius: of the bore, or of a pin in a slot. angle: of the bore's axes at the start. | closed, impact velocity,
-# inverse effective mass: what it remembers.
-# Then the contact now, the largest force and when that was, where the law last gave what no force can be.
+# radius: of the bore, or of a pin in a slot. angle: of a slot at the start. | closed, impact velocity: what it
+# remembers. Then the contact now, the largest force and its time, where the law last gave no possible force.
 ONE_SIDED = 2
 CONTACT = _record(
-    "first second slot constants state renews forgets",
-    "law clearance radius angle closed impact_velocity xx xy yy "
+    "first second slot constants state",
+    "law clearance radius angle closed impact_velocity "
     "depth rate slip normal friction damping push x y vx vy nx ny fx fy "
-    "largest largest_at asked_depth asked_rate asked_slip asked_mass asked_deflection",
+    "largest largest_at asked_depth asked_rate asked_slip asked_deflection",
 )
 OIL = _record("foot head course", "modulus_area oil_length natural force work")
 CYLINDER = _record(
@@ -67,8 +67,14 @@ LOAD = _record("point origin kind constants course courses", "law first second f
 # what a load is told of its own courses, and where in `SceneArrays.out`
 FIRST_COURSE, COURSES_OF_LOAD = 4, 8
 BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")
-# friction of an ideal pin, of which `row` is the first row
-RUBBING = _record("row body other constants", "law radius moment")
+# friction of an ideal pin (BOLT) or guide (GUIDED; BLOCK with a moment); row: the first of the joint; state: of
+# the friction law in y | direction and speed along a guide, slip, arm of the friction force, the force and its
+# moment, by how much the last round changed it, which share is still open
+BOLT, GUIDED, BLOCK = range(3)
+RUBBING = _record(
+    "kind row body other first second constants state",
+    "law radius half_length half_height angle ax ay speed slip lever force moment left open",
+)
 
 
 class SceneArrays(NamedTuple):
@@ -114,8 +120,8 @@ class Scratch(NamedTuple):
 
     right, impulses: a number a row. end, probe, slope, along: states; see `stabilised`. path: of the
     interpolation. rates: of a step's stages.
-    now, then: contacts at its start and end. lines, answers, gram, square, sides, sizes: see `masses`.
-    gaps: of legs at its start. oil_events: time, leg, gap, side of each.
+    now, then: contacts at its start and end. gaps: of legs at its start.
+    oil_events: time, leg, gap, side of each.
     """
 
     right: Vector
@@ -128,20 +134,13 @@ class Scratch(NamedTuple):
     rates: Matrix
     now: Records
     then: Records
-    lines: Matrix
-    answers: Matrix
-    gram: Matrix
-    square: Matrix
-    sides: Matrix
-    sizes: Vector
     gaps: Matrix
     oil_events: Matrix
 
 
 def scratch(scene: SceneArrays, states: int) -> Scratch:
     """Room for a scene with so many states."""
-    rows, most = scene.rows.size, 2 + scene.contacts.size
-    across = np.zeros((most, 3 * scene.bodies.size))
+    rows = scene.rows.size
     return Scratch(
         right=np.zeros(rows),
         impulses=np.zeros(rows),
@@ -153,12 +152,6 @@ def scratch(scene: SceneArrays, states: int) -> Scratch:
         rates=np.zeros((STAGES, states)),
         now=scene.contacts.copy(),
         then=scene.contacts.copy(),
-        lines=across.copy(),
-        answers=across.copy(),
-        gram=np.zeros((most, most)),
-        square=np.zeros((most, most)),
-        sides=np.zeros((most, most)),
-        sizes=np.zeros(most),
         gaps=np.zeros_like(scene.gaps),
         oil_events=np.zeros((MOST_OIL_EVENTS if scene.legs.size else 0, 4)),
     )
@@ -182,11 +175,12 @@ MOST_OIL_EVENTS = 100_000
     NOT_A_NUMBER,
     STIFF,
     OIL_EVENTS,
+    NODES,
     REPORT,
-) = range(14)
+) = range(15)
 FINISHED, STUCK, TOO_MANY_STEPS, TOO_MANY_IMPACTS, DEAD_CENTRE, PAUSED, TOO_MANY_OIL_EVENTS = range(7)
 LOSSES = 3  # last components of the state: damping, friction, and the work of what drives
 DAMPING_LOSS, FRICTION_LOSS, WORK = -3, -2, -1
 
-# what a record keeps of a contact besides the state, in the order of `PinMemory`
-MEMORY = 5
+# what a record keeps of a contact besides the state: whether it is closed, and its impact velocity
+MEMORY = 2

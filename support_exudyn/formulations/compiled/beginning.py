@@ -2,7 +2,6 @@
 
 from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import JUMP_ENERGY, WORK, Matrix, SceneArrays, Scratch, Vector
-from support_exudyn.formulations.compiled.masses import renew_mass
 from support_exudyn.formulations.compiled.motion import SINGULAR, solve
 from support_exudyn.formulations.compiled.recording import write_record
 from support_exudyn.formulations.compiled.step import evaluate
@@ -12,14 +11,12 @@ from support_exudyn.formulations.hydraulics.gaps import begin_sides
 
 @once
 def begin_run(scene: SceneArrays, room: Scratch, y: Vector, rows: Matrix) -> bool:
-    """Write the first record at 0 s, with the masses that contacts are told then; whether the linkage moves."""
+    """Write the first record at 0 s, with the contacts that are closed then; whether the linkage moves."""
     least = evaluate(scene, 0.0, y, room.slope, room.right)
     for n in range(scene.contacts.size):
         contact = scene.contacts[n]
         if contact.depth > (STILL if contact.rate > 0.0 else 0.0):  # else it meets just now
             contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
-    for n in range(scene.contacts.size):
-        renew_mass(scene, room, n, y)
     evaluate(scene, 0.0, y, room.slope, room.right)
     write_record(scene, 0.0, y, room.slope, rows[0])
     begin_sides(scene.legs, scene.gaps, scene.sides)

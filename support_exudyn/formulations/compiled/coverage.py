@@ -37,10 +37,9 @@ def _check_written(scenario: Scenario) -> None:
         for name, place in scenario.contact_places.items():
             where = f"{place.of}.contact" if name in scenario.pins else place.of
             law_source(place.contact)
-        for name, pin in scenario.friction_pins.items():
-            where = f"pins.{name}.friction"
-            assert pin.friction is not None  # pins without are left out
-            friction_source(pin.friction)
+        for name, friction in scenario.friction_laws.items():
+            where = f"{name}.friction"
+            friction_source(friction)
         for name, load in scenario.acting_loads.items():
             where = f"loads.{name}"
             load_source(load)

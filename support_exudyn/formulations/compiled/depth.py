@@ -1,4 +1,4 @@
-"""Where within a step a contact begins, ends or is pressed on again, by depth and rate at ends of its parts.
+"""Where within a step a contact begins or ends, by depth and rate at ends of its parts.
 
 Over a part the depth is the cubic that fits both; where that leaves in doubt whether something happens, the
 step is too long, and is made again shorter.
@@ -7,8 +7,8 @@ step is too long, and is made again shorter.
 from support_exudyn.formulations.compilation import compiled
 from support_exudyn.formulations.contact_events import DepthPath
 
-# RETURN: pressed on again without having separated. CUT: the law begins or ceases to ask for tension
-NOTHING, IMPACT, SEPARATION, RETURN, CUT, TOO_LONG = range(6)
+# CUT: the law begins or ceases to ask for tension
+NOTHING, IMPACT, SEPARATION, CUT, TOO_LONG = range(5)
 SAMPLES = 8  # of a cubic, when a change of sign is looked for
 PARTS = 4  # of a step in free flight
 PARTS_CLOSED = 1  # of a step in contact
@@ -17,7 +17,7 @@ CUT_MET = 1e-9  # PUSH, of the order of 1, at which a cut of tension is met; the
 NEAR_CUT = 0.5  # PUSH below which a step is looked at for two cuts,
 CUT_SAMPLES = 4  # in so many parts
 AT_ZERO = 1e-13  # depth [m] that is an impact or separation just made; those are met to a tenth of it
-TOGETHER = 1e3 * AT_ZERO  # depth [m] within which corners that land with the first one land at the same instant
+TOGETHER = 1e3 * AT_ZERO  # depth [m] within which contacts meet or part at the same instant
 Found = tuple[int, float, float]  # what, and fractions of the step between which it happens
 
 
@@ -56,11 +56,10 @@ def separation(path: DepthPath) -> Found:
 
 
 @compiled
-def in_contact(renews: bool, d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
+def in_contact(d0: float, r0: float, d1: float, r1: float, h: float) -> Found:
     """What happens in a part that begins in contact.
 
     Arguments:
-        renews: something changes where a contact is pressed on again.
         d0, r0, d1, r1: depth [m] and rate [m/s] at both ends.
         h: length of the part [s].
     """
@@ -68,7 +67,7 @@ def in_contact(renews: bool, d0: float, r0: float, d1: float, r1: float, h: floa
     turns = r0 < 0.0 <= r1
     if h > SHORT and not turns and not r0 > 0.0 > r1:
         lowest = min(d0, d1) - h * max(abs(r0), abs(r1))
-        if (renews or lowest <= 0.0 < d1) and may_turn(path):
+        if lowest <= 0.0 < d1 and may_turn(path):
             return TOO_LONG, 0.0, 0.0
     if d1 <= 0.0:
         return separation(path)
@@ -79,8 +78,6 @@ def in_contact(renews: bool, d0: float, r0: float, d1: float, r1: float, h: floa
             return TOO_LONG, 0.0, 0.0
         if lowest <= 0.0:
             return SEPARATION, 0.0, x
-        if renews:
-            return RETURN, x, x
     return NOTHING, 1.0, 1.0
 
 

@@ -107,6 +107,8 @@ def balance(
             left[i] -= row.ox * size
             left[i + 1] -= row.oy * size
             left[i + 2] -= row.ot * size
+        if row.carrier >= 0:
+            left[3 * row.carrier + 2] -= row.carrier_t * size
         left[count + n] = -row.off
 
 
@@ -119,7 +121,7 @@ def centre(scene: SceneArrays, centring: Centring, n: int, y: Vector) -> None:
     if contact.depth > 0.0:
         depth = min(contact.depth, centring.deepest[n])
         constants = scene.constants[contact.constants :]
-        call_law(contact.law, depth, 0.0, 0.0, 1.0, 1.0, 0.0, constants, scene.out)
+        call_law(contact.law, depth, 0.0, 0.0, 1.0, 0.0, constants, scene.out)
         force += centring.soft[n] * scene.out[1] * contact.depth / depth
     contact.fx, contact.fy = -force * contact.nx, -force * contact.ny
     contact.closed = 1.0
@@ -162,6 +164,8 @@ def linearised(
         if row.other >= 0:
             i = 3 * row.other
             slope[i, count + n], slope[i + 1, count + n], slope[i + 2, count + n] = -row.ox, -row.oy, -row.ot
+        if row.carrier >= 0:
+            slope[3 * row.carrier + 2, count + n] = -row.carrier_t
 
 
 class _Search:

@@ -107,12 +107,12 @@ def closed(
     one, two = start[n], end[n]
     if cut_twice(scene, n, h, start, end, path, y, slope):
         return TOO_LONG, 0.0, 0.0
-    what, low, high = in_contact(one.renews != 0, max(one.depth, 0.0), one.rate, two.depth, two.rate, h)
+    what, low, high = in_contact(max(one.depth, 0.0), one.rate, two.depth, two.rate, h)
     if what == TOO_LONG:
         return TOO_LONG, 0.0, 0.0
     # a step that begins on a cut and ends beyond it only grazes it; landing would go back to its start
     if abs(one.push) > CUT_MET and (one.push < 0.0) != (two.push < 0.0):
-        # where it is pressed on again the law asks for no tension: that comes later; a separation may be first
+        # a separation may be first
         if what == SEPARATION and h > SHORT:
             return TOO_LONG, 0.0, 0.0
         if what != SEPARATION:

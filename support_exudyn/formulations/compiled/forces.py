@@ -15,8 +15,6 @@ from support_exudyn.formulations.compiled.arrays import (
     Vector,
 )
 from support_exudyn.formulations.compiled.motion import push, push_point, spin_of
-from support_exudyn.mechanics.contact_state import HEAVIEST
-from support_exudyn.mechanics.contact_state import SMALLEST as SMALLEST_SQUARE
 from user_forces.contact import SHALLOWEST, SMALLEST
 from user_forces.lawful import ROUNDING
 
@@ -60,29 +58,6 @@ def observe(scene: SceneArrays, n: int, y: Vector) -> None:
 
 
 @inlined
-def effective_mass(scene: SceneArrays, n: int) -> float:
-    """Mass [kg] that moves along the eccentricity, by the remembered inverse effective mass."""
-    contact = scene.contacts[n]
-    c, s = axes_of(scene, n)
-    x, y = c * contact.x + s * contact.y, c * contact.y - s * contact.x
-    square = x * x + y * y + SMALLEST_SQUARE
-    along = contact.xx * x * x + 2.0 * contact.xy * x * y + contact.yy * y * y
-    return float(square / max(along, square / HEAVIEST))
-
-
-@inlined
-def axes_of(scene: SceneArrays, n: int) -> tuple[float, float]:
-    """Direction of the bore's or the slot's axes now."""
-    contact = scene.contacts[n]
-    c, s = math.cos(contact.angle), math.sin(contact.angle)
-    k = scene.points[contact.first].body
-    if k >= 0:
-        body = scene.bodies[k]
-        c, s = c * body.c - s * body.s, s * body.c + c * body.s
-    return c, s
-
-
-@inlined
 def press(scene: SceneArrays, n: int, y: Vector, slope: Vector) -> None:
     """Write the force of a contact that has been observed, and the rate of its friction law's state.
 
@@ -99,14 +74,12 @@ def press(scene: SceneArrays, n: int, y: Vector, slope: Vector) -> None:
     out = scene.out
     depth, rate, slip = max(contact.depth, SHALLOWEST), contact.rate, contact.slip
     deflection = y[contact.state] if contact.state >= 0 else 0.0
-    mass = effective_mass(scene, n)
     asked = call_law(
         contact.law,
         depth,
         rate,
         slip,
         contact.impact_velocity,
-        mass,
         deflection,
         scene.constants[contact.constants :],
         out,
@@ -120,7 +93,7 @@ def press(scene: SceneArrays, n: int, y: Vector, slope: Vector) -> None:
         normal = math.nan
         if math.isfinite(depth + rate + slip):  # else this is what comes of an unlawful force
             contact.asked_depth, contact.asked_rate, contact.asked_slip = depth, rate, slip
-            contact.asked_mass, contact.asked_deflection = mass, deflection
+            contact.asked_deflection = deflection
     size = elastic + abs(asked - elastic)
     contact.push = asked / size if size > 0.0 else 1.0
     contact.normal, contact.friction, contact.damping = normal, friction, lost
@@ -235,19 +208,19 @@ def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
                 y[3 * origin.body + 2] if origin.body >= 0 else 0.0
             )
             spin = spin_of(scene, y, point.body) - spin_of(scene, y, origin.body)
-            one.fx = call_law(one.law, t, turn, spin, 0.0, 0.0, 0.0, constants, scene.out)
+            one.fx = call_law(one.law, t, turn, spin, 0.0, 0.0, constants, scene.out)
             push(scene, point.body, 0.0, 0.0, one.fx)
             push(scene, origin.body, 0.0, 0.0, -one.fx)
         elif one.kind == STRETCH:
             first, second = point.y - one.first, origin.y - one.second
-            one.fx = call_law(one.law, t, first, second, point.vy, origin.vy, 0.0, constants, scene.out)
+            one.fx = call_law(one.law, t, first, second, point.vy, origin.vy, constants, scene.out)
             one.fy = scene.out[2]
             push_point(scene, one.point, 0.0, one.fx)
             push_point(scene, one.origin, 0.0, one.fy)
         else:
             x, y_ = point.x - origin.x, point.y - origin.y
             vx, vy = point.vx - origin.vx, point.vy - origin.vy
-            one.fx = call_law(one.law, t, x, y_, vx, vy, 0.0, constants, scene.out)
+            one.fx = call_law(one.law, t, x, y_, vx, vy, constants, scene.out)
             one.fy = scene.out[2]
             push_apart(scene, one.origin, one.point, one.fx, one.fy)
         one.work, one.loss = scene.out[0], scene.out[1]
@@ -296,7 +269,7 @@ def powers(scene: SceneArrays, y: Vector, slope: Vector) -> None:
         damping += scene.bushings[n].loss
     for n in range(scene.rubbing.size):
         one = scene.rubbing[n]
-        friction -= one.moment * (spin_of(scene, y, one.body) - spin_of(scene, y, one.other))
+        friction -= one.force * one.slip
     for n in range(scene.joints.size):
         joint = scene.joints[n]
         if joint.course >= 0:

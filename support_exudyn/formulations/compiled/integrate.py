@@ -23,13 +23,12 @@ from support_exudyn.formulations.compiled.arrays import (
     Vector,
 )
 from support_exudyn.formulations.compiled.beginning import begin_run, jump
-from support_exudyn.formulations.compiled.changes import happen, renew_masses
+from support_exudyn.formulations.compiled.changes import happen
 from support_exudyn.formulations.compiled.depth import (
     CUT,
     CUT_MET,
     IMPACT,
     NOTHING,
-    RETURN,
     SEPARATION,
     SHORT,
     TOO_LONG,
@@ -62,7 +61,7 @@ from support_exudyn.formulations.compiled.oil_events import (
     land_on_gap,
     pass_gap,
 )
-from support_exudyn.formulations.compiled.recording import note_peaks, write_records
+from support_exudyn.formulations.compiled.recording import begin_nodes, note_peaks, write_nodes, write_records
 from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.formulations.compiled.step_control import AFTER_IMPACT, CLOSE, SHORTEN, SMALLEST_STEP
 
@@ -128,15 +127,11 @@ def take_up(
         evaluate(scene, t, y, room.slope, right)  # places and factors are those of what was looked at last
         if not happen(scene, n, what, t, y, onsets, report):
             return TOO_MANY_IMPACTS
-        if what in (IMPACT, RETURN):
-            renew_masses(scene, room, n, what, t, y, onsets, report)
     evaluate(scene, t, y, rates[0], right)
     copy_contacts(scene.contacts, now)
     keep_gaps(scene, room.gaps)
     # whatever rounding says
-    if not passes and what == RETURN:
-        now[n].rate = max(0.0, now[n].rate)
-    elif not passes and what == CUT:
+    if not passes and what == CUT:
         now[n].push = 1e-30 if was_cut else -1e-30
     return FINISHED
 
@@ -177,6 +172,7 @@ def integrate(
     y: Vector,
     room: Scratch,
     rows: Matrix,
+    nodes: Matrix,
     onsets: Matrix,
     report: Vector,
 ) -> int:
@@ -191,6 +187,7 @@ def integrate(
         y: the state at the start; at the end when it returns.
         room: after a pause as it was left.
         rows, onsets, report: are filled.
+        nodes: of the steps since the last pause, four each, with room for all until the next and one row more.
     """
     right, end, k, now, then = room.right, room.end, room.rates, room.now, room.then
     h, error_before, t = going[NEXT_STEP], 1e-4, begin
@@ -204,6 +201,7 @@ def integrate(
         evaluate(scene, t, y, k[0], right)
         keep_gaps(scene, room.gaps)
         copy_contacts(scene.contacts, now)
+        begin_nodes(scene, t, y, k[0], nodes, report)
     begin_method(room, going, weights)
     while t < stop:
         if report[STEPS] >= pause:
@@ -243,6 +241,7 @@ def integrate(
             if not pass_gap(scene, room, leg, gap, t, report):
                 return TOO_MANY_OIL_EVENTS
             evaluate(scene, t, y, k[0], right)
+            begin_nodes(scene, t, y, k[0], nodes, report)
             keep_gaps(scene, room.gaps)
             continue
         if oil == GAP:
@@ -267,9 +266,10 @@ def integrate(
             last = h >= stop - t
         keep_gaps(scene, room.gaps)
         copy_contacts(then, scene.contacts)
+        write_nodes(scene, room, t, h, nodes, report)
         note_peaks(scene, room, t, h, report)
         report[ACCEPTED] += 1
-        report[CUTS] += what not in (NOTHING, RETURN) or oil == GAP
+        report[CUTS] += what != NOTHING or oil == GAP
         count_cuts(going, what)
         write_records(scene, room, t, h, stop + CLOSE if last else t + h, times, rows, report)
         copy_contacts(then, scene.contacts)
@@ -284,6 +284,7 @@ def integrate(
             code = take_up(scene, room, n, what, was_cut, oil == GAP, leg, gap, t, y, onsets, report)
             if code != FINISHED:
                 return code
+            begin_nodes(scene, t, y, k[0], nodes, report)
         if what == IMPACT:
             follow *= AFTER_IMPACT
         h = choose_method(scene, room, going, t, h, follow, y, weights, what == NOTHING and oil == NONE, report)

@@ -9,11 +9,9 @@ from support_exudyn.formulations.compiled.arrays import (
     SceneArrays,
     Vector,
 )
-from support_exudyn.formulations.compiled.depth import CUT, CUT_MET, IMPACT, RETURN, TOGETHER
+from support_exudyn.formulations.compiled.depth import CUT, CUT_MET, IMPACT, TOGETHER
 from support_exudyn.formulations.compiled.step import advance
-from support_exudyn.formulations.compiled.step_control import LANDED, LANDINGS, TURNS, crossing
-
-DEPTH, PUSH, RATE = range(3)  # what is landed on
+from support_exudyn.formulations.compiled.step_control import LANDED, LANDINGS, crossing
 
 
 @compiled
@@ -21,14 +19,6 @@ def copy_contacts(source: Records, target: Records) -> None:
     """Copy all contacts."""
     for n in range(source.size):
         target[n] = source[n]
-
-
-@compiled
-def quantity(scene: SceneArrays, n: int, which: int) -> float:
-    """Depth, push or rate of a contact as it stands in the scene."""
-    if which == DEPTH:
-        return float(scene.contacts[n].depth)
-    return float(scene.contacts[n].push) if which == PUSH else float(scene.contacts[n].rate)
 
 
 @compiled
@@ -65,35 +55,28 @@ def land(
 
     An impact or a separation is met by Newton's method on the depth at the end of the step, kept by bisection
     where it was seen. A cut of tension is met by false position (Illinois) on `push`: while tension is cut
-    there is no force, steps grow, and one would miss where the force sets in again. Where a contact is pressed
-    on again, false position on the rate begins at the guess `high`.
+    there is no force, steps grow, and one would miss where the force sets in again.
     """
-    which, met, looks = DEPTH, LANDED, LANDINGS
+    met = CUT_MET if what == CUT else LANDED
     before, after = low * h, high * h
     length = 0.5 * (before + after)
-    at_before, at_after = start[n].depth, quantity(scene, n, DEPTH)
+    at_before, at_after = start[n].push, float(scene.contacts[n].push)
     if what == CUT:
-        which, met = PUSH, CUT_MET
-        at_before, at_after, before, after = start[n].push, quantity(scene, n, PUSH), 0.0, h
+        before, after = 0.0, h
         length = crossing(before, after, at_before, at_after)
-    elif what == RETURN:
-        which, met, looks = RATE, 0.0, TURNS
-        at_before, at_after, before, after = start[n].rate, quantity(scene, n, RATE), 0.0, h
-        length = high * h
-    for tried in range(1, looks + 1):
+    for tried in range(1, LANDINGS + 1):
         advance(scene, t, length, y, k, end, weights, right)
         report[EVALUATIONS] += STAGES - 1
-        value = quantity(scene, n, which)
-        if abs(value) <= met or tried == looks:
+        value = float(scene.contacts[n].push if what == CUT else scene.contacts[n].depth)
+        if abs(value) <= met or tried == LANDINGS:
             break
-        if which != DEPTH:
-            keep = 0.5 if what == CUT else 1.0
+        if what == CUT:
             if (value < 0.0) == (at_before < 0.0):
                 before, at_before = length, value
-                at_after *= keep
+                at_after *= 0.5
             else:
                 after, at_after = length, value
-                at_before *= keep
+                at_before *= 0.5
             length = crossing(before, after, at_before, at_after)
             continue
         if (value > 0.0) == (what == IMPACT):

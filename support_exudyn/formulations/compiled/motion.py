@@ -92,7 +92,9 @@ def hold(scene: SceneArrays, y: Vector) -> None:
         if joint.kind == GEAR:
             row.t, row.ot = 1.0, -joint.ratio
             row.wanted = row.rate = 0.0
-            row.off = turn_of(y, joint.second) - joint.ratio * turn_of(y, joint.first)
+            carrier = turn_of(y, row.carrier)
+            row.carrier_t = joint.ratio - 1.0
+            row.off = turn_of(y, joint.second) - carrier - joint.ratio * (turn_of(y, joint.first) - carrier)
             continue
         first, second = scene.points[joint.first], scene.points[joint.second]
         one, two = spin_of(scene, y, first.body), spin_of(scene, y, second.body)
@@ -149,12 +151,16 @@ def factor(scene: SceneArrays) -> float:
         one, two = scene.rows[pair.i], scene.rows[pair.j]
         if pair.side == 0:
             body, x, y, t = scene.bodies[one.body], one.x, one.y, one.t
-        else:
+        elif pair.side == 1:
             body, x, y, t = scene.bodies[one.other], one.ox, one.oy, one.ot
+        else:
+            body, x, y, t = scene.bodies[one.carrier], 0.0, 0.0, one.carrier_t
         if pair.other == 0:
             u, v, w = two.x, two.y, two.t
-        else:
+        elif pair.other == 1:
             u, v, w = two.ox, two.oy, two.ot
+        else:
+            u, v, w = 0.0, 0.0, two.carrier_t
         square[pair.i, pair.j] += body.light * (x * u + y * v) + body.light_turn * t * w
     if scene.repeats.shape[0] > 0:
         return invert_repeated(scene)
@@ -282,6 +288,8 @@ def rate_of(scene: SceneArrays, row: int, v: Vector, start: int) -> float:
     if one.other >= 0:
         i = start + 3 * one.other
         total += one.ox * v[i] + one.oy * v[i + 1] + one.ot * v[i + 2]
+    if one.carrier >= 0:
+        total += one.carrier_t * v[start + 3 * one.carrier + 2]
     return float(total)
 
 
@@ -301,6 +309,8 @@ def respond(scene: SceneArrays, multipliers: Vector, v: Vector, start: int) -> N
             v[i] -= body.light * row.ox * size
             v[i + 1] -= body.light * row.oy * size
             v[i + 2] -= body.light_turn * row.ot * size
+        if row.carrier >= 0:
+            v[start + 3 * row.carrier + 2] -= scene.bodies[row.carrier].light_turn * row.carrier_t * size
 
 
 @inlined
@@ -332,6 +342,8 @@ def miss(scene: SceneArrays, right: Vector) -> None:
         if row.other >= 0:
             body = scene.bodies[row.other]
             total += row.ox * body.ax + row.oy * body.ay + row.ot * body.a
+        if row.carrier >= 0:
+            total += row.carrier_t * scene.bodies[row.carrier].a
         right[n] = total
 
 
@@ -349,6 +361,9 @@ def take(scene: SceneArrays, n: int, size: float) -> None:
         body.ax -= body.light * row.ox * size
         body.ay -= body.light * row.oy * size
         body.a -= body.light_turn * row.ot * size
+    if row.carrier >= 0:
+        body = scene.bodies[row.carrier]
+        body.a -= body.light_turn * row.carrier_t * size
 
 
 @inlined

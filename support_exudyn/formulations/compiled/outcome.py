@@ -14,6 +14,7 @@ from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.bushing import bushing_series
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.contact_state import PinMemory
+from support_exudyn.mechanics.joint_slip import friction_series
 from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, OilEvent, Series, Trajectory
 from support_exudyn.model.bushing_pin import BushingPin
@@ -50,7 +51,7 @@ class _Records:
         ]
         parts = np.split(rows, np.cumsum(sizes)[:-1], axis=1)
         self.time = rows[:, 0].copy()
-        self.state, self.acceleration, held, memory, courses, self.moments = parts[1:]
+        self.state, self.acceleration, held, memory, courses, self.friction = parts[1:]
         self.position, self.velocity = self.state[:, :count], self.state[:, count : 2 * count]
         self.held = held[:, model.order]  # as the linkage has them
         self.memory = memory.reshape(len(rows), scene.contacts.size, MEMORY)
@@ -117,7 +118,7 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         acceleration=found.acceleration,
         ideal_pins=pins,
         contacts=contacts,
-        friction_moments=dict(zip(scenario.friction_pins, found.moments.T, strict=True)),
+        **friction_series(scenario, dict(zip(scenario.friction_laws, found.friction.T, strict=True))),
         actuators={**{name: pushed[name] for name in rigid}, **actuators},
         cranks={name: pushed[name] for name in linkage.cranks},
         slides=slides,
@@ -154,17 +155,10 @@ def _told(
 
 
 def _memories(model: Model, found: _Records, n: int) -> Series:
-    """What a contact remembers at the records as PinMemory's fields, shape (n, 9)."""
-    closed, velocity, xx, xy, yy = found.memory[:, n].T
+    """What a contact remembers at the records as PinMemory's fields, shape (n, 6)."""
+    closed, velocity = found.memory[:, n].T
     still = np.zeros_like(closed)
     state = int(model.scene.contacts[n]["state"])
     deflection = found.state[:, state] if state >= 0 else still
-    named = {
-        "in_contact": closed,
-        "impact_velocity": velocity,
-        "deflection": deflection,
-        "inverse_mass_xx": xx,
-        "inverse_mass_xy": xy,
-        "inverse_mass_yy": yy,
-    }
+    named = {"in_contact": closed, "impact_velocity": velocity, "deflection": deflection}
     return np.column_stack([named.get(name, still) for name in PinMemory._fields])

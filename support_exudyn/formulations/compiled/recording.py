@@ -6,7 +6,9 @@ from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import (
     CLAMPED,
     MEMORY,
+    NODES,
     RECORDS,
+    STAGES,
     Matrix,
     SceneArrays,
     Scratch,
@@ -16,6 +18,7 @@ from support_exudyn.formulations.compiled.events import look
 from support_exudyn.formulations.compiled.landing import copy_contacts
 from support_exudyn.formulations.compiled.step import close_joints, evaluate, within
 from support_exudyn.formulations.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK, NEAR_TOP, PEAK_SAMPLES
+from support_exudyn.formulations.statistics.steps import INNER, OF_STEP
 
 
 @compiled
@@ -66,7 +69,7 @@ def peak(
 def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Vector) -> None:
     """Write a record of what has been evaluated at t [s].
 
-    That is the state, accelerations, multipliers, what contacts remember, courses, moments of friction.
+    That is the state, accelerations, multipliers, what contacts remember, courses, friction of joints.
     """
     row[0] = t
     i, count = 1, 3 * scene.bodies.size
@@ -81,20 +84,40 @@ def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Ve
     i += scene.rows.size
     for k in range(scene.contacts.size):
         one = scene.contacts[k]
-        row[i], row[i + 1], row[i + 2], row[i + 3], row[i + 4] = (
-            one.closed,
-            one.impact_velocity,
-            one.xx,
-            one.xy,
-            one.yy,
-        )
+        row[i], row[i + 1] = one.closed, one.impact_velocity
         i += MEMORY
     for k in range(scene.courses.size):
         row[i], row[i + 1] = scene.courses[k].value, scene.courses[k].rate
         i += 2
     for k in range(scene.rubbing.size):
-        row[i] = scene.rubbing[k].moment
+        row[i] = scene.rubbing[k].force
         i += 1
+
+
+@compiled
+def begin_nodes(scene: SceneArrays, t: float, y: Vector, slope: Vector, nodes: Matrix, report: Vector) -> None:
+    """Write the node at t [s] that the next step begins with, as it has been evaluated."""
+    if nodes.size > 0:
+        write_record(scene, t, y, slope, nodes[OF_STEP * int(report[NODES])])
+
+
+@once
+def write_nodes(scene: SceneArrays, room: Scratch, t: float, h: float, nodes: Matrix, report: Vector) -> None:
+    """Write the other nodes of a step of h [s] from t, whose end stands in the scene, and begin the next."""
+    if nodes.size == 0:
+        return
+    first = OF_STEP * int(report[NODES])
+    write_record(scene, t + h, room.end, room.rates[STAGES - 1], nodes[first + 3])
+    for n in range(1, 3):
+        x = INNER if n == 1 else 1.0 - INNER
+        within(room.path, x, 0, room.probe.size, room.probe)
+        copy_contacts(room.then, scene.contacts)
+        evaluate(scene, t + x * h, room.probe, room.slope, room.right)
+        write_record(scene, t + x * h, room.probe, room.slope, nodes[first + n])
+    copy_contacts(room.then, scene.contacts)
+    for i in range(nodes.shape[1]):
+        nodes[first + OF_STEP, i] = nodes[first + 3, i]
+    report[NODES] += 1
 
 
 @once

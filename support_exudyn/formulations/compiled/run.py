@@ -14,6 +14,7 @@ from support_exudyn.formulations.compiled.arrays import (
     JUMP_ENERGY,
     LAST_STEP,
     MOST_OIL_EVENTS,
+    NODES,
     NOT_A_NUMBER,
     OIL_EVENTS,
     PAUSED,
@@ -34,19 +35,25 @@ from support_exudyn.formulations.compiled.start import error_weights, first_stat
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.formulations.hydraulics.fill import empty_legs
 from support_exudyn.formulations.hydraulics.records import GAP_NAMES
+from support_exudyn.formulations.limits import ENDS, past_ends
+from support_exudyn.formulations.statistics.collected import RunStatistics, within_steps
+from support_exudyn.formulations.statistics.steps import OF_STEP
+from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.contact_state import Onset
+from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Outcome
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.hydraulic_cylinder import Inlet
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.expressions.scalar import maximum
 from user_forces.lawful import UNLAWFUL, LawError, look
-from user_forces.normal.law import Impact, LoadError
+from user_forces.normal.law import LoadError
 
 FIRST_STEP = 1e-5  # [s]
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
 STEEP = ' Very small hoses and very steep valves need fewer with `formulation = "redundant"`.'
 AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then it cannot be interrupted, and tells no progress
+NUMBERS_AT_ONCE = 400_000  # of the nodes of steps, 3 MB: then they become statistics
 CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed far out of its place."
 MOST_IMPACTS = 100_000
 NOTHING_RESTS = "Look at the contact law: nothing comes to rest."
@@ -61,7 +68,11 @@ class _Run:
         self.model, self.scenario = model, model.scenario
         self.y = first_state(model)
         self.room = scratch(model.scene, self.y.size)
-        self.rows = np.zeros((model.times.size, record_width(model)))
+        self.rows = np.zeros((model.times.size, width := record_width(model)))
+        self.statistics = RunStatistics(self.scenario)
+        at_once = min(AT_ONCE // model.scene.bodies.size, NUMBERS_AT_ONCE // (OF_STEP * width))
+        self.at_once = max(1, at_once)
+        self.nodes = np.empty((OF_STEP * self.at_once + 1 if self.statistics.wanted else 0, width))
         self.onsets = np.empty((MOST_IMPACTS if model.contacts else 0, 5))
         self.report = np.zeros(REPORT)
         self.impulses: list[Impulse] = []
@@ -73,8 +84,7 @@ class _Run:
         weights = error_weights(model, self.y, scenario.solver.tolerance)
         going = np.zeros(GOING)
         going[NEXT_STEP] = FIRST_STEP
-        at_once = max(1, AT_ONCE // model.scene.bodies.size)
-        pause = at_once
+        pause = self.at_once
         for segment, begin, end in zip(model.courses.segments, model.edges, model.edges[1:], strict=False):
             if self.code != FINISHED:
                 return
@@ -98,17 +108,29 @@ class _Run:
                     self.y,
                     self.room,
                     self.rows,
+                    self.nodes,
                     self.onsets,
                     self.report,
                 )
                 if self.code != PAUSED:
                     break
-                pause += at_once
+                self.take_nodes()
+                pause += self.at_once
                 progress(float(going[AT] / scenario.duration))
             going[MIDST] = 0.0
             held = model.scene.joints["course"]
             if jumps[held[held >= 0]].any():  # oil gives way
                 self._note_jump(begin)
+
+    def take_nodes(self) -> None:
+        """Take the nodes of the steps since the last pause into the statistics."""
+        count = int(self.report[NODES])
+        if count > 0:
+            rows = np.concatenate([self.rows[:1], self.nodes[: OF_STEP * count]])
+            time = rows[1:, 0].reshape(count, OF_STEP).copy()
+            rows[1:, 0] = within_steps(time).ravel()
+            self.statistics.add(time, trajectory(self.model, rows, _oil_events(self)))
+            self.nodes[0], self.report[NODES] = self.nodes[OF_STEP * count], 0.0
 
     def _followed(self) -> list[Drive | Inlet]:
         """What drives and valves follow, in the order of the courses."""
@@ -127,7 +149,10 @@ class _Run:
         """Keep the impulses by which velocities have jumped at t [s]."""
         found = {name: -float(self.room.impulses[row]) for name, row in self.model.driven_rows.items()}
         cranks = {name: found.pop(name) for name in self.scenario.linkage.cranks}
-        self.impulses.append(Impulse(t, found, float(self.report[JUMP_ENERGY]), cranks))
+        rigid = tuple(name for name in self.model.driven_rows if name not in cranks)
+        kinetics = kinetics_of(self.scenario.guided_linkage, self.scenario.held_pins, rigid)
+        joints = kinetics.joint_impulses(self.room.impulses[self.model.order])
+        self.impulses.append(Impulse(t, found, float(self.report[JUMP_ENERGY]), cranks, joints))
 
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:
@@ -138,6 +163,7 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
         going.code, going.report[NOT_A_NUMBER] = STUCK, 1.0
     if going.code != FINISHED:
         raise SimulationError(_failure(going))
+    going.take_nodes()
     progress(1.0)
     return _outcome(going)
 
@@ -155,6 +181,7 @@ def _outcome(going: _Run) -> Outcome:
         largest_force_time=dict(zip(model.contacts, contacts["largest_at"].tolist(), strict=True)),
         impulses=tuple(going.impulses),
         oil_events=events,
+        statistics=going.statistics.finished(),
         counts=Counts(
             steps=int(report[ACCEPTED]),
             cut_steps=int(report[CUTS]),
@@ -195,6 +222,8 @@ def _failure(going: _Run) -> Failure:
         reason, advice = broken
     elif empty := empty_legs(going.model.legs.names, going.model.scene.legs):
         reason, advice = empty, EMPTY
+    elif pressed := _pressed_through(going):
+        reason, advice = pressed, ENDS
     elif singular := change_points.ended_at(scenario, going.y[:count]):
         reason, advice = singular, change_points.ADVICE
     elif code == DEAD_CENTRE:
@@ -206,6 +235,15 @@ def _failure(going: _Run) -> Failure:
     return Failure(reason, advice, float(report[STOPPED_AT]), state)
 
 
+def _pressed_through(going: _Run) -> str:
+    """The message that a piston is beyond an end of its cylinder where the run stopped; empty: none is."""
+    linkage, size = going.scenario.linkage, 3 * len(going.scenario.linkage.bodies)
+    position, rates = going.y[None, :size], going.y[None, size : 2 * size]
+    motion = BodyMotion(linkage, position, rates, np.zeros_like(rates))
+    lengths = {name: motion.lengthening(one)[0][0] for name, one in linkage.actuators.items()}
+    return past_ends(going.scenario, lengths)
+
+
 def _broken_law(going: _Run) -> tuple[str, str] | None:
     """What the laws of a contact say, asked in Python, where the run could not go on by what they give."""
     for name, record in zip(going.model.contacts, going.model.scene.contacts, strict=True):
@@ -214,8 +252,7 @@ def _broken_law(going: _Run) -> tuple[str, str] | None:
         contact = going.scenario.contact_places[name].contact
         depth, rate, slip = (float(record[f"asked_{what}"]) for what in ("depth", "rate", "slip"))
         try:
-            impact = Impact(float(record["impact_velocity"]), float(record["asked_mass"]))
-            asked = contact.normal(depth, rate, impact)
+            asked = contact.normal(depth, rate, float(record["impact_velocity"]))
             normal, elastic = maximum(asked, 0.0), contact.normal.elastic_force(depth)
             friction = contact.friction(slip, normal, float(record["asked_deflection"]))
             look(contact, depth, rate, slip, normal, friction, elastic, name)

@@ -29,7 +29,7 @@ from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import Load
 from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.compilation.flat import asks_for_mass, friction_source, law_source
+from user_forces.compilation.flat import friction_source, law_source
 from user_forces.lawful import LawError
 from user_forces.values.value import Vector2
 
@@ -126,7 +126,8 @@ def model_of(scenario: Scenario) -> Model:
     loads = _loads(scenario, build, sources, of_loads)
     bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
-    rubbing = _rubbing(scenario, build, joints)
+    rubbing = _rubbing(scenario, build, joints, states)
+    states += int((rubbing["state"] >= 0).sum())
     counts = np.ones(len(rows))
     counts[order] = scenario.held.counts
     scene = SceneArrays(
@@ -162,7 +163,7 @@ def model_of(scenario: Scenario) -> Model:
         scene=scene,
         courses=found,
         edges=edges,
-        times=record_times(scenario.duration, scenario.record_period),
+        times=record_times(scenario.duration, scenario.recorded_every),
         drives=tuple(moving),
         valves=tuple(valves),
         order=order,
@@ -233,6 +234,7 @@ class _Joint(NamedTuple):
     length: float = 0.0
     angle: float = 0.0
     ratio: float = 0.0
+    carrier: int = -1  # a third body, of a gear
 
 
 def _held(scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Mapping[str, int]) -> list[_Joint]:
@@ -258,7 +260,8 @@ def _held(scenario: Scenario, build: _Builder, rigid: Sequence[str], course: Map
         found.append(_Joint(arrays.SLIDE, carrier, guided, bodies, slide.conditions, angle=slide.direction))
     for gear in linkage.gears.values():
         bodies = number[gear.second], number[gear.first]
-        found.append(_Joint(arrays.GEAR, bodies[1], bodies[0], bodies, 1, ratio=gear.ratio))
+        carrier = number[gear.carrier or GROUND]
+        found.append(_Joint(arrays.GEAR, bodies[1], bodies[0], bodies, 1, ratio=gear.ratio, carrier=carrier))
     return found
 
 
@@ -270,7 +273,8 @@ def _joints(
     The order is that of Cuthill and McKee, reversed: factors then have next to nothing outside of a band.
     """
     held = _held(scenario, build, rigid, course)
-    touch = np.array([[bool({*one.bodies} & {*other.bodies} - {-1}) for other in held] for one in held])
+    moved = [{*one.bodies, one.carrier} - {-1} for one in held]
+    touch = np.array([[bool(one & other) for other in moved] for one in moved])
     order = reverse_cuthill_mckee(csr_array(touch), symmetric_mode=True).tolist() if held else []
     first, row = dict[int, int](), 0
     for n in order:
@@ -295,14 +299,15 @@ def _rows(joints: Records, held: Sequence[_Joint]) -> tuple[Records, Records, Ma
     rows = np.zeros(sum(one.rows for one in held), arrays.ROW)
     for joint, one in zip(joints, held, strict=True):
         for k in range(one.rows):
-            rows[joint["row"] + k]["body"], rows[joint["row"] + k]["other"] = one.bodies
-    bodies = [(int(row["body"]), int(row["other"])) for row in rows]
+            row = rows[joint["row"] + k]
+            row["body"], row["other"], row["carrier"] = *one.bodies, one.carrier
+    bodies = [(int(row["body"]), int(row["other"]), int(row["carrier"])) for row in rows]
     pairs = [
         (i, j, side, other)
         for i, mine in enumerate(bodies)
         for j, theirs in enumerate(bodies[: i + 1])
-        for side in (0, 1)
-        for other in (0, 1)
+        for side in range(3)
+        for other in range(3)
         if mine[side] == theirs[other] >= 0
     ]
     for i in range(len(rows)):
@@ -324,10 +329,7 @@ def _contact(record: Any, place: ContactPlace, build: _Builder, linkage: Linkage
     # distance of the contact point from the bore's centre at no depth, less the clearance in a slot
     record["radius"] = bearing.contact_arms(0.0)[1] if bearing.is_slot else bearing.contact_arms(0.0)[0]
     record["angle"] = place.axes(linkage)
-    record["forgets"] = contact.normal.forgets
-    record["renews"] = contact.normal.forgets or asks_for_mass(contact)
     record["state"] = states if contact.friction.has_state else -1
-    record["xx"] = record["yy"] = 1.0
     return states + contact.friction.has_state
 
 
@@ -405,14 +407,27 @@ def _bushings(scenario: Scenario, build: _Builder) -> Records:
     return found
 
 
-def _rubbing(scenario: Scenario, build: _Builder, joints: Records) -> Records:
+def _rubbing(scenario: Scenario, build: _Builder, joints: Records, states: int) -> Records:
+    """Friction of ideal pins, then of ideal guides; states: how many the state has without theirs."""
+    laws, linkage = scenario.friction_laws.values(), scenario.linkage
+    found = np.zeros(len(laws), arrays.RUBBING)
+    for record, law in zip(found, laws, strict=True):
+        record["law"], record["constants"] = build.law(friction_source(law))
+        record["state"] = states if law.has_state else -1
+        states += law.has_state
     pins, held = scenario.friction_pins, list(scenario.held_pins)
-    found = np.zeros(len(pins), arrays.RUBBING)
-    for record, (name, pin) in zip(found, pins.items(), strict=True):
-        place = scenario.linkage.pins[name]
-        record["row"] = joints[held.index(name)]["row"]
+    for record, (name, pin) in zip(found, pins.items(), strict=False):
+        place = linkage.pins[name]
+        record["row"], record["kind"] = joints[held.index(name)]["row"], arrays.BOLT
         record["body"], record["other"] = build.numbers[place.second], build.numbers[place.first]
-        assert pin.friction is not None  # pins without are left out
-        record["law"], record["constants"] = build.law(friction_source(pin.friction))
         record["radius"] = pin.radius or 0.0  # goes with friction
+    slides = dict(zip(scenario.guided_linkage.slides, joints[joints["kind"] == arrays.SLIDE], strict=True))
+    for record, (name, guide) in zip(found[len(pins) :], scenario.friction_guides.items(), strict=True):
+        slide = linkage.slides[name]
+        record["kind"] = arrays.BLOCK if guide.block else arrays.GUIDED
+        record["body"], record["other"] = build.numbers[slide.body], build.numbers[slide.against]
+        for what in ("row", "first", "second", "angle"):
+            record[what] = slides[name][what]
+        record["radius"] = guide.pin_radius or 0.0
+        record["half_length"], record["half_height"] = (0.5 * side for side in guide.block or (0.0, 0.0))
     return found

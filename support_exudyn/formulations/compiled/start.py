@@ -8,6 +8,8 @@ from support_exudyn.formulations.compiled.arrays import LOSSES, Vector
 from support_exudyn.formulations.compiled.equilibrium import settle
 from support_exudyn.formulations.compiled.setup import Model
 from support_exudyn.formulations.hydraulics.fill import weigh_states
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.joint_slip import joint_slips
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.scenario.scenario import Scenario
 
@@ -30,7 +32,19 @@ def first_state(model: Model) -> Vector:
         settle(model, y)
     else:
         y[count : 2 * count] = _velocities(scenario)
+        _start_sliding(model, y)
     return y
+
+
+def _start_sliding(model: Model, y: Vector) -> None:
+    """Write the states of friction laws of ideal joints that slide at the start."""
+    scenario, count = model.scenario, 3 * model.scene.bodies.size
+    still, rates = np.zeros((1, count)), y[count : 2 * count].reshape(1, -1)
+    motion = BodyMotion(scenario.linkage, still, rates, still)
+    slips = joint_slips(motion, scenario)
+    for record, law, slip in zip(model.scene.rubbing, scenario.friction_laws.values(), slips, strict=True):
+        if record["state"] >= 0:
+            y[record["state"]] = law.steady_deflection(float(slip[0]))
 
 
 def _velocities(scenario: Scenario) -> Vector:
@@ -80,5 +94,8 @@ def error_weights(model: Model, y: Vector, tolerance: float) -> Vector:
     for record, place in zip(model.scene.contacts, scenario.contact_places.values(), strict=True):
         if record["state"] >= 0:
             found[record["state"]] = abs(place.contact.friction(0.0, 1.0, SMALL)) / SMALL
+    for record, law in zip(model.scene.rubbing, scenario.friction_laws.values(), strict=True):
+        if record["state"] >= 0:
+            found[record["state"]] = abs(law(0.0, 1.0, SMALL)) / SMALL
     found[-LOSSES:] = 1.0 / (mass * speed**2)
     return np.asarray(found / tolerance)

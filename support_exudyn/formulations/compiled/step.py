@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from support_exudyn.formulations.compilation import call_law, compiled, once
+from support_exudyn.formulations.compilation import compiled
 from support_exudyn.formulations.compiled.arrays import LOSSES, STAGES, Matrix, SceneArrays, Vector
 from support_exudyn.formulations.compiled.forces import (
     observe,
@@ -25,19 +25,17 @@ from support_exudyn.formulations.compiled.forces import (
 )
 from support_exudyn.formulations.compiled.hydraulics import press_legs
 from support_exudyn.formulations.compiled.motion import (
-    SETTLED,
     SINGULAR,
     divide,
     factor,
     follow_courses,
     hold,
     place,
-    push,
     rate_of,
     respond,
     solve,
-    spin_of,
 )
+from support_exudyn.formulations.compiled.rubbing import begin_rubbing, rub
 
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 WEIGHTS = np.array(
@@ -65,7 +63,6 @@ INNER = np.array(
         69997945 / 29380423,
     ]
 )
-RUBBINGS = 30  # rounds in which friction of ideal pins and their forces are found together
 CLOSED = 1e-13  # [m], [rad]: joints that are open by less are closed, within rounding
 ROUNDS = 4  # of the projection
 
@@ -99,41 +96,17 @@ def evaluate(scene: SceneArrays, t: float, y: Vector, slope: Vector, right: Vect
         press_loads(scene, t, y)
     if scene.bushings.size > 0:
         press_bushings(scene, y)
-    for n in range(scene.rubbing.size):  # from that of the evaluation before
-        one = scene.rubbing[n]
-        push(scene, one.body, 0.0, 0.0, one.moment)
-        push(scene, one.other, 0.0, 0.0, -one.moment)
+    if scene.rubbing.size > 0:
+        begin_rubbing(scene, y)
     solve(scene, right)
     if scene.rubbing.size > 0:
-        rub(scene, y, right)
+        rub(scene, y, slope, right)
     for n in range(count):
         body, i, j = scene.bodies[n], 3 * n, 3 * (count + n)
         slope[i], slope[i + 1], slope[i + 2] = y[j], y[j + 1], y[j + 2]
         slope[j], slope[j + 1], slope[j + 2] = body.ax, body.ay, body.a
     powers(scene, y, slope)
     return least
-
-
-@once
-def rub(scene: SceneArrays, y: Vector, right: Vector) -> None:
-    """Find friction in ideal pins and the forces in them together: moment = radius law(radius spin, force)."""
-    for _ in range(RUBBINGS):
-        changed = largest = 0.0
-        for n in range(scene.rubbing.size):
-            one = scene.rubbing[n]
-            force = math.hypot(scene.rows[one.row].held, scene.rows[one.row + 1].held)
-            spin = spin_of(scene, y, one.body) - spin_of(scene, y, one.other)
-            constants = scene.constants[one.constants :]
-            size = call_law(one.law, force, 0.0, one.radius * spin, 0.0, 0.0, 0.0, constants, scene.out)
-            moment = one.radius * size
-            change = moment - one.moment
-            one.moment = moment
-            push(scene, one.body, 0.0, 0.0, change)
-            push(scene, one.other, 0.0, 0.0, -change)
-            changed, largest = max(changed, abs(change)), max(largest, abs(moment))
-        if not changed > SETTLED * largest:
-            break
-        solve(scene, right)
 
 
 @compiled

@@ -12,7 +12,6 @@ SMALLEST_STEP = 1e-13  # [s]
 AFTER_IMPACT = 0.01
 LANDED = 1e-14  # depth [m] at which an impact or separation is met; rounding of the posture is some 1e-16
 LANDINGS = 12
-TURNS = 3  # looks for where a contact is pressed on again; the force is continuous there
 CLOSE = 1e-12  # [s]: a record that lies so little behind the end of a step belongs to it
 
 

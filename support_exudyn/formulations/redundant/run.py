@@ -33,6 +33,7 @@ from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.joint_forces import JointForces
+from support_exudyn.mechanics.joint_slip import friction_series
 from support_exudyn.mechanics.oil_column import OilSeries, oil_series
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import needs
@@ -103,7 +104,7 @@ def _run(scene: AnyScene, progress: Progress, outcome: Callable[[AnyScene, Progr
 
 def _outcome(scene: Scene, progress: Progress) -> Outcome:
     needed = with_causes(needs(scene.scenario))
-    recorder = Recorder(scene, needed)
+    recorder = Recorder(scene, needed, lambda history: trajectory(scene, history, needed))
     solving = SolverRun(scene, recorder, progress)
     counts = solving.go()
     return Outcome(
@@ -114,12 +115,13 @@ def _outcome(scene: Scene, progress: Progress) -> Outcome:
         impulses=tuple(solving.impulses),
         counts=counts,
         oil_events=scene.legs.events,
+        statistics=recorder.finished(),
     )
 
 
 def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
     """Run a model in space. Raises SimulationError if it cannot be finished."""
-    recorder = Recorder(scene, needs(scene.scenario))
+    recorder = Recorder(scene, needs(scene.scenario), lambda history: SpatialObservation(scene, history))
     solving = SolverRun(scene, recorder, progress)
     counts = solving.go()
     groups = scene.sections.items()
@@ -138,6 +140,7 @@ def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
         impulses=tuple(solving.impulses),
         counts=counts,
         oil_events=scene.legs.events,
+        statistics=recorder.finished(),
     )
 
 
@@ -184,7 +187,8 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
     }
     found = Following(velocity[:, :0], JointForces(), {}, {})
     if needed & FOLLOWING:
-        found = following(scene, motion, history.time, Applied(contacts, compliant, compliant_actuators, loads))
+        applied = Applied(contacts, compliant, compliant_actuators, loads)
+        found = following(scene, motion, history.time, applied, history.deflection)
     return Trajectory(
         time=history.time,
         position=position,
@@ -192,7 +196,7 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         acceleration=found.acceleration,
         ideal_pins=found.joints.pins,
         contacts=contacts,
-        friction_moments=found.friction_moments,
+        **friction_series(scene.scenario, found.frictions),
         actuators={**found.actuators, **compliant_actuators},
         cranks=found.joints.cranks,
         slides=found.joints.slides,

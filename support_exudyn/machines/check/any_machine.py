@@ -17,6 +17,7 @@ from support_exudyn.machines.check.freedoms import (
     movements,
     repeated,
 )
+from support_exudyn.machines.check.joint_warnings import of_joints
 from support_exudyn.machines.check.report import CheckReport, CheckTable
 from support_exudyn.machines.check.statics import DegreesOfFreedom, mobility, statics
 from support_exudyn.machines.check.transmission import (
@@ -28,7 +29,7 @@ from support_exudyn.machines.check.transmission import (
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.mechanics.closing import Conditions, beside
 from support_exudyn.mechanics.continuation import conditions_of
-from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.value import InputError
 
@@ -186,13 +187,16 @@ def _said(found: _Found) -> tuple[list[str], list[str]]:
     freedoms = _freedoms(found.conditions, found.loose, found.singular, under_loads)
     warned = found.singular or (found.linkage.driven and not under_loads)
     (warnings if warned else facts).extend(freedoms)
+    moved = [one for way in found.ways for one in way.moved] or ([] if found.loose else [found.at_rest])
+    more, doubts = of_joints(found.linkage, moved)
+    facts += more
+    warnings += [*found.data.warnings, *doubts]
     for way in found.ways:
         facts += [*_way_facts(way), *(one.said(way) for one in found.angles[way.drive])]
         warnings += [*_way_warnings(way), *_poor_angles(way, found.angles[way.drive])]
     if any(found.angles.values()):
         facts.append(DEFINITION)
     if not found.loose:
-        moved = [one for way in found.ways for one in way.moved] or [found.at_rest]
         facts.append(_under(moved, list(found.loads)))
     return facts, warnings
 
@@ -208,6 +212,7 @@ def _numbers(found: _Found) -> dict[str, Any]:
         "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in found.again],
         "movements": [one.data() for one in found.loose],
         "drive": sole.drive if sole else "",
+        "cranks": {name: {"body": one.body, "on": GROUND} for name, one in found.linkage.cranks.items()},
         **({"stroke_m": found.tried} if known_stroke else {}),
         "locks": any(way.locks for way in found.ways),
         "travel": list(sole.ends) if sole else [0.0, 0.0],

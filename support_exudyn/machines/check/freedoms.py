@@ -44,7 +44,7 @@ class RepeatedConditions:
         driven = [f"{kind}.{name}" for kind, name in self.driven]
         if len(driven) > 1:
             return (
-                f"{listed(driven)} fight: they drive the same freedom"
+                f"{listed(driven)}: one drive too many, for they drive the same freedom"
                 + (f", through {joints}" if joints else "")
                 + "; free one of them, or let it follow with a motion that fits"
             )

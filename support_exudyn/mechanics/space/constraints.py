@@ -22,6 +22,7 @@ from user_forces.values.value import Vector3
 SAME = 1e-6  # share of a row that must be new, else it repeats others
 FindPoint = Callable[[str, Vector3], SpatialPointMotion]
 Kind = Literal["actuator", "across_1", "across_2", "along", "tilt_1", "tilt_2", "turn"]
+SHIFTS: tuple[Kind, ...] = ("across_1", "across_2", "along")
 TURNS: tuple[Kind, ...] = ("tilt_1", "tilt_2", "turn")  # what holds turns about directions, not shifts
 
 

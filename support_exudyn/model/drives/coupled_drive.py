@@ -11,7 +11,7 @@ from pydantic import model_validator
 
 from support_exudyn.model.drives.drive import Drive
 from user_forces.expressions.scalar import in_time
-from user_forces.values.units import Metres
+from user_forces.values.units import Travel
 from user_forces.values.value import InputError, NonNegative, Real, value
 
 DEGREES = (12, 24, 48, 96, 192)  # of polynomials, one after the other until one is good enough
@@ -37,9 +37,9 @@ class CoupledDrive(Drive):
     """
 
     lead: Drive
-    lowest: Metres[Real]
-    reach: Metres[NonNegative]
-    coefficients: Metres[tuple[Real, ...]]
+    lowest: Travel[Real]
+    reach: Travel[NonNegative]
+    coefficients: Travel[tuple[Real, ...]]
 
     @model_validator(mode="after")
     def _holds_the_start(self) -> CoupledDrive:

@@ -8,7 +8,7 @@ from abc import ABC, abstractmethod
 from pydantic import model_validator
 
 from user_forces.expressions.scalar import cos, in_time, is_number, maximum, minimum, sin
-from user_forces.values.units import Metres, RadiansPerSecond, Seconds
+from user_forces.values.units import Seconds, Travel, TravelRate
 from user_forces.values.value import NonNegative, Positive, Real, Value, value
 
 
@@ -76,11 +76,11 @@ class Stroke(Drive, ABC):
     """A stroke between two times, at rest before and after.
 
     Arguments:
-        stroke: [m], 0.5 by default; negative to lower.
+        stroke: [m], 0.5 by default, or the angle of a crank [rad]; negative to lower.
         start, end: [s], 3 and 5 by default; end > start >= 0.
     """
 
-    stroke: Metres[Real] = 0.5
+    stroke: Travel[Real] = 0.5
     start: Seconds[NonNegative] = 3.0
     end: Seconds[Positive] = 5.0
 
@@ -165,7 +165,7 @@ class Steady(Drive):
         rate: speed [rad/s] of cranks, [m/s] of actuators.
     """
 
-    rate: RadiansPerSecond[Real]
+    rate: TravelRate[Real]
 
     def extension(self, t: float) -> float:
         """The angle, rate t [rad]."""
@@ -197,11 +197,12 @@ class Reciprocating(Drive):
         extension = stroke (1 - cos(2 pi t / period)) / 2
 
     Arguments:
-        stroke: between lowest and highest [m], 0.5 by default; negative to lower first.
+        stroke: between lowest and highest [m], 0.5 by default, or the angle of a crank [rad]; negative to
+            lower first.
         period: of raising and lowering once [s], > 0.
     """
 
-    stroke: Metres[Real] = 0.5
+    stroke: Travel[Real] = 0.5
     period: Seconds[Positive]
 
     @property

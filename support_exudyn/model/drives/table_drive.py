@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from support_exudyn.model.drives.drive import Drive
 from user_forces.expressions.scalar import in_time
-from user_forces.values.units import Metres, Seconds
+from user_forces.values.units import Seconds, Travel
 from user_forces.values.value import NonNegative, Real, value
 
 MOST_POINTS = 1_000_000
@@ -47,7 +47,7 @@ class TableDrive(Drive):
     """
 
     times: Seconds[Annotated[tuple[NonNegative, ...], Field(min_length=2, max_length=MOST_POINTS)]]
-    extensions: Metres[Annotated[tuple[Real, ...], Field(min_length=2, max_length=MOST_POINTS)]]
+    extensions: Travel[Annotated[tuple[Real, ...], Field(min_length=2, max_length=MOST_POINTS)]]
     between: Literal["smooth", "linear"] = "smooth"
 
     @model_validator(mode="after")

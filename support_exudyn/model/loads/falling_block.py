@@ -34,7 +34,7 @@ class FallingBlock(AnyLoad):
     """A block that falls on a point of a body, upright on a guide, bounces and comes to rest on it.
 
         F = K depth^n (1 + chi rate / w),   cut at 0,   rate = d depth/dt
-        chi (1 + e) = ln((1 + chi)/(1 - chi e)),   w: see `IndentationVelocity`
+        chi (1 + e) = ln((1 + chi)/(1 - chi e)),   w: see `Hysteresis`
 
     depth is how far the point is behind the block's face. The law is `user_forces.Exact`: without weight every
     bounce, whatever its speed and the masses, gives back the restitution e; with e = 1 the force is K depth^n

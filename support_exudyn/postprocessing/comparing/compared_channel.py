@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -171,6 +172,7 @@ def compared_channel(
     Raises InputError if units are not known or of two kinds, or if the curves do not overlap.
     """
     laid = LaidCurves(reference, other, channel, unit, window.after, window.until)
+    means = _means(laid)
     common, errors = laid.common, laid.errors()
     before = common.time < window.parting
     start, not_told = int(before.sum()), list[str]()
@@ -186,9 +188,9 @@ def compared_channel(
         with_errors=laid.with_errors,
         before=start,
         measures=measures,
-        reference=_mean(laid, lambda found: found.mean_reference),
-        other=_mean(laid, lambda found: found.mean_other),
-        mean=_mean(laid, lambda found: found.mean_difference),
+        reference=means[0],
+        other=means[1],
+        mean=means[2],
         largest=_largest(laid, errors, measures, window.parting),
         statistics=statistics,
         bands=_bands(common, window, not_told) if window.edges else None,
@@ -202,6 +204,21 @@ def extent(values: Values) -> float:
     """The largest less the least value; 0 if none is known."""
     known = values[np.isfinite(values)]
     return float(known.max() - known.min()) if known.size else 0.0
+
+
+def _means(laid: LaidCurves) -> tuple[Estimate, Estimate, Estimate]:
+    """Means over time of the reference, of the other curve and of the difference, with their errors.
+
+    Of two runs from all of their steps; beside another table both by straight lines between the common times.
+    """
+    ends = float(laid.common.time[0]), float(laid.common.time[-1])
+    first, second = (one.mean(laid.channel, laid.unit, *ends) for one in (laid.reference, laid.other))
+    if first is None or second is None:
+        names = ("mean_reference", "mean_other", "mean_difference")
+        first, second, apart = (_mean(laid, operator.attrgetter(name)) for name in names)
+        return first, second, apart
+    known = [one.error for one in (first, second) if not math.isnan(one.error)]
+    return first, second, Estimate(second.value - first.value, sum(known) if known else math.nan, laid.unit)
 
 
 def _mean(laid: LaidCurves, which: Callable[[CurveMeasures], float]) -> Estimate:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import glob
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -18,7 +19,9 @@ from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.files.toml.faults import nearest
 from support_exudyn.postprocessing.comparing.compare_file import MappedColumn, MappedFile
+from support_exudyn.postprocessing.comparing.whole_turns import ANGLE, unwrapped
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
+from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
@@ -35,7 +38,8 @@ class ComparedFile:
     name: by which tables and figures call it. path: of it. kind: what it is, in words.
     run: with its errors, if it is one of this program. series: of it, by the names of the file.
     mapped: what is said of its columns; `shift` is added to its times [s].
-    notes: what a reader of the numbers has to know.
+    notes: what a reader of the numbers has to know. turns: full turns that are taken off angles [rad], by
+        channel.
     """
 
     name: str
@@ -46,6 +50,7 @@ class ComparedFile:
     mapped: MappedFile = AS_IT_IS
     notes: tuple[str, ...] = ()
     meanings: Mapping[str, str] = field(default_factory=dict)
+    turns: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def has_errors(self) -> bool:
@@ -81,7 +86,16 @@ class ComparedFile:
         return time + self.mapped.shift if self.mapped.shift else time
 
     def values(self, channel: str, unit: str) -> Values:
-        """Values of a channel in a unit, (n,). Raises InputError if its own is not known or of another kind."""
+        """Values of a channel in a unit, (n,); an angle that the file wraps is unwrapped.
+
+        Raises InputError if its own unit is not known or of another kind.
+        """
+        found = self._converted(channel, unit)
+        if unit == ANGLE and self.run is None:
+            found = unwrapped(found)
+        return found - self.turns[channel] if self.turns.get(channel) else found
+
+    def _converted(self, channel: str, unit: str) -> Values:
         column = self.column(channel)
         series = self.series[column.column]
         try:
@@ -90,6 +104,19 @@ class ComparedFile:
             return converted(replace(series, values=column.sign * series.values + column.offset), unit)
         except InputError as error:
             raise InputError(f"{self.path}: {error}") from None
+
+    def mean(self, channel: str, unit: str, after: float, until: float) -> Estimate | None:
+        """The mean of a channel over time with its error, from every step of a run between two times [s].
+
+        None if this is no run, or has the channel in another unit.
+        """
+        column, run, shift = self.column(channel), self.run, self.mapped.shift
+        if run is None or self.series[column.column].unit != unit:
+            return None
+        ends = column.column, after - shift, until - shift
+        window = run.window(*ends)
+        error = run.estimate(lambda one: one.window(*ends).mean).error if self.has_errors else math.nan
+        return Estimate(column.sign * window.mean + column.offset, error + window.mean_doubt, unit)
 
     def errors(self, channel: str) -> Values:
         """Numerical errors of a channel in SI, (n,); NaN: not known, infinite from the horizon on."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from support_exudyn.postprocessing.comparing.compared_channel import (
 )
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile, compared_file, of_run
 from support_exudyn.postprocessing.comparing.found_shift import FoundShift, found_shift
+from support_exudyn.postprocessing.comparing.laid_curves import LaidCurves
 from support_exudyn.postprocessing.comparing.matched_channels import (
     CommonChannels,
     check_named,
@@ -33,6 +34,7 @@ from support_exudyn.postprocessing.comparing.tolerances import (
     read_tolerances,
 )
 from support_exudyn.postprocessing.comparing.verdict import ToleranceVerdict, worst
+from support_exudyn.postprocessing.comparing.whole_turns import ANGLE, turns_apart
 from support_exudyn.postprocessing.comparing.with_errors import BesideErrors, numbers_beside_errors
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -186,6 +188,9 @@ def _pair(
     shift = found_shift(reference, other, units) if find_shift else None
     if shift is not None:
         other = other.shifted(-shift.found.shift)
+    angles = [name for name in names if units[name] == ANGLE]
+    laid = {name: LaidCurves(reference, other, name, ANGLE, *ends).common for name in angles}
+    other = replace(other, turns={name: turns_apart(one.reference, one.other) for name, one in laid.items()})
     known = impacts_of(reference, names), impacts_of(other, names)
     same = 0
     if reference.run is not None and other.run is not None and other.mapped == reference.mapped:

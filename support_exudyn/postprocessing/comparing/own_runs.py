@@ -33,7 +33,7 @@ def common_records(first: Result, second: Result, after: float, until: float) ->
     within = inside(first, after, until, fewest=1)[mine]
     if not within.any():
         raise InputError(
-            f"record_period = {first.scenario.record_period:g} and {second.scenario.record_period:g} s: the "
+            f"record_period = {first.scenario.recorded_every:g} and {second.scenario.recorded_every:g} s: the "
             "runs have no record at the same time there; allowed: periods with a common multiple"
         )
     return mine[within], its[within]

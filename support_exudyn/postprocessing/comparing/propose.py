@@ -10,16 +10,22 @@ import json
 import math
 import re
 from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import replace
 from difflib import SequenceMatcher
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from support_exudyn.files.series.units import scaled
+from support_exudyn.postprocessing.comparing.channel_units import channel_unit
 from support_exudyn.postprocessing.comparing.common_times import on_common_times
-from support_exudyn.postprocessing.comparing.compare_file import CompareFile
+from support_exudyn.postprocessing.comparing.compare_file import CompareFile, MappedColumn, MappedFile
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
+from support_exudyn.postprocessing.comparing.found_shift import found_shift
+from support_exudyn.postprocessing.comparing.shift import time_shift
 from support_exudyn.postprocessing.comparing.si_units import of_a_kind
 from user_forces.values.value import InputError, cleaned
 
@@ -64,10 +70,13 @@ class Likeness(NamedTuple):
         return ", ".join(words)
 
 
-def proposal(files: Sequence[ComparedFile], said: CompareFile) -> str:
+def proposal(files: Sequence[ComparedFile], said: CompareFile, find_shift: bool = False) -> str:
     """The text of a compare.toml for files, the first of which is the reference.
 
-    said: what is mapped already, which stays out of it.
+    said: what is mapped already, which stays out of it. find_shift: find by how much every file lags behind the
+    reference by the columns that have the likest names, and propose the shift with columns that fit then.
+
+    Raises InputError if a shift is to be found and no column is sure of it.
     """
     reference, *others = files
     lines = [
@@ -79,7 +88,7 @@ def proposal(files: Sequence[ComparedFile], said: CompareFile) -> str:
         "confirmed = false",
     ]
     for other in others:
-        lines += ["", *_of(reference, other)]
+        lines += ["", *_of(reference, _shifted(reference, other) if find_shift else other)]
     lines += [
         "",
         "# [tolerances]",
@@ -89,23 +98,53 @@ def proposal(files: Sequence[ComparedFile], said: CompareFile) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _shifted(reference: ComparedFile, other: ComparedFile) -> ComparedFile:
+    """The file with the shift in time that lays its columns on the channels that have the likest names."""
+    columns = [name for name in other.series if name not in reference.channels]
+    channels = [name for name in reference.channels if name not in other.channels]
+    pairs = {one: max(columns, key=partial(_names, one)) for one in channels if columns}
+    named = replace(other, mapped=MappedFile(columns={k: MappedColumn(column=v) for k, v in pairs.items()}))
+    alike = {}
+    for one in named.channels:
+        with suppress(InputError):  # of no unit, or of two kinds: no curve to find a shift by
+            alike[one] = channel_unit(reference, named, one) if one in reference.channels else ""
+    shift = found_shift(reference, named, {one: unit for one, unit in alike.items() if unit})
+    return other.shifted(-shift.found.shift)
+
+
 def _of(reference: ComparedFile, other: ComparedFile) -> list[str]:
     """The lines on a file."""
     found, nexts = proposed(reference, other)
-    head = f"[files.{_quoted(other.path.name)}.columns]"
-    lines = [head if found else f"# {other.name}: no column is like a channel of {reference.name}"]
+    name = f"files.{_quoted(other.path.name)}"
+    lines = [f"[{name}]", f"shift_s = {other.mapped.shift!r} # added to its times", ""]
+    lines = lines if other.mapped.shift else []
+    lines += [
+        f"[{name}.columns]" if found else f"# {other.name}: no column is like a channel of {reference.name}"
+    ]
     for one in found:
         column = _quoted(one.column)
-        if one.curves < 0.0:
+        doubtful, late = _is_doubtful(one), ""
+        if one.curves < 0.0 and (shift := _in_step(reference, other, one)) is not None:
+            late = f"; a shift in time by {shift:.4g} s fits as well as sign = -1 (--shift finds one)"
+        elif one.curves < 0.0:
             column = f"{{ column = {column}, sign = -1 }}"
-        doubtful = _is_doubtful(one)
-        lines.append(f"{'# ' * doubtful}{_quoted(one.channel)} = {column} # {one}{nexts[one.column]}")
+        lines.append(f"{'# ' * doubtful}{_quoted(one.channel)} = {column} # {one}{nexts[one.column]}{late}")
     units = [one.column for one in found if other.unit(one.column) is None and not _is_doubtful(one)]
     if units or other.mapped.units:
         lines += ["", f"[files.{_quoted(other.path.name)}.units]"]
         lines += [f"{_quoted(name)} = {_quoted(unit)}" for name, unit in other.mapped.units.items()]
         lines += [f'{_quoted(column)} = "{UNKNOWN}" # the file names none' for column in units]
     return lines
+
+
+def _in_step(reference: ComparedFile, other: ComparedFile, one: Likeness) -> float | None:
+    """The shift [s] by which a column with the other sign is as like a channel without; None if none is."""
+    first, second = reference.series[reference.column(one.channel).column], other.series[one.column]
+    try:
+        found = time_shift(first.time, first.values, second.time + other.mapped.shift, second.values)
+    except InputError:
+        return None
+    return -found.shift if found.correlation >= LESS * abs(one.curves) else None
 
 
 def _is_doubtful(one: Likeness) -> bool:
@@ -168,7 +207,8 @@ def _curves(
     """
     first, second = reference.series[reference.column(channel).column], other.series[column]
     try:
-        both = on_common_times(first.time, first.values, second.time, second.values)
+        its = second.time + other.mapped.shift
+        both = on_common_times(first.time, first.values, its, second.values)
     except InputError:
         return math.nan, math.nan
     known = np.isfinite(both.reference) & np.isfinite(both.other)

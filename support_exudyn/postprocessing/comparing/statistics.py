@@ -8,9 +8,10 @@ is its standard error e. With m blocks in a series its interval is
 
     value -+ t(m - 1) e sqrt(m / (m - 1))
 
-by Student's t, for m blocks tell a spread no better than m numbers do. Of a difference, e^2 and the degrees of
-freedom are put together as Welch does. Blocks are `LONGER` times as long as is best for the mean square error
-of e (Politis and White): those make e too small, and intervals would miss the truth too often.
+by Student's t, for m blocks tell a spread no better than m numbers do. Of a difference both series are
+resampled by the same blocks, so that a course that both follow, such as a stroke, drops out. Blocks are
+`LONGER` times as long as is best for the mean square error of e (Politis and White): those make e too small,
+and intervals would miss the truth too often.
 """
 
 import math
@@ -22,6 +23,7 @@ import numpy.typing as npt
 from scipy import stats
 
 from support_exudyn.postprocessing.comparing.bootstrap import block_length, resampled
+from support_exudyn.postprocessing.comparing.common_times import on_common_times
 from support_exudyn.postprocessing.comparing.even_times import EvenSamples, even_samples
 from user_forces.values.value import InputError
 
@@ -50,13 +52,14 @@ class Interval(NamedTuple):
 
 
 class StatisticDifference(NamedTuple):
-    """A statistic of two independent curves.
+    """A statistic of two curves.
 
     name: "mean", "rms", "spread" (standard deviation), "quantile_95" (which 95 % of the values are below) or
         "impacts_per_second".
-    first, second, difference: of each curve, and second less first, with their intervals.
+    first, second, difference: of each curve, and second less first, with their intervals; a curve that is worth
+        too few pieces by itself has none.
     confidence: of each interval alone, such as 0.95.
-    blocks: how many independent pieces the shorter curve is worth.
+    blocks: how many independent pieces the difference of the curves is worth.
     not_told: why there are no intervals, in words; "" if there are.
     """
 
@@ -91,7 +94,7 @@ def compared_statistics(
     among: int = 1,
     seed: int = 0,
 ) -> dict[str, StatisticDifference]:
-    """Statistics of two curves that are independent of each other, by their names.
+    """Statistics of two curves, by their names.
 
     Arguments:
         first_time, second_time: [s], (n,) and (m,), increasing. first, second: values of one unit; NaN where
@@ -109,13 +112,31 @@ def compared_statistics(
             f"confidence = {confidence}, among = {among}: allowed: a confidence between 0 and 1, among >= 1"
         )
     alone = confidence ** (1.0 / among)
-    curves = (even_samples(first_time, first), even_samples(second_time, second))
-    known = [_of_curve(one, np.random.default_rng([seed, n])) for n, one in enumerate(curves)]
+    both = on_common_times(first_time, first, second_time, second)
+    there = np.isfinite(both.reference) & np.isfinite(both.other)
+    pieces = [(first_time, first), (second_time, second)]
+    pieces += [(both.time[there], one[there]) for one in (both.reference, both.other)]
+    alone_first, alone_second, *paired = (even_samples(*piece) for piece in pieces)
+    signed: list[list[tuple[float, EvenSamples]]] = [
+        [(1.0, alone_first)],
+        [(1.0, alone_second)],
+        [(-1.0, paired[0]), (1.0, paired[1])],
+    ]
+    known = [
+        _known([(sign, one.values) for sign, one in curves], _influences, STATISTICS, [seed, n])
+        for n, curves in enumerate(signed)
+    ]
     if first_impacts is not None and second_impacts is not None:
-        pairs = zip(curves, (first_impacts, second_impacts), strict=True)
-        for n, (one, impacts) in enumerate(pairs):
-            known[n][IMPACTS] = _of_impacts(one, impacts, np.random.default_rng([seed, 2 + n]))
-    return {name: _difference(name, known[0][name], known[1][name], alone) for name in known[0]}
+        impacts = [[first_impacts], [second_impacts], [first_impacts, second_impacts]]
+        for n, (curves, times) in enumerate(zip(signed, impacts, strict=True)):
+            counts = [(sign, _rates(one, at)) for (sign, one), at in zip(curves, times, strict=True)]
+            rate = {IMPACTS: lambda rates: float(rates.mean())}
+            known[n] |= _known(counts, lambda rates: rates[None], rate, [seed, len(signed) + n])
+    first_known, second_known, both_known = known
+    return {
+        name: _difference(name, first_known[name], second_known[name], both_known[name], alone)
+        for name in first_known
+    }
 
 
 class _Known(NamedTuple):
@@ -127,64 +148,68 @@ class _Known(NamedTuple):
     largest: float
 
 
-def _of_curve(curve: EvenSamples, random: np.random.Generator) -> dict[str, _Known]:
-    values = curve.values
-    centred = values - values.mean()
-    # what a small change of each sample does to the statistics; the slowest of these tells the length of blocks
-    influences = (values, values**2, centred**2, np.where(values <= np.quantile(values, QUANTILE), 1.0, 0.0))
-    length = LONGER * max(block_length(one) for one in influences)
-    found = np.empty((RESAMPLES, len(STATISTICS)))
-    for n in range(RESAMPLES):
-        drawn = values[resampled(values.size, length, random)]
-        found[n] = [statistic(drawn) for statistic in STATISTICS.values()]
-    errors = found.std(axis=0, ddof=1)
-    return {
-        name: _Known(statistic(values), float(error), values.size / length, float(np.abs(values).max()))
-        for (name, statistic), error in zip(STATISTICS.items(), errors, strict=True)
-    }
+def _influences(values: Values) -> Values:
+    """By how much a small change of each sample changes each of the statistics (4, n)."""
+    below = np.where(values <= np.quantile(values, QUANTILE), 1.0, 0.0)
+    return np.array((values, values**2, (values - values.mean()) ** 2, below))
 
 
-def _of_impacts(curve: EvenSamples, impacts: Sequence[float], random: np.random.Generator) -> _Known:
-    """Impacts per second during a curve."""
-    count = curve.values.size
-    duration = count * curve.spacing
-    edges = curve.start + curve.spacing * (np.arange(count + 1) - 0.5)
-    counts = np.histogram(np.asarray(impacts, dtype=float), edges)[0].astype(float)
-    length = LONGER * block_length(counts)
-    found = [counts[resampled(count, length, random)].sum() / duration for _ in range(RESAMPLES)]
-    rate = float(counts.sum()) / duration
-    return _Known(rate, float(np.std(found, ddof=1)), count / length, rate)
+def _known(
+    curves: Sequence[tuple[float, Values]],
+    influences: Callable[[Values], Values],
+    statistics: Mapping[str, Callable[[Values], float]],
+    seed: Sequence[int],
+) -> dict[str, _Known]:
+    """Statistics of a curve, or of two with the signs by which they count, both resampled by the same blocks.
+
+    influences: of the samples on the statistics. The slowest of a curve gives the length of all blocks; of two
+        each statistic has its own, for a difference that is constant does not tell that of squares.
+    """
+    count, random = curves[0][1].size, np.random.default_rng(seed)
+    lengths = [*map(block_length, np.sum([sign * influences(values) for sign, values in curves], axis=0))]
+    largest = max(float(np.abs(values).max()) for _, values in curves)
+    found = {}
+    for (name, statistic), own in zip(statistics.items(), lengths, strict=True):
+        length = LONGER * (own if len(curves) > 1 else max(lengths))
+        draws = [np.arange(count), *(resampled(count, length, random) for _ in range(RESAMPLES))]
+        value, *drawn = (math.fsum(sign * statistic(values[at]) for sign, values in curves) for at in draws)
+        found[name] = _Known(value, float(np.std(drawn, ddof=1)), count / length, largest)
+    return found
 
 
-def _difference(name: str, first: _Known, second: _Known, confidence: float) -> StatisticDifference:
-    value = second.value - first.value
-    blocks = min(first.blocks, second.blocks)
-    if blocks < FEWEST_BLOCKS:
-        one, other, apart = (Interval(item, math.nan, math.nan) for item in (first.value, second.value, value))
+def _rates(curve: EvenSamples, impacts: Sequence[float]) -> Values:
+    """Impacts per second between neighbouring samples of a curve [1/s]."""
+    edges = curve.start + curve.spacing * (np.arange(curve.values.size + 1) - 0.5)
+    return np.histogram(np.asarray(impacts, dtype=float), edges)[0] / curve.spacing
+
+
+def _difference(
+    name: str, first: _Known, second: _Known, both: _Known, confidence: float
+) -> StatisticDifference:
+    """The statistic of both curves, and its difference by what is known of them together."""
+    value, why = second.value - first.value, ""
+    if both.blocks < FEWEST_BLOCKS:
         why = (
-            f"the curves are worth {blocks:.1f} independent pieces; allowed: {FEWEST_BLOCKS:g} and more, so a "
-            "longer duration"
+            f"the curves are worth {both.blocks:.1f} independent pieces; allowed: {FEWEST_BLOCKS:g} and more, "
+            "so a longer duration"
         )
-        return StatisticDifference(name, one, other, apart, confidence, blocks, why)
-    squares = [_square(one) for one in (first, second)]
-    freedoms = [one.blocks - 1.0 for one in (first, second)]
-    both = sum(squares)
-    shares = sum(square**2 / freedom for square, freedom in zip(squares, freedoms, strict=True))
     rounding = EXACT * max(first.largest, second.largest)
     return StatisticDifference(
         name,
-        _interval(first.value, squares[0], freedoms[0], confidence),
-        _interval(second.value, squares[1], freedoms[1], confidence),
-        _interval(value, both, both**2 / shares if shares > 0.0 else min(freedoms), confidence, rounding),
+        _interval(first.value, first, confidence),
+        _interval(second.value, second, confidence),
+        _interval(value, both, confidence, rounding),
         confidence,
-        blocks,
+        both.blocks,
+        why,
     )
 
 
-def _square(one: _Known) -> float:
-    return one.error**2 * one.blocks / (one.blocks - 1.0)
-
-
-def _interval(value: float, square: float, freedom: float, confidence: float, least: float = 0.0) -> Interval:
-    half = float(stats.t.ppf(0.5 + 0.5 * confidence, freedom)) * math.sqrt(square) + least
+def _interval(value: float, known: _Known, confidence: float, least: float = 0.0) -> Interval:
+    """The confidence interval of a value; NaN if too few blocks tell it."""
+    if known.blocks < FEWEST_BLOCKS:
+        return Interval(value, math.nan, math.nan)
+    freedom = known.blocks - 1.0
+    error = known.error * math.sqrt(known.blocks / freedom)
+    half = float(stats.t.ppf(0.5 + 0.5 * confidence, freedom)) * error + least
     return Interval(value, value - half, value + half)

@@ -19,6 +19,7 @@ from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import ROUNDING, left_by_newton
 from support_exudyn.simulation.result import Result
+from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
 UNKNOWN = "errors not known"
@@ -118,13 +119,17 @@ def least_errors(result: RecordedRun) -> Mapping[str, float]:
     is wrong by so much of the smallest clearance d, of d/T and d/T^2 in speed and acceleration, T being the
     shortest time in which anything moves (`Timescales`), and of the largest force F, of F d in energy.
     Angles: per 1 m. A scene at rest can be the same to the bit in all of its runs, whatever it is in the
-    limit.
+    limit. Without the contact's law, whose module is not imported, the mean step stands for T.
     """
-    scenario, times = result.scenario, timescales(result.scenario)
+    scenario = result.scenario
+    try:
+        times = timescales(scenario)
+        shortest = min(times.flight, times.resting, times.drive, scenario.duration)
+    except InputError:
+        shortest = scenario.duration / max(1, result.counts.steps)
     share = scenario.solver.tolerance if scenario.chooses_steps else max(left_by_newton(scenario), ROUNDING)
     clearances = [place.play for place in scenario.contact_places.values()]
     length = min(clearances, default=0.0)
-    shortest = min(times.flight, times.resting, times.drive, scenario.duration)
     largest: dict[str, float] = {}
     for name, channel in result.channels.items():
         if name != "time":

@@ -130,6 +130,18 @@ def test_too_short_curves_have_no_interval() -> None:
     assert found.difference.value == pytest.approx((np.cos(time / 9.0) - np.sin(time / 9.0)).mean())
 
 
+@pytest.mark.parametrize(("apart", "noise", "equal"), [(0.0, 1.0, True), (0.5, 1.0, False), (5.0, 0.0, False)])
+def test_a_course_that_both_follow_does_not_hide_a_difference(apart: float, noise: float, equal: bool) -> None:
+    """Of two strokes of 500 mm the one of which lies higher; blocks of a ramp alone would tell 200 mm."""
+    random, time = np.random.default_rng(0), np.linspace(0.0, 2.0, 2001)
+    x = np.clip(time - 0.3, 0.0, 1.0)
+    first, second = (500.0 * x * x * (3.0 - 2.0 * x) + noise * random.normal(size=time.size) for _ in range(2))
+    found = compared_statistics(time, first, time, second + apart)["mean"]
+    assert found.equal is equal
+    assert found.difference.low <= apart <= found.difference.high
+    assert found.tellable < 0.1
+
+
 def test_a_confidence_that_is_none_is_refused() -> None:
     for confidence, among in ((1.0, 1), (0.0, 1), (0.95, 0)):
         with pytest.raises(InputError, match="between 0 and 1"):

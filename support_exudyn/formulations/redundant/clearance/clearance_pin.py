@@ -3,11 +3,8 @@
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, Protocol
 
-import exudyn as exu
-
-from support_exudyn.formulations.contact_events import Action, DepthPath, Verdict, goes_on, judge, judge_at_ends
+from support_exudyn.formulations.contact_events import Action, Verdict, goes_on, judge, judge_at_ends
 from support_exudyn.formulations.impact_steps import ImpactSteps
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment, Relative
@@ -19,23 +16,17 @@ from support_exudyn.formulations.redundant.clearance.slot_frames import SlotFram
 from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce, SteepFriction
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce
 from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
-from support_exudyn.mechanics.pressed_pins import NOT_KNOWN, EffectiveMasses
 from support_exudyn.scenario.solver_settings import SolverSettings
-from user_forces.compilation.flat import asks_for_mass, flat_force, flat_function
+from user_forces.compilation.flat import flat_force, flat_function
 from user_forces.contact import Contact, ContactForce
 from user_forces.lawful import PROBED, look
-from user_forces.normal.law import Impact
 from user_forces.values.value import Vector2
 
-START_OF_STEP = exu.ConfigurationType.StartOfStep
 SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been been in contact
 
 
-class FindMasses(Protocol):
-    """What tells how a journal answers impulses."""
-
-    def __call__(self, state: Any = ..., /) -> EffectiveMasses:
-        """Now, or in another state of the engine."""
+FindMass = Callable[[], InverseMass]  # how a journal answers impulses now, in the axes of its bore
+NOT_KNOWN = InverseMass(math.nan, math.nan, math.nan)
 
 
 class ClearanceJoint(LargestForce):
@@ -46,10 +37,10 @@ class ClearanceJoint(LargestForce):
         connector: in the engine, which is assembled.
         moving: how bore and journal move.
         bore_spin: tells the angular velocity of the bore's body now [rad/s].
-        find_inverse_masses: tells how the journal answers impulses, now or in another state of the engine.
+        find_inverse_mass: tells how the journal answers impulses, by which steps go.
         settings: of the solver: what evaluates the force, how many steps are in an impact, whether impacts and
             separations are located.
-        share: of the contact that inverse effective masses are told for.
+        share: of the contact that the inverse effective mass is of.
     """
 
     def __init__(
@@ -58,12 +49,12 @@ class ClearanceJoint(LargestForce):
         connector: PinConnector,
         moving: Moving,
         bore_spin: Callable[[], float],
-        find_inverse_masses: FindMasses,
+        find_inverse_mass: FindMass,
         settings: SolverSettings,
         share: float = 1.0,
     ) -> None:
         super().__init__()
-        self.contact, self.connector, self.find_inverse_masses = contact, connector, find_inverse_masses
+        self.contact, self.connector, self.find_inverse_mass = contact, connector, find_inverse_mass
         self.locates, self.share = settings.locate, share
         self.frames = self._make_frames(moving, bore_spin)
         self._follows = self.frames.follows
@@ -79,7 +70,6 @@ class ClearanceJoint(LargestForce):
         self._is_symbolic = isinstance(self.engine_force, SymbolicForce)
         self.connector.set_force(self.engine_force.function)
         self._force, self.elastic_force = flat_force(contact), flat_function(contact.normal.elastic_force)
-        self._asks_for_mass = not self._on_line and asks_for_mass(contact)
         self._has_state = contact.friction.has_state
         # whether the force depends on more than the impact from step to step
         self._changes = self._has_state or self._follows
@@ -87,13 +77,10 @@ class ClearanceJoint(LargestForce):
         self._is_told = self._goes_on = False  # the impact of `kept`, of what the step being tried has reached
         # at the last accepted step
         self.kept = PinMemory(False, 0.0, 0.0, 0.0)
-        # the journal's inverse effective mass by itself, when the memory's was found, and its least mass [kg]
-        self._alone, self._lightest = NOT_KNOWN.alone, NOT_KNOWN.alone.lightest
+        # the journal's inverse effective mass at the last impact, and its least mass [kg]
+        self._inverse_mass, self._lightest = NOT_KNOWN, NOT_KNOWN.lightest
         # the step being tried
         self.memory = self.kept  # with which its force is computed
-        # in the axes of the connector's displacement: the memory's inverse effective mass, and that of the
-        # journal by itself
-        self._here = self._alone_here = self.memory.inverse_mass
         self.reached = self.memory  # at its end
         self.force: ContactForce = contact.force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None)
         self.onset: Onset | None = None
@@ -103,7 +90,6 @@ class ClearanceJoint(LargestForce):
         self._motion = Relative(0.0, 0.0, 0.0, 0.0)  # at its end
         # at the end of the last accepted step
         self._swing_step = math.inf  # see `longest_step`
-        self._was_decided = False  # whether the step's end is more than that all went on
         # over the run
         self.onsets: list[Onset] = []
 
@@ -129,19 +115,17 @@ class ClearanceJoint(LargestForce):
 
     # --- called by the solver ---
 
-    def start(
-        self, memory: PinMemory, inverse_masses: EffectiveMasses, turn: float, bore: tuple[float, float]
-    ) -> None:
+    def start(self, memory: PinMemory, inverse_mass: InverseMass, turn: float) -> None:
         """Begin the run.
 
         Arguments:
             memory: of the pin.
-            inverse effective masses: of its journal.
+            inverse_mass: of its journal.
             turn: of the journal against the bore since the start posture [rad].
-            bore: angle and spin of the bore [rad], [rad/s].
         """
-        self.kept, self._is_told = self._renewed(memory, inverse_masses), False
-        self.frames.start(turn, bore)
+        self.kept, self._is_told = memory, False
+        self._weigh(inverse_mass)
+        self.frames.start(turn)
 
     @contextmanager
     def settling(self, load: float, share: Callable[[], float]) -> Iterator[None]:
@@ -198,19 +182,14 @@ class ClearanceJoint(LargestForce):
         if self.locates:
             steps, depth, rate = self.impact_steps, reached.depth, reached.rate
             if onset is not None:
-                steps.impact(depth, rate, self._least_mass())
+                steps.impact(depth, rate, self._find_least_mass())
             else:
-                steps.follow(depth, rate, self._lightest, self._least_mass)
+                steps.follow(depth, rate, self._lightest, self._find_least_mass)
             if self._has_state:
                 self._swing_step = steps.swing_step(self._swing_time())
         if onset is not None:
             self.onsets.append(onset)
             self.onset = None
-        x, y, *_ = self._motion
-        self._place_before, self._place_reached = (
-            self._place_reached,
-            (x, y, self.frames.bores_axes if self._follows else 0.0),
-        )
         self._look_for_largest(t)
 
     def _separated(self, start: PinMemory, t: float) -> None:
@@ -228,12 +207,11 @@ class ClearanceJoint(LargestForce):
     def probe(self, name: str) -> None:
         """Raise LawError if a law is no number where the last step began, or a little deeper and faster."""
         memory, contact = self.memory, self.contact
-        impact = Impact(memory.impact_velocity, self._find_mass())
         for more in PROBED:
             depth, slip = more * max(memory.depth, SHALLOW), more * memory.slip
             if depth > contact.normal.largest_depth:  # of which the law has its own words
                 return
-            normal = contact.normal(depth, memory.rate, impact)
+            normal = contact.normal(depth, memory.rate, memory.impact_velocity)
             friction = contact.friction(slip, max(0.0, normal), memory.deflection)
             look(contact, depth, memory.rate, slip, normal, friction, pin=name)
 
@@ -245,8 +223,8 @@ class ClearanceJoint(LargestForce):
         friction, force = self.contact.friction, self.force.normal_force
         if not friction.has_state or force == 0.0:
             return math.inf
-        x, y = self._motion[:2]
-        return friction.swing_time(self._alone_here.mass(-y, x), force / self.share)
+        x, y = self._place()
+        return friction.swing_time(self._inverse_mass.mass(-y, x), force / self.share)
 
     def begin_impact(self) -> None:
         """Let the depth of a closed pin swing from now on: at the start, or after a jump of speed."""
@@ -255,19 +233,7 @@ class ClearanceJoint(LargestForce):
 
     def _find_least_mass(self) -> float:
         """Mass [kg] that moves at least as the depth does, where the journal is now."""
-        return self._alone.mass(*self._place())
-
-    def _least_mass(self) -> float:
-        """Mass [kg] as by `_find_least_mass`, at the end of the step just tried; the engine is not asked."""
-        if self._on_line or self._was_decided:  # the inverse effective mass may have been renewed
-            return self._find_least_mass()
-        x, y, *_ = self._motion
-        return self._alone_here.mass(x, y)
-
-    def _find_mass(self) -> float:
-        """Mass [kg] that moves as the depth does at the end of the step, by which the law goes."""
-        x, y, *_ = self._motion
-        return 1.0 if self._on_line else self._here.mass(x, y)
+        return self._inverse_mass.mass(*self._place())
 
     def _place(self) -> Vector2:
         """Where the journal is now in its bore, in the bore's axes [m]."""
@@ -279,7 +245,7 @@ class ClearanceJoint(LargestForce):
         Else with which length [s] it is to be repeated; infinite: with the same, for the force has changed.
         """
         start = self.memory
-        self._was_decided, self._goes_on = False, True
+        self._goes_on = True
         self._motion = motion = self.frames.relative(self.engine_force)
         self.force = force = self._contact_force(motion)
         if self._is_symbolic and self.frames.spin_was_wrong(motion):
@@ -288,7 +254,7 @@ class ClearanceJoint(LargestForce):
         if (
             self.is_straight
             and start.in_contact
-            and (again := self._friction.after_newton(force, self._step, self._find_mass())) is not None
+            and (again := self._friction.after_newton(force, self._step, self._lightest)) is not None
         ):
             self._impact, self._is_told = (), False  # another line is laid
             self._recall(start)
@@ -331,75 +297,48 @@ class ClearanceJoint(LargestForce):
             self._recall(memory)
             return math.inf
         self.reached = memory
-        self._was_decided = True
         return None
 
     def _verdict(self, start: PinMemory, end_time: float) -> Verdict:
         """Whether the step that has been tried may stand."""
         step = (start, self.force.depth, self.force.rate, end_time, self._step)
         if self.locates:
-            return judge(*step, self._impact_step, self.contact.normal.forgets)
-        return judge_at_ends(*step, self.contact.normal.forgets)
+            return judge(*step, self._impact_step)
+        return judge_at_ends(*step)
 
     def _impact_step(self, speed: float) -> float:
         """Length of the steps [s] in an impact of this speed [m/s] that begins where the journal is."""
-        return self.impact_steps.length(speed, self.find_inverse_masses().alone.mass(*self._place()))
+        return self.impact_steps.length(speed, self.find_inverse_mass().mass(*self._place()))
 
     def _completed(self, verdict: Verdict) -> PinMemory:
         """The verdict's memory with what the laws need besides."""
         memory = verdict.memory
+        if verdict.onset is not None:
+            self._weigh(self.find_inverse_mass())
         if verdict.action is Action.REPEAT:
-            return self._renewed(memory, self.find_inverse_masses())._replace(deflection=0.0)
-        if verdict.anew:
-            memory = self._renewed(memory, self._pressed_again())
-        elif verdict.onset is not None:
-            memory = self._renewed(memory, self.find_inverse_masses())
+            return memory._replace(deflection=0.0)
         sticks = memory.in_contact and verdict.onset is None
         return memory.slid(self.force.slip, self.force.deflection if sticks else 0.0)
 
-    def _pressed_again(self) -> EffectiveMasses:
-        """The inverse effective masses at the turn of the depth in the step just tried.
-
-        They are taken to change by a straight line over the step. Taken at its end, they would be late by up to
-        a step, in which other pins may begin to press.
-        """
-        start, end = self.memory, self.force
-        x = DepthPath(start.depth, start.rate, end.depth, end.rate, self._step).turns_up()
-        now = self.find_inverse_masses()
-        return now if x is None else self.find_inverse_masses(START_OF_STEP).mixed(now, x)
-
-    def _renewed(self, memory: PinMemory, inverse_masses: EffectiveMasses) -> PinMemory:
-        """A memory with the inverse effective mass that laws go by from now on.
-
-        Steps go by that of the journal by itself.
-        """
-        self._alone = inverse_masses.alone
-        self._lightest = self._alone.lightest
-        return memory.with_inverse_mass(inverse_masses.held)
+    def _weigh(self, inverse_mass: InverseMass) -> None:
+        """Let steps go by an inverse effective mass from now on."""
+        self._inverse_mass, self._lightest = inverse_mass, inverse_mass.lightest
 
     def _recall(self, memory: PinMemory) -> None:
         self.memory = memory
         self._is_told = memory is self.kept
-        impact = memory[:2] + memory[6:]  # all but its motion
+        impact = memory[:2]
         if impact != self._impact or self._changes:
             self._impact = impact
-            self._here, self._alone_here = self._turned(memory.inverse_mass), self._turned(self._alone)
             self._friction.lay()
-            frames = self.frames
-            self.engine_force.load(memory, self._here, self._step, frames.guessed_spin, frames.guessed_turn)
-
-    def _turned(self, inverse_mass: InverseMass) -> InverseMass:
-        """An inverse effective mass in the bore's axes, in those of the connector's displacement."""
-        angle = self.frames.bores_axes
-        return inverse_mass.turned(angle) if angle else inverse_mass
+            self.engine_force.load(memory, self._step, self.frames.guessed_spin, self.frames.guessed_turn)
 
     def _contact_force(self, motion: Relative) -> ContactForce:
         x, y, vx, vy, turning, bore_spin = motion
-        in_contact, speed, _, _, slip, deflection, _, _, _ = self.memory
-        mass = self._here.mass(x, y) if in_contact and self._asks_for_mass else 1.0
+        in_contact, speed, _, _, slip, deflection = self.memory
         spin, at = turning, self.connector.at
         if at is Attachment.MIDDLE or at is Attachment.BORE:
             bore_spin, spin = motion.spins(at)
         else:
             bore_spin = 0.0
-        return self._force(x, y, vx, vy, bore_spin, spin, in_contact, speed, mass, deflection, slip, self._step)
+        return self._force(x, y, vx, vy, bore_spin, spin, in_contact, speed, deflection, slip, self._step)

@@ -1,12 +1,12 @@
 """The engine's side of a pin with clearance: markers and connector.
 
-Without friction it is the engine's spring-damper between two points, or its Cartesian one if the law asks for
-directions: a force along the line of centres conserves momentum and angular momentum wherever on that line it
-acts. With friction it is the rigid-body connector, and if both bodies move, that in its intrinsic form, which
-applies force and moment in the middle between both marker points, so that they act at one point on both
-bodies. That is exact only while both marker frames are parallel: with frames turned by an angle a against each
-other the engine's displacement is longer than the distance of the points by (a/2)/sin(a/2), and as much angular
-momentum is lost. The journal's marker frame is therefore turned along, so that a stays small.
+Without friction it is the engine's spring-damper between two points: a force along the line of centres
+conserves momentum and angular momentum wherever on that line it acts. With friction it is the rigid-body
+connector, and if both bodies move, that in its intrinsic form, which applies force and moment in the middle
+between both marker points, so that they act at one point on both bodies. That is exact only while both marker
+frames are parallel: with frames turned by an angle a against each other the engine's displacement is longer
+than the distance of the points by (a/2)/sin(a/2), and as much angular momentum is lost. The journal's marker
+frame is therefore turned along, so that a stays small.
 """
 
 import math
@@ -16,7 +16,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyRigid,
-    ObjectConnectorCartesianSpringDamper,
     ObjectConnectorRigidBodySpringDamper,
     ObjectConnectorSpringDamper,
 )
@@ -61,7 +60,6 @@ class PinConnector:
         contact: bearing and laws, from which follows what the force acts on.
         bore, journal: where they are.
         turn: of the journal's frame relative to the bore's about the axis [rad].
-        in_space: the bodies move in space.
     """
 
     def __init__(
@@ -71,12 +69,11 @@ class PinConnector:
         bore: Mount,
         journal: Mount,
         turn: float,
-        in_space: bool = False,
     ) -> None:
         self.mbs, self.contact = mbs, contact
         self.clearance = contact.bearing.clearance
         self.bore_on_ground = bore.on_ground
-        self.at = at = attachment(contact, bore.on_ground, journal.on_ground, in_space)
+        self.at = at = attachment(contact, bore.on_ground, journal.on_ground)
         self._bore, self._journal = np.array(bore.frame), np.array(journal.frame)
         self._journal_shift = 0.0
         self.frame_turn = -turn if at is Attachment.MIDDLE else 0.0  # of the journal's frame on its body [rad]
@@ -87,8 +84,6 @@ class PinConnector:
     def _connector(self, markers: list[Any]) -> Any:
         if self.at is Attachment.LINE:  # what it is stretched by is the depth
             return ObjectConnectorSpringDamper(markerNumbers=markers, referenceLength=self.clearance)
-        if self.at is Attachment.CENTRAL:
-            return ObjectConnectorCartesianSpringDamper(markerNumbers=markers)
         return ObjectConnectorRigidBodySpringDamper(
             markerNumbers=markers, useIntrinsicFormulation=self.at is Attachment.MIDDLE
         )
@@ -127,14 +122,13 @@ class PinConnector:
 
             self.set_force(tension)
             return
-        zeros = [0.0] if self.at is Attachment.CENTRAL else [0.0] * 4
 
         def force(mbs: Any, t: float, item: int, displacement: list[float], *others: Any) -> list[float]:
             # the rigid-body connector hands over the rotation next
             scale = displacement_scale(others[0][2]) if self.at is Attachment.MIDDLE else 1.0
             x, y = scale * displacement[0], scale * displacement[1]
             hold = stiffness(math.hypot(x, y))
-            return [hold * x, hold * y, *zeros]
+            return [hold * x, hold * y, 0.0, 0.0, 0.0, 0.0]
 
         self.set_force(force)
 
@@ -236,6 +230,4 @@ def user_function(at: Attachment) -> tuple[str, str]:
     """The engine's names of the connector and of its force's user function."""
     if at is Attachment.LINE:
         return "ObjectConnectorSpringDamper", "springForceUserFunction"
-    if at is Attachment.CENTRAL:
-        return "ObjectConnectorCartesianSpringDamper", "springForceUserFunction"
     return "ObjectConnectorRigidBodySpringDamper", "springForceTorqueUserFunction"

@@ -1,9 +1,8 @@
 """The force of a clearance pin's connector: where it acts, what it is told, and its formulas for both backends.
 
-Without friction the force acts along the line of centres: forces at both centres, no moment. If the law does
-not ask for the mass that moves either, which depends on the direction, depth and rate are all it needs. With
-friction force and moment act at the moving body's centre if the other body is the ground, and in the middle
-between both centres if both move, so that they act at one point on both bodies.
+Without friction the force acts along the line of centres: forces at both centres, no moment. Depth and rate are
+all it needs. With friction force and moment act at the moving body's centre if the other body is the ground,
+and in the middle between both centres if both move, so that they act at one point on both bodies.
 
 A corner in a slot is a journal that slides freely along: what is along the slot does not push. Its force is
 that of the rigid-body connector, friction or not, with the moment of what is along.
@@ -12,28 +11,22 @@ Formulas take numbers or expressions: `python_force` writes them out as source, 
 expressions. At the ends of steps and at the records `Contact.force` tells all parts of the same force.
 """
 
-import math
 from enum import Enum
 from functools import partial
 from types import SimpleNamespace
 from typing import Any, NamedTuple, cast
 
-from support_exudyn.mechanics.contact_state import InverseMass
-from user_forces.compilation.flat import asks_for_mass
 from user_forces.contact import Contact, ContactForce, SlipHistory
 from user_forces.expressions.scalar import cos, maximum, sin
 from user_forces.friction.frictionless import Frictionless
-from user_forces.normal.law import Impact
 
 
 class Attachment(Enum):
     """What the force of a pin acts on."""
 
     LINE = "both centres, without a moment; all that is known is their distance and its rate"
-    CENTRAL = "both centres, without a moment"
     JOURNAL = "the journal's centre; the bore is on the ground"
     BORE = "the bore's centre; the journal is on the ground"
-    SPACE = "both centres, without a moment; bodies move in space"
     MIDDLE = "both bodies, in the middle between the centres"
 
 
@@ -41,15 +34,11 @@ class Attachment(Enum):
 SHARE = {Attachment.JOURNAL: 0.0, Attachment.MIDDLE: 0.5, Attachment.BORE: 1.0}
 
 
-def attachment(
-    contact: Contact, bore_on_ground: bool, journal_on_ground: bool, in_space: bool = False
-) -> Attachment:
+def attachment(contact: Contact, bore_on_ground: bool, journal_on_ground: bool) -> Attachment:
     """What the force of a contact acts on."""
     # what is across the walls of a slot is not what is along the line of centres
     if isinstance(contact.friction, Frictionless) and not contact.bearing.is_slot:
-        if not asks_for_mass(contact):
-            return Attachment.LINE
-        return Attachment.SPACE if in_space else Attachment.CENTRAL
+        return Attachment.LINE
     if bore_on_ground:
         return Attachment.JOURNAL
     return Attachment.BORE if journal_on_ground else Attachment.MIDDLE
@@ -80,29 +69,7 @@ class Relative(NamedTuple):
 
 def line_force(contact: Contact, depth: float, rate: float, speed: float) -> float:
     """The push [N] that depends on depth [m] and rate [m/s] alone, in an impact with a speed [m/s]."""
-    return maximum(contact.normal(depth, rate, Impact(speed, math.nan)), 0.0)
-
-
-def central_force(
-    contact: Contact,
-    x: float,
-    y: float,
-    distance: float,
-    rate: float,
-    speed: float,
-    inverse_mass: InverseMass,
-) -> tuple[float, float]:
-    """The depth [m], and the push over the distance [N/m], which times both centres' displacement is the force.
-
-    Arguments:
-        contact: bearing and laws.
-        x, y: journal's centre minus bore's, across the axis [m]; distance: of both centres [m].
-        rate: of the distance [m/s].
-        speed, inverse_mass: of the impact [m/s], and of the journal, in the axes of x and y.
-    """
-    depth = contact.bearing.depth(distance)
-    asked = contact.normal(depth, rate, Impact(speed, inverse_mass.mass(x, y)))
-    return depth, maximum(asked, 0.0) / distance
+    return maximum(contact.normal(depth, rate, speed), 0.0)
 
 
 def rough_force(
@@ -110,15 +77,16 @@ def rough_force(
     at: Attachment,
     motion: Relative,
     speed: float,
-    inverse_mass: InverseMass,
     history: SlipHistory,
 ) -> tuple[ContactForce, float]:
     """The force, and the arm [m] of its friction about the point at which the connector lets it act.
 
-    Arguments as of `central_force`; history: of friction laws with a state, the step whose end this is.
+    Arguments:
+        contact: bearing and laws. at: what the force acts on.
+        motion: of the journal in its bore. speed: of the impact [m/s].
+        history: of friction laws with a state, the step whose end this is.
     """
-    impact = Impact(speed, inverse_mass.mass(motion.x, motion.y))
-    found = contact.force(*motion[:4], *motion.spins(at), impact, history)
+    found = contact.force(*motion[:4], *motion.spins(at), speed, history)
     eccentricity = contact.bearing.outwards(motion.x, motion.y)[0]
     return found, found.journal_arm + SHARE[at] * eccentricity
 

@@ -1,19 +1,18 @@
 """The largest force of a clearance pin over a run, which may be reached between the ends of two steps."""
 
 import math
-from abc import ABC, abstractmethod
 
 from support_exudyn.formulations.contact_events import DepthPath
 from support_exudyn.formulations.peak_force import NEAR_PEAK, has_a_top, peak
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 from support_exudyn.formulations.redundant.clearance.pin_motion import Course
-from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
+from support_exudyn.mechanics.contact_state import PinMemory
 from user_forces.compilation.flat import FlatForce
 from user_forces.contact import Contact, ContactForce
 
 
-class LargestForce(ABC):
+class LargestForce:
     """What a clearance pin keeps of its force from step to step.
 
     contact, connector: of the pin. memory: with which the force of the step is computed. force: at its end.
@@ -25,13 +24,9 @@ class LargestForce(ABC):
     force: ContactForce
     _motion: Relative
     _step: float
-    _asks_for_mass: bool
     _force: FlatForce
 
     def __init__(self) -> None:
-        # the journal's place in the connector's axes [m], and their angle, at the end of a step and its start
-        self._place_reached: tuple[float, float, float] | None = None
-        self._place_before: tuple[float, float, float] | None = None
         self._size = 0.0  # of the force [N]
         # of a step just accepted over which the contact went on: its memory at the start, its course if asked
         self._went_on_from: PinMemory | None = None
@@ -40,10 +35,6 @@ class LargestForce(ABC):
         self.clamped_steps = 0
         self.largest_force = 0.0
         self.largest_force_time = 0.0  # end of the step that has it [s]
-
-    @abstractmethod
-    def _turned(self, inverse_mass: InverseMass) -> InverseMass:
-        """An inverse effective mass in the bore's axes, in those of the connector's displacement."""
 
     def _look_for_largest(self, t: float) -> None:
         """See whether the force was the largest so far at the end of the step to t [s], or within it."""
@@ -61,10 +52,9 @@ class LargestForce(ABC):
 
     def _find_course(self, start: PinMemory) -> Course:
         """The course of the step just accepted, over which the contact went on from a memory."""
-        end, angle = self.force, _angle(self._place_reached)
+        end = self.force
         path = DepthPath(start.depth, start.rate, end.depth, end.rate, self._step)
-        before = angle if self._place_before is None else _angle(self._place_before)
-        return Course(path, start.slip, before, self._motion, end.slip, angle, self.contact.bearing.clearance)
+        return Course(path, start.slip, self._motion, end.slip, self.contact.bearing.clearance)
 
     def force_within(self, x: float) -> ContactForce:
         """The force at a fraction of the step just accepted; at its end, if the contact did not go on in it."""
@@ -73,18 +63,9 @@ class LargestForce(ABC):
         if self._course is None:
             self._course = self._find_course(self._went_on_from)
         motion, memory = self._course.at(x), self.memory
-        mass = self._turned(memory.inverse_mass).mass(motion.x, motion.y) if self._asks_for_mass else 1.0
-        impact = memory.in_contact, memory.impact_velocity, mass, memory.deflection, memory.slip
+        impact = memory.in_contact, memory.impact_velocity, memory.deflection, memory.slip
         return self._force(*motion[:4], *motion.spins(self.connector.at), *impact, x * self._step)
 
     def _size_within(self, x: float) -> float:
         force = self.force_within(x)
         return math.hypot(force[3], force[4])
-
-
-def _angle(place: tuple[float, float, float] | None) -> float:
-    """Direction of a journal's place, in the axes of effective masses [rad]."""
-    if place is None:
-        return 0.0
-    x, y, axes = place
-    return math.atan2(y, x) - axes

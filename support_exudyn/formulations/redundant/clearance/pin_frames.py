@@ -1,8 +1,7 @@
 """The axes in which a pin's connector tells its displacement, from step to step, and the motion in them.
 
 Between two moving bodies with friction, see `Attachment.MIDDLE`, they lie in the middle between both marker
-frames, which are lined up before a step that turns them apart. Without friction they are those of the ground,
-and a bore that turns has to be told: the mass that moves hangs on directions in the bore.
+frames, which are lined up before a step that turns them apart.
 """
 
 import math
@@ -33,51 +32,31 @@ class PinFrames:
 
     def __init__(self, connector: PinConnector, moving: Moving, bore_spin: Callable[[], float]) -> None:
         self.connector, self.moving, self.bore_spin = connector, moving, bore_spin
-        self.at = at = connector.at
-        self.turns = at is Attachment.CENTRAL and not connector.bore_on_ground  # the bore, in these axes
-        self.follows = self.turns or at is Attachment.MIDDLE  # whether anything is kept from step to step
+        self.at = connector.at
+        self.follows = connector.at is Attachment.MIDDLE  # whether anything is kept from step to step
         # at the last accepted step
         self._turn, self._turn_rate = 0.0, 0.0  # between the marker frames [rad], [rad/s]
         self._spin, self._spin_rate = 0.0, 0.0  # of the bore [rad/s], [rad/s^2]
-        self._bore = (0.0, 0.0)  # angle and spin of a bore that turns in these axes [rad], [rad/s]
         # of the step being tried
         self._step = 0.0  # its length [s]
-        self._bore_angle = 0.0  # of the bore's axes in these, expected at its end [rad]
         self._tried_turn = (0.0, 0.0)
         self._tried_spin = 0.0
-        self._tried_bore = self._bore
         self.guessed_spin = 0.0  # of the bore at its end [rad/s]
         self.guessed_turn = 0.0  # between the marker frames at its end [rad]
         self._spin_repeats = 0
         self.context: tuple[Motion, Motion] | None = None  # motions of bore and journal at its end, if asked
 
-    @property
-    def bores_axes(self) -> float:
-        """The angle of the bore's axes in these at the end of the step [rad].
-
-        In the middle between both marker frames it is small, which counts where the mass that moves hangs on
-        the direction.
-        """
-        if self.at is Attachment.MIDDLE:
-            return -0.5 * self.guessed_turn
-        return self._bore_angle if self.turns else 0.0
-
-    def start(self, turn: float, bore: tuple[float, float]) -> None:
-        """Begin with the turn of the journal against the bore [rad], and angle and spin of the bore."""
+    def start(self, turn: float) -> None:
+        """Begin with the turn of the journal against the bore [rad]."""
         self._turn = turn
-        self._bore = bore
 
     def jumped(self) -> None:
         """Velocities have jumped after the last step."""
         self.context = None
-        if self.turns:
-            self._bore = self.moving.now()[0][4:]
 
     def begin(self, step: float) -> None:
         """Begin to try a step of this length [s]: guess what the connector does not know of its end."""
         self._step = step
-        if self.turns:
-            self._bore_angle = self._bore[0] + step * self._bore[1]
         if self.at is not Attachment.MIDDLE:
             return
         self._spin_repeats = 0
@@ -94,7 +73,6 @@ class PinFrames:
             if self._step > 0.0:
                 self._spin_rate = (self._tried_spin - self._spin) / self._step
             self._spin = self._tried_spin
-        self._bore = self._tried_bore
 
     def spin_was_wrong(self, motion: Relative) -> bool:
         """Whether the engine's expression used a spin of the bore that did not come out; then guess again.
@@ -121,8 +99,6 @@ class PinFrames:
         displacement, velocity, *turning = force.last
         x, y, vx, vy = displacement[0], displacement[1], velocity[0], velocity[1]
         if not turning:
-            if self.turns:
-                self._tried_bore = self.moving.now()[0][4:]
             return Relative(x, y, vx, vy)
         (_, _, turn), (_, _, spin) = turning
         if self.at is not Attachment.MIDDLE:
@@ -139,8 +115,7 @@ class PinFrames:
         x, y, vx, vy, turning = x - bx, y - by, vx - bvx, vy - bvy, spin - bore_spin
         if self.connector.bore_on_ground:
             return Relative(x, y, vx, vy, turning)
-        self._tried_bore = bore_angle, bore_spin
-        if self.at is Attachment.LINE or self.turns:
+        if self.at is Attachment.LINE:
             return Relative(x, y, vx, vy, turning)
         if self.at is Attachment.MIDDLE:
             turn = math.remainder(journal_angle + self.connector.frame_turn - bore_angle, 2.0 * math.pi)

@@ -82,25 +82,21 @@ def in_plane(displacement: Sequence[float], velocity: Sequence[float]) -> tuple[
 class Course(NamedTuple):
     """How a journal moves in its bore within a step.
 
-    path: its depth, a cubic. slip: at the start [m/s]. angle: of its place in the bore at the start [rad].
-    end: its motion at the end; slip_end, angle_end: the same there. clearance: [m].
+    path: its depth, a cubic. slip: at the start [m/s]. end: its motion at the end; slip_end: the slip there.
+    clearance: [m].
     """
 
     path: DepthPath
     slip: float
-    angle: float
     end: Relative
     slip_end: float
-    angle_end: float
     clearance: float
 
     def at(self, x: float) -> Relative:
-        """The motion at a fraction of the step: slip and angle change evenly, spins are those of the end."""
+        """The motion at a fraction of the step: slip changes evenly, direction and spins are the last ones."""
         path, end = self.path, self.end
         size = math.hypot(end.x, end.y)
-        across = (end.x * end.vy - end.y * end.vx) / size if size else 0.0
-        across += (1.0 - x) * (self.slip - self.slip_end)
-        # in the axes of the end
-        angle = math.atan2(end.y, end.x) - (1.0 - x) * math.remainder(self.angle_end - self.angle, math.tau)
-        away, rate, c, s = self.clearance + path.depth(x), path.rate(x), math.cos(angle), math.sin(angle)
+        c, s = (end.x / size, end.y / size) if size else (1.0, 0.0)
+        across = c * end.vy - s * end.vx + (1.0 - x) * (self.slip - self.slip_end)
+        away, rate = self.clearance + path.depth(x), path.rate(x)
         return Relative(away * c, away * s, rate * c - across * s, rate * s + across * c, end[4], end[5])

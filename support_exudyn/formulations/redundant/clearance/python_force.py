@@ -10,7 +10,6 @@ from typing import Any
 from support_exudyn.formulations.redundant.clearance.connector_force import (
     Attachment,
     Relative,
-    central_force,
     displacement_scale,
     in_slot,
     line_force,
@@ -18,7 +17,7 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
     slot_directions,
     straightened,
 )
-from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
+from support_exudyn.mechanics.contact_state import PinMemory
 from user_forces.compilation.flat import (
     Formulas,
     SourceLine,
@@ -30,12 +29,11 @@ from user_forces.compilation.flat import (
     traceable,
 )
 from user_forces.contact import Contact, SlipHistory
-from user_forces.expressions.scalar import hypot
 
 MOTION = ["x", "y", "vx", "vy", "turning", "bore_spin"]
 LINE = ["offset", "slope"]
 RIGID = "displacement, rotation, velocity, angular_velocity, k, d, j0, j1, o"  # of the rigid-body connector
-MEMORY = ["speed", "inverse_mass_xx", "inverse_mass_xy", "inverse_mass_yy", "deflection", "slip", "step"]
+MEMORY = ["speed", "deflection", "slip", "step"]
 
 
 class PythonForce:
@@ -57,8 +55,6 @@ class PythonForce:
             formulas = straightened(formulas, *(SourceLine(name, {}) for name in LINE))
         if at is Attachment.LINE:
             source = _line(formulas)
-        elif at is Attachment.CENTRAL:
-            source = _central(formulas)
         else:
             source = _in_slot(formulas, at) if contact.bearing.is_slot else _rough(formulas, at)
         known = dict.fromkeys([*MEMORY, *LINE], 0.0)
@@ -81,17 +77,15 @@ class PythonForce:
         found: tuple[Any, ...] = self._names["last"]
         return found
 
-    def load(self, memory: PinMemory, inverse_mass: InverseMass, step: float, *others: float) -> None:
+    def load(self, memory: PinMemory, step: float, *others: float) -> None:
         """Set what the force depends on besides the motion.
 
         Arguments:
             memory: of the pin, at the start of the step.
-            inverse_mass: its, in the axes of the connector's displacement.
             step: its length [s].
         """
         names = self._names
         names["in_contact"], names["speed"] = memory[:2]
-        names["inverse_mass_xx"], names["inverse_mass_xy"], names["inverse_mass_yy"] = inverse_mass
         if self._has_state:
             names["deflection"], names["slip"], names["step"] = memory.deflection, memory.slip, step
 
@@ -107,29 +101,9 @@ def _line(contact: Contact) -> list[str]:
     return _source(contact, formulas, "depth, rate, k, d, f", "depth, rate", "depth", force, "0.0")
 
 
-def _central(contact: Contact) -> list[str]:
-    """Source of the force along the line of centres."""
-    formulas, (x, y, vx, vy, speed, xx, xy, yy) = lines([*MOTION[:4], *MEMORY[:4]])
-    distance = hypot(x, y)
-    rate = (x * vx + y * vy) / distance
-    found = central_force(contact, x, y, distance, rate, speed, InverseMass(xx, xy, yy))
-    depth, share = map(text, found)
-    return _source(
-        contact,
-        formulas,
-        "displacement, velocity, k, d, o",
-        "displacement, velocity",
-        depth,
-        _vector([f"{share} * x", f"{share} * y"], 3),
-        _vector([], 3),
-        placed=["x, y, _ = displacement"],
-        moving=["vx, vy, _ = velocity"],
-    )
-
-
 def _rough(contact: Contact, at: Attachment) -> list[str]:
     """Source of force and moment with friction."""
-    formulas, (turn, dx, dy, x, y, *motion, speed, xx, xy, yy, deflection, slip, step) = lines(
+    formulas, (turn, dx, dy, x, y, *motion, speed, deflection, slip, step) = lines(
         ["turn", "dx", "dy", *MOTION, *MEMORY]
     )
     placed = ["x, y, _ = displacement"]
@@ -138,7 +112,7 @@ def _rough(contact: Contact, at: Attachment) -> list[str]:
         x, y = scale * dx, scale * dy
         placed = ["dx, dy, _ = displacement", "turn = rotation[2]", "bore_spin = find_spin()"]
     history = SlipHistory(deflection, slip, step)
-    found, arm = rough_force(contact, at, Relative(x, y, *motion), speed, InverseMass(xx, xy, yy), history)
+    found, arm = rough_force(contact, at, Relative(x, y, *motion), speed, history)
     moment = text(-arm * found.friction_force)
     forces = [text(-found.force_x), text(-found.force_y)]
     return _source(
@@ -156,7 +130,7 @@ def _rough(contact: Contact, at: Attachment) -> list[str]:
 
 def _in_slot(contact: Contact, at: Attachment) -> list[str]:
     """Source of force and moment at a corner in its slot."""
-    formulas, (turn, dx, dy, *motion, speed, xx, xy, yy, deflection, slip, step) = lines(
+    formulas, (turn, dx, dy, *motion, speed, deflection, slip, step) = lines(
         ["turn", "dx", "dy", *MOTION[2:], *MEMORY]
     )
     placed = ["dx, dy, _ = displacement"]
@@ -167,7 +141,7 @@ def _in_slot(contact: Contact, at: Attachment) -> list[str]:
         placed += ["turn = rotation[2]", "bore_spin = find_spin()"]
     along, moving = in_slot(at, Relative(x, y, *motion), half)
     history = SlipHistory(deflection, slip, step)
-    found, arm = rough_force(contact, at, moving, speed, InverseMass(xx, xy, yy), history)
+    found, arm = rough_force(contact, at, moving, speed, history)
     side = contact.bearing.outwards(0.0, moving.y)[2]
     both = zip(*slot_directions(at, along, side, arm, half), strict=True)
     force = [text(found.normal_force * normal + found.friction_force * across) for normal, across in both]

@@ -26,11 +26,6 @@ class SlotFrames(PinFrames):
 
     _along = 0.0  # of the corner from the connector's point of the middle line, at the end of the step [m]
 
-    @property
-    def bores_axes(self) -> float:
-        """The angle of the slot's axes in these: the same."""
-        return 0.0
-
     def relative(self, force: EngineForce) -> Relative:
         """The corner in its slot at the end of the step that is being tried."""
         if isinstance(force, SymbolicForce):

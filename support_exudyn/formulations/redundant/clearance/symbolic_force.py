@@ -20,7 +20,6 @@ from support_exudyn.formulations.redundant.clearance.connector import user_funct
 from support_exudyn.formulations.redundant.clearance.connector_force import (
     Attachment,
     Relative,
-    central_force,
     displacement_scale,
     in_slot,
     line_force,
@@ -28,7 +27,7 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
     slot_directions,
     straightened,
 )
-from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
+from support_exudyn.mechanics.contact_state import PinMemory
 from user_forces.contact import Contact, SlipHistory
 from user_forces.expressions.scalar import Expression, where
 
@@ -125,7 +124,7 @@ class SymbolicForce:
             return engine.Real(f"pin{number}_{name}", value)
 
         self._surface = variable("surface", APART)  # depth beyond which there is a force [m]
-        self._impact = [variable("speed"), *(variable(f"inverse_mass_{axes}") for axes in ("xx", "xy", "yy"))]
+        self._speed_of_impact = variable("speed")
         self._history = [variable("deflection"), variable("slip"), variable("step")]
         self._bore_spin = variable("bore_spin")
         self._scale = variable("scale", 1.0)
@@ -137,27 +136,20 @@ class SymbolicForce:
         # kept alive here: the engine's function refers to it
         self.function = CreateSymbolicUserFunction(mbs, self.expression(), self.name, itemTypeName=item)
 
-    def load(
-        self, memory: PinMemory, inverse_mass: InverseMass, step: float, bore_spin: float, turn: float
-    ) -> None:
+    def load(self, memory: PinMemory, step: float, bore_spin: float, turn: float) -> None:
         """Set what the force depends on besides the motion.
 
         Arguments:
             memory: of the pin, at the start of the step.
-            inverse_mass: its, in the axes of the connector's displacement.
             step: its length [s].
             bore_spin: expected at its end [rad/s].
             turn: between the marker frames, expected at its end [rad].
         """
-        impact = (
-            memory.in_contact,
-            memory.impact_velocity,
-            *inverse_mass,
-        )  # seldom changes, and setting takes time
+        impact = memory.in_contact, memory.impact_velocity  # seldom changes, and setting takes time
         if impact != self._loaded:
             self._loaded = impact
             self._surface.SetValue(0.0 if memory.in_contact else APART)
-            _set(self._impact, impact[1:])
+            self._speed_of_impact.SetValue(memory.impact_velocity)
         if self._contact.friction.has_state:
             _set(self._history, (memory.deflection, memory.slip, step))
         if self._at is Attachment.MIDDLE:
@@ -178,11 +170,6 @@ class SymbolicForce:
             return lambda mbs, t, itemNumber, deltaL, deltaL_t, stiffness, damping, force: self._line_force(
                 deltaL, deltaL_t
             )
-        if self._at is Attachment.CENTRAL:
-            return lambda mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset: self._central(
-                displacement, velocity
-            )
-
         is_slot = self._contact.bearing.is_slot
 
         def rigid(  # type: ignore[no-untyped-def]
@@ -210,26 +197,15 @@ class SymbolicForce:
         push = line_force(self._contact, unknown(depth), unknown(rate), self._speed)
         return real(self._if_pressed(Symbol(depth), push))
 
-    def _central(self, displacement: Any, velocity: Any) -> Any:
-        """The force along the line of centres."""
-        distance = unknown(displacement.NormL2())
-        rate = unknown(displacement * velocity) / distance
-        x, y = unknown(displacement[0]), unknown(displacement[1])
-        depth, share = central_force(self._contact, x, y, distance, rate, self._speed, self._inverse_mass)
-        return real(self._if_pressed(depth, share)) * displacement
-
     def _rigid(self, displacement: Any, velocity: Any, angular_velocity: Any) -> Any:
         """Force and moment of the rigid-body connector."""
-        if self._at is Attachment.SPACE:
-            pull = self._central(displacement, velocity)
-            return engine.Vector([pull[0], pull[1], pull[2], *_zeros(3)])
         x, y = unknown(displacement[0]), unknown(displacement[1])
         if self._at is Attachment.MIDDLE:
             x, y = unknown(self._scale) * x, unknown(self._scale) * y
         vx, vy = unknown(velocity[0]), unknown(velocity[1])
         motion = Relative(x, y, vx, vy, unknown(angular_velocity[2]), unknown(self._bore_spin))
         history = SlipHistory(*(unknown(variable) for variable in self._history))
-        found, arm = rough_force(self._contact, self._at, motion, self._speed, self._inverse_mass, history)
+        found, arm = rough_force(self._contact, self._at, motion, self._speed, history)
         _, nx, ny = self._contact.bearing.outwards(x, y)
         along = engine.Vector([real(nx), real(ny), *_zeros(4)])
         across = engine.Vector([real(ny), real(-nx), *_zeros(3), real(-arm)])
@@ -246,7 +222,7 @@ class SymbolicForce:
         motion = Relative(x, y, vx, vy, unknown(angular_velocity[2]), unknown(self._bore_spin))
         along, moving = in_slot(self._at, motion, 0.5 * turn)
         history = SlipHistory(*(unknown(variable) for variable in self._history))
-        found, arm = rough_force(self._contact, self._at, moving, self._speed, self._inverse_mass, history)
+        found, arm = rough_force(self._contact, self._at, moving, self._speed, history)
         forces = found.normal_force, found.friction_force
         side = self._contact.bearing.outwards(0.0, moving.y)[2]
         directions = slot_directions(self._at, along, side, arm, 0.5 * turn)
@@ -263,11 +239,7 @@ class SymbolicForce:
 
     @property
     def _speed(self) -> float:
-        return unknown(self._impact[0])
-
-    @property
-    def _inverse_mass(self) -> InverseMass:
-        return InverseMass(*(unknown(variable) for variable in self._impact[1:]))
+        return unknown(self._speed_of_impact)
 
 
 def _set(variables: Iterable[Any], values: Iterable[object]) -> None:

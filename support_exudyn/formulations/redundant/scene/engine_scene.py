@@ -11,8 +11,8 @@ from support_exudyn.formulations.redundant.clearance.clearance_pin import Cleara
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
+from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
-from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.trajectory import CompliantSeries, Impulse, Series
@@ -51,9 +51,10 @@ class EngineScene(ABC):
 
     scenario: what is modelled. container: owns the system, and must live as long as it. mbs: the system.
     bodies: all that move, each an item with its data as `body`. clearance_pins: everything that may make
-    contact and part. compliant_pins: pins whose force follows from their deflection. frictions: of ideal pins.
-    loads: what presses on the machine. weights: loads of the engine, by body. driven: all actuators and cranks,
-    by the drive that they follow. cylinders: the actuators that follow none. legs: those on oil with elements.
+    contact and part. compliant_pins: pins whose force follows from their deflection. frictions: of ideal
+    joints. loads: what presses on the machine. weights: loads of the engine, by body. driven: all actuators and
+    cranks, by the drive that they follow. cylinders: the actuators that follow none. legs: those on oil with
+    elements.
     """
 
     scenario: Scenario
@@ -62,7 +63,7 @@ class EngineScene(ABC):
     bodies: Mapping[str, Any]
     clearance_joints: Mapping[str, ClearanceJoint]
     compliant_pins: Mapping[str, CompliantItem]
-    frictions: Mapping[str, PinFriction]
+    frictions: Mapping[str, JointFriction]
     loads: Mapping[str, LoadItem]
     weights: Mapping[str, Any]
     driven: tuple[DrivenParts, ...]

@@ -16,7 +16,7 @@ from support_exudyn.mechanics.trajectory import CompliantSeries, ContactSeries, 
 
 FOLLOWING = DataNeeds.ACCELERATION | DataNeeds.JOINTS
 APPLIED = DataNeeds.CONTACTS | DataNeeds.OIL | DataNeeds.LOADS
-# Friction of a pin depends on its force, and that on friction, by its coefficient times radius over lever.
+# Friction of a joint depends on its force, and that on friction, by its coefficient times radius over lever.
 FRICTION_ROUNDS, SETTLED = 30, 1e-13
 
 
@@ -41,16 +41,18 @@ class Applied:
 
 @dataclass(frozen=True)
 class Following:
-    """Accelerations (n, 3 b), forces of joints, of rigid actuators (n,) and moments of friction (n,)."""
+    """Accelerations (n, 3 b), forces of joints, of rigid actuators (n,) and of friction (n,), "pins.NAME"."""
 
     acceleration: Series
     joints: JointForces
     actuators: Mapping[str, Series]
-    friction_moments: Mapping[str, Series]
+    frictions: Mapping[str, Series]
 
 
-def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) -> Following:
-    """Accelerations and reactions at the records [s], from positions and velocities."""
+def following(
+    scene: Scene, motion: BodyMotion, time: Series, applied: Applied, deflections: Series
+) -> Following:
+    """Accelerations and reactions at the records [s], from positions, velocities and friction states (n, f)."""
     scenario, linkage = scene.scenario, scene.linkage
     held = HeldJoints(
         [linkage.pins[name] for name in scene.ideal_pins],
@@ -64,13 +66,15 @@ def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) 
     all_bodies = equations(motion, held, np.array(driven).reshape(-1, len(time)).T)
     forces = _applied_forces(scene, motion, applied)
     acceleration, reactions = all_bodies.solve(forces)
-    moments: dict[str, Series] = {}
+    rows = {("pins", name): slice(2 * n, 2 * n + 2) for n, name in enumerate(scene.ideal_pins)}
+    rows |= {("slides", name): rows for name, rows in zip(scene.slides, held.guided, strict=True)}
+    frictions: dict[str, Series] = {}
     for _ in range(FRICTION_ROUNDS if scene.frictions else 0):
-        moments = _friction_moments(scene, motion, reactions)
         last, rubbed = reactions, forces.copy()
-        for name, moment in moments.items():
-            twist(rubbed, motion, linkage.pins[name].second, moment)
-            twist(rubbed, motion, linkage.pins[name].first, -moment)
+        for (name, item), deflection in zip(scene.frictions.items(), deflections.T, strict=True):
+            carried = reactions[:, rows[item.owner]]
+            frictions[name] = item.series(carried, motion, deflection)
+            item.apply(rubbed, motion, carried, frictions[name])
         acceleration, reactions = all_bodies.solve(rubbed)
         if np.abs(reactions - last).max() <= SETTLED * np.abs(reactions).max():
             break
@@ -86,7 +90,7 @@ def following(scene: Scene, motion: BodyMotion, time: Series, applied: Applied) 
     )
     pushed = dict(zip((*scene.rigid_actuators, *scene.cranks), -reactions[:, held.driven].T, strict=True))
     joints.cranks |= {name: pushed.pop(name) for name in scene.cranks}
-    return Following(acceleration, joints, pushed, moments)
+    return Following(acceleration, joints, pushed, frictions)
 
 
 def _force_and_moment(multipliers: Series) -> Series:
@@ -97,7 +101,7 @@ def _force_and_moment(multipliers: Series) -> Series:
 
 
 def _applied_forces(scene: Scene, motion: BodyMotion, applied: Applied) -> Series:
-    """Forces on all coordinates (n, 3 b) but those of friction in ideal pins."""
+    """Forces on all coordinates (n, 3 b) but those of friction in ideal joints."""
     scenario, linkage = scene.scenario, scene.linkage
     forces = weight_of(motion, scenario.gravity)
     for name, contact in applied.contacts.items():
@@ -120,16 +124,3 @@ def _applied_forces(scene: Scene, motion: BodyMotion, applied: Applied) -> Serie
     for name, loaded in applied.loads.items():
         add_load(forces, motion, name, scenario.acting_loads[name], loaded)
     return forces
-
-
-def _friction_moments(scene: Scene, motion: BodyMotion, reactions: Series) -> dict[str, Series]:
-    """Moments of friction on the second bodies of ideal pins (n,) [N m], for forces in them."""
-    place = {name: 2 * n for n, name in enumerate(scene.ideal_pins)}
-    return {
-        name: item.series(
-            reactions[:, place[name] : place[name] + 2],
-            motion.spin(scene.linkage.pins[name].first),
-            motion.spin(scene.linkage.pins[name].second),
-        )
-        for name, item in scene.frictions.items()
-    }

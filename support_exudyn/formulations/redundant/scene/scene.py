@@ -22,13 +22,13 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
     EngineScene,
     first_memory,
 )
+from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
-from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
+from support_exudyn.mechanics.contact_state import InverseMass
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
-from support_exudyn.mechanics.pressed_pins import EffectiveMasses, inverse_masses, normal, struck_together
 from support_exudyn.mechanics.trajectory import Impulse
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.plane_geometry import rotated
@@ -49,7 +49,7 @@ class Scene(EngineScene):
     mbs: Any
     bodies: dict[str, BodyItem]
     ideal_pins: dict[str, IdealItem]
-    frictions: dict[str, PinFriction]  # of ideal pins
+    frictions: dict[str, JointFriction]  # of ideal pins and guides, "pins.NAME" and "guides.NAME"
     clearance_joints: dict[str, ClearanceJoint]
     compliant_pins: dict[str, CompliantItem]
     rigid_actuators: dict[str, ActuatorItem]
@@ -79,33 +79,13 @@ class Scene(EngineScene):
         """See `EngineScene`."""
         return repeated_count(self.scenario.held)[0] > 0
 
-    def inverse_masses(self, name: str, state: Any = CURRENT) -> EffectiveMasses:
-        """How a clearance pin's journal answers impulses, by itself and with the other pins as pressed."""
+    def inverse_mass(self, name: str, state: Any = CURRENT) -> InverseMass:
+        """How a contact's journal answers impulses, in the axes of its bore, with other contacts open."""
         position = self.mbs.systemData.GetODE2Coordinates(state)
-        rates = [self.places[name].relative(self.kinetics, position)[1], *self._pressed(name, position)]
-        answers = self.kinetics.inverse_mass(position, rates)
+        rate = self.places[name].rate(self.kinetics, position)
         angle = self.bore_angle(name, position)
         axes = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-        found = inverse_masses(answers, axes)
-        eccentricity = self.places[name].relative(self.kinetics, position)[0]
-        if not self.places[name].contact.bearing.is_slot or not eccentricity.any():
-            return found
-        # both corners of a face that lands on a wall impact at once, and none of them is pressed already
-        rows = np.vstack([eccentricity / np.linalg.norm(eccentricity) @ rates[0], *rates[1:]])
-        closing = rows @ self.mbs.systemData.GetODE2Coordinates_t(state)
-        return struck_together(found, self.kinetics.inverse_mass(position, [rows]), closing)
-
-    def _pressed(self, name: str, position: Matrix) -> list[Matrix]:
-        """Rows of the rates along the normals of all contacts but one that are pressed, (1, n) each."""
-        found = []
-        for other, pin in self.clearance_joints.items():
-            if other != name:
-                eccentricity, rate = self.places[other].relative(self.kinetics, position)
-                x, y = eccentricity.tolist()
-                along = normal(x, y, pin.contact.bearing.clearance)
-                if along is not None:
-                    found.append(along[None] @ rate)
-        return found
+        return InverseMass.of(axes.T @ self.kinetics.inverse_mass(position, rate) @ axes)
 
     def bore_angle(self, name: str, position: Any) -> float:
         """Angle [rad] of the axes of a bore or a slot."""
@@ -150,6 +130,7 @@ class Scene(EngineScene):
             dict(zip(self.rigid_actuators, driven, strict=False)),
             float(0.5 * (mass * after) @ after - 0.5 * (mass * before) @ before),
             dict(zip(self.cranks, driven[len(self.rigid_actuators) :], strict=True)),
+            kinetics.joint_impulses(impulses),
         )
 
     def align(self, time: float) -> float:
@@ -171,8 +152,13 @@ class Scene(EngineScene):
         """See `EngineScene`."""
         return self.kinetics.mass()
 
+    def multiplier_of(self, friction: JointFriction) -> int:
+        """The first multiplier of a joint with friction."""
+        kind, name = friction.owner
+        return int(self.ideal_pins[name].first if kind == "pins" else self.slides[name].first)
+
     def start_rubbing(self) -> None:
-        """Let friction of ideal pins know about their forces at the start, if it turns them then.
+        """Let friction of ideal joints know about their forces at the start, if anything moves then.
 
         The solver's first accelerations follow from forces of friction, which follow from those of the pins:
         without, the first step would be taken with none. Forces of clearance pins and oil are left out of it.
@@ -184,29 +170,30 @@ class Scene(EngineScene):
         kinetics, small = self.kinetics, 1e-6 / np.abs(velocity).max()
         later, earlier = (kinetics.rows(position + h * velocity) for h in (small, -small))
         turning = (earlier - later) @ velocity / (2.0 * small)  # accelerations that the constraints ask for
-        place = {name: 2 * n for n, name in enumerate(self.ideal_pins)}
+        owners = kinetics.owners()
+        for friction in self.frictions.values():
+            friction.start(velocity)
         force = kinetics.weight(self.scenario.gravity)
         multipliers = data.GetAECoordinates(INITIAL)
         for _ in range(FRICTION_ROUNDS):
             _, reactions = kinetics.respond(position, force, turning)
             force = kinetics.weight(self.scenario.gravity)
-            for name, friction in self.frictions.items():
-                pin = reactions[place[name] : place[name] + 2]
-                first = self.ideal_pins[name].first
-                multipliers[first : first + 2] = pin
-                friction.add_moment(force, float(np.hypot(*pin)), velocity)
+            for friction in self.frictions.values():
+                row, first = owners.index(friction.owner), self.multiplier_of(friction)
+                held = reactions[row : row + friction.conditions]
+                multipliers[first : first + held.size] = held
+                multipliers[first] *= friction.sign
+                friction.add(force, (float(held[0]), float(held[1]) if held.size == 2 else 0.0), velocity)
         data.SetAECoordinates(multipliers, INITIAL)
 
     def reset_memory(self) -> None:
         """See `EngineScene`."""
         data = self.mbs.systemData
-        position, rates = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
+        position = data.GetODE2Coordinates(INITIAL)
         for name, pin in self.clearance_joints.items():
             bore, journal = self.places[name].bore, self.places[name].journal
             turn = self._turn(journal, position) - self._turn(bore, position)
-            bore_motion = self.bore_angle(name, position), self._turn(bore, rates)
-            memory = first_memory(self.contact(name, INITIAL))
-            pin.start(memory, self.inverse_masses(name, INITIAL), turn, bore_motion)
+            pin.start(first_memory(self.contact(name, INITIAL)), self.inverse_mass(name, INITIAL), turn)
 
     def pin_motion(self, name: str) -> PinMotion:
         """How the journal of a clearance pin moves in its bore, or a corner in its slot."""

@@ -8,12 +8,17 @@ from functools import cached_property, partial, singledispatchmethod
 from typing import Any
 
 import exudyn
+import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyRigid,
     MarkerNodeCoordinate,
+    MarkerNodeCoordinates,
+    MarkerObjectODE2Coordinates,
     NodePointGround,
     NodeRigidBody2D,
     ObjectConnectorCoordinate,
+    ObjectConnectorCoordinateVector,
+    ObjectGenericODE2,
     ObjectJointPrismatic2D,
     ObjectJointRevolute2D,
     ObjectRigidBody2D,
@@ -32,8 +37,13 @@ from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderIt
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
 from support_exudyn.formulations.redundant.scene.engine_scene import CompliantItem
+from support_exudyn.formulations.redundant.scene.joint_friction import (
+    GuideFriction,
+    JointFriction,
+    PinFriction,
+    rotations,
+)
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem, add_force, add_moment
-from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction, rotations
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.formulations.redundant.scene.stretch_item import add_stretch
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
@@ -48,6 +58,8 @@ from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
+
+TURN = np.array([0.0, 0.0, 1.0])  # takes the angle out of a body's coordinates
 
 
 class PlaneBuilder(EngineBuilder):
@@ -145,17 +157,23 @@ class PlaneBuilder(EngineBuilder):
             connector,
             scene.pin_motion(name),
             bore_spin,
-            partial(scene.inverse_masses, name),
+            partial(scene.inverse_mass, name),
             self.scenario.solver,
         )
 
-    def add_friction(self, pin: IdealPin, name: str) -> PinFriction:
-        """Add the friction of an ideal pin of this name."""
-        assert pin.friction is not None  # the pins without are left out
-        assert pin.radius is not None  # goes with it
-        place = self.linkage.pins[name]
-        ends = self.node(place.first), self.node(place.second)
-        return PinFriction(self.mbs, pin.friction, pin.radius, *ends)
+    def add_frictions(self) -> dict[str, JointFriction]:
+        """Add the friction of all ideal pins and guides."""
+        found: dict[str, JointFriction] = {}
+        for name, pin in self.scenario.friction_pins.items():
+            place = self.linkage.pins[name]
+            nodes = [self.node(place.first), self.node(place.second)]
+            found[f"pins.{name}"] = PinFriction(self.mbs, name, pin, place, nodes)
+        for name, guide in self.scenario.friction_guides.items():
+            slide = self.linkage.slides[name]
+            points = [self.marker(body, slide.point) for body in (slide.against, slide.body)]
+            nodes = [self.node(slide.against), self.node(slide.body)]
+            found[f"guides.{name}"] = GuideFriction(self.mbs, name, guide, slide, points, nodes)
+        return found
 
     def add_crank(self, crank: Crank) -> Any:
         """Add what holds a crank's angle; returns its number in the engine."""
@@ -182,12 +200,26 @@ class PlaneBuilder(EngineBuilder):
         )
 
     def add_gear(self, gear: Gear) -> None:
-        """Add what holds the turns of two bodies in proportion."""
-        markers = [
-            self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=self.bodies[body].node, coordinate=2))
-            for body in (gear.second, gear.first)
-        ]
-        self.mbs.AddObject(ObjectConnectorCoordinate(markerNumbers=markers, factor1=gear.ratio))
+        """Add what holds the turns of two bodies against their carrier in proportion."""
+        shares = {gear.first: gear.ratio, gear.carrier or GROUND: 1.0 - gear.ratio}
+        turning = {body: share for body, share in shares.items() if body in self.bodies}
+        start = sum(share * self.bodies[body].body.angle for body, share in turning.items())
+        # an object without mass gathers both coordinates, for a connector takes those of two objects
+        massless = np.zeros((3 * len(turning), 3 * len(turning)))
+        nodes = [self.bodies[body].node for body in turning]
+        gathered = self.mbs.AddObject(ObjectGenericODE2(nodeNumbers=nodes, massMatrix=massless))
+        second = MarkerNodeCoordinates(nodeNumber=self.bodies[gear.second].node)
+        self.mbs.AddObject(
+            ObjectConnectorCoordinateVector(
+                markerNumbers=[
+                    self.mbs.AddMarker(MarkerObjectODE2Coordinates(objectNumber=gathered)),
+                    self.mbs.AddMarker(second),
+                ],
+                scalingMarker0=np.kron([*turning.values()], TURN)[None],
+                scalingMarker1=TURN[None],
+                offset=[self.bodies[gear.second].body.angle - start],  # the engine counts angles from +x
+            )
+        )
 
     @singledispatchmethod
     def add_load(self, load: ActingLoad, name: str) -> LoadItem:
@@ -215,7 +247,7 @@ class PlaneBuilder(EngineBuilder):
         given = scenario.pins.items()
         for name in (*(name for name, pin in given if not pin.holds), *scenario.held_pins):
             self.add_pin(scenario.pin(name), name)
-        frictions = {name: self.add_friction(pin, name) for name, pin in scenario.friction_pins.items()}
+        frictions = self.add_frictions()
         oil = {name: self.add_oil_column(linkage.actuators[name]) for name in scenario.oil_columns}
         rigid = {
             name: self.add_rigid_actuator(actuator)
@@ -271,10 +303,8 @@ class PlaneBuilder(EngineBuilder):
             weights=weights,
             driven=by_drive(mbs, scenario.drive_of, rigid_actuators, oil_columns, crank_items),
         )
-        for name, friction in frictions.items():
-            place = self.linkage.pins[name]
-            turns = (bodies[end].first + 2 if end != GROUND else None for end in (place.first, place.second))
-            friction.assembled(scene.ideal_pins[name].first, *turns)
+        for friction in frictions.values():
+            friction.assembled(scene.multiplier_of(friction), bodies)
             friction.lagged = bool(self.connectors) or scenario.jumps
         for name, connector in self.connectors.items():
             scene.clearance_joints[name] = self.clearance_pin(scene, name, connector)

@@ -1,7 +1,7 @@
 """What is kept of a run: states at the records, and integrals over all steps."""
 
 from array import array
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import exudyn
@@ -10,12 +10,16 @@ import numpy as np
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.redundant.solver.within_steps import RunningIntegrals, StepEnd, between
+from support_exudyn.formulations.statistics.collected import RunStatistics
+from support_exudyn.formulations.statistics.ends import beside_jumps
 from support_exudyn.mechanics.channels import EVERYTHING, DataNeeds
 from support_exudyn.mechanics.contact_state import PinMemory
-from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.mechanics.time_statistics import TimeStatistics
+from support_exudyn.mechanics.trajectory import ObservedRun, Series, Trajectory
 
 # of a StepEnd after its time
 STATE = (DataNeeds.POSITION, DataNeeds.VELOCITY, DataNeeds.CONTACTS)
+AT_ONCE = 250  # ends of steps: then they become statistics
 
 
 @dataclass(frozen=True)
@@ -23,8 +27,9 @@ class History:
     """Raw states at the records, one row each; see `channels` for what they mean.
 
     time (n,); position, velocity (n, coordinates); memory (n, clearance pins, fields of PinMemory);
-    pressure (n, 2 cylinders) as the engine has it; legs (n, states) of legs with elements; work, damping_loss,
-    friction_loss (n,) [J]. What was not to be kept has rows without columns; integrals that were not are zero.
+    pressure (n, 2 cylinders) as the engine has it; legs (n, states) of legs with elements; deflection (n, ideal
+    joints with friction), states of their laws; work, damping_loss, friction_loss (n,) [J].
+    What was not to be kept has rows without columns; integrals that were not are zero.
     """
 
     time: np.ndarray
@@ -33,20 +38,62 @@ class History:
     memory: np.ndarray
     pressure: np.ndarray
     legs: np.ndarray
+    deflection: np.ndarray
     work: np.ndarray
     damping_loss: np.ndarray
     friction_loss: np.ndarray
 
 
+class _StateRows:
+    """States one behind the other: with an object for each part of a row they take three times as much."""
+
+    def __init__(self) -> None:
+        self.time = array("d")
+        self.states = tuple(array("d") for _ in STATE)
+        self.totals, self.pressures, self.legs, self.deflections = (array("d") for _ in range(4))
+
+    def history(self) -> History:
+        """What has been kept so far."""
+        time = np.array(self.time)
+        position, velocity, memory = (
+            np.array(rows).reshape(time.size, len(rows) // max(1, time.size)) for rows in self.states
+        )
+        pins = memory.shape[1] // len(PinMemory._fields)
+        return History(
+            time,
+            position,
+            velocity,
+            memory.reshape(time.size, pins, len(PinMemory._fields)),
+            np.array(self.pressures).reshape(time.size, -1 if self.pressures else 0),
+            np.array(self.legs).reshape(time.size, -1 if self.legs else 0),
+            np.array(self.deflections).reshape(time.size, -1 if self.deflections else 0),
+            *np.array(self.totals).reshape(time.size, 3).T,
+        )
+
+    def keep_ends(self) -> None:
+        """Forget all but the first and the last row."""
+        count = len(self.time)
+        for rows in (self.time, *self.states, self.totals, self.pressures, self.legs, self.deflections):
+            width = len(rows) // count
+            if width:
+                rows[:] = rows[:width] + rows[-width:]
+
+
 class Recorder:
-    """Collects a History while a run goes on.
+    """Collects a History while a run goes on, and statistics from the ends of all steps.
 
     Arguments:
         scene: that is run.
         needs: what is to be kept, see `channel_definitions`.
+        observe: what is to be said of states, from which channels are computed; None: no statistics.
     """
 
-    def __init__(self, scene: EngineScene, needs: DataNeeds = EVERYTHING) -> None:
+    def __init__(
+        self,
+        scene: EngineScene,
+        needs: DataNeeds = EVERYTHING,
+        observe: Callable[[History], Trajectory | ObservedRun] | None = None,
+    ) -> None:
         duration = scene.scenario.duration
         # rigid actuators that are held and ideal pins neither work nor lose anything
         works = any(parts.oil or (parts.multipliers and parts.moves(duration)) for parts in scene.driven)
@@ -71,14 +118,13 @@ class Recorder:
         self._cylinders = tuple(scene.cylinders.values())
         self._legs = scene.legs
         self._keeps_legs = bool(scene.legs.names) and DataNeeds.OIL in needs
-        self._leg_states = array("d")
         self._mbs = scene.mbs
-        # numbers one behind the other: with an object for each part of a record they take three times as much
-        self._time = array("d")
-        self._states = tuple(array("d") for _ in STATE)
-        self._totals = array("d")
+        self._records, self._ends = _StateRows(), _StateRows()
+        self._begins: list[bool] = []  # whether a piece begins with an end of a step, behind the first
+        self._observe = observe
+        self.statistics = RunStatistics(scene.scenario)
+        self.follows = observe is not None and bool(self.statistics.wanted)  # whether ends of steps are kept
         self._keeps_pressures = bool(self._cylinders) and DataNeeds.OIL in needs
-        self._pressures = array("d")
         self._powers_now = (0.0, 0.0, 0.0)  # [W]
         self._start: StepEnd | None = None  # of the step going on
 
@@ -121,7 +167,11 @@ class Recorder:
         state = between(self._start, self._state(end), t)
         # in contact or not, with which impact: as over all of the step
         state.memory[:, :2] = self._start.memory[:, :2]
-        self._keep(t, (state.position, state.velocity, state.memory), state.totals.tolist())
+        kept = (state.position, state.velocity, state.memory)
+        self._keep(self._records, t, kept, state.totals.tolist())
+        if self.follows:
+            self._keep(self._ends, t, kept, state.totals.tolist())
+            self._begins.append(False)
 
     def _state(self, t: float) -> StepEnd:
         data = self._data
@@ -137,29 +187,72 @@ class Recorder:
 
     def record(self, t: float) -> None:
         """Keep the state at time t [s]."""
+        self._keep_now(self._records, t, None)
+
+    def end(self, t: float, before: Sequence[PinMemory] | None = None) -> None:
+        """Keep the state at the end of a step, t [s], for the statistics.
+
+        before: what pins remembered in the step, where impacts have made something else of it; else None.
+        """
+        if before is None:
+            self._keep_end(t, not self._begins, None)
+        else:
+            self._keep_end(t, False, before)
+            self.begin(t)
+
+    def begin(self, t: float) -> None:
+        """Keep the state at t [s], where something has jumped since the end of the last step."""
+        self._keep_end(t, True, None)
+
+    def _keep_end(self, t: float, begins: bool, remembered: Sequence[PinMemory] | None) -> None:
+        if not self.follows:
+            return
+        if not self._begins:  # the state by which energies are told
+            self._keep_now(self._ends, t, remembered)
+        self._keep_now(self._ends, t, remembered)
+        self._begins.append(begins)
+        if len(self._begins) >= AT_ONCE:
+            self._take_ends()
+
+    def _take_ends(self) -> None:
+        """Take the ends of the steps since the last time into the statistics."""
+        assert self._observe is not None
+        history, begins = self._ends.history(), np.array(self._begins)
+        time = history.time[1:].copy()
+        history.time[1:] = beside_jumps(time, begins)
+        self.statistics.add_ends(time, begins, self._observe(history))
+        self._ends.keep_ends()
+        self._begins = [True]
+
+    def _keep_now(self, rows: _StateRows, t: float, remembered: Sequence[PinMemory] | None) -> None:
         data = self._data
         position, velocity, memory = self._kept
+        pins = [pin.kept for _, pin in self._pins] if remembered is None else remembered
         self._keep(
+            rows,
             t,
             (
                 data.GetODE2Coordinates() if position else None,
                 data.GetODE2Coordinates_t() if velocity else None,
-                _memories([pin.kept for _, pin in self._pins]) if memory else None,
+                _memories(pins) if memory else None,
             ),
             self.energies.totals,
         )
         if self._keeps_pressures:
-            self._pressures.frombytes(data.GetODE1Coordinates().tobytes())
+            rows.pressures.frombytes(data.GetODE1Coordinates().tobytes())
         if self._keeps_legs:
-            self._leg_states.frombytes(self._legs.states().tobytes())
+            rows.legs.frombytes(self._legs.states().tobytes())
 
-    def _keep(self, t: float, state: Sequence[Series | None], totals: Sequence[float]) -> None:
-        """Add a record; parts of the state that are not to be kept may be None."""
-        self._time.append(t)
-        for rows, part, keep in zip(self._states, state, self._kept, strict=True):
+    def _keep(
+        self, rows: _StateRows, t: float, state: Sequence[Series | None], totals: Sequence[float]
+    ) -> None:
+        """Add a row; parts of the state that are not to be kept may be None."""
+        rows.time.append(t)
+        for numbers, part, keep in zip(rows.states, state, self._kept, strict=True):
             if keep and part is not None:
-                rows.frombytes(part.tobytes())
-        self._totals.extend(totals)
+                numbers.frombytes(part.tobytes())
+        rows.totals.extend(totals)
+        rows.deflections.extend(friction.deflection for _, friction in self._frictions)
 
     def _length(self, item: OilColumnItem) -> float:
         """Length [m] of an oil column."""
@@ -167,20 +260,14 @@ class Recorder:
 
     def history(self) -> History:
         """What has been recorded so far."""
-        time = np.array(self._time)
-        position, velocity, memory = (
-            np.array(rows).reshape(time.size, len(rows) // max(1, time.size)) for rows in self._states
-        )
-        pins = memory.shape[1] // len(PinMemory._fields)
-        return History(
-            time,
-            position,
-            velocity,
-            memory.reshape(time.size, pins, len(PinMemory._fields)),
-            np.array(self._pressures).reshape(time.size, -1 if self._pressures else 0),
-            np.array(self._leg_states).reshape(time.size, -1 if self._leg_states else 0),
-            *np.array(self._totals).reshape(time.size, 3).T,
-        )
+        return self._records.history()
+
+    def finished(self) -> TimeStatistics | None:
+        """The statistics of the run; None if nobody asks for any."""
+        if not self.follows:
+            return None
+        self._take_ends()
+        return self.statistics.finished()
 
     def _powers(self, t: float) -> tuple[float, float, float]:
         """Power [W] of the drive, of damping and of friction at the end of a step."""

@@ -4,6 +4,7 @@ import numpy as np
 
 from support_exudyn.formulations import change_points
 from support_exudyn.formulations.contract import ENGINE_ADVICE, explained, first_line
+from support_exudyn.formulations.limits import ENDS, past_ends
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from user_forces.lawful import UNLAWFUL, LawError
 from user_forces.normal.law import LoadError
@@ -65,6 +66,9 @@ def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
     """
     if empty := scene.legs.empty():
         return empty, EMPTY
+    lengths = {name: cylinder.motion()[0] for name, cylinder in scene.cylinders.items()}
+    if pressed := past_ends(scene.scenario, lengths):
+        return pressed, ENDS
     try:
         scene.legs.look(ahead)
         for parts in scene.driven:

@@ -69,7 +69,7 @@ class SolverRun:
         self.progress = progress
         self.plan = StepPlan(
             scenario.duration,
-            scenario.record_period,
+            scenario.recorded_every,
             scenario.step,
             scenario.breaks,
             rounding_of_positions(scenario),
@@ -93,8 +93,9 @@ class SolverRun:
         self.locates = scenario.solver.locate
         self.impact_steps = scenario.solver.impact_steps
         # what a load does need not show in accelerations, and long steps would pass over where it begins
-        # and pressures are not interpolated at records that a step passes over
-        grows = scenario.solver.growth > 1.0 and not (scene.loads or scene.cylinders or scene.legs.names)
+        # and pressures and states of friction are not interpolated at records that a step passes over
+        states = scene.cylinders or scene.legs.names or any(one.law.has_state for one in self.frictions)
+        grows = scenario.solver.growth > 1.0 and not (scene.loads or states)
         self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
@@ -113,12 +114,11 @@ class SolverRun:
         moves = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
         if (
             (moves or self.valves)
-            and recorder.integrates
-            and scenario.step * FEW_STEPS > scenario.record_period
+            and (recorder.integrates or recorder.follows)
+            and scenario.step * FEW_STEPS > scenario.recorded_every
         ):
-            self.needs_step_callbacks = (
-                True  # it is called in every step anyway, and a stretch costs more than it saves
-            )
+            # it is called in every step anyway, and a stretch costs more than it saves
+            self.needs_step_callbacks = True
         self.checked = -math.inf  # end of the last step that the recorder has been told of [s]
         self.named_pins = tuple(scene.clearance_joints.items())
         # names, pins and depths [m] beyond which a run is given up
@@ -171,7 +171,7 @@ class SolverRun:
             return
         if self.has_prescribed_motion and not turns_by_itself(self.scene):
             mbs.SetPreStepUserFunction(self._follow)
-        if self.recorder.integrates:
+        if self.recorder.integrates or self.recorder.follows:
             mbs.SetPostStepUserFunction(self._result_checks)
 
     def _go_uninterrupted(self) -> bool:
@@ -195,7 +195,7 @@ class SolverRun:
         self.steps += steps
         self.failed_newton += repeats
         self._count()
-        if t == 0.0 and self.recorder.integrates:  # before the speed jumps; the engine tells the start later
+        if t == 0.0:  # before the speed jumps; the engine tells the start later
             self._result_checks(self.scene.mbs, t)
         return self._arrived(t)
 
@@ -203,7 +203,8 @@ class SolverRun:
 
     def _before_try(self, mbs: Any, t: float) -> bool:
         """Prepare every attempt at a step that would end at t."""
-        if self.trying:
+        again = self.trying
+        if again:
             self.repeated = True
             if self.legs.wants_cut or any(pin.wants_cut for pin in self.pins):
                 self.cut_steps += 1
@@ -214,6 +215,8 @@ class SolverRun:
         self.scene.drive_to(t)
         step = float(self.solver.it.currentStepSize)
         self.legs.begin_try(step)
+        for friction in self.frictions:
+            friction.begin_try(step, again)
         if self.pins:
             for pin in self.pins:
                 pin.begin_try(step)
@@ -226,10 +229,11 @@ class SolverRun:
         return True
 
     def _result_checks(self, mbs: Any, t: float) -> bool:
-        """Count the energies of a step that nothing else sees; the start of a stretch is told twice."""
+        """Keep what nothing else sees of a step, such as energies; the start of a stretch is told twice."""
         if t > self.checked:
             self.checked = t
             self.recorder.after_step(t, bool(self.plan.breaks_at(t)))
+            self.recorder.end(t)
         return True
 
     def _after_newton(self, mbs: Any, t: float) -> list[float]:
@@ -258,24 +262,26 @@ class SolverRun:
         """Keep what happened in an accepted step, and choose the next; called once at the start, too."""
         taken = t - self.time
         breaks = self.plan.breaks_at(t)
-        kink = bool(breaks)
+        kink, met = bool(breaks), False
+        remembered = [pin.kept for pin in self.pins]
         if self.trying:
             self.trying = False
             self.steps += 1
             self._look_for_limits()
             self.newton.solved(taken)
             for name, pin in self.named_pins:
-                kink = kink or pin.onset is not None
+                met = met or pin.onset is not None
                 try:
                     pin.accept(t)
                 except LawError as error:  # inside the step
                     raise error.at(name) from None
-            kink = self.legs.accept(t) or kink
+            kink = self.legs.accept(t) or kink or met
         self.recorder.after_step(t, kink)
         for friction in self.frictions:
             friction.accept()
         if self.smooth is not None:
             self._look_for_smoothness(t, self.smooth)
+        self.recorder.end(t, remembered if met else None)
         if (later := self._arrived(t)) != t:
             t, breaks = later, self.plan.breaks_at(later)
         goal = self._next_time(t)
@@ -298,6 +304,7 @@ class SolverRun:
             self.data.SetTime(stop)
             self.solver.it.currentTime = t = stop
             self.recorder.after_step(t, True)
+            self.recorder.end(t)
             self._at_stop(t)
         return t
 
@@ -312,6 +319,7 @@ class SolverRun:
             self.progress(t / self.plan.duration)
         if breaks := self.plan.breaks_at(t):
             self._jump(t, breaks)
+            self.recorder.begin(t)
 
     @property
     def _ahead(self) -> float:

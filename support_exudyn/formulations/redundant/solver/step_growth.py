@@ -68,7 +68,7 @@ class StepGrowth:
 def step_growth(scene: EngineScene) -> StepGrowth:
     """How the steps of a scene grow."""
     scenario = scene.scenario
-    step = min(scenario.step, scenario.record_period)
+    step = min(scenario.step, scenario.recorded_every)
     longest = scenario.solver.growth * scenario.step
     mass = sum(item.body.mass for item in scene.bodies.values())
     return StepGrowth(step, longest, scene.coordinate_masses(), math.sqrt(mass) * math.hypot(*scenario.gravity))

@@ -12,7 +12,7 @@ from exudyn.itemInterface import ObjectGenericODE2, VObjectGenericODE2
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment, Relative
 from support_exudyn.formulations.redundant.clearance.pin_frames import PinFrames
-from support_exudyn.formulations.redundant.clearance.pin_motion import Moving, in_plane
+from support_exudyn.formulations.redundant.clearance.pin_motion import Moving
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce
 from support_exudyn.formulations.redundant.space.bearing_source import (
@@ -24,7 +24,7 @@ from support_exudyn.formulations.redundant.space.bearing_source import (
     names,
     spring_source,
 )
-from support_exudyn.mechanics.contact_state import InverseMass, PinMemory
+from support_exudyn.mechanics.contact_state import PinMemory
 from user_forces.compilation.flat import compiled
 from user_forces.contact import JournalContact
 from user_forces.values.value import Vector2
@@ -121,8 +121,8 @@ class SectionForce(PythonForce):
         self._names, self._first = connector.whole.names, PARTS * number
         self._has_state = connector.contact.friction.has_state
         self._counts = number == 0 and not straight
-        self._impact = [f"{name}{number}" for name in ("in_contact", *MEMORY[:4])]
-        self._history = [f"{name}{number}" for name in MEMORY[4:]]
+        self._impact = [f"{name}{number}" for name in ("in_contact", *MEMORY[:1])]
+        self._history = [f"{name}{number}" for name in MEMORY[1:]]
         self._line = [f"{name}{number}" for name in LINE]
         self.function = partial(self._names.__setitem__, f"straight{number}", straight)
 
@@ -143,10 +143,9 @@ class SectionForce(PythonForce):
         bore, turning = self._names["last"][-2:]
         return bore, turning
 
-    def load(self, memory: PinMemory, inverse_mass: InverseMass, step: float, *others: float) -> None:
+    def load(self, memory: PinMemory, step: float, *others: float) -> None:
         """See `PythonForce`."""
-        impact = memory.in_contact, memory.impact_velocity, *inverse_mass
-        self._names.update(zip(self._impact, impact, strict=True))
+        self._names.update(zip(self._impact, memory[:2], strict=True))
         if self._has_state:
             self._names.update(zip(self._history, (memory.deflection, memory.slip, step), strict=True))
 
@@ -161,11 +160,9 @@ class SectionFrames(PinFrames):
     Half-way tilted to those of the journal where the force acts in the middle. Nothing has to be guessed.
     """
 
-    bores_axes = 0.0  # [rad]
-
     def __init__(self, connector: PinConnector, moving: Moving, bore_spin: Callable[[], float]) -> None:
         super().__init__(connector, moving, bore_spin)
-        self.follows = self.turns = False
+        self.follows = False
 
     def relative(self, force: EngineForce) -> Relative:
         """See `PinFrames`."""
@@ -176,7 +173,5 @@ class SectionFrames(PinFrames):
             if distance == 0.0:
                 return Relative(0.0, 0.0, math.hypot(vx, vy), 0.0)
             return Relative(distance, 0.0, (x * vx + y * vy + z * vz) / distance, 0.0)
-        if self.at is Attachment.SPACE:
-            return Relative(*in_plane((x, y, z), (vx, vy, vz)))
         bore, turning = force.spins
         return Relative(x, y, vx, vy, turning, bore)

@@ -17,19 +17,17 @@ from typing import Any, NamedTuple
 from support_exudyn.formulations.redundant.clearance.connector_force import (
     Attachment,
     Relative,
-    central_force,
     line_force,
     rough_force,
     with_friction,
 )
 from support_exudyn.formulations.redundant.space.section_motion import SectionEnd, SectionMover, Vector, dot
-from support_exudyn.mechanics.contact_state import InverseMass
 from user_forces.compilation.flat import Formulas, SourceLine, needed, text, traceable
 from user_forces.contact import SMALLEST, Contact, JournalContact, SlipHistory
 from user_forces.expressions.scalar import hypot, maximum, sqrt
 
 # of every section, each followed by its number
-MEMORY = ("speed", "inverse_mass_xx", "inverse_mass_xy", "inverse_mass_yy", "deflection", "slip", "step")
+MEMORY = ("speed", "deflection", "slip", "step")
 LINE = ("offset", "slope")
 PLACES = ("bore_place", "journal_place")  # from the middle, where sections slide [m]
 PARTS = 6  # numbers of a section's motion: x, y, z and their rates
@@ -201,7 +199,7 @@ def force_source(bearing: BearingGeometry, contacts: Sequence[JournalContact]) -
     motion = BearingMotion(bearing)
     blocks = [_block(motion, bearing.at, n, contact) for n, contact in enumerate(contacts)]
     told = [part for section in motion.sections for part in section]
-    told += [*motion.middle, *(motion.spins if bearing.at not in (Attachment.LINE, Attachment.SPACE) else ())]
+    told += [*motion.middle, *(motion.spins if bearing.at is not Attachment.LINE else ())]
     result = motion.generalised()
     first = needed(motion.formulas, map(text, told))
     done = set(first)
@@ -261,22 +259,19 @@ def _block(
 ) -> tuple[str, list[str], list[str]]:
     """The depth of a section, the line that checks it, and what it adds to the sums."""
     x, y, z, vx, vy, vz = motion.sections[n]
-    speed, xx, xy, yy, deflection, slip, step = (motion.named(f"{name}{n}") for name in MEMORY)
-    formulas, inverse_mass = traceable(contact), InverseMass(xx, xy, yy)
-    if at in (Attachment.LINE, Attachment.SPACE):
+    speed, deflection, slip, step = (motion.named(f"{name}{n}") for name in MEMORY)
+    formulas = traceable(contact)
+    if at is Attachment.LINE:
         distance = sqrt(x * x + y * y + z * z)
         rate = (x * vx + y * vy + z * vz) / distance
-        if at is Attachment.LINE:
-            depth = formulas.bearing.depth(distance)
-            share = line_force(formulas, depth, rate, speed) / distance
-        else:
-            depth, share = central_force(formulas, x, y, distance, rate, speed, inverse_mass)
+        depth = formulas.bearing.depth(distance)
+        share = line_force(formulas, depth, rate, speed) / distance
         force, arm = [-share * x, -share * y, -share * z], 0.0
         across: list[Any] = [0.0, 0.0]
     else:
         moving = Relative(x, y, vx, vy, motion.spins[1], motion.spins[0])
         history = SlipHistory(deflection, slip, step)
-        found, _ = rough_force(_or_straight(formulas, motion, n), at, moving, speed, inverse_mass, history)
+        found, _ = rough_force(_or_straight(formulas, motion, n), at, moving, speed, history)
         depth, force, arm = found.depth, [found.force_x, found.force_y, 0.0], found.journal_arm
         away = maximum(hypot(x, y), SMALLEST)
         across = [x / away, y / away]

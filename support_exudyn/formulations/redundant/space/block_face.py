@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint, FindMasses
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint, FindMass
 from support_exudyn.formulations.redundant.clearance.connector import FaceConnector
 from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 from support_exudyn.formulations.redundant.clearance.pin_motion import Motion
@@ -76,7 +76,7 @@ class BlockFace(ClearanceJoint):
 
     Arguments:
         block: that falls. name: its own.
-        connector, moving, find_inverse_masses, settings: as of ClearanceJoint.
+        connector, moving, find_inverse_mass, settings: as of ClearanceJoint.
     """
 
     def __init__(
@@ -85,10 +85,10 @@ class BlockFace(ClearanceJoint):
         block: FallingBlock,
         connector: FaceConnector,
         moving: FaceMover,
-        find_inverse_masses: FindMasses,
+        find_inverse_mass: FindMass,
         settings: SolverSettings,
     ) -> None:
-        super().__init__(block.contact, connector, moving, lambda: 0.0, find_inverse_masses, settings)
+        super().__init__(block.contact, connector, moving, lambda: 0.0, find_inverse_mass, settings)
         self.name, self.block, self.moving = name, block, moving
 
     @cached_property

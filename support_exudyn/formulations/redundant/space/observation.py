@@ -95,7 +95,7 @@ class SpatialObservation:
         across, still = np.array([-s, c, 0.0]), np.zeros(self.motion.count)
         y = (journal.position - bore.position) @ across
         rate = (journal.velocity - bore.velocity) @ across
-        moving = RelativeMotion(still, y, still, rate, still, still, still + 1.0, still)
+        moving = RelativeMotion(still, y, still, rate, still, still)
         found = series(face.contact, moving, memory)
         return replace(found, force_x=-s * found.force_y, force_y=c * found.force_y)
 
@@ -108,9 +108,8 @@ class SpatialObservation:
     def _section(self, pin: SectionPin, memory: Series) -> SectionSeries:
         bore, journal = pin.ends
         moving = section_motion(self.motion, bore, journal, pin.section.place, pin.connector.at, pin.slides)
-        ones, zeros = np.ones(self.motion.count), np.zeros(self.motion.count)
         relative = RelativeMotion(
-            moving.x, moving.y, moving.vx, moving.vy, moving.bore_spin, moving.journal_spin, ones, zeros
+            moving.x, moving.y, moving.vx, moving.vy, moving.bore_spin, moving.journal_spin
         )
         contact = series(pin.contact, relative, memory)
         away = np.linalg.norm(moving.displacement, axis=1)
@@ -118,7 +117,7 @@ class SpatialObservation:
         if isinstance(pin.contact.friction, Frictionless):
             force = -contact.normal_force[:, None] * outward
         else:
-            plane = np.column_stack([contact.force_x, contact.force_y, zeros])
+            plane = np.column_stack([contact.force_x, contact.force_y, np.zeros(self.motion.count)])
             force = np.einsum("nij,nj->ni", moving.axes, plane)
         arm = journal_arm(pin.contact, contact.depth)
         return SectionSeries(moving, contact, force, moving.centre + arm[:, None] * outward)

@@ -1,5 +1,6 @@
 """The model of a scenario in space, ready for the solver; `scene_builder` makes it."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -18,15 +19,21 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
     EngineScene,
     first_memory,
 )
+from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
-from support_exudyn.formulations.redundant.scene.pin_friction import PinFriction
 from support_exudyn.formulations.redundant.space.block_face import BlockFace
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import ends
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.contact_state import InverseMass
-from support_exudyn.mechanics.pressed_pins import NEAR, EffectiveMasses, held, normal
-from support_exudyn.mechanics.space.constraints import BearingEnd, Constraint, all_rows, independent, matrix
+from support_exudyn.mechanics.space.constraints import (
+    SHIFTS,
+    BearingEnd,
+    Constraint,
+    all_rows,
+    independent,
+    matrix,
+)
 from support_exudyn.mechanics.space.kinetics import SpatialKinetics
 from support_exudyn.mechanics.space.motion import COORDINATES, SpatialMotion, motion_of, parameter_rates
 from support_exudyn.mechanics.space.reactions import reactions
@@ -68,7 +75,7 @@ class SpatialScene(EngineScene):
     legs: EngineLegs
     driven: tuple[DrivenParts, ...]  # all actuators, by the drive that they follow
     compliant_pins: dict[str, CompliantItem] = field(default_factory=dict)  # not covered
-    frictions: dict[str, PinFriction] = field(default_factory=dict)  # of ideal pins: nor these
+    frictions: dict[str, JointFriction] = field(default_factory=dict)  # of ideal pins: nor these
     loads: dict[str, LoadItem] = field(default_factory=dict)
     weights: dict[str, Any] = field(default_factory=dict)  # loads of the engine, by body
     faces: dict[str, BlockFace] = field(default_factory=dict)  # of falling blocks
@@ -108,62 +115,25 @@ class SpatialScene(EngineScene):
         """Masses and the constraints of the model as matrices."""
         return SpatialKinetics(self.motion(state), self.rows)
 
-    def inverse_masses(self, name: str, state: Any = CURRENT) -> EffectiveMasses:
+    def inverse_mass(self, name: str, state: Any = CURRENT) -> InverseMass:
         """How the middle of a bearing's journal answers impulses, in its bore's axes, for its pin's law.
 
-        A bearing of a pair has a share of its pin's force and energy, so the law of the pin is told the mass
-        over that share. Bearings of the pin that are pressed move together: with both, it is the whole energy
-        and the mass that moves if both journals move alike, as in the plane. Other pins are held where they are
-        pressed, see `pressed`.
+        A bearing of a pair has a share of its pin's force and energy, so the steps of the pin's law go by the
+        mass over that share. Other contacts are open.
         """
-        kinetics, normals = self.kinetics(state), self._normals(state)
-        faces = [row for _, row in self._pressed_faces(kinetics, state)]
-        bearings = self.linkage.bearings
-        along = {
-            other: kinetics.bearing_rate(*self.ends_of(other)) for other in dict.fromkeys((name, *normals))
-        }
-        parts = [part for part in along if bearings[part].pin == bearings[name].pin]
-        share = sum(bearings[part].share for part in parts)
-        together = sum(bearings[part].share * along[part] for part in parts) / share
-        others = [normals[other][None] @ along[other] for other in normals if other not in parts] + faces
-        answers = kinetics.answers(np.concatenate([along[name], together, *others]))
-        alone, pressed = bearings[name].share * answers[:2, :2], share * held(answers[2:, 2:])
-        return EffectiveMasses(InverseMass.of(alone), InverseMass.of(pressed))
+        kinetics = self.kinetics(state)
+        answers = kinetics.answers(kinetics.bearing_rate(*self.ends_of(name)))
+        return InverseMass.of(self.linkage.bearings[name].share * answers)
 
-    def face_masses(self, name: str, state: Any = CURRENT) -> EffectiveMasses:
-        """How the point at a block's face answers impulses, in the axes of the face; others are held."""
-        kinetics, normals = self.kinetics(state), self._normals(state)
-        pressed = [normals[one][None] @ kinetics.bearing_rate(*self.ends_of(one)) for one in normals]
-        pressed += [row for other, row in self._pressed_faces(kinetics, state) if other != name]
-        answers = kinetics.answers(np.concatenate([self.faces[name].rate(kinetics), *pressed]))
-        return EffectiveMasses(InverseMass.of(answers[:2, :2]), InverseMass.of(held(answers)))
-
-    def _pressed_faces(self, kinetics: SpatialKinetics, state: Any) -> list[tuple[str, Series]]:
-        """The blocks at whose faces a point is pressed, and the rates of their depths, (1, 6 bodies)."""
-        at = self.coordinates(state)
-        return [
-            (name, face.rate(kinetics)[1:])
-            for name, face in self.faces.items()
-            if face.moving.relative(*at).y > (1.0 - NEAR) * face.contact.bearing.clearance
-        ]
+    def face_mass(self, name: str, state: Any = CURRENT) -> InverseMass:
+        """How the point at a block's face answers impulses, in the face's axes; other contacts are open."""
+        kinetics = self.kinetics(state)
+        return InverseMass.of(kinetics.answers(self.faces[name].rate(kinetics)))
 
     def coordinates(self, state: Any) -> tuple[list[float], list[float]]:
         """The engine's coordinates and their rates."""
         data = self.mbs.systemData
         return data.GetODE2Coordinates(state).tolist(), data.GetODE2Coordinates_t(state).tolist()
-
-    def _normals(self, state: Any) -> dict[str, Series]:
-        """Along which the journals are pressed that are, in the axes of their bores."""
-        found, at = {}, self.coordinates(state)
-        for name, group in self.sections.items():
-            clearance = group[0].contact.bearing.clearance
-            closed = (normal(*pin.moving.when(*at)[1][:2], clearance) for pin in group)
-            if any(one is not None for one in closed):
-                x, y = group[0].whole.moving.when(*at)[1][:2]
-                size = np.hypot(x, y)
-                if size > 0.0:  # else it is wedged, and pressed in no direction
-                    found[name] = np.array([x, y]) / size
-        return found
 
     def ends_of(self, name: str) -> tuple[BearingEnd, BearingEnd]:
         """Bore and journal of a clearance bearing."""
@@ -232,7 +202,16 @@ class SpatialScene(EngineScene):
             },
             float(0.5 * after @ mass @ after - 0.5 * before @ mass @ before),
             {},
+            self._joint_impulses(struck),
         )
+
+    def _joint_impulses(self, struck: Series) -> dict[str, float]:
+        """See `Impulse.joints`; struck: impulses of all rows [N s], [N m s]."""
+        found: dict[str, float] = {}
+        for row, impulse in zip(self.all_rows, struck.tolist(), strict=True):
+            if row.kind in SHIFTS and self.linkage.bearings[row.name].pin not in self.scenario.clearance_pins:
+                found[f"pin.{row.name}"] = math.hypot(found.get(f"pin.{row.name}", 0.0), impulse)
+        return found
 
     def reset_memory(self) -> None:
         """See `EngineScene`."""
@@ -240,14 +219,12 @@ class SpatialScene(EngineScene):
         for pin in (pin for group in self.sections.values() for pin in group):
             pin.look_beside(*at)
         for name, face in self.faces.items():
-            memory = first_memory(self.contact(name, INITIAL))
-            face.start(memory, self.face_masses(name, INITIAL), 0.0, (face.moving.slope, 0.0))
+            face.start(first_memory(self.contact(name, INITIAL)), self.face_mass(name, INITIAL), 0.0)
         for name, group in self.sections.items():
-            inverse_masses = self.inverse_masses(name, INITIAL)
+            inverse_mass = self.inverse_mass(name, INITIAL)
             for n, pin in enumerate(group):
-                bore, journal = pin.moving.when(*at)
                 memory = first_memory(self.contact(f"{name}[{n}]", INITIAL))
-                pin.start(memory, inverse_masses, journal[4], (0.0, bore[5]))
+                pin.start(memory, inverse_mass, pin.moving.when(*at)[1][4])
 
     def contact(self, name: str, state: Any) -> ContactForce:
         """See `EngineScene`."""

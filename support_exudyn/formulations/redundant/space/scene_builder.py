@@ -31,7 +31,15 @@ from support_exudyn.formulations.redundant.space.sections import ends, sections
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg, preloaded_legs
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
-from support_exudyn.mechanics.space.constraints import BearingEnd, Kind, all_rows, frame_of, independent, matrix
+from support_exudyn.mechanics.space.constraints import (
+    SHIFTS,
+    BearingEnd,
+    Kind,
+    all_rows,
+    frame_of,
+    independent,
+    matrix,
+)
 from support_exudyn.mechanics.space.motion import COORDINATES, motion_of, parameter_rates
 from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.linkage import GROUND
@@ -41,7 +49,6 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
 from user_forces.values.value import Vector3
 
-SHIFTS: tuple[Kind, ...] = ("across_1", "across_2", "along")
 TILTS: tuple[Kind, ...] = ("tilt_1", "tilt_2")
 
 
@@ -97,7 +104,6 @@ class _SpaceBuilder(EngineBuilder):
                 self.mount(bore, section.place),
                 self.mount(journal, section.place),
                 0.0,
-                in_space=True,
             )
             for section in sections(bearing, self.scenario.solver.sections)
         ]
@@ -112,7 +118,7 @@ class _SpaceBuilder(EngineBuilder):
         geometry = BearingGeometry(
             bore=self.section_end(bore, 0.0, firsts.get(bore.body)),
             journal=self.section_end(journal, 0.0, firsts.get(journal.body)),
-            at=attachment(contact, bore.body == GROUND, journal.body == GROUND, in_space=True),
+            at=attachment(contact, bore.body == GROUND, journal.body == GROUND),
             places=[part.place for part in parts],
             slides="along" not in bearing.holds,
         )
@@ -134,7 +140,7 @@ class _SpaceBuilder(EngineBuilder):
             )
             return SectionMover(data, at_bore, at_journal, connector.at)
 
-        whole = SectionJournal(mover(0.0, connectors[0]), partial(scene.inverse_masses, name))
+        whole = SectionJournal(mover(0.0, connectors[0]), partial(scene.inverse_mass, name))
         return [
             SectionPin(
                 pin.contact,
@@ -165,8 +171,8 @@ class _SpaceBuilder(EngineBuilder):
         firsts = bodies[name].first, bodies[block.body].first
         arm = self.local(block.body, point)
         moving = FaceMover(self.mbs.systemData, *firsts, reference, point, arm, block.slope)
-        masses = partial(scene.face_masses, name)
-        return BlockFace(name, block, connector, moving, masses, self.scenario.solver)
+        mass = partial(scene.face_mass, name)
+        return BlockFace(name, block, connector, moving, mass, self.scenario.solver)
 
     def local(self, body: str, point: Vector3) -> Vector3:
         """A point of the start posture in a body's axes [m]."""

@@ -13,7 +13,6 @@ import numpy as np
 
 from support_exudyn.formulations.redundant.clearance.connector_force import Attachment
 from support_exudyn.formulations.redundant.clearance.pin_motion import Motion, in_plane
-from support_exudyn.formulations.redundant.space.sections import ON_LINE
 from support_exudyn.mechanics.space.constraints import BearingEnd, frame_of
 from user_forces.expressions.scalar import sqrt
 from user_forces.values.value import Vector3
@@ -134,7 +133,7 @@ class SectionMover:
         along = bore.turned(self.bore.along)
         axes = self.axes(bore, journal)
         local, moving = [dot(a, apart) for a in axes], [dot(a, rates) for a in axes]
-        x, y, vx, vy = in_plane(local, moving) if self.at in ON_LINE else (*local[:2], *moving[:2])
+        x, y, vx, vy = in_plane(local, moving) if self.at is Attachment.LINE else (*local[:2], *moving[:2])
         own = journal.turned(self.journal.across[0])
         turn = math.atan2(dot(own, axes[1]), dot(own, axes[0]))
         spin = dot(bore.spin, along)

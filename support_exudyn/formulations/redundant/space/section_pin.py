@@ -5,16 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, cast
+from typing import cast
 
 from support_exudyn.formulations.impact_steps import ImpactSteps
 from support_exudyn.formulations.peak_force import NEAR_PEAK, has_a_top, peak
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint, FindMasses
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint, FindMass
 from support_exudyn.formulations.redundant.clearance.connector import PinConnector
 from support_exudyn.formulations.redundant.clearance.pin_frames import PinFrames
 from support_exudyn.formulations.redundant.clearance.pin_motion import Moving
 from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce
-from support_exudyn.formulations.redundant.scene.engine_scene import CURRENT
 from support_exudyn.formulations.redundant.space.bearing_connector import (
     SectionConnector,
     SectionForce,
@@ -22,8 +21,7 @@ from support_exudyn.formulations.redundant.space.bearing_connector import (
 )
 from support_exudyn.formulations.redundant.space.section_motion import SectionMover
 from support_exudyn.formulations.redundant.space.sections import Section
-from support_exudyn.mechanics.contact_state import Onset, PinMemory
-from support_exudyn.mechanics.pressed_pins import EffectiveMasses
+from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
 from support_exudyn.mechanics.space.constraints import BearingEnd
 from support_exudyn.scenario.solver_settings import SolverSettings
 from user_forces.contact import JournalContact
@@ -38,13 +36,13 @@ class SectionJournal:
 
     Arguments:
         moving: how its middle moves.
-        find_inverse_masses: tells how its middle answers impulses, in the axes of its bore.
+        find_inverse_mass: tells how its middle answers impulses, in the axes of its bore.
     """
 
-    def __init__(self, moving: SectionMover, find_inverse_masses: FindMasses) -> None:
+    def __init__(self, moving: SectionMover, find_inverse_mass: FindMass) -> None:
         self.moving = moving
-        self._find_inverse_masses = find_inverse_masses
-        self._inverse_masses: EffectiveMasses | None = None
+        self._find_inverse_mass = find_inverse_mass
+        self._inverse_mass: InverseMass | None = None
         self._place: Vector2 | None = None
         self.sections: list[SectionPin] = []
         self.onsets: list[Onset] = []  # of the journal, which was all apart
@@ -55,15 +53,13 @@ class SectionJournal:
 
     def moved(self, place: Vector2 | None = None) -> None:
         """The bodies are elsewhere now; place: of the middle, if it is known [m]."""
-        self._inverse_masses, self._place = None, place
+        self._inverse_mass, self._place = None, place
 
-    def inverse_masses(self, state: Any = CURRENT) -> EffectiveMasses:
+    def inverse_mass(self) -> InverseMass:
         """How the middle of the journal answers impulses, in the axes of its bore."""
-        if state != CURRENT:
-            return self._find_inverse_masses(state)
-        if self._inverse_masses is None:
-            self._inverse_masses = self._find_inverse_masses()
-        return self._inverse_masses
+        if self._inverse_mass is None:
+            self._inverse_mass = self._find_inverse_mass()
+        return self._inverse_mass
 
     def place(self) -> Vector2:
         """The place of the journal's middle in its bore, in the bore's axes [m]."""
@@ -154,7 +150,7 @@ class SectionPin(ClearanceJoint):
             connector,
             moving,
             lambda: moving.now()[0][5],
-            whole.inverse_masses,
+            whole.inverse_mass,
             settings,
             section.share,
         )

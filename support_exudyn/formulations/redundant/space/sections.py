@@ -20,7 +20,6 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.spatial_linkage import Bearing
 
 # where the force depends on the distance of both centres, which stands for that across the axis
-ON_LINE = (Attachment.LINE, Attachment.SPACE)
 
 
 class Section(NamedTuple):
@@ -109,7 +108,7 @@ def section_motion(
     spins = spin, spin + np.einsum("ni,ni->n", journal_spin - bore_spin, axes[:, :, 2])
     x, y, z = np.einsum("nji,nj->in", axes, displacement)
     vx, vy, vz = np.einsum("nji,nj->in", axes, velocity)
-    if at not in ON_LINE:
+    if at is not Attachment.LINE:
         return SectionMotion(x, y, vx, vy, *spins, axes, displacement, centre)
     across = np.hypot(x, y)
     away = across > 0.0

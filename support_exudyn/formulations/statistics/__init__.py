@@ -1,0 +1,1 @@
+"""Statistics of channels from every step of a solver."""

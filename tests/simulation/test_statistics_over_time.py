@@ -1,0 +1,213 @@
+"""Means, deviations and extremes are over time from every step, whatever is recorded."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from support_exudyn import (
+    Crank,
+    Held,
+    PlanarLinkage,
+    Result,
+    Scenario,
+    Steady,
+    TracePoint,
+    read_scenario,
+    simulate,
+)
+from support_exudyn.files.hdf5 import BLOCK, with_checksum
+from support_exudyn.files.series.own_runs import OLDER
+from support_exudyn.formulations.statistics.collected import StepStatistics
+from support_exudyn.formulations.statistics.ends import between_ends
+from support_exudyn.formulations.statistics.steps import NODES
+from support_exudyn.mechanics.time_statistics import TimeStatistics, statistics_of_records
+from tests.cases.run_cases import FORCE, support
+from tests.linkages import apex, four_bar, towards
+
+SIX_BAR = """kind = "linkage"
+[drawing_mm]
+O = [0, 0]
+A = [60, 0]
+B = [220, 160]
+C = [240, 0]
+P = [150, 190]
+E = [330, 260]
+F = [360, 60]
+[bodies]
+crank = { bar = ["O", "A"], mass_kg = 1.2 }
+coupler = { bar = ["A", "B"], points_mm = { P = [190, 60] }, mass_kg = 3.0 }
+rocker = { bar = ["C", "B"], mass_kg = 1.5 }
+link = { bar = ["P", "E"], mass_kg = 1.4 }
+output = { bar = ["F", "E"], mass_kg = 2.0 }
+[pins]
+O = ["ground", "crank"]
+A = ["crank", "coupler"]
+B = ["coupler", "rocker"]
+C = ["ground", "rocker"]
+P = ["coupler", "link"]
+E = ["link", "output"]
+F = ["ground", "output"]
+[cranks]
+crank = "crank"
+[torsion_springs.load]
+bodies = ["ground", "output"]
+stiffness_N_m_per_rad = 40
+damping_N_m_s_per_rad = 2
+[bore_radius_mm]
+P = 12
+[width_mm.pins]
+P = 25
+"""
+RATTLES = """machine = "machine.toml"
+duration_s = 0.4
+accuracy = "standard"
+[drive]
+type = "Steady"
+rate_rpm = 300
+[pins.P]
+clearance_mm = 0.2
+restitution = 0.8
+friction = 0.1
+"""
+
+
+def test_numbers_of_a_rattling_six_bar_do_not_depend_on_its_records(tmp_path: Path) -> None:
+    (tmp_path / "machine.toml").write_text(SIX_BAR)
+    (tmp_path / "run.toml").write_text(RATTLES)
+    six_bar = read_scenario(tmp_path / "run.toml")
+    fine, *others = (simulate(replace(six_bar, record_period=one)) for one in (2e-5, 1e-3, None))
+    known = fine.numbers()
+    for other in others:
+        for name, number in other.numbers().items():
+            assert abs(number.value - known[name].value) <= number.error + known[name].error, name
+    # by the fine records themselves, of which an impact of 0.3 ms has fifteen
+    force, time = fine["pin.P.force"], fine.time
+    mean = np.trapezoid(force, time) / 0.4
+    spread = math.sqrt(np.trapezoid((force - mean) ** 2, time) / 0.4)
+    assert known["pin.P.force.std"].value == pytest.approx(spread, rel=3e-4)
+    highest = fine["pin.O.force"].max()
+    assert highest <= known["pin.O.force.largest"].value <= 1.01 * highest
+    assert known["pin.P.force.largest"].value == pytest.approx(known["pin.P.largest_force"].value, rel=1e-4)
+
+
+@pytest.mark.parametrize("formulation", ["compiled", "redundant"])
+def test_the_mean_of_a_coupler_point_is_that_of_its_curve(formulation: str) -> None:
+    rate, duration, links = -25.0 * math.pi / 30.0, 2.0, (0.04, 0.11, 0.09)
+
+    def middle(t: float) -> tuple[float, float]:
+        crank = towards(60.0 + math.degrees(rate * t), links[0])
+        end = apex(crank, (0.12, 0.0), *links[1:])
+        assert end is not None
+        return 0.5 * (crank[0] + end[0]), 0.5 * (crank[1] + end[1])
+
+    linkage = four_bar(*links, 0.12)
+    coupler = TracePoint(body="coupler", point=linkage.bodies["coupler"].centre)
+    drawing = replace(linkage, points={"middle": coupler}, cranks={"crank": Crank(body="crank")})
+    run = Scenario(
+        machine=PlanarLinkage(drawing=drawing),
+        drive=Steady(rate=rate),
+        duration=duration,
+        step=2e-3,
+        formulation=formulation,  # type: ignore[arg-type]
+        record_period=0.1,
+    )
+    numbers = simulate(run, errors=True).numbers(until=1.7)
+    for axis in range(2):
+        mean = quad(lambda t, axis=axis: middle(t)[axis], 0.0, 1.7, epsabs=1e-14, limit=200)[0] / 1.7
+        found = numbers[f"middle.{'xy'[axis]}.mean"]
+        assert abs(found.value - mean) <= found.error < 1e-5
+
+
+# --- from steps to intervals, and from these to a window ---
+
+
+def course(t: np.ndarray) -> np.ndarray:
+    """Smooth but for a jump at 1.3 s."""
+    return np.asarray(3.0 + np.sin(3.0 * t) + 0.3 * np.cos(11.0 * t) + 2.0 * (t > 1.3))
+
+
+def collected(intervals: int) -> TimeStatistics:
+    """Of that over 2 s, in chunks of steps of any length, one of which ends at the jump."""
+    ends = np.sort(np.append(np.random.default_rng(3).uniform(0.0, 2.0, 3000), [0.0, 1.3, 2.0]))
+    length = np.diff(ends)
+    time = ends[:-1, None] + length[:, None] * NODES
+    within = ends[:-1, None] + length[:, None] * np.clip(NODES, 1e-9, 1.0 - 1e-9)
+    found = StepStatistics(np.linspace(0.0, 2.0, intervals + 1))
+    for rows in np.array_split(np.arange(len(time)), 4):
+        found.add(time[rows], {"one": course(within[rows]).ravel(), "other": -course(within[rows]).ravel()})
+    return found.finished()
+
+
+@pytest.mark.parametrize("intervals", [5, 40, 1000])
+@pytest.mark.parametrize(("after", "until"), [(0.0, 2.0), (0.4, 1.6), (0.437, 1.51), (1.3, 1.71)])
+def test_intervals_combine_to_any_window(intervals: int, after: float, until: float) -> None:
+    window = collected(intervals).window("one", after, until)
+    time = np.linspace(after, until, 400_001)
+    values = course(time + 1e-12)
+    mean = np.trapezoid(values, time) / (until - after)
+    std = math.sqrt(np.trapezoid((values - mean) ** 2, time) / (until - after))
+    assert abs(window.mean - mean) <= window.mean_doubt + 3e-5
+    assert abs(window.std - std) <= window.std_doubt + 3e-5
+    assert abs(window.greatest[0] - values.max()) <= window.greatest_doubt + 3e-5
+    assert abs(window.least[0] - values.min()) <= window.least_doubt + 3e-5
+    if intervals == 1000:
+        assert window.mean_doubt + window.std_doubt < 5e-3
+        assert window.greatest[1] == pytest.approx(time[values.argmax()], abs=1e-3)
+
+
+def test_what_jumps_has_a_value_on_either_side() -> None:
+    before, after = collected(20).window("one", 1.0, 1.3), collected(20).window("other", 1.3, 1.5)
+    assert before.last == pytest.approx(course(np.array([1.3]))[0], abs=1e-6)
+    assert after.first == pytest.approx(-course(np.array([1.3]))[0] - 2.0, abs=1e-6)
+
+
+def test_between_the_ends_of_steps_parabolas_are_met_and_corners_do_not_overshoot() -> None:
+    time = np.array([0.0, 0.1, 0.25, 0.3, 0.3, 0.5, 0.6])
+    begins = np.array([True, False, False, False, True, False, False])
+    values = np.where(np.arange(7) < 4, 1.0 + time - 3.0 * time**2, 5.0 + 2.0 * time**2)
+    found = between_ends(time, begins, values)
+    nodes = time[:-1, None] + np.diff(time)[:, None] * NODES
+    np.testing.assert_allclose(found[:3], 1.0 + nodes[:3] - 3.0 * nodes[:3] ** 2, rtol=1e-12)
+    np.testing.assert_allclose(found[4:], 5.0 + 2.0 * nodes[4:] ** 2, rtol=1e-12)
+    corner = np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
+    smooth = between_ends(np.linspace(0.0, 1.0, 6), np.array([True] + 5 * [False]), corner)
+    assert smooth.min() >= 0.0
+    assert smooth.max() <= 1.0
+
+
+# --- records ---
+
+
+def test_a_file_of_the_version_before_gives_the_numbers_of_its_records(tmp_path: Path) -> None:
+    run = simulate(support(drive=Held(), duration=0.1, formulation="compiled", record_period=0.01))
+    path = replace(run, statistics=None).save(tmp_path / "run.h5")
+    path.write_bytes(with_checksum(path.read_bytes()[BLOCK:], OLDER))
+    loaded = Result.load(path)
+    assert loaded.statistics is None
+    records = statistics_of_records(run.time, {FORCE: run[FORCE]}).window(FORCE, 0.0, 0.1)
+    assert loaded.window(FORCE).mean == records.mean == np.trapezoid(run[FORCE], run.time) / 0.1
+
+
+@pytest.mark.parametrize(
+    ("changes", "period"),
+    [
+        ({}, 2e-3),  # a rise of 2 s, ideal pins; the finest of a run of 5 s is 1 ms
+        ({"duration": 40.0}, 1e-2),
+        ({"drive": Held(), "duration": 0.3}, 5e-4),  # steps of the redundant formulation are not cut
+        ({"drive": Held(), "duration": 0.3, "formulation": "compiled"}, 2e-4),
+        ({"record_period": 0.07}, 0.07),
+    ],
+)
+def test_records_follow_the_machine_unless_their_period_is_given(
+    changes: dict[str, Any], period: float
+) -> None:
+    scenario = support(**changes)
+    assert scenario.recorded_every == period
+    assert scenario.refined().recorded_every == period
