@@ -21,6 +21,7 @@ from support_exudyn.scenario.scenario import Scenario
 
 SINGULAR = 1e-5  # of the largest singular value: below, a condition says nothing
 NEAR = 0.2  # of the largest singular value of a dip that is looked into
+DIP = 1.2  # times what is left at the record nearest to the point is left at one beside
 UNBOUNDED = 0.25  # share of a force that grows as one over what is left of a condition: it has no limit
 SPIKE = 10.0  # times the forces a little beside: what records next to the point show is none
 LEAP = 0.01  # share of the largest force by which none leaps from record to record
@@ -101,17 +102,19 @@ def passed(
     left = values_of(conditions, motion.position)[:, last]
     joints = np.array([force[some] for force in forces.values()])
     largest = joints.max(axis=0)
-    dips = np.flatnonzero((left[1:-1] <= left[:-2]) & (left[1:-1] < left[2:]) & (left[1:-1] < NEAR)) + 1
-    for n in dips.tolist():
-        at, position, least = _least(conditions, motion, time, n, last)
+    before, here, after = left[:-2], left[1:-1], left[2:]
+    dips = (here <= before) & (here < after) & (here < NEAR) & (DIP * here < np.maximum(before, after))
+    for n in [0, *(np.flatnonzero(dips) + 1).tolist(), len(left) - 1]:
         # what swings through freely moves on as energy has it, whatever the forces
         wrong = (
             _unbounded(left, largest, n) or _leaps(left, joints, n)
             if driven
-            else largest[n - 1 : n + 2].max() > BEYOND * np.median(largest)
+            else largest[max(n - 1, 0) : n + 2].max() > BEYOND * np.median(largest)
         )
-        if least < SINGULAR and wrong:
-            return at, words(conditions, position)
+        if wrong:
+            at, position, least = _least(conditions, motion, time, n, last)
+            if least < SINGULAR:
+                return at, words(conditions, position)
     return None
 
 
@@ -128,7 +131,7 @@ def _least(
         float(values_of(conditions, motion.position[n : n + 1])[0, last]),
     )
     # what a record in the point itself shows may be of rounding
-    for low, high in ((n - 1, n), (n, n + 1), (n - 1, n + 1)):
+    for low, high in ((n - 1, n), (n, n + 1), (n - 1, n + 1)) if 0 < n < len(time) - 1 else ():
         ends = [low, high]
         way = CubicHermiteSpline(time[ends], motion.position[ends], motion.velocity[ends])
         found = minimize_scalar(
@@ -143,20 +146,25 @@ def _least(
 
 
 def _unbounded(left: Series, largest: Series, n: int) -> bool:
-    """Whether forces grow as one over what is left of a condition towards record n, or leap there."""
-    near = [m for m in (n - 1, n + 1) if left[m] > SINGULAR]
-    around = [largest[m] for m in (n - 3, n - 2, n + 2, n + 3) if 0 <= m < len(largest)]
-    if largest[n - 1 : n + 2].max() > SPIKE * max(around, default=math.inf) or not near:
+    """Whether forces grow as one over what is left of a condition towards record n, or leap next to it."""
+    inside = range(len(left))
+    around = [largest[m] for m in (n - 3, n - 2, n + 2, n + 3) if m in inside]
+    if max(largest[m] for m in (n - 1, n, n + 1) if m in inside) > SPIKE * max(around, default=math.inf):
         return True
     for one, other in ((n - 1, n - 2), (n + 1, n + 2)):
-        if one in near and 0 <= other < len(left) and left[other] > left[one]:
-            share = (largest[one] - largest[other]) / (1.0 / left[one] - 1.0 / left[other]) / left[one]
+        if one in inside and other in inside and SINGULAR < left[one] < left[other]:
+            share = (largest[one] - largest[other]) * left[other] / (left[other] - left[one])  # c over s at one
             if share > UNBOUNDED * largest[one]:
                 return True
     return False
 
 
 def _leaps(left: Series, joints: Series, n: int) -> bool:
-    """Whether record n is in the point itself and shows forces (joints, n) that are not those to both sides."""
-    leap = np.abs(joints[:, n] - 0.5 * (joints[:, n - 1] + joints[:, n + 1])).max()
-    return bool(left[n] < SINGULAR and leap > LEAP * joints[:, n - 1 : n + 2].max())
+    """Whether record n is in the point itself and shows forces (joints, n) that do not continue those beside."""
+    end = len(left) - 1
+    one, other = (1, 2) if n == 0 else (end - 1, end - 2) if n == end else (n - 1, n + 1)
+    expected = (
+        2.0 * joints[:, one] - joints[:, other] if n in (0, end) else 0.5 * (joints[:, one] + joints[:, other])
+    )
+    leap = np.abs(joints[:, n] - expected).max()
+    return bool(left[n] < SINGULAR and leap > LEAP * joints[:, [one, n, other]].max())

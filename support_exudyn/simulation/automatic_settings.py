@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 from support_exudyn.formulations.registry import CHEAPEST_FIRST, FormulationName, formulation
+from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_STEP
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
@@ -53,8 +54,9 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
 
 
 def covered(scenario: Scenario) -> Scenario:
-    """A scenario without an accuracy, with a formulation that covers it where "auto" leaves that open."""
-    if scenario.formulation != "auto" or formulation("auto").covers(scenario):
+    """A scenario without an accuracy, compiled where "auto" meets friction in pins that repeat each other."""
+    shares = scenario.friction_pins and repeated_count(scenario.held)[0]
+    if scenario.formulation != "auto" or not shares or formulation("auto").covers(scenario):
         return scenario
     free = replace(scenario, formulation="compiled")
     return free if formulation("compiled").covers(free) else scenario

@@ -213,9 +213,15 @@ EQUAL = Linkage(
 def test_a_driven_linkage_ends_at_its_change_point(
     linkage: Linkage, stands: str, time: float, formulation: str, record: float
 ) -> None:
-    with pytest.raises(SimulationError, match=f"change point or dead centre .{stands}") as error:
+    with pytest.raises(SimulationError, match=rf"change point or dead centre \({stands}") as error:
         run(linkage, formulation, 1.0, record)
     assert error.value.failure.time == pytest.approx(time, abs=1e-4)
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_a_run_that_ends_in_a_change_point_shows_no_force_there(formulation: str) -> None:
+    with pytest.raises(SimulationError, match=r"change point or dead centre \(crank at 180 degrees"):
+        run(PARALLELOGRAM, formulation, 1.0 / 3.0, record=1.0 / 360.0)
 
 
 def test_without_weight_a_parallelogram_passes_with_the_forces_of_its_coupler() -> None:

@@ -80,9 +80,9 @@ def check(scenario: Scenario) -> None:
     for one in repeated(scenario.held, still) if scenario.friction_pins else ():
         if rough := [name for kind, name in one.parts if kind == "pins" and name in scenario.friction_pins]:
             raise InputError(
-                f"pins.{rough[0]}.friction: not covered by formulation = 'redundant', for {one.said()}, and the "
-                "engine takes any forces that fit; allowed: formulation = 'compiled', which takes the least, or a "
-                "bushing in one of them"
+                f"pins.{rough[0]}.friction: not covered by formulation = 'redundant', for {one.said()}, and "
+                "the engine takes any forces that fit; allowed: formulation = 'compiled', which takes the "
+                "least, or a bushing in one of them"
             )
 
 
