@@ -108,7 +108,7 @@ class Equations:
         while t < until:
             events = [self._event(name) for name in found]
             run = solve_ivp(
-                self.slope, (t, until), s, "DOP853", rtol=1e-10, atol=1e-13, events=events, max_step=1e-5
+                self.slope, (t, until), s, "DOP853", rtol=1e-12, atol=1e-15, events=events, max_step=1e-5
             )
             t, s = float(run.t[-1]), run.y[:, -1]
             for name, times in zip(found, run.t_events, strict=True):
