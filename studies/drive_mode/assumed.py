@@ -9,9 +9,9 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from studies.common import paper_machine, rise
-from studies.common.paper_machine import CONTACT_TITLES, CYLINDERS, PAPER
+from studies.common.paper_machine import CLEARANCE_MM, CONTACT_TITLES, CYLINDERS, PAPER
 from studies.common.words import TextTable
-from studies.drive_mode.cases import CLEARANCE_MM, PINS, ModePlan, case_name
+from studies.drive_mode.cases import PINS, ModePlan, case_name
 from support_exudyn import ClearancePin, Line, Result, Scenario, UniformSpeed
 
 MODULI = (1.5e9, 2.2e9)  # of the oil [Pa]; four published shields give 1.96 GPa
