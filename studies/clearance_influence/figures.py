@@ -53,14 +53,14 @@ def _velocity_figure(results: Mapping[str, Result]) -> Figure:
     drawing = Figure(figsize=style.size(170, 115))
     panels = list(drawing.subplots(2, 2).flat)
     for axes, window in zip(panels, ((0.0, 5.0), *WINDOWS.values()), strict=True):
-        _draw(axes, results, rise.SPEED, rise.DEGREES)
+        _draw(axes, results, rise.SPEED, rise.DEGREES, DRY, SMOOTH, IDEAL)  # friction moves no ideal pin
         axes.set(xlabel="time [s]", ylabel="angular velocity\n[deg/s]", xlim=window)
         fit_height(axes, (rise.DEGREES * r[rise.SPEED][rise.between(r, *window)] for r in results.values()))
         time_ticks(axes, rise.PAPER)
     for letter, window in zip("bcd", WINDOWS.values(), strict=True):
         panels[0].axvspan(*window, color="#dddddd", zorder=0)
         panels[0].text(sum(window) / 2.0, 0.0, letter, ha="center", va="bottom", fontsize=7)
-    legend(drawing, panels[0], 2)
+    legend(drawing, panels[0], 3)
     letters(panels)
     return drawing
 

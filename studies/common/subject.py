@@ -93,7 +93,7 @@ class Subject:
     def contact_in_words(self) -> str:
         """The contact that all studies of this machine have in common."""
         contact = self.clearance_pin(self.clearance_mm, self.friction).contact
-        length = getattr(contact.normal, "length", None)
+        length, law = (getattr(contact.normal, name, None) for name in ("length", "damping"))
         touches = "as two spheres" if length is None else f"along its length of {1e3 * length:g} mm"
         said = {
             "restitution": getattr(contact.normal, "restitution", None),
@@ -102,7 +102,7 @@ class Subject:
         data = "".join(f", {what} {value:g}" for what, value in said.items() if value is not None)
         return (
             f"Pin {self.pin} touches its bore of {1e3 * contact.bearing.bore_radius:g} mm radius {touches} "
-            f"({title(type(contact.normal))}{data})."
+            f"({law if isinstance(law, str) else title(type(contact.normal))}{data})."
         )
 
     def clearance_pin(self, clearance_mm: float, sliding_coefficient: float) -> ClearancePin:

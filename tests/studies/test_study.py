@@ -205,6 +205,9 @@ def test_a_pin_of_ones_own_machine_has_the_bore_of_its_file(form: str, tmp_path:
     contact = subject.with_clearance(1.5, 0.25).pins["rear_base"].contact  # type: ignore[attr-defined]
     assert contact.bearing.bore_radius == pytest.approx(0.1008)
     assert contact.normal.length == 1.077  # of its file, too
+    assert (
+        "rear_base touches its bore of 100.8 mm radius along its length of 1077 mm" in subject.contact_in_words
+    )
     assert contact.normal.bearing == contact.bearing
     assert subject.bore_radius == contact.bearing.bore_radius
 
