@@ -212,5 +212,5 @@ def _extension(drive: Drive) -> str:
 
 def solver_commands(scenario: Scenario, model: str) -> str:
     """The commands (`.acf`) by which ADAMS/Solver runs a dataset: to the scenario's end, with its records."""
-    end, period = number(scenario.duration), number(scenario.record_period)
+    end, period = number(scenario.duration), number(scenario.recorded_every)
     return f"\nfile/model={model}\nsimulate/dynamics, end={end}, dtout={period}\nstop\n"

@@ -147,7 +147,7 @@ def standings(name: str) -> Iterator[Standing]:
     """Run an entrant by all its settings, the coarsest first."""
     entrant, scenario = ENTRANTS[name], SCENES[SCENE].scenario
     exact = references()[SCENE].path[0]
-    entrant.run(replace(scenario, duration=scenario.record_period), entrant.settings[0])  # imports, compiles
+    entrant.run(replace(scenario, duration=scenario.recorded_every), entrant.settings[0])  # imports, compiles
     for setting in entrant.settings:
         yield standing(entrant, setting, scenario, exact)
 

@@ -121,7 +121,7 @@ def _side(way: OurWay | str, held: ExitStack) -> tuple[str, Timing]:
 
 
 def _moment(scenario: Scenario) -> Scenario:
-    return replace(scenario, duration=scenario.record_period)
+    return replace(scenario, duration=scenario.recorded_every)
 
 
 def coarsest(scene: str, formulation: str, settings: tuple[Setting, ...]) -> Setting:

@@ -101,7 +101,7 @@ def redundant(scene: BenchmarkScene, family: str, label: str, share: float, **se
     """The redundant formulation at so many times the default step."""
     chosen = {"impact_steps": round(IMPACT_STEPS / share), "result_checks": RESULT_CHECKS, **settings}
     solver = SolverSettings(**chosen)  # type: ignore[arg-type]
-    step = min(scene.step * share, scene.scenario.record_period)
+    step = min(scene.step * share, scene.scenario.recorded_every)
     scenario = replace(scene.scenario, formulation="redundant", step=step, solver=solver)
     label = label or f"step {step:g} s, {solver.impact_steps} an impact, growth {solver.growth:g}"
     return _way(family, label, scene, scenario)

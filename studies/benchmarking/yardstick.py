@@ -103,7 +103,7 @@ def _numbers(scenario: Scenario, tolerance: float) -> list[float]:
         drive.start,
         drive.end,
         scenario.duration,
-        scenario.record_period,
+        scenario.recorded_every,
         start.canopy,
         start.rear_link,
         lever / clearance / tolerance,

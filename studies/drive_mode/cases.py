@@ -97,7 +97,7 @@ class ModePlan:
         base = subject.ideal if ideal else subject.with_clearance(self.clearance_mm, subject.friction)
         duration = round(watched.end + AFTER * (watched.end - watched.start), 9)
         first, *others = drives = [self.drive(mode, name) for name in self.actuators]
-        period = min(base.record_period, PERIOD)
+        period = min(base.recorded_every, PERIOD)
         base = replace(base, duration=duration, record_period=period, channels=ALL_CHANNELS)
         if all(one == first for one in others):
             base = replace(base, drive=first, drives={})

@@ -282,7 +282,7 @@ def _by_steps(scenario: Scenario) -> list[Scenario]:
     agree on what is wrong.
     """
     longest = FOLLOWED * timescales(scenario).resting
-    longest = min(scenario.record_period, scenario.duration / FEWEST, LARGEST_STEP, longest)
+    longest = min(scenario.recorded_every, scenario.duration / FEWEST, LARGEST_STEP, longest)
     for radius in RADII:
         steps = SolverSettings(impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS, spectral_radius=radius)
         other = replace(scenario, formulation="redundant", solver=steps)

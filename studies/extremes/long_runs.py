@@ -201,7 +201,7 @@ def _measured(
     begun = [onset.time for pin in outcome.onsets.values() for onset in pin]
     later = sum(t > scenario.duration / PARTS for t in begun)
     kept = (times.size - first.sum()) * record_bytes(scenario) + later * IMPACT
-    nominal = np.minimum(np.arange(times.size) * scenario.record_period, scenario.duration)
+    nominal = np.minimum(np.arange(times.size) * scenario.recorded_every, scenario.duration)
     return LongRun(
         scene=name,
         simulated=scenario.duration,

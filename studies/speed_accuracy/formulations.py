@@ -46,16 +46,13 @@ def compared(options: Options) -> list[Compared]:
     chosen, redundant = run_cases(cases, options), run_with_errors(engine, options)
     watched = subject.watched
 
-    def of(function: Callable[..., float]) -> Callable[[Result], float]:
-        return lambda run: function(run, run[watched.force])
-
-    measures = {
-        "mean force": watched.mean,
-        "spread": watched.spread,
-        "RMS fluctuation": watched.rms_fluctuation,
+    measures: dict[str, Callable[[Result], float]] = {
+        "mean force": lambda run: watched.mean(run, watched.force),
+        "spread": lambda run: watched.spread(run, watched.force),
+        "RMS fluctuation": lambda run: watched.rms_fluctuation(run, run[watched.force]),
     }
     return [
-        Compared(*(measured(what, name, "N", runs[name], of(function)) for runs in (chosen, redundant)))
+        Compared(*(measured(what, name, "N", runs[name], function) for runs in (chosen, redundant)))
         for name in cases
         for what, function in measures.items()
     ]

@@ -39,7 +39,7 @@ def _own(label: str, subject: Subject, scenario: Scenario) -> BenchmarkScene:
     points = scenario.unloaded.points
     longest = settings_for(replace(plain, formulation="redundant"), GOAL).step
     # an even number in a record, so that records are at the ends of twice and of two fifths of it, too
-    step = 0.5 * plain.record_period / math.ceil(0.5 * plain.record_period / longest)
+    step = 0.5 * plain.recorded_every / math.ceil(0.5 * plain.recorded_every / longest)
     point = next(iter(points), watched.body)
     return BenchmarkScene(label, plain, watched.pin, watched.body, point, watched.start, step)
 

@@ -87,7 +87,7 @@ class PinPlan:
         if self.subject.is_paper:
             drive = CubicStep(start=self.watched.start, end=self.watched.end)
             motion = replace(motion, drive=drive, duration=self.watched.end)
-        period = min(motion.record_period, STEP)
+        period = min(motion.recorded_every, STEP)
         return replace(motion, pins={}, channels=ALL_CHANNELS, accuracy=None, record_period=period, step=STEP)
 
     @cached_property
@@ -151,7 +151,7 @@ class PinPlan:
         Of the paper's machine also pairs, and single pins with less friction and with less clearance. Machines
         on actuators start settled, as a support stands that waits to be raised.
         """
-        period = min(self.motion.record_period, STEP)
+        period = min(self.motion.recorded_every, STEP)
         if self.watched.window < 2.0 * period:
             times = f"{self.watched.start:g} to {self.watched.end:g} s"
             least = 40.0 * period

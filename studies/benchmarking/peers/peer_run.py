@@ -84,8 +84,8 @@ def _crossing(first: float, last: float, first_slope: float, last_slope: float) 
 
 def record_times(scenario: Scenario) -> Series:
     """The times of a scenario's records [s]."""
-    count = round(scenario.duration / scenario.record_period)
-    found: Series = np.arange(float(count + 1)) * scenario.record_period
+    count = round(scenario.duration / scenario.recorded_every)
+    found: Series = np.arange(float(count + 1)) * scenario.recorded_every
     return found
 
 

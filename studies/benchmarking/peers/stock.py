@@ -32,7 +32,7 @@ class Watch:
     def __init__(self, scene: BareScene, step: float) -> None:
         self.scene = scene
         self.step = step
-        self.every = max(1, round(scene.scenario.record_period / step))
+        self.every = max(1, round(scene.scenario.recorded_every / step))
         self.count = 0
         self.force = 0.0  # at the end of the last step [N]
         self.times: list[float] = []

@@ -26,7 +26,8 @@ FACTOR = 1.001
 
 @pytest.fixture(scope="module")
 def run(simulate_cached: SimulateCached) -> Result:
-    return simulate_cached(rocker())
+    # its numbers are those of its channels, which are changed here
+    return whole(simulate_cached(rocker()), lambda r: replace(r, statistics=None))  # type: ignore[no-any-return]
 
 
 @pytest.fixture(scope="module")
