@@ -105,7 +105,7 @@ class TimeStatistics:
     edges: Series
     channels: Mapping[str, Series]
     _windows: dict[tuple[str, float, float], TimeWindow] = field(
-        default_factory=dict, repr=False, compare=False
+        default_factory=dict, init=False, repr=False, compare=False
     )
 
     def lasts(self, after: float, until: float) -> bool:
