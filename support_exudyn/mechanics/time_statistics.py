@@ -105,7 +105,7 @@ class TimeStatistics:
     edges: Series
     channels: Mapping[str, Series]
     _windows: dict[tuple[str, float, float], TimeWindow] = field(
-        default_factory=dict, repr=False, compare=False
+        default_factory=dict, init=False, repr=False, compare=False
     )
 
     def lasts(self, after: float, until: float) -> bool:
@@ -160,7 +160,8 @@ def _part(row: Series, start: float, whole: float, low: float, high: float) -> _
     ends, bend = row[[FIRST, LAST]], row[MEAN] - 0.5 * (row[FIRST] + row[LAST])
 
     def parabola(x: Series) -> Series:
-        return np.asarray(ends[0] * (1.0 - x) + ends[1] * x + 6.0 * bend * x * (1.0 - x))
+        found: Series = ends[0] * (1.0 - x) + ends[1] * x + 6.0 * bend * x * (1.0 - x)
+        return found
 
     def moments(values: Series) -> tuple[float, float]:
         mean = float(GAUSS_WEIGHTS @ values)

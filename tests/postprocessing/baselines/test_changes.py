@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Result, Scenario, simple_scenario, simulate
+from support_exudyn.mechanics.time_statistics import COLUMNS, FIRST, GREATEST, LAST, LEAST, MEAN
 from support_exudyn.postprocessing.baselines.changes import RunChange, apart, changes
 from support_exudyn.postprocessing.baselines.kept_impacts import kept_impacts
 from support_exudyn.postprocessing.baselines.kept_run import KeptCurve, KeptRun, kept_run
@@ -22,6 +23,7 @@ from support_exudyn.simulation.estimate import Estimate
 from tests.postprocessing.baselines.scenes import rocker
 
 FACTOR = 1.001
+PLACES = (MEAN, FIRST, LAST, LEAST, GREATEST)
 
 
 @pytest.fixture(scope="module")
@@ -123,7 +125,13 @@ def test_a_sign_is_caught(run: Result, kept: KeptRun) -> None:
 
 
 def test_an_offset_is_caught(run: Result, kept: KeptRun) -> None:
-    found = changes(kept, kept_run(with_values("middle.x", lambda x: x + 1e-8)(run)))
+    def moved(one: Result) -> Result:
+        assert one.statistics is not None
+        rows = one.statistics.channels["middle.x"] + np.isin(np.arange(len(COLUMNS)), PLACES) * 1e-8
+        statistics = replace(one.statistics, channels={**one.statistics.channels, "middle.x": rows})
+        return replace(one, statistics=statistics)
+
+    found = changes(kept, kept_run(whole(with_values("middle.x", lambda x: x + 1e-8)(run), moved)))
     assert {one.name for one in found} == {"middle.x", "middle.x.mean"}
 
 

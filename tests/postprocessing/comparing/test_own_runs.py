@@ -179,7 +179,7 @@ def with_factor(run: Result, factor: float) -> Result:
     channel = run.channels[FORCE]
     channels = {**run.channels, FORCE: replace(channel, values=factor * channel.values)}
     coarser = run.coarser and with_factor(run.coarser, factor)
-    return replace(run, channels=channels, coarser=coarser)
+    return replace(run, channels=channels, coarser=coarser, statistics=None)  # which then are of the channels
 
 
 def test_a_factor_on_a_force_is_told() -> None:
