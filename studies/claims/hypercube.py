@@ -1,7 +1,7 @@
 """The machines, run one by one in parallel processes, each kept as soon as it is finished.
 
 A finished machine is a file DIR/machines/KEY.json, written whole by the process that ran it. The key is made
-of its inputs and of the program's sources: a run that was killed goes on where it stopped, and a changed
+of its inputs and of the program's sources: a run that was killed resumes where it stopped, and a changed
 program starts anew. A machine that cannot be run is a row too, with the reason.
 """
 
@@ -50,7 +50,7 @@ def run(
         samples: the machines.
         out: DIR.
         workers: number of processes, >= 1, or the pool to use.
-        progress: is told how many are done, of how many.
+        progress: receives how many are done, of how many.
     """
     folder = out / FOLDER
     folder.mkdir(parents=True, exist_ok=True)

@@ -33,7 +33,7 @@ Sample = Mapping[str, Choice]  # a value of every datum, by name
 
 REFERENCE_SCALE = 0.65  # of the support whose pivots the reference support has
 CONTACT = "contact"  # the datum by which both hypercubes differ: as printed, along the length
-LOT = 40  # machines that are drawn together: each range has one of them in each of as many parts
+LOT = 40  # machines that are drawn together: each range is cut into as many parts, with a machine in each
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ REFERENCE: dict[str, Choice] = {factor.name: factor.reference for factor in FACT
 
 
 def samples(number: int, seed: int, *, second: bool = False) -> list[dict[str, Choice]]:
-    """The first machines of one of both hypercubes; more of them begin with the same ones.
+    """The first machines of a hypercube; a larger number begins with the same machines.
 
     They are drawn in lots, each a Latin hypercube over all data. Machines with the same number have the same
     data in both hypercubes where the ranges are the same.

@@ -45,7 +45,7 @@ class Count(NamedTuple):
 
     @property
     def kind(self) -> str:
-        """The verdict, one of KINDS."""
+        """The verdict: one entry of KINDS."""
         low, high = self.interval
         if low >= NEARLY_ALL:
             return HOLDS
@@ -97,11 +97,11 @@ class Ruling:
 
     @property
     def kind(self) -> str:
-        """The verdict on machines that have what is printed, one of KINDS."""
+        """The verdict on machines that have what is printed."""
         return self.verdict(self.first)
 
     def verdict(self, count: Count) -> str:
-        """The verdict on the machines of a hypercube, one of KINDS."""
+        """The verdict on the machines of a hypercube: one entry of KINDS."""
         if self.claim.judge is None:
             return NOT_MEASURABLE
         if self.claim.closed_form:
@@ -115,7 +115,7 @@ class Ruling:
 
     @property
     def differs(self) -> bool:
-        """Whether the share in the second hypercube is another one: the intervals do not overlap."""
+        """Whether the share in the second hypercube differs: the intervals do not overlap."""
         (low, high), (second_low, second_high) = self.first.interval, self.second.interval
         return high < second_low or second_high < low
 
@@ -126,8 +126,8 @@ def wilson(holds: int, machines: int) -> tuple[float, float]:
         return 0.0, 1.0
     from scipy.stats import binomtest  # takes a second to import
 
-    found = binomtest(holds, machines).proportion_ci(CONFIDENCE, "wilson")
-    return float(found.low), float(found.high)
+    interval = binomtest(holds, machines).proportion_ci(CONFIDENCE, "wilson")
+    return float(interval.low), float(interval.high)
 
 
 def count(judge: Judge, machines: Machines) -> Count:
@@ -163,7 +163,7 @@ def rule(claim: Claim, reference: Evidence, first: Machines, second: Machines = 
 
 
 def independent(rulings: Sequence[Ruling]) -> list[Ruling]:
-    """The measurable statements without those that follow from another one with the same verdict."""
+    """The measurable statements without those that follow from another statement with the same verdict."""
     kinds = {ruling.claim.name: ruling.kind for ruling in rulings}
     return [
         ruling
