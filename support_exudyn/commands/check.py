@@ -57,6 +57,7 @@ def run(given: argparse.Namespace) -> None:
     from support_exudyn.postprocessing.figures.checks import check_figure
     from support_exudyn.scenario.pin_pressure import statically_pressed
     from support_exudyn.scenario.pin_stability import NOT_TOLD, pin_outlooks
+    from support_exudyn.simulation.simulate import look_at_laws
 
     data = read_machine_in(given.machine)
     try:
@@ -70,6 +71,8 @@ def run(given: argparse.Namespace) -> None:
     with style.look():
         written = style.save(check_figure(report), out, f"{path.stem if own else given.machine}_check")
     scenario, told = _looked_at(given, data, report)
+    if scenario:
+        look_at_laws(scenario)
     outlooks = pin_outlooks(scenario) if scenario else []
     if scenario and scenario.clearance_pins and not outlooks:
         told.append(f"whether its pins shake: {NOT_TOLD}")

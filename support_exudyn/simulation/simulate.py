@@ -82,7 +82,7 @@ def simulate(
 def _run(run: Callable[[Scenario, Progress], Result], scenario: Scenario, progress: Progress) -> Result:
     try:
         if scenario.solver.result_checks:
-            _look_at_laws(scenario)
+            look_at_laws(scenario)
         result = run(scenario if scenario.goal else covered(scenario), progress)
         if scenario.formulation == result.scenario.formulation:
             return result
@@ -92,7 +92,7 @@ def _run(run: Callable[[Scenario, Progress], Result], scenario: Scenario, progre
         raise SimulationError(Failure(f"the program was asked to end: {told(error)}", OWN, 0.0)) from None
 
 
-def _look_at_laws(scenario: Scenario) -> None:
+def look_at_laws(scenario: Scenario) -> None:
     """Raise SimulationError if a law is none, as far as calls before the run show."""
     try:
         for name, place in scenario.contact_places.items():
