@@ -124,7 +124,8 @@ def _of(reference: ComparedFile, other: ComparedFile) -> list[str]:
     for one in found:
         column = _quoted(one.column)
         doubtful, late = _is_doubtful(one), ""
-        if one.curves < 0.0 and (shift := _in_step(reference, other, one)) is not None:
+        in_step = any(each.curves > LEAST for each in found)  # a shift is of the whole file
+        if one.curves < 0.0 and not in_step and (shift := _in_step(reference, other, one)) is not None:
             late = f"; a shift in time by {shift:.4g} s fits as well as sign = -1 (--shift finds one)"
         elif one.curves < 0.0:
             column = f"{{ column = {column}, sign = -1 }}"
