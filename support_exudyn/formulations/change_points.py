@@ -160,7 +160,7 @@ def _unbounded(left: Series, largest: Series, n: int) -> bool:
 
 
 def _leaps(left: Series, joints: Series, n: int) -> bool:
-    """Whether record n is in the point itself and shows forces (joints, n) that do not continue those beside."""
+    """Whether record n is in the point itself and shows forces (joints, n) that do not fit those beside."""
     end = len(left) - 1
     one, other = (1, 2) if n == 0 else (end - 1, end - 2) if n == end else (n - 1, n + 1)
     expected = (

@@ -54,8 +54,8 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
 
 
 def covered(scenario: Scenario) -> Scenario:
-    """A scenario without an accuracy, compiled where "auto" meets friction in pins that repeat each other."""
-    shares = scenario.friction_pins and repeated_count(scenario.held)[0]
+    """A scenario without an accuracy, compiled where "auto" meets friction in joints that repeat each other."""
+    shares = scenario.friction_laws and repeated_count(scenario.held)[0]
     if scenario.formulation != "auto" or not shares or formulation("auto").covers(scenario):
         return scenario
     free = replace(scenario, formulation="compiled")

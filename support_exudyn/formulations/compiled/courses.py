@@ -15,6 +15,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from support_exudyn.formulations.compiled.arrays import COURSE, PIECE, Matrix, Records, Vector
+from support_exudyn.model.drives.drive import Drive
 from user_forces.lawful import LawError
 
 DEGREE = 8  # of a piece: powers of the place, from -1 to 1, lose two digits by it
@@ -112,3 +113,15 @@ def _fitted(
                 f"a drive or a valve jumps by {wrong:.3g} near {low:.9g} s; allowed: jumps of the speed at its "
                 "breaks"
             )
+
+
+def extension_of(drive: Drive) -> TimeFunction:
+    """The extension of a drive; raises LawError where that is no number."""
+
+    def asked(t: float) -> float:
+        found = drive.extension(t)
+        if not math.isfinite(found):
+            raise LawError(f"{type(drive).__name__} has an extension of {found:g} at {t:.9g} s")
+        return found
+
+    return asked

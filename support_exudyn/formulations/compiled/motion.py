@@ -11,8 +11,12 @@ import math
 
 from support_exudyn.formulations.compilation import compiled, inlined
 from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
+from support_exudyn.mechanics.closing import Conditions
 
 SETTLED = 1e-13  # share by which moments that depend on accelerations may still change
+# Factors lose as many digits as the lightest body is lighter than the heaviest. So little may be left of that.
+DIGIT, CLOSE = 1e-15, 1e-13
+MOST_ROUNDS = 30
 SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
 
 
@@ -407,3 +411,10 @@ def refine(scene: SceneArrays, right: Vector) -> bool:
         scene.rows[n].held += right[n]
         take(scene, n, right[n])
     return largest == 0.0 or changed > SETTLED * largest
+
+
+def rounds_of(held: Conditions) -> int:
+    """In how many rounds multipliers and accelerations are solved for, see `refine`."""
+    felt = held.kinetics.mass() / held.arms**2
+    lost = DIGIT * felt.max() / max(felt.min(), DIGIT * felt.max())  # all of a point mass
+    return MOST_ROUNDS if lost >= CLOSE**0.1 else max(1, math.ceil(math.log(CLOSE) / math.log(lost)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -14,7 +13,14 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from support_exudyn.formulations.compilation import compiled_law
 from support_exudyn.formulations.compiled import arrays
 from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
-from support_exudyn.formulations.compiled.courses import Courses, TimeFunction, courses, segment_edges
+from support_exudyn.formulations.compiled.courses import (
+    Courses,
+    TimeFunction,
+    courses,
+    extension_of,
+    segment_edges,
+)
+from support_exudyn.formulations.compiled.motion import rounds_of
 from support_exudyn.formulations.compiled.written import load_source
 from support_exudyn.formulations.hydraulics.fill import Legs, fill_legs
 from support_exudyn.formulations.time_grid import record_times
@@ -24,18 +30,12 @@ from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_c
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
 from support_exudyn.model.bushing_pin import BushingPin
-from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import Load
 from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.compilation.flat import friction_source, law_source
-from user_forces.lawful import LawError
 from user_forces.values.value import Vector2
-
-# Factors lose as many digits as the lightest body is lighter than the heaviest. So little may be left of that.
-DIGIT, CLOSE = 1e-15, 1e-13
-MOST_ROUNDS = 30
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ def model_of(scenario: Scenario) -> Model:
     moving = [name for name in driven if scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)]
     valves = [name for name, one in scenario.valved.items() if one.inlet.breaks or one.inlet.opening(0.0)]
     edges = segment_edges(scenario.breaks, scenario.duration)
-    functions: list[TimeFunction] = [_extension(scenario.drive_of(name)) for name in moving]
+    functions: list[TimeFunction] = [extension_of(scenario.drive_of(name)) for name in moving]
     functions += [scenario.valved[name].inlet.opening for name in valves]
     sources = {name: load_source(load) for name, load in scenario.acting_loads.items()}
     of_loads = len(functions)
@@ -143,7 +143,7 @@ def model_of(scenario: Scenario) -> Model:
         repeats=np.zeros((repeated_count(scenario.held)[0], len(rows))),
         counts=counts,
         spare=np.zeros(len(rows)),
-        rounds=_rounds(scenario),
+        rounds=rounds_of(scenario.held),
         contacts=contacts,
         oil=oil_records,
         cylinders=cylinder_records,
@@ -178,18 +178,6 @@ def model_of(scenario: Scenario) -> Model:
     )
 
 
-def _extension(drive: Drive) -> TimeFunction:
-    """The extension of a drive; raises LawError where that is no number."""
-
-    def asked(t: float) -> float:
-        found = drive.extension(t)
-        if not math.isfinite(found):
-            raise LawError(f"{type(drive).__name__} has an extension of {found:g} at {t:.9g} s")
-        return found
-
-    return asked
-
-
 def _bodies(scenario: Scenario) -> Records:
     """Bodies with their weight."""
     found = np.zeros(len(scenario.linkage.bodies), arrays.BODY)
@@ -201,14 +189,6 @@ def _bodies(scenario: Scenario) -> Records:
         record["weight_x"], record["weight_y"] = body.mass * gx, body.mass * gy
         record["x0"], record["y0"] = body.centre
     return found
-
-
-def _rounds(scenario: Scenario) -> int:
-    """In how many rounds multipliers and accelerations are solved for, see `motion.refine`."""
-    held = scenario.held
-    felt = held.kinetics.mass() / held.arms**2
-    lost = DIGIT * felt.max() / max(felt.min(), DIGIT * felt.max())  # all of a point mass
-    return MOST_ROUNDS if lost >= CLOSE**0.1 else max(1, math.ceil(math.log(CLOSE) / math.log(lost)))
 
 
 def _points(build: _Builder, linkage: Linkage) -> Records:

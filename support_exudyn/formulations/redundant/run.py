@@ -28,7 +28,7 @@ from support_exudyn.formulations.redundant.solver.solver import SolverRun
 from support_exudyn.formulations.redundant.space.observation import SpatialObservation
 from support_exudyn.formulations.redundant.space.scene import SpatialScene
 from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
-from support_exudyn.machines.check.freedoms import repeated
+from support_exudyn.machines.check.freedoms import FIELDS, repeated
 from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
@@ -77,10 +77,11 @@ def check(scenario: Scenario) -> None:
             "speed; allowed: 3, or columns of oil"
         )
     still = np.zeros(3 * len(scenario.linkage.bodies))
-    for one in repeated(scenario.held, still) if scenario.friction_pins else ():
-        if rough := [name for kind, name in one.parts if kind == "pins" and name in scenario.friction_pins]:
+    for one in repeated(scenario.held, still) if scenario.friction_laws else ():
+        parts = [f"{FIELDS.get(kind, kind)}.{name}" for kind, name in one.parts]
+        if rough := [name for name in parts if name in scenario.friction_laws]:
             raise InputError(
-                f"pins.{rough[0]}.friction: not covered by formulation = 'redundant', for {one.said()}, and "
+                f"{rough[0]}.friction: not covered by formulation = 'redundant', for {one.said()}, and "
                 "the engine takes any forces that fit; allowed: formulation = 'compiled', which takes the "
                 "least, or a bushing in one of them"
             )

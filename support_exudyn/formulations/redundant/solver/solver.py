@@ -105,18 +105,13 @@ class SolverRun:
         newton = self.settings.timeIntegration.newton
         self.newton = NewtonMethod(self.solver, newton, scenario, self.pins, unknowns)
         # whether anything of the model has to follow a drive, and whether Python has to see every step
-        self.has_prescribed_motion = self.valves or any(
-            parts.moves(scenario.duration) for parts in scene.driven
-        )
-        self.needs_step_callbacks = (
-            bool(self.pins or self.frictions or scene.legs.names) or self.smooth is not None
-        )
-        moves = any(parts.rigid or parts.oil for parts in scene.driven if parts.moves(scenario.duration))
-        if (
-            (moves or self.valves)
-            and (recorder.integrates or recorder.follows)
-            and scenario.step * FEW_STEPS > scenario.recorded_every
-        ):
+        moving = [parts for parts in scene.driven if parts.moves(scenario.duration)]
+        self.has_prescribed_motion = self.valves or bool(moving)
+        touching = bool(self.pins or self.frictions or scene.legs.names)
+        self.needs_step_callbacks = touching or self.smooth is not None
+        moves = self.valves or any(parts.rigid or parts.oil for parts in moving)
+        short = scenario.step * FEW_STEPS > scenario.recorded_every
+        if moves and short and (recorder.integrates or recorder.follows):
             # it is called in every step anyway, and a stretch costs more than it saves
             self.needs_step_callbacks = True
         self.checked = -math.inf  # end of the last step that the recorder has been told of [s]
