@@ -7,17 +7,17 @@ from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.impulses import NO_PEAK
 from support_exudyn.simulation.result import Result
 
-LARGEST = ".largest_force"  # of a clearance pin, at any step of the run
+LARGEST = ".largest_force"  # of a clearance pin, over the whole run
 LARGEST_TIME = f"{LARGEST}_time"
-AT_ANY_STEP = (LARGEST, LARGEST_TIME)
+WHOLE_RUN = (LARGEST, LARGEST_TIME)
 IMPULSE = ".force.impulse_"  # in place of a peak that has no limit
 TIME = "_time"  # of largest values, which may jump from peak to peak
 VAGUE = 0.1  # share of a window; a time with a larger error is one of several alike peaks
-AT_RECORDS = (".force.largest", ".force.largest_time")  # the same of the records only
+IN_WINDOW = (".force.largest", ".force.largest_time")  # the same over the window
 
 
 def hardest_first(found: Mapping[str, Estimate]) -> list[str]:
-    """The clearance pins, corners in guides and blocks, by their largest force at any step, the hardest first.
+    """The clearance pins, corners in guides and blocks, by their largest force, the hardest first.
 
     found: numbers of the run by name, as `Result.numbers` names them.
     """
@@ -51,9 +51,8 @@ def shown(
 ) -> list[dict[str, Estimate]]:
     """The numbers of some runs as they are printed.
 
-    The largest forces of clearance pins at any step come first, the hardest hit pin before the others. The
-    largest of the records is left out where a pin has the other one: it is smaller, and ranks pins differently.
-    Of a piece of a run it stays, for the other is of the whole run. The time of a largest value is left out
+    The largest forces of clearance pins over the run come first, the hardest hit pin before the others. The
+    largest force over the window repeats them where the window is the whole run, and is left out. The time of a largest value is left out
     where its error exceeds a tenth of the window: there are several alike peaks then.
 
     Arguments:
@@ -65,13 +64,13 @@ def shown(
         Of each run the numbers that are printed, in their order.
     """
     first = [
-        f"{stem(pin, found)}{end}" for found in numbers for pin in hardest_first(found) for end in AT_ANY_STEP
+        f"{stem(pin, found)}{end}" for found in numbers for pin in hardest_first(found) for end in WHOLE_RUN
     ]
     names = list(dict.fromkeys([*first, *(name for found in numbers for name in found)]))
     left_out = {
         name
         for name in names
-        if name.endswith(AT_RECORDS) and all(_has_any_step(name, found) for found in numbers if name in found)
+        if name.endswith(IN_WINDOW) and all(_has_whole_run(name, found) for found in numbers if name in found)
     }
     if not all(_is_whole(run, after, until) for run in runs):
         left_out = set()
@@ -96,18 +95,16 @@ def _is_vague(name: str, number: Estimate, run: Result, after: float, until: flo
 
 
 def label(name: str) -> str:
-    """The name of a number with what it is taken from, where a clearance pin has two of a kind."""
+    """The name of a number as it is printed; the largest force over the whole run says so."""
     if IMPULSE in name:
         return f"{name}, {NO_PEAK.partition(', ')[2]}"
-    if name.endswith(AT_ANY_STEP):
-        return f"{name}, any step of the run"
-    if name.startswith("pin.") and name.endswith(AT_RECORDS):
-        return f"{name}, of the records"
+    if name.endswith(WHOLE_RUN):
+        return f"{name}, whole run"
     return name
 
 
-def _has_any_step(name: str, found: Mapping[str, Estimate]) -> bool:
-    """Whether a run has the number at any step beside the one of the records."""
+def _has_whole_run(name: str, found: Mapping[str, Estimate]) -> bool:
+    """Whether a run has the number over the whole run, too."""
     return f"{name.rpartition('.force.')[0]}{LARGEST}" in found
 
 

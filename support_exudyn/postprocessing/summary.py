@@ -10,7 +10,7 @@ from support_exudyn.machines.check.freedoms import shared
 from support_exudyn.model.pins import ClearancePin, Pin
 from support_exudyn.postprocessing.contact_description import contact_lines
 from support_exudyn.postprocessing.figures.units import readable, said
-from support_exudyn.postprocessing.shown_numbers import AT_ANY_STEP, label, shown
+from support_exudyn.postprocessing.shown_numbers import WHOLE_RUN, label, shown
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL
 from support_exudyn.simulation.estimate import Estimate
@@ -163,7 +163,7 @@ def numbers(result: Result, after: float, until: float) -> dict[str, Estimate]:
         found |= {
             name: Estimate(kind.measure(result), math.nan, kind.unit)
             for name, kind in measures(result, after, until).items()
-            if f"{FORCE}." in name or name.endswith(AT_ANY_STEP)
+            if f"{FORCE}." in name or name.endswith(WHOLE_RUN)
         }
     return found | {name: Estimate(value, math.nan, "J") for name, value in _energies(result).items()}
 

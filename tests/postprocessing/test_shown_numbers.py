@@ -22,7 +22,7 @@ RUN = synthetic.journal(loose_support(1.5, 0.25), TIME, 0.0 * TIME, 0.0 * TIME, 
 
 
 def of_pins(**pins: tuple[float, float]) -> Mapping[str, Estimate]:
-    """Numbers of pins: the largest force of the records, and at any step."""
+    """Numbers of pins: the largest force over a window, and over the whole run."""
     found: dict[str, Estimate] = {}
     for pin, (at_records, _) in pins.items():
         found[f"pin.{pin}.force.mean"] = Estimate(1.0, 0.1, "N")
@@ -63,8 +63,8 @@ def test_run_and_show_print_the_ranking(
 def test_of_a_piece_both_are_told_by_names_that_say_of_what() -> None:
     (found,) = shown([RUN], [TWO], 0.3, math.inf)
     assert set(found) == set(TWO)
-    assert label("pin.a.force.largest") == "pin.a.force.largest, of the records"
-    assert label("pin.a.largest_force") == "pin.a.largest_force, any step of the run"
+    assert label("pin.a.force.largest") == "pin.a.force.largest"
+    assert label("pin.a.largest_force") == "pin.a.largest_force, whole run"
     assert label("front_column.force.largest") == "front_column.force.largest"
 
 
