@@ -52,8 +52,8 @@ def shown(
     """The numbers of some runs as they are printed.
 
     The largest forces of clearance pins over the run come first, the hardest hit pin before the others. The
-    largest force over the window repeats them where the window is the whole run, and is left out. The time of a largest value is left out
-    where its error exceeds a tenth of the window: there are several alike peaks then.
+    largest force over the window repeats them where the window is the whole run, and is left out. The time of a
+    largest value is left out where its error exceeds a tenth of the window: there are several alike peaks then.
 
     Arguments:
         runs: the runs.
