@@ -39,7 +39,7 @@ def pressed(load: AppliedForce, **changes: object) -> Result:
 
 def test_a_body_that_it_accelerates_gets_its_work() -> None:
     up = AppliedForce(body="ram", point=TOP, full_force=(0.0, 5e3), start=0.1, end=0.3)
-    scene = Scenario(machine=Ram(), loads={"jack": up}, duration=0.5, gravity=(0.0, 0.0))
+    scene = Scenario(machine=Ram(), loads={"jack": up}, duration=0.5, record_period=1e-3, gravity=(0.0, 0.0))
     result = simulate(scene)
     # m v = F (0.1 + 0.2), the ramp counting half; second order in the step
     speed = 5e3 * 0.3 / MASS

@@ -146,6 +146,7 @@ def test_both_bodies_may_move() -> None:
         drive=Steady(rate=20.0),
         duration=0.1,
         step=2e-5,
+        record_period=1e-3,
         gravity=(0.0, 0.0),
     )
     found, ideal = simulate(scene), simulate(replace(scene, pins={}))

@@ -49,9 +49,7 @@ def test_a_law_that_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.
         return cfunc(*args, **options)
 
     monkeypatch.setattr(numba, "cfunc", without_a_place)
-    source = (
-        "def law(depth, rate, slip, speed, mass, deflection, constants, out):\n    return constants[0] * depth"
-    )
+    source = "def law(depth, rate, slip, speed, deflection, constants, out):\n    return constants[0] * depth"
     assert compilation.compiled_law(source).address > 0
     assert asked == [True, False]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from copy import copy
 from functools import cache
 from itertools import pairwise
 from types import SimpleNamespace
@@ -84,7 +85,10 @@ def _model(name: str) -> Model:
 def readable(scene: SceneArrays) -> SceneArrays:
     """The same with records that plain Python reads by the names of their fields."""
     return SceneArrays(
-        *(array.copy().view(np.recarray) if array.dtype.names else array.copy() for array in scene)
+        *(
+            one.view(np.recarray) if isinstance(one, np.ndarray) and one.dtype.names else one
+            for one in map(copy, scene)
+        )
     )
 
 

@@ -142,6 +142,7 @@ def dropping(law: LankaraniNikravesh, mu: float, bore: str) -> Scenario:
         machine=reference_support(),
         pins={PIN: ClearancePin(contact=contact, bore=bore)},
         duration=0.3,
+        record_period=1e-3,
         solver=SolverSettings(impact_steps=256),
     )
 

@@ -198,7 +198,12 @@ def test_a_slow_pin_has_its_whole_friction_or_a_warning(way: str, law: FrictionL
 def test_a_pin_in_a_slot_rubs_and_rolls_alike_in_both_formulations() -> None:
     guides: dict[str, Guide] = {"slot": IdealGuide(friction=Ambrosio(sliding_coefficient=0.3), pin_radius=0.02)}
     scene = Scenario(
-        machine=ScotchYoke(), drive=Steady(rate=YOKE_SPEED), duration=0.3, guides=guides, step=2e-4
+        machine=ScotchYoke(),
+        drive=Steady(rate=YOKE_SPEED),
+        duration=0.3,
+        record_period=1e-3,
+        guides=guides,
+        step=2e-4,
     )
     fast, slow = (simulate(replace(scene, formulation=way)) for way in WAYS)
     assert fast["energy.friction_loss"][-1] == pytest.approx(slow["energy.friction_loss"][-1], rel=1e-5)
