@@ -52,10 +52,10 @@ class Kinetics:
 
     @cached_property
     def size(self) -> float:
-        """The larger of length and height of the linkage at its start [m]."""
+        """The larger of length and height of the linkage at its start [m]; 1 m if all is in one place."""
         places = [body.centre for body in self.linkage.bodies.values()]
-        places += [place for _, place in joints_of(self.linkage)]
-        return max(float(np.ptp(np.array(places), axis=0).max()), 1e-9)
+        extent = float(np.ptp(places + [place for _, place in joints_of(self.linkage)], axis=0).max())
+        return extent if extent > 1e-9 else 1.0
 
     @cached_property
     def counts(self) -> Matrix:

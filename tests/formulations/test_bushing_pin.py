@@ -181,28 +181,6 @@ def test_a_stiffness_is_positive() -> None:
         BushingPin(stiffness=(1e6, 0.0))
 
 
-COMPILED = ("arrays", "coverage", "equilibrium", "forces", "outcome", "setup", "step")
-
-
-def test_a_kind_of_pin_asks_for_a_few_lines_outside_its_own_files() -> None:
-    # its data, its channels, its part in the engine; where each of these three is registered; and a record of
-    # the compiled formulation, with its forces
-    root = Path(support_exudyn.__file__).parent
-    own = {"model/bushing_pin.py", "mechanics/bushing.py", "formulations/redundant/scene/bushing.py"}
-    told = {
-        file.relative_to(root).as_posix()
-        for file in root.rglob("*.py")
-        if "bushing" in file.read_text().lower()
-    }
-    assert own <= told
-    assert told - own == {
-        "__init__.py",
-        "mechanics/plane_channels.py",
-        "formulations/redundant/scene/scene_builder.py",
-        *(f"formulations/compiled/{name}.py" for name in COMPILED),
-    }
-
-
 def test_no_stage_asks_which_kind_a_pin_is() -> None:
     # but for the list of those that have contacts, and of those that rub; and of the bushings among the records
     root = Path(support_exudyn.__file__).parent

@@ -47,6 +47,7 @@ def table(links: int, law: NormalLaw, duration: float = 0.03) -> Scenario:
         machine=PlanarLinkage(drawing=Linkage(bodies=bodies, pins=pins)),
         pins=dict.fromkeys(pins, pin),
         duration=duration,
+        record_period=1e-3,
     )
 
 
