@@ -17,7 +17,7 @@ CUT_MET = 1e-9  # PUSH, of the order of 1, at which a cut of tension is met; the
 NEAR_CUT = 0.5  # PUSH below which a step is looked at for two cuts,
 CUT_SAMPLES = 4  # in so many parts
 AT_ZERO = 1e-13  # depth [m] that is an impact or separation just made; those are met to a tenth of it
-TOGETHER = 1e3 * AT_ZERO  # depth [m] within which contacts meet or part at the same instant
+TOGETHER = 10.0 * AT_ZERO  # depth [m] within which contacts meet or part at the same instant
 Found = tuple[int, float, float]  # what, and fractions of the step between which it happens
 
 
