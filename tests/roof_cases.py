@@ -135,5 +135,6 @@ def pressed_support(roof: AnyLoad, **changes: object) -> Scenario:
         "loads": {"roof": roof},
         "duration": 0.3,
         "step": 2.5e-4,
+        "record_period": 1e-3,
     }
     return Scenario(**fields | changes)
