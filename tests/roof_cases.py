@@ -134,6 +134,7 @@ def pressed_support(roof: AnyLoad, **changes: object) -> Scenario:
         "machine": reference_support(),
         "loads": {"roof": roof},
         "duration": 0.3,
+        "record_period": 1e-3,
         "step": 2.5e-4,
         "record_period": 1e-3,
     }

@@ -86,6 +86,7 @@ def drawn(seed: int, number: int) -> Scenario:
         pins={PIN: ClearancePin(contact=laws, eccentricity=eccentricity)},
         drive=drive[kind],
         duration=round(end + rng.uniform(0.0, 0.05), 3),
+        record_period=1e-3,
         formulation="compiled",
     )
 

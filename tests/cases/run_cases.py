@@ -48,8 +48,8 @@ def paper_contact(clearance_mm: float, sliding_coefficient: float) -> JournalCon
 
 def support(**changes: object) -> Scenario:
     """The rise of the reference support with ideal pins, changed as asked."""
-    fields = {"machine": reference_support(), "drive": CubicStep(), "duration": 5.0} | changes
-    return Scenario(**fields)
+    fields = {"machine": reference_support(), "drive": CubicStep(), "duration": 5.0, "record_period": 1e-3}
+    return Scenario(**fields | changes)
 
 
 def loose_support(clearance_mm: float = 1.5, sliding_coefficient: float = 0.0, **changes: object) -> Scenario:
