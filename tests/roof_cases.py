@@ -136,6 +136,5 @@ def pressed_support(roof: AnyLoad, **changes: object) -> Scenario:
         "duration": 0.3,
         "record_period": 1e-3,
         "step": 2.5e-4,
-        "record_period": 1e-3,
     }
     return Scenario(**fields | changes)

@@ -286,7 +286,7 @@ def test_an_impact_delivers_the_restitution_of_its_law(law: NormalLaw, part: str
 
 def loose_everywhere(backend: str, gaps: tuple[float, float]) -> Scenario:
     """The slider-crank with clearance in the guide and in two pins."""
-    scene = slider_crank(1e8, 0.012, RUBBING, step=2e-5, impact_steps=64, backend=backend)
+    scene = slider_crank(1e8, 0.012, RUBBING, step=2e-5, impact_steps=96, backend=backend)
     pin = ClearancePin.simple(clearance=2e-4, bore_radius=0.01, stiffness=1e8, restitution=0.6, friction=0.1)
     guides = {"guide": replace(scene.guides["guide"], gaps=gaps)}
     return replace(scene, guides=guides, pins={"slider_pin": pin, "crank_pin": pin})

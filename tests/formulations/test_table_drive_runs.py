@@ -12,7 +12,7 @@ from tests.commands import test_scenario_commands
 from tests.commands.test_scenario_commands import same
 
 STROKE = CubicStep(stroke=0.02, start=0.02, end=0.08)
-BASE = replace(test_scenario_commands.BASE, drive=STROKE, duration=0.1)
+BASE = replace(test_scenario_commands.BASE, drive=STROKE, duration=0.1, record_period=1e-3)
 POINTS = TableDrive(times=(0.0, 0.03, 0.07), extensions=(0.0, 0.01, 0.002))
 COMPILED = replace(BASE, formulation="compiled", solver=SolverSettings(tolerance=1e-6))
 

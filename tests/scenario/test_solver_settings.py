@@ -163,7 +163,7 @@ def test_without_locating_a_break_of_the_drive_is_no_reason_for_short_steps() ->
 def rise(growth: float) -> Result:
     """A rise that begins when the pin has come to rest, which a restitution of 0.1 lets it do soon."""
     contact = paper_contact(1.5, 0.0)
-    normal = Exact(stiffness=contact.normal.stiffness, restitution=0.1)
+    normal = Exact(stiffness=contact.normal.stiffness, restitution=0.1, rest_velocity=1e-3)
     pin = ClearancePin(contact=replace(contact, normal=normal))
     solver = SolverSettings(growth=growth, impact_steps=128)
     drive = CubicStep(start=0.5, end=2.5)
