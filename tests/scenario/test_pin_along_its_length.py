@@ -19,7 +19,6 @@ from user_forces import (
     InputError,
     Johnson,
     JournalContact,
-    LankaraniNikravesh,
     Material,
     PinInBore,
     effective_modulus,
