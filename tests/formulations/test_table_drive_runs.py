@@ -62,11 +62,6 @@ def test_the_compiled_formulation_follows_a_table() -> None:
     assert np.abs(one["tip.y"] - other["tip.y"])[before].max() < 1e-6
 
 
-def test_two_points_drive_the_compiled_support_as_a_cubic_step_to_the_bit() -> None:
-    points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02))
-    same(simulate(replace(COMPILED, drive=points)), simulate(COMPILED))
-
-
 def test_two_points_on_a_line_drive_the_compiled_support_as_uniform_speed_to_the_bit() -> None:
     points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02), between="linear")
     one = simulate(replace(COMPILED, drive=points))
