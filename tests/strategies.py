@@ -26,6 +26,7 @@ from typing import Any
 
 import annotated_types
 import numpy as np
+import rich.console  # noqa: F401 - as it is imported it draws at random, which hypothesis would tell of
 from hypothesis import HealthCheck, assume, settings
 from hypothesis import strategies as st
 from pydantic.fields import FieldInfo

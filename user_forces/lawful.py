@@ -112,7 +112,7 @@ def _number(function: Callable[..., object], arguments: tuple[float, ...], said:
     """A real number that a law gives. Raises LawError if it gives none, InputError if the law does."""
     try:
         found = function(*arguments)
-    except InputError:
+    except (InputError, MemoryError):
         raise
     except Exception as error:  # whatever a user's class does wrong
         raise LawError(f"{said} fails {at}: {type(error).__name__}: {error}") from error

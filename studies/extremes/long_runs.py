@@ -28,6 +28,7 @@ from support_exudyn import (
 )
 from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.formulations.registry import formulation
+from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.recorded_channels import Channel, channels
 from support_exudyn.simulation.result_checks import energy_open, joints_apart, result_checks, turned_over
@@ -229,8 +230,9 @@ def slope(times: Series, values: Series) -> float:
 
 def record_bytes(scenario: Scenario) -> int:
     """What a record of a scenario in the plane takes while it runs [bytes]."""
-    # time and three integrals; position and velocity; the memory of a clearance pin is nine numbers
-    return NUMBER * (4 + 6 * len(scenario.linkage.bodies) + 9 * len(scenario.clearance_pins))
+    # time and three integrals; position and velocity; what clearance pins remember
+    of_pins = len(PinMemory._fields) * len(scenario.clearance_pins)
+    return NUMBER * (4 + 6 * len(scenario.linkage.bodies) + of_pins)
 
 
 def resident() -> float:

@@ -71,10 +71,11 @@ NEWTON = (0.0056077978681, 71.7997054198, 1.43263683831)
 
 def pair(machine: FreePair, guide: ClearanceGuide, duration: float, **others: object) -> Scenario:
     """A block or a pin and its carrier."""
-    known = {"gravity": GRAVITY, "step": 2e-5, "solver": SolverSettings(impact_steps=128)}
-    return Scenario(
-        machine=machine, guides={"guide": guide}, duration=duration, formulation="redundant", **(known | others)
-    )
+    known = {
+        "gravity": GRAVITY, "step": 2e-5, "solver": SolverSettings(impact_steps=128), "record_period": 1e-3,
+        "formulation": "redundant",
+    }  # fmt: skip
+    return Scenario(machine=machine, guides={"guide": guide}, duration=duration, **(known | others))
 
 
 def end(result: Result) -> np.ndarray:
@@ -285,7 +286,7 @@ def test_an_impact_delivers_the_restitution_of_its_law(law: NormalLaw, part: str
 
 def loose_everywhere(backend: str, gaps: tuple[float, float]) -> Scenario:
     """The slider-crank with clearance in the guide and in two pins."""
-    scene = slider_crank(1e8, 0.012, RUBBING, step=2e-5, impact_steps=64, backend=backend)
+    scene = slider_crank(1e8, 0.012, RUBBING, step=2e-5, impact_steps=96, backend=backend)
     pin = ClearancePin.simple(clearance=2e-4, bore_radius=0.01, stiffness=1e8, restitution=0.6, friction=0.1)
     guides = {"guide": replace(scene.guides["guide"], gaps=gaps)}
     return replace(scene, guides=guides, pins={"slider_pin": pin, "crank_pin": pin})
@@ -447,8 +448,9 @@ class HeldSlider(Machine):
 def test_a_settled_block_lies_on_its_wall() -> None:
     guide = ClearanceGuide.simple(gaps=5e-4, block=(0.12, 0.06), stiffness=1e9)
     scene = Scenario(
-        machine=HeldSlider(), guides={"guide": guide}, drive=Held(), start="settled", duration=0.01, step=1e-4
-    )
+        machine=HeldSlider(), guides={"guide": guide}, drive=Held(), start="settled", duration=0.01, step=1e-4,
+        record_period=1e-3,
+    )  # fmt: skip
     result = simulate(scene)
     ideal = simulate(replace(scene, guides={"guide": IdealGuide()}))
     # the weight of the block and half of that of the rod, with which the rod's end also moves a little aside

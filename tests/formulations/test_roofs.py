@@ -114,7 +114,7 @@ def over_the_canopy(load: ActingLoad | dict[str, ActingLoad], **changes: object)
     fields: dict[str, object] = {
         "machine": reference_support(), "loads": load if isinstance(load, dict) else {"roof": load},
         "duration": 0.15, "actuators": DAMPED, "start": "settled",
-        "step": 2.5e-4,
+        "step": 2.5e-4, "record_period": 1e-3,
     }  # fmt: skip
     return Scenario(**fields | changes)
 

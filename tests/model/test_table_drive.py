@@ -166,7 +166,7 @@ def test_its_cubics_are_what_it_does(drive: TableDrive, t: float) -> None:
         ),
         (
             {"times": (-1.0, 1.0), "extensions": (0.0, 1.0)},
-            "TableDrive.times.0 = -1.0: Input should be greater than or equal to 0",
+            "TableDrive.times.0 = -1.0: allowed: >= 0",
         ),
         (
             {"times": (0.0,), "extensions": (0.0, 1.0)},

@@ -106,14 +106,15 @@ def short_runs(draw: st.DrawFn) -> Scenario:
             speed=draw(st.floats(0.0, 100.0)),
             eccentricity=clearance * draw(st.sampled_from((0.0, 0.9, 0.999999, 1.0, 1.001))),
         )
-        impact = machine.speed + 0.01
+        impact, mass = machine.speed + 0.01, machine.reduced_mass
         pins: dict[str, Pin] = {"pin": pin}
     else:
         machine = dataclasses.replace(ravn_slider_crank(), start_angle=draw(st.floats(-4.0, 4.0)))
-        impact = 10.0
+        impact, mass = 10.0, machine.slider_mass
         pins = {"slider_pin": IdealPin() if draw(st.booleans()) else pin}
     steps = draw(st.integers(1, 20))
-    duration = min(draw(st.floats(1e-5, 5e-3)), MOST_IMPACTS * pin.contact.normal.impact_time(impact))
+    longest = MOST_IMPACTS * pin.contact.normal.impact_time(impact, mass)
+    duration = min(draw(st.floats(1e-5, 5e-3)), longest)
     drive: Drive = Steady(rate=draw(st.floats(-1e3, 1e3))) if draw(st.booleans()) and not stand else Held()
     return Scenario(
         machine=machine,

@@ -19,7 +19,6 @@ from user_forces import (
     InputError,
     Johnson,
     JournalContact,
-    LankaraniNikravesh,
     Material,
     PinInBore,
     effective_modulus,
@@ -68,7 +67,7 @@ def test_spheres_stay_by_name() -> None:
     bearing = law_of().bearing
     for name, stiffness in (("paper", external_contact_stiffness), ("internal", internal_contact_stiffness)):
         k = stiffness(bearing, STEEL, STEEL_35CRMO)
-        assert pin_of(stiffness=name).contact.normal == LankaraniNikravesh(stiffness=k, restitution=0.9)
+        assert pin_of(stiffness=name).contact.normal == Exact(stiffness=k, restitution=0.9)
     assert isinstance(pin_of(law="Hertz").contact.normal, Hertz)  # a force of its own, not a damping factor
 
 
@@ -81,7 +80,7 @@ def test_in_python_the_length_makes_the_choice() -> None:
     )
     assert rigid.contact.normal == replace(simple.contact.normal, backing_stiffness=None, damping="Flores")
     spheres = ClearancePin.simple(clearance=0.0015, bore_radius=0.0655)
-    assert isinstance(spheres.contact.normal, LankaraniNikravesh)
+    assert isinstance(spheres.contact.normal, Exact)
 
 
 @pytest.mark.parametrize(

@@ -167,12 +167,12 @@ def rise(growth: float) -> Result:
     pin = ClearancePin(contact=replace(contact, normal=normal))
     solver = SolverSettings(growth=growth, impact_steps=128)
     drive = CubicStep(start=0.5, end=2.5)
-    return simulate(support(pins={PIN: pin}, drive=drive, duration=1.0, solver=solver))
+    return simulate(support(pins={PIN: pin}, drive=drive, duration=1.1, solver=solver))
 
 
 def test_steps_that_grow_save_steps_and_cost_no_accuracy() -> None:
     plain, grown = rise(1.0), rise(16.0)
-    assert grown.counts.steps < plain.counts.steps - 400  # measured 457
+    assert grown.counts.steps < plain.counts.steps - 400  # measured 524
     assert grown.onsets == plain.onsets
     np.testing.assert_allclose(grown.time, plain.time, rtol=0.0, atol=1e-15)
     late = plain.time > 0.3

@@ -22,7 +22,6 @@ from decimal import Decimal
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
-import annotated_types
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, ValidationError
 from pydantic.dataclasses import dataclass as pydantic_dataclass
@@ -316,6 +315,7 @@ def value(cls: type[T]) -> type[T]:
 
 
 ITSELF = "__dataclass_self__"  # how pydantic calls the value that is made
+MARKS = {"gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 OUT_OF_BOUNDS = ("greater_than", "greater_than_equal", "less_than", "less_than_equal")  # pydantic's names
 
 
@@ -348,8 +348,9 @@ def _sentence(cls: Any, error: Mapping[str, Any]) -> str:
         bound = f"at least {least}" if least is not None else f"at most {most}"
         return f"{where} = {short(error['input'])}: allowed: {bound} items"
     allowed = _allowed(cls, error["loc"])
-    if allowed and error["type"] in OUT_OF_BOUNDS:
-        return f"{where} = {short(error['input'])}: allowed: {allowed}"
+    if error["type"] in OUT_OF_BOUNDS:
+        bound = allowed or " and ".join(f"{MARKS[end]} {limit:g}" for end, limit in error["ctx"].items())
+        return f"{where} = {short(error['input'])}: allowed: {bound}"
     # of a check of ours, without pydantic's words before it
     said = error["ctx"]["error"] if error["type"] == "value_error" else error["msg"]
     return f"{where} = {short(error['input'])}: {said}" + (f"; allowed: {allowed}" if allowed else "")
@@ -361,15 +362,7 @@ def _allowed(cls: Any, loc: tuple[Any, ...]) -> str:
         return ""
     bounds = []
     for item in cls.__pydantic_fields__[loc[0]].metadata:
-        match item:
-            case annotated_types.Gt(gt=limit):
-                bounds.append(f"> {limit}")
-            case annotated_types.Ge(ge=limit):
-                bounds.append(f">= {limit}")
-            case annotated_types.Lt(lt=limit):
-                bounds.append(f"< {limit}")
-            case annotated_types.Le(le=limit):
-                bounds.append(f"<= {limit}")
+        bounds += [f"{mark} {getattr(item, end)}" for end, mark in MARKS.items() if hasattr(item, end)]
     return " and ".join(bounds)
 
 
