@@ -11,9 +11,9 @@ slower than others. Two runs can agree by chance, so d1 is not believed below
 
 - a share of d2: r, or where steps are chosen by a tolerance CHOSEN. Distances fall by eight there, but
   irregularly: the errors of two runs can be alike, and so can be those of all of their numbers;
-- ALIKE times the larger distance of mean and spread of the same force, or of time and speed of the same impact,
-  these as shares of their sizes;
-- ALIKE times, as a share of sizes, the middle one of its family: means, spreads and largest values of all
+- of a spread or an extreme, ALIKE times the larger distance of mean and spread of the same force; of a speed,
+  of time and speed of the same impact; these as shares of their sizes;
+- ALIKE times, as a share of sizes, the middle one of its family: means, spreads and extremes of all
   forces, spreads of angular accelerations, places.
 
 What Newton's method leaves is added: two runs do not show it. It is a share of the force; of a spread that is
@@ -139,8 +139,8 @@ def errors(
     for name, kind in kinds.items():
         size = _size(kind, result)
         usual = float(np.median(families[kind.family])) if kind.family in families and kind.family else 0.0
-        worst = max(origins[kind.of]) if kind.of in origins and kind.of else 0.0
-        least = ALIKE * max(usual * size, worst * scales[kind.of, kind.unit])
+        worst = max(origins[kind.beside]) if kind.beside in origins and kind.beside else 0.0
+        least = ALIKE * max(usual * size, worst * max(size, scales.get((kind.beside, kind.unit), 0.0)))
         values = max(size, kind.values)
         own = error(kind.measure, result, r, values, least)
         if own <= 2.0 * ROUNDING * values:

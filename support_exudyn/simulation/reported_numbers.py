@@ -73,6 +73,8 @@ class ReportedNumber(NamedTuple):
     inside an interval of the statistics. values: the largest value that it is computed from, which rounding and
     what Newton's method leaves are shares of: a least value can be next to nothing beside it. rounding: what is
     left of the largest numbers that it is a difference of, in its unit.
+    beside: the force or impact whose numbers it is not wrong by less than; empty: none. Means and times are
+    known better than what is of them.
     step: by how much a single step may be wrong, which counts where runs agree but for rounding.
     settles: whether it tends to something as steps become shorter; the time of a largest value may jump from
     peak to peak, and says nothing of how fast other numbers settle.
@@ -89,6 +91,7 @@ class ReportedNumber(NamedTuple):
     rounding: float = 0.0
     step: float = 0.0
     settles: bool = True
+    beside: str = ""
 
 
 def measures(
@@ -109,22 +112,24 @@ def measures(
     rounded = ROUNDING_OF_FORCES * _strongest(result) if sized else 0.0
     for name, channel in result.channels.items():
         if name.endswith(FORCE) and channel.is_determined:
-            window = result.window(name, after, until)
+            window, stem = result.window(name, after, until), name.removesuffix(FORCE)
             most = window.largest[0] if sized else 0.0
             for word, statistic in STATISTICS.items():
-                if word in SIGNED and name.startswith("pin."):
+                if word in SIGNED and (name.startswith("pin.") or stem in result.scenario.linkage.slides):
                     continue  # a magnitude, which has no sign
                 measure, between = over(name, statistic, after, until), over(name, DOUBTS[word], after, until)
                 of = name if word in AVERAGED else ""  # of a single time, which others average out
                 share, values = left, most
+                size = 0.0 if word in AVERAGED else most
+                beside = "" if word == "mean" else name
                 if word == "std" and sized:
                     spread, mean = window.std, window.rms
                     # rounding of the forces scatters, and what scatters beside more adds next to nothing
                     values = spread + (math.hypot(spread, ROUNDING * most) - spread) / ROUNDING
                     share = left_of_spread(left, spread, mean) / values if values > 0.0 else left
-                family = f"force.{word}"
+                family = f"force.{word if word in AVERAGED else 'largest'}"
                 found[f"{name}.{word}"] = ReportedNumber(
-                    channel.unit, measure, 0.0, family, of, share, between, values, rounded
+                    channel.unit, measure, size, family, of, share, between, values, rounded, beside=beside
                 )
                 if word == "largest":
                     found[f"{name}.largest_time"] = ReportedNumber(
@@ -207,7 +212,7 @@ def impact_numbers(result: RecordedRun, pin: str, most: int) -> dict[str, Report
         late, slow = _of_a_step(result.scenario, pin, onset) if result.scenario.chooses_steps else (0.0, 0.0)
         found[f"{impact}.time"] = ReportedNumber("s", _onset(pin, n, "time"), of=impact, left=left, step=late)
         found[f"{impact}.speed"] = ReportedNumber(
-            "m/s", _onset(pin, n, "speed"), of=impact, left=left, step=slow
+            "m/s", _onset(pin, n, "speed"), of=impact, left=left, step=slow, beside=impact
         )
     return found
 

@@ -144,8 +144,8 @@ def test_a_machine_with_ideal_pins_has_errors_too(formulation: str) -> None:
     exact = simulate(support(drive=drive, duration=0.25, formulation="compiled"))
     assert result.met
     assert result.onsets == {}
-    if formulation == "auto":  # nothing is free to move; measured 2e-9
-        assert result.worst_error < 1e-8
+    if formulation == "auto":  # nothing is free to move, and means are of every step; measured 1.1e-6
+        assert result.worst_error < 5e-6
     else:
         assert 1e-9 < result.worst_error <= 1e-3
     known = {name: kind.measure(exact) for name, kind in measures(exact, 0.0, math.inf).items()}
@@ -222,7 +222,7 @@ def test_sections_become_more_only_as_long_as_they_tell_anything(
         run = once(replace(scenario, solver=replace(scenario.solver, sections=5)), progress)
         channel = run.channels[FORCE]
         channel = replace(channel, values=(1.0 + 1e-3 / scenario.solver.sections) * channel.values)
-        return replace(run, scenario=scenario, channels={**run.channels, FORCE: channel})
+        return replace(run, scenario=scenario, channels={**run.channels, FORCE: channel}, statistics=None)
 
     monkeypatch.setattr(to_accuracy, "single_run", tilting if tilted else once)
     made = runs_of(monkeypatch)
@@ -244,10 +244,10 @@ def test_sections_become_more_only_as_long_as_they_tell_anything(
 
 @value
 class Breaking(FrictionLaw):
-    """Works until the slip exceeds 1 mm/s."""
+    """Works until it is pressed with 10 kN."""
 
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
-        return where(slip * slip > 1e-6, math.nan, 0.0)
+        return where(normal_force > 1e4, math.nan, 0.0)
 
 
 def breaking() -> Scenario:

@@ -103,7 +103,7 @@ def test_settings_are_allowed_ones_and_nothing_else_is_changed(goal: float, name
     scene = replace(SCENES[name], accuracy=goal)
     chosen = settings_for(scene, goal)
     assert chosen.accuracy is None
-    assert 0.0 < chosen.step <= min(LARGEST_STEP, scene.record_period)
+    assert 0.0 < chosen.step <= min(LARGEST_STEP, scene.recorded_every)
     assert FEWEST_IMPACT_STEPS <= chosen.solver.impact_steps <= MOST_IMPACT_STEPS
     assert SMALLEST_TOLERANCE <= chosen.solver.tolerance <= LARGEST_TOLERANCE
     kept = {"impact_steps": scene.solver.impact_steps, "tolerance": scene.solver.tolerance}

@@ -485,6 +485,7 @@ def test_what_newton_leaves_of_a_force_is_more_of_its_spread_where_it_hardly_var
         drive=Held(),
         duration=0.005,
         step=5e-5,
+        record_period=1e-4,
         formulation="redundant",
     )
     result = simulate(scene, errors=True)

@@ -229,7 +229,7 @@ def plant(monkeypatch: pytest.MonkeyPatch, factors: Sequence[float]) -> None:
         result, factor = single_run(replace(scenario, duration=0.03), progress), next(left)
         force = result.channels[FORCE]
         wrong = replace(force, values=factor * force.values)
-        return replace(result, channels={**result.channels, FORCE: wrong})
+        return replace(result, channels={**result.channels, FORCE: wrong}, statistics=None)
 
     monkeypatch.setattr(halved_steps, "single_run", run)
 

@@ -32,6 +32,7 @@ from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support,
 from tests.hostile import Interruption, posix_only
 from tests.processes import soon_started
 from user_forces import LankaraniNikravesh, value
+from user_forces.lawful import AT_REST
 
 PROMPT = 2.0  # [s] of work, within which an interruption is asked to come out
 LONG = 1000.0  # [s] that the machine is simulated for: minutes of work
@@ -175,10 +176,12 @@ def test_an_interruption_in_a_law_is_not_taken_for_a_failed_run(name: str, call:
 
 @value
 class Buggy(LankaraniNikravesh):
-    """Has a bug in its elastic part."""
+    """Has a bug in its elastic part, deeper than laws are called before a run."""
 
     def elastic_force(self, depth: float) -> float:
-        raise LookupError("a bug in the law")
+        if depth > 1.1 * AT_REST[-1]:
+            raise LookupError("a bug in the law")
+        return super().elastic_force(depth)
 
 
 def test_a_bug_is_not_taken_for_a_missing_equilibrium() -> None:
@@ -210,10 +213,10 @@ def test_an_interruption_waits_for_an_import_to_end(monkeypatch: pytest.MonkeyPa
 
 @value
 class Killing(LankaraniNikravesh):
-    """Has its process killed once the journal is deep in an impact; laws are looked at before at rest."""
+    """Has its process killed once the journal is deeper than laws are called before a run."""
 
     def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
-        if depth > 1e-5 and rate > 0.0:
+        if depth > 1.1 * AT_REST[-1]:
             os.kill(os.getpid(), signal.SIGKILL)
         return super().__call__(depth, rate, impact_velocity)
 

@@ -108,7 +108,7 @@ def test_a_free_impact_gives_back_what_was_asked_for(restitution: float, backing
         return float(state[0]) if time > 0.0 else 1.0
 
     parted.terminal, parted.direction = True, -1  # type: ignore[attr-defined]
-    times = (0.0, 20.0 * one.impact_time(impact))
+    times = (0.0, 20.0 * one.impact_time(impact, mass))
     run = solve_ivp(motion, times, [1e-18, speed], events=parted, rtol=1e-10, atol=1e-16, method="DOP853")
     assert -run.y_events[0][0][1] / speed == pytest.approx(restitution, rel=1e-5)
 
