@@ -158,7 +158,7 @@ def scaled(result: Result, factors: Mapping[str, float]) -> Result:
         for name, channel in result.channels.items()
     }
     coarser = None if result.coarser is None else scaled(result.coarser, factors)
-    return replace(result, channels=wrong, coarser=coarser)
+    return replace(result, channels=wrong, coarser=coarser, statistics=None)
 
 
 def with_channel(result: Result, name: str, change: Callable[[np.ndarray], np.ndarray]) -> Result:

@@ -264,7 +264,7 @@ def test_scenes_are_of_the_users_machine(own: Subject) -> None:
         assert scene.pin == "rear_base"
         # records are at the ends of the steps of others, twice and two fifths of ours
         for share in variants.FIXED_STEPS:
-            each = scene.scenario.record_period / (share * scene.step)
+            each = scene.scenario.recorded_every / (share * scene.step)
             assert each == pytest.approx(round(each))
         families = {way.family for way in ways(scene)}
         assert "compiled" in families
