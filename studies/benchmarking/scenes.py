@@ -12,6 +12,7 @@ CLEARANCE_MM = 1.5
 FRICTION = paper_machine.SLIDING_COEFFICIENT
 DROP_TIME = 0.6  # [s]; the journal has come to rest in its bore
 REST_VELOCITY = 1e-3  # of the law [m/s], with which the references were computed
+RECORD_PERIOD = 1e-3  # [s], of which their means and deviations are
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ def _rise(friction: float) -> Scenario:
     pin: Any = rise.pins[paper_machine.CLEARANCE_PIN]
     law = replace(pin.contact.normal, rest_velocity=REST_VELOCITY)
     pins = {paper_machine.CLEARANCE_PIN: replace(pin, contact=replace(pin.contact, normal=law))}
-    return replace(rise, pins=pins, solver=SolverSettings())
+    return replace(rise, pins=pins, record_period=RECORD_PERIOD, solver=SolverSettings())
 
 
 def _scenes() -> dict[str, BenchmarkScene]:

@@ -1,5 +1,6 @@
 """The laws of every contact, the restitution that a free impact delivers, and the speed of full friction."""
 
+from support_exudyn.files.own_modules import NotImported
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.slow_slip import FULL
 from user_forces.catalogue import title
@@ -36,6 +37,8 @@ def _of_friction(law: FrictionLaw) -> str:
     """Name of a friction law, and from which slip on it is full; empty for none."""
     if isinstance(law, Frictionless):
         return ""
+    if isinstance(law, NotImported):
+        return f"friction {title(type(law))}"
     if law.has_state:
         return f"friction {title(type(law))}, which can stick"
     return f"friction {title(type(law))}, full above a slip of {1e3 * law.slip_speed(FULL):.3g} mm/s"

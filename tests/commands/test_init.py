@@ -46,7 +46,7 @@ def test_files_are_what_they_say(kind: str, tmp_path: Path) -> None:
     data = load_machine(tmp_path / "machine.toml")
     assert data.bore_radii.keys() == data.machine.linkage().pins.keys()  # any pin may be given a clearance
     for name in ("ideal", "clearance"):
-        assert len(read_scenario(tmp_path / f"{name}.toml").pins) == (name == "clearance")
+        assert len(read_scenario(tmp_path / f"{name}.toml").clearance_pins) == (name == "clearance")
     assert read_sweep(tmp_path / "sizes.toml")
 
 

@@ -211,7 +211,9 @@ def test_every_shipped_machine_can_be_written_as_a_linkage(name: str, tmp_path: 
     drive = Steady(rate=30.0) if name == "slider_crank" else CubicStep(stroke=0.02, start=0.001, end=0.02)
     drives = {follower: own.coupled_drive(follower, drive, 0.02) for follower in own.leaders}
     runs = [
-        simulate(Scenario(machine=one, drive=drive, drives=drives, duration=0.02, step=1e-4))
+        simulate(
+            Scenario(machine=one, drive=drive, drives=drives, duration=0.02, step=1e-4, record_period=1e-3)
+        )
         for one in (own, written)
     ]
     both = [channel for channel in runs[1].channels if channel in runs[0].channels]

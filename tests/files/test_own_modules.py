@@ -230,8 +230,8 @@ def test_a_module_and_one_in_a_package_are_imported(
 @pytest.mark.parametrize(
     ("name", "text", "told"),
     [
-        ("gone.py", None, "'.*gone.py': there is no such file"),
-        ("broken.py", "1 / 0", "'.*broken.py': ZeroDivisionError"),
+        ("gone.py", None, "there is no such file"),
+        ("broken.py", "1 / 0", "ZeroDivisionError"),
         ("pytest.py", "", "pytest is the name of another module already; allowed: a file of another name"),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ from tests import synthetic
 G = 9.81
 PERIOD = 1e-3
 TIME = np.arange(401) * PERIOD
-PLANE = Scenario(machine=reference_support(), duration=1.0)
+PLANE = Scenario(machine=reference_support(), duration=1.0, record_period=PERIOD)
 SPACE = Scenario(machine=machine("reference"), duration=1.0, dimensions=3)
 ANGLES = st.floats(-3.0, 3.0)
 
@@ -84,21 +85,15 @@ def test_an_acceleration_that_grows_evenly_is_felt_exactly_to_both_ends() -> Non
 
 
 def test_a_run_at_rest_reads_as_its_angles_and_a_base_as_none() -> None:
-    result = simulate(Scenario(machine=reference_support(), duration=0.05, drive=CubicStep(start=1.0, end=2.0)))
+    result = simulate(replace(PLANE, duration=0.05, drive=CubicStep(start=1.0, end=2.0)))
     for body in PLANE.linkage.bodies:
         np.testing.assert_allclose(tilt(result, body=body), result[f"{body}.angle"], atol=1e-7)
     np.testing.assert_array_equal(tilt(result, body="ground"), 0.0)
 
 
 def test_an_inclinometer_errs_in_motion_as_far_as_its_place_is_accelerated() -> None:
-    result = simulate(
-        Scenario(
-            machine=reference_support(),
-            drive=CubicStep(stroke=0.2, start=0.0, end=0.5),
-            duration=0.5,
-            step=5e-4,
-        )
-    )
+    rise = CubicStep(stroke=0.2, start=0.0, end=0.5)
+    result = simulate(replace(PLANE, drive=rise, duration=0.5, step=5e-4))
     x, y = (np.gradient(np.gradient(result[f"tip.{axis}"], PERIOD), PERIOD) for axis in "xy")
     level = result["canopy.angle"]
     # the same by another way: places differenced twice

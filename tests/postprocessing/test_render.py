@@ -40,7 +40,7 @@ WITH_CLEARANCE = "rear_base"
 @pytest.fixture(scope="module")
 def bouncing() -> Result:
     """A journal that falls and bounces."""
-    return simulate(replace(clearance_rise(1.5, 0.25, 5e-4), duration=0.2))
+    return simulate(replace(clearance_rise(1.5, 0.25, 5e-4), duration=0.2, record_period=1e-3))
 
 
 @pytest.fixture(scope="module")

@@ -40,6 +40,7 @@ from studies.extremes.judge import (
 from studies.extremes.ranges import LARGEST_SPEED, SPANS, Point
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.formulations.limits import DEEPEST
+from support_exudyn.mechanics.time_statistics import TimeStatistics
 from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.reported_numbers import measured
 from support_exudyn.simulation.result_checks import turned_over
@@ -51,6 +52,7 @@ from user_forces import InputError
 
 Run = Callable[[Scenario], Result]
 PIN = scenes.PIN
+POWERS = np.array([1, 2, 1, 1, 1, 0, 1, 0])  # of a factor, in the columns of statistics
 
 
 def fall() -> Scenario:
@@ -158,7 +160,10 @@ def scaled(result: Result, factors: Mapping[str, float]) -> Result:
         for name, channel in result.channels.items()
     }
     coarser = None if result.coarser is None else scaled(result.coarser, factors)
-    return replace(result, channels=wrong, coarser=coarser)
+    kept = result.statistics
+    assert kept is not None
+    rows = {name: rows * factors.get(name, 1.0) ** POWERS for name, rows in kept.channels.items()}
+    return replace(result, channels=wrong, coarser=coarser, statistics=TimeStatistics(kept.edges, rows))
 
 
 def with_channel(result: Result, name: str, change: Callable[[np.ndarray], np.ndarray]) -> Result:

@@ -67,22 +67,6 @@ def test_a_touch_that_is_missing_is_infinitely_wrong() -> None:
     assert times_the_goal(errors(missing, EXACT)) == math.inf
 
 
-@pytest.mark.parametrize(
-    ("name", "allowed"),
-    [
-        ("mean", 1e-4),
-        ("spread", 1e-3),
-        ("peak", 1e-3),
-        ("onset_1", 1e-3),
-        ("onset_2", 1e-3),
-        ("onset_3", 1e-2),
-    ],
-)
-def test_the_goal_is_that_of_the_benchmark(name: str, allowed: float) -> None:
-    # the sum 1 + share is rounded
-    assert times_the_goal(errors(sample_off_by(**{name: allowed}), EXACT)) == pytest.approx(1.0, rel=1e-10)
-
-
 def test_paths_are_thinned_from_the_first_point_on() -> None:
     path = np.arange(2 * 1001.0).reshape(2, -1)
     assert thinned(path).shape == (2, 251)
@@ -149,21 +133,9 @@ def test_a_scene_of_which_every_run_failed_is_drawn_too() -> None:
     drawing.canvas.draw()
 
 
-def test_short_scenes_turn_every_knob() -> None:
-    families = {way.family for way in ways(SCENES["drop"])}
-    knobs = {
-        "spectral radius",
-        "Newton's method",
-        "nothing located",
-        "trapezoidal, index 2",
-        "built-in contact",
-    }
-    assert knobs <= families
-
-
 def test_a_way_gives_what_its_settings_ask_for() -> None:
     scene = SCENES["drop"]
-    done = variants.with_tolerance(scene, "compiled", 1e-5).run()
+    done = variants.with_tolerance(scene, "compiled", 1e-8).run()  # late impacts multiply errors
     assert done.calls == 0  # nothing is called in Python
     assert times_the_goal(errors(done.sample, references()["drop"])) < 1.0
 
@@ -264,7 +236,7 @@ def test_scenes_are_of_the_users_machine(own: Subject) -> None:
         assert scene.pin == "rear_base"
         # records are at the ends of the steps of others, twice and two fifths of ours
         for share in variants.FIXED_STEPS:
-            each = scene.scenario.record_period / (share * scene.step)
+            each = scene.scenario.recorded_every / (share * scene.step)
             assert each == pytest.approx(round(each))
         families = {way.family for way in ways(scene)}
         assert "compiled" in families

@@ -245,6 +245,6 @@ def test_of_a_machine_without_canopy_and_columns_only_forces_and_shaking_are_tol
     assert list(rankings(plan)) == ["by the forces", "by the shaking"]
     assert not any("tip" in name for name in measures(plan))
     assert list(plan.forces.values()) == list(plan.pins)
-    path.write_text(CRANK.replace("0.3", "0.03"), encoding="utf-8")
+    path.write_text("record_period_ms = 1" + CRANK.replace("0.3", "0.03"), encoding="utf-8")
     with pytest.raises(InputError, match=r"motion from 0 to 0\.03 s, .* allowed: longer than 0\.04 s"):
         _ = which_pin_cases.PinPlan(own_subject(path, "crank_pin")).scenarios
