@@ -75,6 +75,7 @@ STEP = 1e-3  # [s] of scenarios before an accuracy chooses
 PAPERS_LAW = LankaraniNikravesh  # its Eq. 4
 SIZES_MM = (0.5, 1.0, 1.5, 2.0)  # the paper's clearances
 CLEARANCE_MM = 1.5  # of its section 3
+RECORDS = 1e-3  # time between records, by which the fluctuation about the trend is measured [s]
 
 # printed values
 STIFFNESS = {0.5: 861300.557, 1.0: 859629.849, 1.5: 857942.947, 2.0: 856239.607}  # Table 2, N/mm^1.5
@@ -176,7 +177,7 @@ def clearance_joint(
 
 def ideal_rise(step: float) -> Scenario:
     """The rise of 500 mm from 3 to 5 s with ideal pins, drive mode 2."""
-    return Scenario(machine=reference_support(), drive=CubicStep(), duration=5.0, step=step)
+    return Scenario(machine=reference_support(), drive=CubicStep(), duration=5.0, step=step, record_period=RECORDS)
 
 
 def clearance_rise(
