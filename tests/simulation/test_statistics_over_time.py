@@ -208,6 +208,6 @@ def test_a_file_of_the_version_before_gives_the_numbers_of_its_records(tmp_path:
 def test_records_follow_the_machine_unless_their_period_is_given(
     changes: dict[str, Any], period: float
 ) -> None:
-    scenario = support(**changes)
+    scenario = support(**{"record_period": None} | changes)
     assert scenario.recorded_every == period
     assert scenario.refined().recorded_every == period

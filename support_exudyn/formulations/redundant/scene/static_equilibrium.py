@@ -15,6 +15,7 @@ from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.mechanics.acting_loads import forces_at_rest
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.mechanics.resting import resting
+from user_forces.normal.law import LoadError
 
 # The engine solves at the end of its only step of loads, 1 s by default: drives and loads, which are told the
 # time, would be settled as they are then.
@@ -119,7 +120,10 @@ def _solve(scene: EngineScene) -> None:
     try:
         with quiet_engine():
             found = solver.SolveSystem(scene.mbs, settings)
-    except exudyn.ExudynError:
+    except exudyn.ExudynError as error:
+        cause = error.__cause__  # set if a function of ours raised
+        if cause is not None and not isinstance(cause, (ArithmeticError, LoadError)):
+            raise cause from None
         found = False
     if not found:
         raise SimulationError(
