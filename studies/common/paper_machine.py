@@ -177,7 +177,9 @@ def clearance_joint(
 
 def ideal_rise(step: float) -> Scenario:
     """The rise of 500 mm from 3 to 5 s with ideal pins, drive mode 2."""
-    return Scenario(machine=reference_support(), drive=CubicStep(), duration=5.0, step=step, record_period=RECORDS)
+    return Scenario(
+        machine=reference_support(), drive=CubicStep(), duration=5.0, step=step, record_period=RECORDS
+    )
 
 
 def clearance_rise(

@@ -165,7 +165,9 @@ def own_subject(path: Path, pin: str | None = None) -> Subject:
         data = read_machine(str(path)) if shipped else load_machine(path)
         bores = data.bore_radii
         drive = CubicStep() if data.stroke is None else CubicStep(stroke=data.stroke)
-        scenario = Scenario(machine=data.machine, drive=drive, duration=5.0, record_period=paper_machine.RECORDS)
+        scenario = Scenario(
+            machine=data.machine, drive=drive, duration=5.0, record_period=paper_machine.RECORDS
+        )
     pins = tuple(scenario.unloaded.pins)
     loose = [name for name, one in scenario.pins.items() if isinstance(one, ClearancePin)]
     chosen = pin or (loose[0] if len(loose) == 1 else paper_machine.CLEARANCE_PIN)
