@@ -183,7 +183,7 @@ def with_factor(run: Result, factor: float) -> Result:
 
 
 def test_a_factor_on_a_force_is_told() -> None:
-    run = simulate(loose_support(1.0, 0.25, duration=0.1), accuracy="standard")
+    run = simulate(loose_support(1.0, 0.25, duration=0.1), accuracy=1e-4)
     changed = with_factor(run, 1.001)
     told = {name: times for times, name, _ in point_by_point(run, changed, math.inf)}
     assert told.pop(FORCE) > DOUBT
