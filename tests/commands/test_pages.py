@@ -155,5 +155,5 @@ def test_the_example_of_a_scenario_is_a_sound_run(
     lines = capsys.readouterr().out.splitlines()
     check_printed(A_RISE, lines)
     assert float(lines[0].split()[0]) > 58000.0  # the static force in the low posture
-    assert float(lines[1].split()[0]) < 2e-3  # 0.01 to 0.15 %, by rounding and by the step
+    assert float(lines[1].split()[0]) < 3e-3  # 0.01 to 0.25 %, by rounding and by the step
     assert (tmp_path / "pin_1mm.h5").stat().st_size > 0

@@ -94,13 +94,14 @@ def test_every_command_of_the_page_is_tried() -> None:
 @pytest.mark.slow  # the runs of the page take half a minute
 def test_the_answer_is_that_of_the_page(folder: Path) -> None:
     text = " ".join(section().split())
-    found = re.search(r"the tip goes ([\d.]+) ± ([\d.]+) mm to the rear and ([\d.]+) ± ([\d.]+) mm up", text)
+    found = re.search(r"moves the tip ([\d.]+) ± ([\d.]+) mm to the rear and ([\d.]+) ± ([\d.]+) mm up", text)
     assert found is not None
     back, back_error, up, up_error = map(float, found.groups())
     ideal, with_clearance = (Result.load(folder / f"{name}.h5") for name in ("ideal", "clearance"))
     # the page's own errors cover those of the runs and the rounding of what is printed
-    assert 1e3 * float((ideal["tip.x"] - with_clearance["tip.x"]).mean()) == pytest.approx(back, abs=back_error)
-    assert 1e3 * float((with_clearance["tip.y"] - ideal["tip.y"]).mean()) == pytest.approx(up, abs=up_error)
+    moved = [with_clearance.window(f"tip.{axis}").mean - ideal.window(f"tip.{axis}").mean for axis in "xy"]
+    assert -1e3 * moved[0] == pytest.approx(back, abs=back_error)
+    assert 1e3 * moved[1] == pytest.approx(up, abs=up_error)
     printed = (folder / "compare.out").read_text(encoding="utf-8")
     row = next(line.split() for line in printed.splitlines() if line.strip().startswith("tip.x"))
     assert float(row[3]) == pytest.approx(-back, abs=back_error)
@@ -112,10 +113,13 @@ def test_the_tip_moves_as_geometry_has_it(folder: Path) -> None:
     ideal, with_clearance = (Result.load(folder / f"{name}.h5") for name in ("ideal", "clearance"))
     machine = read_machine("machine.toml", folder).machine
     assert isinstance(machine, HydraulicSupport)
-    record = 1000  # 1 s, in mid-rise, where the columns have extended by half the stroke
-    force = np.array([ideal[f"pin.rear_base.force_{axis}"][record] for axis in "xy"])
-    offset = -(0.001 + with_clearance["pin.rear_base.depth"][record]) * force / np.hypot(*force)
-    shift = np.array([(with_clearance[f"tip.{axis}"] - ideal[f"tip.{axis}"])[record] for axis in "xy"])
+
+    def middle(result: Result, name: str) -> float:  # 1 s, where the columns have extended by half the stroke
+        return float(result[name][np.searchsorted(result.time, 1.0)])
+
+    force = np.array([middle(ideal, f"pin.rear_base.force_{axis}") for axis in "xy"])
+    offset = -(0.001 + middle(with_clearance, "pin.rear_base.depth")) * force / np.hypot(*force)
+    shift = np.array([middle(with_clearance, f"tip.{axis}") - middle(ideal, f"tip.{axis}") for axis in "xy"])
     # friction and inertia turn the force a little away from that of the ideal pin, which moves some percent
     np.testing.assert_allclose(shift, shifted(machine, 0.3, offset), atol=0.03 * np.hypot(*shift))
 
@@ -160,10 +164,10 @@ def test_the_sweep_is_a_straight_line(folder: Path) -> None:
     # geometry is linear in so small a shift: what is left is of its second order and of the depth's change
     np.testing.assert_allclose(tips, np.polyval(line, sizes), atol=2e-6)
     assert -2.4e-3 < line[0] < -1.8e-3
-    # from 1 mm on friction sets the pin vibrating: its force swings by a quarter, but it does not part
+    # from 1 mm on friction sets the pin vibrating: its force swings by a half, but it does not part
     peaks = [float(row["pin.rear_base.largest_force_N"]) for row in table]
     assert peaks[0] < 26e3
-    assert all(30e3 < peak < 34e3 for peak in peaks[1:])
+    assert all(36e3 < peak < 41e3 for peak in peaks[1:])
 
 
 @pytest.mark.slow  # the runs of the page take half a minute

@@ -85,8 +85,8 @@ def test_bounces_end_in_resting_contact(law: NormalLaw) -> None:
     # at rest: no impact any more, and the depth is that of the weight
     assert onsets[-1].time < 0.4
     np.testing.assert_allclose(
-        result["pin.ring.depth"][late], law.resting_depth(MASS * GRAVITY), rtol=1e-3
-    )  # what is left of the vibration
+        result["pin.ring.depth"][late], law.resting_depth(MASS * GRAVITY), rtol=2e-3
+    )  # what the damping at rest, by the rest velocity, leaves of the vibration
     # steps do not shrink: half a second at rest takes the steps of the grid and no more
     longer = bounce(law, 1.0)
     assert longer.counts.steps - result.counts.steps == round(0.5 / 5e-4)

@@ -196,7 +196,7 @@ def test_an_accuracy_is_met() -> None:
     finer = simulate(slider_crank(1e8, 0.02, rubbing, step=2e-6, impact_steps=512))
     found = result.numbers()
     wanted = {
-        "pin.slider_pin.force.mean": finer["pin.slider_pin.force"].mean(),
+        "pin.slider_pin.force.mean": finer.window("pin.slider_pin.force").mean,
         "guide.guide.upper_left.onset_2.time": finer.onsets["guide.upper_left"][1].time,
         "guide.guide.upper_right.largest_force": finer.largest_force["guide.upper_right"],
     }
