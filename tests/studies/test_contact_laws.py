@@ -73,8 +73,9 @@ def test_restitution_cases_are_named_as_agreed_and_right(
         closed_form = numbers["closed_form_restitution", case]["value"]
         # asked for: 1e-4
         assert number["value"] == pytest.approx(closed_form, abs=5e-5)
-        # the error reported is that which is estimated of three runs, a few times the one left
-        assert number["numerical_error"] < 2e-4
+        # the error is estimated of three runs, a few times the one left; the force of a dashpot jumps at the
+        # impact: there each halving leaves about a third, irregularly, and the estimate is fifty times
+        assert number["numerical_error"] < (1e-3 if case.startswith("anagnostopoulos") else 2e-4)
         assert number["unit"] == "1"
 
 
@@ -108,16 +109,15 @@ def test_the_rest_velocity_matters(numbers: dict[tuple[str, str], dict[str, Any]
 
 
 def test_with_friction_the_choice_of_a_law_changes_more(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
-    def between(name: str, case: str) -> float:
-        values = [numbers[name, case.format(law)]["value"] for law in catalogue.POWER_LAWS]
+    def between(name: str, end: str, *without: str) -> float:
+        values = [numbers[name, law + end]["value"] for law in catalogue.POWER_LAWS.keys() - without]
         return float(max(values) / min(values) - 1.0)
 
-    rubbing = f"{{}}{study.RUBBING}"
-    # 0.15 % and 2.2 %
-    assert between("std_pin_force", "{}") < 0.005 < 0.015 < between("std_pin_force", rubbing) < 0.03
-    # 0.001 % and 0.003 %
-    assert between("mean_pin_force", "{}") < 1e-4
-    assert between("mean_pin_force", rubbing) < 1e-4
+    # 0.1 % and 4.1 %; 0.9 % without the law whose damping ratio is 0.87 where that of others is 0.06 to 0.17
+    assert between("std_pin_force", "") < 0.005 < 0.03 < between("std_pin_force", study.RUBBING) < 0.05
+    assert between("std_pin_force", study.RUBBING, "gharib_hurmuzlu") < 0.015
+    # 0.001 % and 0.005 %
+    assert all(between("mean_pin_force", end) < 1e-4 for end in ("", study.RUBBING))
 
 
 def test_every_file_is_there(out: Path) -> None:
@@ -131,7 +131,8 @@ def test_every_file_is_there(out: Path) -> None:
         assert (out / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
     assert "Lankarani-Nikravesh" in (out / "restitution_table.txt").read_text(encoding="utf-8")
     assert "clamped steps" in (out / "rise_table.txt").read_text(encoding="utf-8")
-    assert len(list((out / "runs").iterdir())) == len(contact_law_cases.Joint(paper_subject(), 5e4).laws)
+    laws_of_joint = contact_law_cases.Joint(paper_subject(), 5e4).laws
+    assert len(list((out / "runs").iterdir())) == len(laws_of_joint) + len(contact_law_cases.REST)
     assert Result.load(out / "runs" / "exact.h5").time[-1] == 5.0
 
 
@@ -141,10 +142,11 @@ def test_the_chapter_says_what_was_computed(out: Path, numbers: dict[tuple[str, 
     assert all((out / f"{picture.stem}.png").is_file() for picture in chapter.pictures)
     delivered = numbers["delivered_restitution", "lankarani_nikravesh e=0.1"]["value"]
     assert any(f"{delivered:.3f} for 0.1" in text for text in chapter.findings)
-    key, restitution, rise = chapter.sheets
+    key, restitution, rise, rest = chapter.sheets
     assert len(restitution.rows) == len({case.split(" ")[0] for name, case in numbers if "restitution" in name})
     forces = {case for name, case in numbers if name == "mean_pin_force"}
-    assert len(rise.rows) == sum(study.RUBBING not in case for case in forces)
+    assert len(rest.rows) == len(contact_law_cases.REST)
+    assert len(rise.rows) == len(forces) - len(rest.rows) - len(catalogue.POWER_LAWS)
     assert [row[0] for row in key.rows][:2] == ["Exact", "Lankarani-Nikravesh"]
     assert len(key.rows) <= 8
 

