@@ -119,7 +119,7 @@ def test_the_drive_is_ours() -> None:
 
 def test_the_commands_run_to_the_end() -> None:
     text = solver_commands(RISE, "rise")
-    assert text == "\nfile/model=rise\nsimulate/dynamics, end=5.0, dtout=0.002\nstop\n"
+    assert text == "\nfile/model=rise\nsimulate/dynamics, end=5.0, dtout=0.001\nstop\n"
 
 
 # --- the contact ---

@@ -191,7 +191,7 @@ def test_a_check_over_several_fields_is_a_sentence() -> None:
         JournalBearing(bore_radius=1.0, clearance=2.0)
 
 
-@pytest.mark.parametrize("data", [{"type": ["a"]}, [1], {}, "text", {"type": "Nothing"}])
+@pytest.mark.parametrize("data", [{"type": ["a"]}, [1], {}, "text", {"type": "NoSuchType"}])
 def test_data_that_are_no_value_are_refused(data: object) -> None:
     with pytest.raises(InputError, match="not a known type"):
         Value.from_data(data)

@@ -49,7 +49,7 @@ from user_forces.expressions.scalar import maximum
 from user_forces.lawful import UNLAWFUL, LawError, look
 from user_forces.normal.law import LoadError
 
-FIRST_STEP = 1e-5  # at a tolerance of 1e-6 [s]
+FIRST_STEP = 1e-5  # [s]
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
 STEEP = ' Very small hoses and very steep valves need fewer with `formulation = "redundant"`.'
 AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then it cannot be interrupted, and tells no progress
@@ -85,8 +85,7 @@ class _Run:
         model, scenario = self.model, self.scenario
         weights = error_weights(model, self.y, scenario.solver.tolerance)
         going = np.zeros(GOING)
-        # steps that only growth limits follow the tolerance too, or runs at several tolerances would be alike
-        going[NEXT_STEP] = FIRST_STEP * (scenario.solver.tolerance / 1e-6) ** 0.2
+        going[NEXT_STEP] = FIRST_STEP
         pause = self.at_once
         for segment, begin, end in zip(model.courses.segments, model.edges, model.edges[1:], strict=False):
             if self.code != FINISHED:
