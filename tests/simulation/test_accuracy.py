@@ -415,10 +415,9 @@ def test_estimates_cover_the_true_errors_without_much_overstatement(
         print(goal, figures([case for case in checked if case.goal == goal]))
     everything = figures(checked)
     print("all", everything)
-    is_whole = request.node.callspec.params["checked"] == 1
-    assert everything["numbers"] > (10_000 if is_whole else 1_500)
-    # what is promised of all scenes; in a sample the numbers of a single scene count for a hundredth
-    assert everything["covered"] >= (0.98 if is_whole else 0.97)
+    assert everything["numbers"] > (10_000 if request.node.callspec.params["checked"] == 1 else 1_500)
+    # what is promised
+    assert everything["covered"] >= 0.98
     assert everything["worst"] < 5.0  # measured: 2.7
     # as far as runs are not as close as rounding, which is added to every estimate; measured: 12.4. Extremes,
     # which steps of other lengths meet at other points, are overstated by 16, so that 99 of 100 are covered
