@@ -6,7 +6,6 @@ as where a symmetric linkage swings through. Errors of a run grow as 1/s^2 there
 """
 
 import math
-from collections.abc import Mapping
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from support_exudyn.mechanics.closing import Conditions, repeated_count
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.mechanics.postures import turn
 from support_exudyn.mechanics.reactions import HeldJoints, matrix
-from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.mechanics.trajectory import Series, Trajectory
 from support_exudyn.scenario.scenario import Scenario
 
 SINGULAR = 1e-5  # of the largest singular value: below, a condition says nothing
@@ -79,16 +78,16 @@ def ended_at(scenario: Scenario, position: Matrix) -> str:
     return words(conditions, position) if 0 <= last < len(values) and values[last] < CLOSE else ""
 
 
-def passed(
-    scenario: Scenario, motion: BodyMotion, time: Series, forces: Mapping[str, Series]
-) -> tuple[float, str] | None:
-    """When a run has passed the first change point in which forces have no limit [s], and words; None if none.
+def passed(scenario: Scenario, run: Trajectory) -> tuple[float, str] | None:
+    """Return when a plane run has passed the first change point in which forces have no limit [s], and words.
 
-    Arguments:
-        motion: of all bodies at the records.
-        time: of the records (n,) [s].
-        forces: magnitudes of the forces in joints (n,) [N], by name.
+    Returns None if the run has passed no such point.
     """
+    if not run.position.size or not run.velocity.size:
+        return None
+    motion, time = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration), run.time
+    forces = {name: np.hypot(*force.T) for name, force in run.ideal_pins.items()}
+    forces |= {name: slide[:, 0] for name, slide in run.slides.items()}
     conditions = scenario.held
     last = len(conditions.counts) - repeated_count(conditions)[0] - 1
     if len(time) < 3 or not forces or not 0 <= last < motion.position.shape[1]:

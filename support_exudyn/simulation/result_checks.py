@@ -84,13 +84,8 @@ def _reasons(
 def _change_points(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
     """Whether forces have no limit in a change point or dead centre that the run has passed."""
     run = outcome.trajectory
-    if not isinstance(run, Trajectory) or not run.position.size or not run.velocity.size:
-        return
-    motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
-    forces = {name: np.hypot(*force.T) for name, force in run.ideal_pins.items()}
-    forces |= {name: slide[:, 0] for name, slide in run.slides.items()}
-    if (found := change_points.passed(scenario, motion, run.time, forces)) is not None:
-        yield Failure(found[1], change_points.ADVICE, found[0])
+    if isinstance(run, Trajectory) and (point := change_points.passed(scenario, run)) is not None:
+        yield Failure(point[1], change_points.ADVICE, point[0])
 
 
 def _losses(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:

@@ -22,6 +22,7 @@ from support_exudyn import (
     PlanarLinkage,
     Result,
     Scenario,
+    SolverSettings,
     Steady,
     simulate,
 )
@@ -216,6 +217,13 @@ def test_a_driven_linkage_ends_at_its_change_point(
     with pytest.raises(SimulationError, match=rf"change point or dead centre \({stands}") as error:
         run(linkage, formulation, 1.0, record)
     assert error.value.failure.time == pytest.approx(time, abs=1e-4)
+
+
+@pytest.mark.parametrize("tolerance", [1e-5, 1e-6, 1e-7, 1e-8, 1e-9])
+def test_a_step_that_jumps_over_a_change_point_hides_nothing(tolerance: float) -> None:
+    with pytest.raises(SimulationError, match=r"change point .*\(crank at (90|89.9..|90.0..)") as error:
+        run(EQUAL, "compiled", 1.0, 1e-3, solver=SolverSettings(tolerance=tolerance))
+    assert error.value.failure.time == pytest.approx(0.125, abs=1e-4)
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)

@@ -49,7 +49,8 @@ from user_forces.expressions.scalar import maximum
 from user_forces.lawful import UNLAWFUL, LawError, look
 from user_forces.normal.law import LoadError
 
-FIRST_STEP = 1e-5  # [s]
+FIRST_STEP = 1e-5  # at most [s]
+AT_FIRST = 1e-6  # tolerance below which the first step is shorter
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
 STEEP = ' Very small hoses and very steep valves need fewer with `formulation = "redundant"`.'
 AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then it cannot be interrupted, and tells no progress
@@ -85,7 +86,8 @@ class _Run:
         model, scenario = self.model, self.scenario
         weights = error_weights(model, self.y, scenario.solver.tolerance)
         going = np.zeros(GOING)
-        going[NEXT_STEP] = FIRST_STEP
+        # steps that only growth limits follow the tolerance too, or runs at several tolerances would be alike
+        going[NEXT_STEP] = FIRST_STEP * min(1.0, (scenario.solver.tolerance / AT_FIRST) ** 0.2)
         pause = self.at_once
         for segment, begin, end in zip(model.courses.segments, model.edges, model.edges[1:], strict=False):
             if self.code != FINISHED:
@@ -134,6 +136,16 @@ class _Run:
             self.statistics.add(time, trajectory(self.model, rows, _oil_events(self)))
             self.nodes[0], self.report[NODES] = self.nodes[OF_STEP * count], 0.0
 
+    def stop_before_first_nan(self) -> None:
+        """Mark the run as stopped at its first record that is not finite, in the posture that leads there."""
+        first = int(np.argmin(np.isfinite(self.rows.sum(axis=1))))
+        self.code, self.report[NOT_A_NUMBER] = STUCK, 1.0
+        self.report[STOPPED_AT] = self.model.times[first]
+        if first > 0:
+            count, last = 3 * self.model.scene.bodies.size, self.rows[first - 1]
+            self.y[: 2 * count] = last[1 : 1 + 2 * count]
+            self.y[:count] += (self.model.times[first] - last[0]) * self.y[count : 2 * count]
+
     def _followed(self) -> list[Drive | Inlet]:
         """What drives and valves follow, in the order of the courses."""
         drives = [self.scenario.drive_of(name) for name in self.model.drives]
@@ -162,7 +174,7 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
     going = _Run(model_of(scenario))
     going.go(progress)
     if going.code == FINISHED and not np.isfinite(going.rows.sum()):
-        going.code, going.report[NOT_A_NUMBER] = STUCK, 1.0
+        going.stop_before_first_nan()
     if going.code != FINISHED:
         raise SimulationError(_failure(going))
     going.take_nodes()
