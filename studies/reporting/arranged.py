@@ -32,7 +32,7 @@ VERDICTS = {  # class, symbol and word of a verdict by its beginning
     "holds": ("holds", "✓", "holds"),
     "in part": ("partly", "◐", "holds in part"),
     "fails": ("unsupported", "✗", "fails"),
-    "needs more machines": ("more", "+", "needs more machines"),
+    "needs more machines": ("few", "+", "needs more"),
     "not measurable": ("open", "?", "not measurable"),
 }
 END_OF_SENTENCE = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")

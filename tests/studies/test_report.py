@@ -291,19 +291,19 @@ def test_hostile_text_stays_text(page: Page, appendix: Page) -> None:
 
 def test_claims_are_listed_with_verdict_reason_and_links(page: Page) -> None:
     assert [row["data-kind"] for row in page.all("tr") if "data-kind" in row] == [
-        "holds", "partly", "unsupported", "open", "more",
+        "holds", "partly", "unsupported", "open", "few",
     ]  # fmt: skip
     assert [text for text in page.text("summary") if text.startswith("Claim ")] == [
         f"Claim {n}. A sentence." for n in range(5)
     ]
     buttons = [attributes["data-show"] for attributes in page.all("button")]
-    assert buttons == ["", "holds", "partly", "unsupported", "more", "open"]
+    assert buttons == ["", "holds", "partly", "unsupported", "few", "open"]
     text = said(page)
     for part in (
         "✓ holds",
         "◐ holds in part",
         "✗ fails",
-        "+ needs more machines",
+        "+ needs more",
         "? not measurable",
     ):
         assert part in text
