@@ -246,14 +246,15 @@ def test_chaos_is_compared_up_to_its_horizon_and_by_statistics_beyond() -> None:
 
 
 @pytest.mark.slow  # 16 runs of each
-@pytest.mark.parametrize("pins", ["B", "ABC"])
-def test_chaos_is_quiet_whatever_is_rounded(pins: str) -> None:
-    loose = {one: {"clearance_mm": 0.5, "friction": 0.1, "restitution": 0.9} for one in pins}
+@pytest.mark.parametrize(("pins", "friction"), [("B", 0.0), ("ABC", 0.1)])
+def test_chaos_is_quiet_whatever_is_rounded(pins: str, friction: float) -> None:
+    loose = {one: {"clearance_mm": 0.5, "friction": friction, "restitution": 0.9} for one in pins}
     scene = simple_scenario(
         "crank_rocker", duration_s=1.0, record_period_s=1e-3, accuracy="standard",
         drives={"crank": {"type": "Steady", "rate_rad_per_s": 45}}, pins=loose,
     )  # fmt: skip
     kept = [kept_run(simulate(perturbed(scene, n))) for n in range(16)]
+    assert np.median([one.horizon for one in kept]) < 0.5 * scene.duration
     pairs = [(one, other) for one in kept for other in kept if one is not other]
     noisy = [found for one, other in pairs if (found := changes(one, other))]
     assert len(noisy) <= 0.02 * len(pairs)
