@@ -60,7 +60,7 @@ Values = npt.NDArray[np.float64]  # of any shape
 # tolerance, and where they are halved, which some numbers answer by half only (means with friction)
 OWN, SLOWEST_OWN = 0.7, 0.35
 OWN_OF_STEPS, SLOWEST_OF_STEPS = 1.0, 0.6
-CHOSEN = 0.15  # share of the distance before that the last is at least, where steps are chosen by a tolerance
+CHOSEN = 0.18  # share of the distance before that the last is at least, where steps are chosen by a tolerance
 ALIKE = 0.5  # of the distances of numbers that go wrong alike, that each is at least
 SAFETY_OF_WORST = 6.0  # covers all of two thousand runs at the extremes (`studies/extremes/run.py`)
 IRREGULAR = 4.0  # times that, where Newton's method failed: steps then are not those that were asked for
