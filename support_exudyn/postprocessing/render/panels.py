@@ -303,7 +303,8 @@ class Strip:
                 handleheight=0.3, handletextpad=0.5, columnspacing=1.5, labelcolor=INK,
             )  # fmt: skip
         if self._peak > self._top:
-            text = f"cut off at {self._top:.3g} {self._shown.name}, largest {self._peak:.4g} {self._shown.name}"
+            # without the peak, which records miss: the page of the run has it
+            text = f"cut off at {self._top:.3g} {self._shown.name}"
             sheet.write((right, top - 9 * u), text, 12 * u, FAINT, "right baseline")
         force = np.minimum(self._force, self._top)
         if self._touching is None:
