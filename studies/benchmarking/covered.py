@@ -245,9 +245,18 @@ def _numbers(scenarios: Sequence[Scenario]) -> list[Mapping[str, float]]:
 
 
 def judged(run: Result, known: Sequence[Reference]) -> Iterator[Judged]:
-    """Judge all numbers of a run by the references."""
-    for name, number in run.numbers().items():
-        yield judge(name, number.value, number.error, run.scenario.formulation, known)
+    """Judge all numbers of a run by the references; the time of an extreme by the one that judges its value.
+
+    A reference that does not know the value that well may have another one of two peaks as the largest.
+    """
+    numbers = run.numbers()
+    for name, number in numbers.items():
+        fit = known
+        if (extreme := name.removesuffix("_time")) in numbers and extreme != name:
+            of = numbers[extreme]
+            by = judge(extreme, of.value, of.error, run.scenario.formulation, known).by
+            fit = [one for one in known if one.formulation == by]
+        yield judge(name, number.value, number.error, run.scenario.formulation, fit)
 
 
 def judge(name: str, value: float, claimed: float, formulation: str, known: Sequence[Reference]) -> Judged:

@@ -7,6 +7,8 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -116,6 +118,19 @@ def test_a_reference_that_agrees_by_chance_is_as_wrong_as_its_family() -> None:
     reference = Reference("compiled", fine, coarse, coarse, 0.25)
     assert reference.error(names[0]) == pytest.approx(covered.OF_DISTANCE)
     assert reference.error(names[4]) == pytest.approx(3.0 * covered.OF_DISTANCE)
+
+
+def test_what_judges_a_largest_value_judges_its_time() -> None:
+    value, at = "pin.A.force.largest", "pin.A.force.largest_time"
+    blunt = {value: 100.05, at: 0.003}  # another peak is the largest of this reference
+    sharp = {value: 100.0 + 1e-8, at: 0.03 + 1e-9}
+    references = [
+        Reference("redundant", blunt, {value: 100.09, at: 0.003}, {value: 100.2, at: 0.003}, 0.25),
+        Reference("compiled", sharp, {value: 100.0, at: 0.03}, {value: 100.0, at: 0.03}, 0.25),
+    ]
+    numbers = {value: Estimate(100.0, 1e-4, "N"), at: Estimate(0.03, 1e-5, "s")}
+    run: Any = SimpleNamespace(numbers=lambda: numbers, scenario=SimpleNamespace(formulation="compiled"))
+    assert [(one.by, one.ratio <= 1.0) for one in covered.judged(run, references)] == [("compiled", True)] * 2
 
 
 def three(fine: float, coarse: float, coarsest: float) -> Reference:
