@@ -135,7 +135,7 @@ def measures(
                     found[f"{name}.largest_time"] = ReportedNumber(
                         "s",
                         time_of(name, LARGEST, after, until),
-                        missed=other_times(name, LARGEST, after, until),
+                        missed=other_times(name, LARGEST, after, until, rounded),
                         settles=False,
                     )
         elif name in turning:
@@ -262,12 +262,17 @@ def time_of(
 
 
 def other_times(
-    name: str, extreme: Callable[[TimeWindow], tuple[float, float]], after: float, until: float
+    name: str,
+    extreme: Callable[[TimeWindow], tuple[float, float]],
+    after: float,
+    until: float,
+    rounding: float = 0.0,
 ) -> Measure:
     """How far the time of an extreme may be off [s].
 
-    To the farthest interval whose extreme comes as near to it as the runs differ in both; within its own
-    interval as far as a parabola falls by that; and as far as the runs are apart in the time.
+    To the farthest interval whose extreme comes as near to it as the runs differ in both, and as rounding makes
+    it, in the channel's unit; within its own interval as far as a parabola falls by that; and as far as the
+    runs are apart in the time.
     """
 
     def by_interval(window: TimeWindow) -> Series:
@@ -279,7 +284,8 @@ def other_times(
     def measure(run: RecordedRun) -> float:
         window = run.window(name, after, until)
         (values, times), (value, time) = by_interval(window), extreme(window)
-        doubts = np.full(values.size, max(window.least_doubt, window.greatest_doubt) + ROUNDING * abs(value))
+        known = max(window.least_doubt, window.greatest_doubt) + ROUNDING * abs(value) + rounding
+        doubts = np.full(values.size, known)
         apart, other = 0.0, run.coarser
         while other is not None:
             its = other.window(name, after, until)
