@@ -36,7 +36,7 @@ def test_a_line_has_the_pressure_of_its_leg(formulation: str) -> None:
     result = settled(DAMPED, formulation)
     for name in DAMPED:
         assert result[f"{name}.line_pressure"][0] == pytest.approx(result[f"{name}.pressure"][0], rel=1e-11)
-        np.testing.assert_allclose(result[f"{name}.flow"], 0.0, atol=1e-12)
+        np.testing.assert_allclose(result[f"{name}.flow"], 0.0, atol=1e-11)  # m3/s; rounding: 1.5e-12
     assert np.ptp(result["roof.force"]) < 1e-9 * result["roof.force"][0]
     # as columns that give as much by themselves
     fuller = {
