@@ -46,8 +46,7 @@ def test_memory_is_flat_in_simulated_time(formulation: str, duration: float) -> 
     simulate(held(formulation, 0.2))  # what is made once
     # of which the short one has more steps than become statistics at once, in as many intervals
     short, long = peak(held(formulation, duration)), peak(held(formulation, 4.0 * duration))
-    # four times the time; impacts are recorded, a hundred bytes each. With what scipy's root finder leaves
-    # behind, once asked in every step of a contact, it grew by 300 bytes a step
+    # four times the time; impacts are recorded, a hundred bytes each
     assert long - short < 60_000
 
 

@@ -199,7 +199,6 @@ def test_the_summary_says_how_good_estimates_are(written: Path) -> None:
     numbers = json.loads((written / "summary.json").read_text(encoding="utf-8"))["numbers"]
     said = {number["name"]: number["value"] for number in numbers}
     assert said["estimate_coverage"] >= 0.95  # asked for
-    # 12; it was 10 until estimates covered extremes, too
     assert 1.0 < said["estimate_overstatement_median"] <= 14.0
 
 
