@@ -29,7 +29,7 @@ from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.estimate import disagreement, rounding_share
 from support_exudyn.simulation.result_checks import OPEN, energy_open
 from user_forces import Frictionless, InputError
-from user_forces.normal.hysteresis import Hysteresis
+from user_forces.normal.hysteresis import Hysteresis, delivered_restitution
 
 GOOD, REFUSED, SILENT = "good", "refused", "silent"
 BEFORE = "before the run: "
@@ -215,8 +215,13 @@ def largest_restitution(result: Result) -> float:
                 continue
             if any(impact.time - ALONE <= one.time <= impact.separation_time for one in result.impulses):
                 continue
-            found.append(impact.separation_velocity / (law.delivered_restitution * impact.speed))
+            found.append(impact.separation_velocity / (_delivered(law, impact.speed) * impact.speed))
     return float(np.nanmax(found)) if len(found) > 1 else math.nan
+
+
+def _delivered(law: Hysteresis, speed: float) -> float:
+    """Restitution that a free impact delivers; one slower than the rest velocity [m/s] is damped less."""
+    return delivered_restitution(law.damping_factor * min(1.0, speed / law.rest_velocity))
 
 
 def _pull(scenario: Scenario) -> float:

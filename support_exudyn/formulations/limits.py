@@ -33,9 +33,13 @@ ENDS = "Close its inlet earlier, open it less, or take a longer cylinder."
 
 
 def past_ends(scenario: Scenario, lengths: Mapping[str, float]) -> str:
-    """The message on a piston beyond an end of its cylinder, by lengths of actuators [m]; empty: none is."""
-    starts = {name: scenario.linkage.actuators[name].start_length for name in scenario.valved}
-    messages = (one.past_end(lengths[name] - starts[name], name) for name, one in scenario.valved.items())
+    """The message on a piston beyond an end of its cylinder; empty if none is.
+
+    lengths: of actuators [m], by name; cylinders without a length are not checked.
+    """
+    starts = {name: one.start_length for name, one in scenario.linkage.actuators.items()}
+    known = ((name, one) for name, one in scenario.valved.items() if name in lengths)
+    messages = (one.past_end(lengths[name] - starts[name], name) for name, one in known)
     return next(filter(None, messages), "")
 
 

@@ -21,17 +21,8 @@ from support_exudyn import (
     reference_support,
 )
 from tests.cases.run_cases import FORCE, PIN, loose_support, paper_contact, support
-from tests.compiled_runs import (
-    same_channels,
-    simulate_compiled,
-    simulate_redundant,
-)
-from user_forces import (
-    Ambrosio,
-    Frictionless,
-    JournalContact,
-    LankaraniNikravesh,
-)
+from tests.compiled_runs import same_channels, simulate_compiled, simulate_redundant
+from user_forces import Ambrosio, Frictionless, JournalContact, LankaraniNikravesh
 
 # t [s]: pin force, its x, y [N], angular velocity [deg/s] and acceleration [deg/s^2] of the rear link
 IDEAL = {

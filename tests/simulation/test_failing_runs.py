@@ -7,16 +7,12 @@ from dataclasses import replace
 
 import pytest
 
-from support_exudyn import (
-    ClearancePin,
-    Failure,
-    Held,
-    Scenario,
-    SimulationError,
-    simulate,
-)
+from support_exudyn import ClearancePin, Failure, Held, Scenario, SimulationError, simulate
 from support_exudyn.formulations.contract import UNSOLVABLE, explained
+from support_exudyn.formulations.limits import past_ends
+from support_exudyn.model.hydraulics.motion import SealFriction
 from support_exudyn.sweeps.parallel_runs import run_all
+from tests.cases.cylinder_cases import CYLINDER
 from tests.cases.run_cases import Pair, loose_support, paper_contact
 from tests.formulations.test_momentum import ONE, TWO
 from user_forces import FrictionLaw, LankaraniNikravesh, LoadError, value
@@ -76,6 +72,14 @@ def test_a_failure_says_when_and_in_what_state(kind: str, words: str) -> None:
     assert "step" in failure.state
     assert words in str(caught.value)
     assert (UNLAWFUL in str(caught.value)) == (kind == "nan")
+
+
+def test_pistons_are_checked_as_far_as_lengths_are_known() -> None:
+    leg = replace(CYLINDER, seal_friction=SealFriction(coulomb=1e3, static=1e3))
+    scenario = loose_support(drive=Held(), actuators={"front_column": leg, "rear_column": leg})
+    assert past_ends(scenario, {}) == ""  # the engine's scene tells none of legs
+    start = scenario.linkage.actuators["rear_column"].start_length
+    assert "rear_column is extended by 2 m" in past_ends(scenario, {"rear_column": start + 2.0})
 
 
 def test_a_failure_can_be_had_as_a_value() -> None:

@@ -33,13 +33,7 @@ from studies.contact_laws.catalogue import POWER_LAWS
 from support_exudyn import CubicStep, HydraulicSupport, Line, UniformSpeed, reference_support
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.pin_surroundings import links_stiffness
-from user_forces import (
-    STEEL,
-    STEEL_35CRMO,
-    InputError,
-    LankaraniNikravesh,
-    PinInBore,
-)
+from user_forces import STEEL, STEEL_35CRMO, InputError, LankaraniNikravesh, PinInBore
 from user_forces.backing import pin_stiffness
 
 BY_NAME = {factor.name: factor for factor in FACTORS}
