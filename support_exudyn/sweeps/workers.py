@@ -12,11 +12,13 @@ all these cases.
 from __future__ import annotations
 
 import ctypes
+import errno
 import multiprocessing
 import os
 import signal
 import sys
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
@@ -33,7 +35,9 @@ CONTEXT = multiprocessing.get_context("spawn")  # the engine does not survive a 
 AHEAD = 2  # jobs for each process, one of them waiting
 POLL = 0.1  # how often progress is told [s]
 NOT_BEGUN = -1.0  # in place of the share of a job that waits
-TRIES = 2  # pools in a row whose processes may end before any work has begun
+CLOSED = (None, errno.EBADF, errno.EPIPE, errno.ECONNREFUSED, errno.ECONNRESET)  # of a file or connection
+MOMENT = 0.2  # [s]
+TRIES = 3  # pools in a row whose processes may end before any work has begun
 SOON = 5.0  # a process that has ended is known to within [s]
 
 TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3  # of mallopt of glibc
@@ -191,9 +195,11 @@ class Workers:
             try:
                 return self._pool.submit(_do, job.slot, work, job.number, job.given)
             except OSError as error:
-                if error.errno is not None:
+                if error.errno not in CLOSED:
                     raise
-                # another process ended just now, and what the new one was to be given is closed already
+                # another process ended just now, and what the new one was to be given is closed already; what
+                # starts processes may end by that, and is there again after a moment
+                time.sleep(MOMENT)
                 raise BrokenProcessPool from error
 
     def _ended(

@@ -7,12 +7,7 @@ from functools import cache
 
 import pytest
 
-from support_exudyn import (
-    OilColumn,
-    Result,
-    SolverSettings,
-    simulate,
-)
+from support_exudyn import OilColumn, Result, SolverSettings, simulate
 from tests.cases.contact_scenes import OFF, drawn, finely, off
 from tests.cases.run_cases import PIN
 

@@ -10,13 +10,7 @@ from scipy.integrate import solve_ivp
 
 from support_exudyn import ClearancePin, Scenario, SolverSettings, Steady, simulate
 from tests.linkage_cases import LENGTHS, MASSES, CrankRocker, closed, rates
-from user_forces import (
-    Ambrosio,
-    Frictionless,
-    JournalBearing,
-    JournalContact,
-    LankaraniNikravesh,
-)
+from user_forces import Ambrosio, Frictionless, JournalBearing, JournalContact, LankaraniNikravesh
 
 SPEED, BORE, CLEARANCE, STIFFNESS, RESTITUTION = 60.0, 0.01, 5e-4, 1e10, 0.9
 START = 0.0  # of the crank [rad]

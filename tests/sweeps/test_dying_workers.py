@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import faulthandler
 import multiprocessing
 import os
@@ -11,7 +12,9 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -125,6 +128,25 @@ def test_if_nobody_asks_for_it_the_error_comes_when_all_others_are_done(pool: Wo
     assert set(times_begun(tmp_path)) == set(range(7))
     again = pickle.loads(pickle.dumps(caught.value))
     assert (again.place, again.code, str(again)) == (0, -9, str(caught.value))
+
+
+@pytest.mark.parametrize(
+    "error", [OSError("closed"), OSError(errno.EBADF, ""), OSError(errno.ECONNREFUSED, "")]
+)
+def test_a_process_that_cannot_be_started_as_another_ends_is_started_later(
+    error: OSError, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    errors, submit = [error], ProcessPoolExecutor.submit
+
+    def failing(self: Any, *args: Any) -> Any:
+        if errors:
+            raise errors.pop()
+        return submit(self, *args)
+
+    monkeypatch.setattr(ProcessPoolExecutor, "submit", failing)
+    with worker_pool(1) as single:
+        assert single.run([("good", tmp_path)] * 2, end, silent) == [0, 1]
+    assert not errors
 
 
 def test_the_pool_is_as_large_as_before(pool: Workers, tmp_path: Path) -> None:
