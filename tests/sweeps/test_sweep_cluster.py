@@ -74,7 +74,7 @@ def test_with_a_worker_killed_midway_it_gives_the_same_table_as_here(
     path = write_sweep(tmp_path, speeds(RUNS), duration=0.04)
     file, store = tmp_path / "scheduler.json", tmp_path / "store"
     started("scheduler", "--port", "0", "--host", "127.0.0.1", "--scheduler-file", str(file))
-    assert wait_until(file.exists, SOON)
+    assert wait_until(lambda: file.exists() and file.stat().st_size > 0, SOON)  # it is there before its text
     options = "--scheduler-file", str(file), "--nthreads", "1", "--no-nanny"
     workers = [started("worker", *options) for _ in range(2)]
     address = json.loads(file.read_text(encoding="utf-8"))["address"]
@@ -126,7 +126,7 @@ def test_a_scheduler_that_is_lost_midway_is_told_in_a_line(tmp_path: Path, start
     path = write_sweep(tmp_path, speeds(500), duration=0.04)
     file, store = tmp_path / "scheduler.json", tmp_path / "store"
     scheduler = started("scheduler", "--port", "0", "--host", "127.0.0.1", "--scheduler-file", str(file))
-    assert wait_until(file.exists, SOON)
+    assert wait_until(lambda: file.exists() and file.stat().st_size > 0, SOON)  # it is there before its text
     started("worker", "--scheduler-file", str(file), "--nthreads", "1", "--no-nanny")
     address = json.loads(file.read_text(encoding="utf-8"))["address"]
     # what the client asks in the moment of the loss may wait that long
