@@ -135,8 +135,8 @@ def errors(
     for name, kind in kinds.items():
         size = _size(kind, result)
         usual = float(np.median(families[kind.family])) if kind.family in families and kind.family else 0.0
-        worst = max(origins[kind.beside]) if kind.beside in origins and kind.beside else 0.0
-        least = ALIKE * max(usual * size, worst * max(size, scales.get((kind.beside, kind.unit), 0.0)))
+        worst = max(origins[kind.floor_of]) if kind.floor_of in origins and kind.floor_of else 0.0
+        least = ALIKE * max(usual * size, worst * max(size, scales.get((kind.floor_of, kind.unit), 0.0)))
         values = max(size, kind.values)
         own = error(kind.measure, result, r, values, least)
         if own <= 2.0 * ROUNDING * values:

@@ -73,7 +73,7 @@ class ReportedNumber(NamedTuple):
     inside an interval of the statistics. values: the largest value that it is computed from, which rounding and
     what Newton's method leaves are shares of: a least value can be next to nothing beside it. rounding: what is
     left of the largest numbers that it is a difference of, in its unit.
-    beside: the force or impact whose numbers it is not wrong by less than; empty: none. Means and times are
+    floor_of: the force or impact whose error is a floor of its own error; empty: none. Means and times are
     known better than what is of them.
     step: by how much a single step may be wrong, which counts where runs agree but for rounding.
     settles: whether it tends to something as steps become shorter; the time of a largest value may jump from
@@ -91,7 +91,7 @@ class ReportedNumber(NamedTuple):
     rounding: float = 0.0
     step: float = 0.0
     settles: bool = True
-    beside: str = ""
+    floor_of: str = ""
 
 
 def measures(
@@ -121,7 +121,7 @@ def measures(
                 of = name if word in AVERAGED else ""  # of a single time, which others average out
                 share, values = left, most
                 size = 0.0 if word in AVERAGED else most
-                beside = "" if word == "mean" else name
+                floor_of = "" if word == "mean" else name
                 if word == "std" and sized:
                     spread, mean = window.std, window.rms
                     # rounding of the forces scatters, and what scatters beside more adds next to nothing
@@ -129,7 +129,7 @@ def measures(
                     share = left_of_spread(left, spread, mean) / values if values > 0.0 else left
                 family = f"force.{word if word in AVERAGED else 'largest'}"
                 found[f"{name}.{word}"] = ReportedNumber(
-                    channel.unit, measure, size, family, of, share, between, values, rounded, beside=beside
+                    channel.unit, measure, size, family, of, share, between, values, rounded, floor_of=floor_of
                 )
                 if word == "largest":
                     found[f"{name}.largest_time"] = ReportedNumber(
@@ -212,7 +212,7 @@ def impact_numbers(result: RecordedRun, pin: str, most: int) -> dict[str, Report
         late, slow = _of_a_step(result.scenario, pin, onset) if result.scenario.chooses_steps else (0.0, 0.0)
         found[f"{impact}.time"] = ReportedNumber("s", _onset(pin, n, "time"), of=impact, left=left, step=late)
         found[f"{impact}.speed"] = ReportedNumber(
-            "m/s", _onset(pin, n, "speed"), of=impact, left=left, step=slow, beside=impact
+            "m/s", _onset(pin, n, "speed"), of=impact, left=left, step=slow, floor_of=impact
         )
     return found
 

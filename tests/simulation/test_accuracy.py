@@ -421,9 +421,9 @@ def test_estimates_cover_the_true_errors_without_much_overstatement(
     assert everything["worst"] < 5.0  # measured: 4.2
     # as far as runs are not as close as rounding, which is added to every estimate; measured: 12.9. Extremes,
     # which steps of other lengths meet at other points, are overstated by 19 to 33: 99 of 100 are covered
-    more = 1.0 if request.node.callspec.params["checked"] == 1 else 1.25  # of every sixth scene: measured 15.6
-    assert figures([case for case in checked if case.goal > GOALS[-1]])["overstated"] <= 13.5 * more
-    assert everything["overstated"] <= 14.5 * more  # measured: 13.8
+    more = 1.0 if request.node.callspec.params["checked"] == 1 else 1.25  # samples scatter from 11.5 to 15.6
+    assert figures([case for case in checked if case.goal > GOALS[-1]])["overstated"] <= 13.0 * more
+    assert everything["overstated"] <= 14.0 * more  # measured: 13.8
 
 
 @pytest.mark.parametrize("checked", [ALL], indirect=True)  # of a few scenes it would be chance
@@ -432,7 +432,7 @@ def test_no_kind_of_scene_and_no_goal_is_much_worse_than_all(checked: list[Case]
     chosen += [[case for case in checked if case.goal == goal] for goal in GOALS]
     for some in chosen:
         # some thousand numbers of a few dozen scenes hang together
-        assert figures(some)["covered"] >= 0.965  # measured: 0.971 and more
+        assert figures(some)["covered"] >= 0.97  # measured: 0.971 and more
         # measured: 18.5, of a goal of 1e-6, where rounding counts, of least values as a share of the largest
         assert figures(some)["overstated"] <= 21.0
 

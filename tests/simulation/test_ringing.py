@@ -61,10 +61,6 @@ def test_numerical_damping_is_that_of_the_recursion(radius: float, phase: float)
     assert numerical_damping(phase, radius) == pytest.approx(measured, rel=0.05)
 
 
-def test_numerical_damping_is_of_third_order() -> None:
-    assert numerical_damping(0.1, 0.5) == pytest.approx(8.0 * numerical_damping(0.05, 0.5), rel=0.02)
-
-
 def test_along_the_load_a_contact_vibrates_as_its_law_is_stiff_and_across_it_like_a_pendulum() -> None:
     stiffness, damping = 1e9, 1e5
     (contact,) = loaded_contacts(narrow(KelvinVoigt(stiffness=stiffness, damping=damping)))[:1]
@@ -116,7 +112,6 @@ def test_what_is_left_of_a_fall_rings_as_told() -> None:
     # steps are for the least damping that the law may have; it falls as one over the impact velocity
     expected = found.fall * FASTEST / REST_VELOCITY
     assert math.log(sizes[0] / sizes[1]) / 0.8 == pytest.approx(expected, rel=0.1)
-    # a run whose last step is as told keeps it; at the steps of before it was gone
     kept = simulate(replace(scene, formulation="redundant", step=0.25 * ringing_step(scene)))[
         f"pin.{PIN}.force"
     ]

@@ -17,7 +17,7 @@ from studies.benchmarking.coverage import ALL, Chosen, offender_sheet, run_scene
 from studies.benchmarking.covered import CoveredRun, Judged, Reference, judge
 from studies.benchmarking.fresh_scenes import LINKAGES, MACHINES, RECORDS, Fresh, fresh
 from studies.extremes.runs import HangError
-from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError, simulate
+from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError, SolverSettings, simulate
 from support_exudyn.sweeps.workers import Workers
 from tests.at_once import AtOnce
 
@@ -276,6 +276,13 @@ def test_a_scene_is_covered_and_a_planted_fault_is_not(monkeypatch: pytest.Monke
 
     monkeypatch.setattr(Result, "numbers", wrong)
     assert share(list(covered.rows(scene))).covered < 0.5
+
+
+def test_the_first_impact_after_a_free_flight_is_covered() -> None:
+    scene = fresh(7, 49).scenario
+    tight = simulate(replace(scene, formulation="compiled", solver=SolverSettings(tolerance=1e-12)))
+    first = simulate(scene, accuracy="draft").numbers()["pin.O.onset_1.time"]
+    assert abs(first.value - tight.onsets["O"][0].time) <= first.error
 
 
 def test_a_run_that_fails_is_refused_with_its_reason(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -130,13 +130,11 @@ def test_if_nobody_asks_for_it_the_error_comes_when_all_others_are_done(pool: Wo
     assert (again.place, again.code, str(again)) == (0, -9, str(caught.value))
 
 
-@pytest.mark.parametrize(
-    "error", [OSError("closed"), OSError(errno.EBADF, ""), OSError(errno.ECONNREFUSED, "")]
-)
+@pytest.mark.parametrize("number", [None, errno.EBADF, errno.ECONNREFUSED])
 def test_a_process_that_cannot_be_started_as_another_ends_is_started_later(
-    error: OSError, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    number: int | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    errors, submit = [error], ProcessPoolExecutor.submit
+    errors, submit = [OSError(number, "closed")], ProcessPoolExecutor.submit
 
     def failing(self: Any, *args: Any) -> Any:
         if errors:
