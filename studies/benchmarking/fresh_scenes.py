@@ -43,7 +43,7 @@ from support_exudyn import (
 from support_exudyn.mechanics.oil_column import static_loads
 from support_exudyn.scenario.scenario_data import Accuracy
 from user_forces.normal.hysteresis import REST_VELOCITY
-from user_forces.normal.power_law import PowerLaw
+from user_forces.normal.power_laws import PowerLaw
 
 T = TypeVar("T")
 LAWS: tuple[type[PowerLaw], ...] = (

@@ -11,7 +11,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from support_exudyn.mechanics.contact_state import Onset, PinMemory
-from user_forces.expressions.roots import bracketed_root
+from user_forces.roots import bracketed_root
 
 # A step that ends within this share of an impact's step from an impact or a separation is taken as ending
 # there, and one that starts that close before it as starting there. The force missed or added in between is of

@@ -25,7 +25,7 @@ from user_forces.materials import (
     external_contact_stiffness,
     internal_contact_stiffness,
 )
-from user_forces.normal.exact import Exact
+from user_forces.normal.power_laws import Exact
 from user_forces.normal.law import NormalLaw
 from user_forces.normal.pin_in_bore import PinInBore, lends_damping
 from user_forces.values.units import Metres

@@ -19,7 +19,7 @@ from support_exudyn.simulation.impulses import impulses_of
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.reported_numbers import FORCE, measures
 from support_exudyn.simulation.result import Result
-from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError, Value
 
 Row = tuple[str, ...]

@@ -174,7 +174,7 @@ def test_errors_that_nobody_can_know_end_with_1(tmp_path: Path, capsys: pytest.C
 OWN = '''
 from support_exudyn import ImpactStand
 from user_forces import NormalLaw
-from user_forces.normal.hertz import Hertz
+from user_forces.normal.power_laws import Hertz
 from user_forces.values.value import value
 
 @value

@@ -13,7 +13,7 @@ from user_forces.values.value import InputError
 LAWS = """
 from user_forces import FrictionLaw, value
 from user_forces.expressions.scalar import tanh
-from user_forces.normal.power_law import ElasticPower
+from user_forces.normal.power_laws import ElasticPower
 from user_forces.normal.law import NormalLaw
 from user_forces.values.value import NonNegative, Positive
 

@@ -25,7 +25,7 @@ from user_forces import InputError, PinInBore
 from user_forces.values.value import Value, kinds_of
 
 LAW = """
-from user_forces.normal.hertz import Hertz
+from user_forces.normal.power_laws import Hertz
 from user_forces.values.value import value
 
 @value

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 from support_exudyn.formulations.redundant.clearance.steep_friction import TRIES, FrictionLine
 from tests.often import often
 from user_forces import Ambrosio
-from user_forces.friction.brown_mcphee import BrownMcPhee
-from user_forces.friction.cubic_coulomb import CubicCoulomb
+from user_forces.friction.laws import BrownMcPhee
+from user_forces.friction.laws import CubicCoulomb
 from user_forces.friction.law import FrictionLaw
-from user_forces.friction.threlfall import Threlfall
+from user_forces.friction.laws import Threlfall
 
 LAWS = [
     Ambrosio(sliding_coefficient=0.3, static_speed=1e-7, dynamic_speed=1.1e-7),

@@ -15,7 +15,7 @@ from support_exudyn.formulations.redundant.clearance.pin_motion import PinMotion
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError
 
 UNDAMPED = 1e30  # impact velocity [m/s] against which every rate is nothing

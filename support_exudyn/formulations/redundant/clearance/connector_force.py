@@ -18,7 +18,7 @@ from typing import Any, NamedTuple, cast
 
 from user_forces.contact import Contact, ContactForce, SlipHistory
 from user_forces.expressions.scalar import cos, maximum, sin
-from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.laws import Frictionless
 
 
 class Attachment(Enum):

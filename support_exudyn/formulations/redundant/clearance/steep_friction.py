@@ -20,7 +20,7 @@ from support_exudyn.formulations.engine_settings import TRIES
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce
 from user_forces.contact import ContactForce
-from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.laws import Frictionless
 from user_forces.friction.law import FrictionLaw
 
 EngineForce = SymbolicForce | PythonForce

@@ -22,7 +22,7 @@ from support_exudyn.mechanics.space.motion import SpatialMotion, cross, motion_o
 from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
 from support_exudyn.mechanics.trajectory import ContactSeries, LegSeries, LoadSeries, Series
 from support_exudyn.model.linkage import GROUND
-from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.laws import Frictionless
 
 
 @dataclass(frozen=True)
