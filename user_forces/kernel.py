@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+import re
 import threading
 import warnings
 from collections.abc import Callable, Sequence
@@ -20,14 +21,17 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-KERNELS: list[Callable[..., Any]] = []  # that numba does not know yet
+KERNELS: list[Callable[..., Any]] = []  # that numba does not know yet, as long as nothing is compiled
 NUMBERS = (int, float, bool, str, type(None))
 _lock = threading.RLock()
+_is_prepared: list[bool] = []  # filled when numba is imported
 
 
 def kernel(function: Function) -> Function:
     """Decorator: a function of numbers that compiled code may call; Python goes on calling it as it is."""
     KERNELS.append(function)
+    if _is_prepared:
+        prepare()
     return function
 
 
@@ -120,6 +124,7 @@ def prepare() -> Any:
 
     with _lock:
         _teach_numbers()
+        _is_prepared.append(True)
         while KERNELS:
             numba.extending.register_jitable(error_model="numpy")(KERNELS.pop())
     return numba
@@ -132,7 +137,7 @@ def _teach_numbers() -> None:
     from numba.np.unsafe.ndarray import to_fixed_tuple
 
     @numba.extending.overload(numbers)  # type: ignore[untyped-decorator]
-    def of_array(constants: Any, first: Any, count: Any) -> Any:
+    def of_array(constants, first, count):  # type: ignore[no-untyped-def] # numba compares signatures
         if not isinstance(count, numba.types.IntegerLiteral):
             return None
         length = count.literal_value
@@ -165,10 +170,10 @@ def compiled_or_plain(function: Function, arguments: tuple[Any, ...]) -> Functio
 
 
 def reason(error: Exception) -> str:
-    """Why numba cannot compile a function, in a line."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    told = [line for line in lines if not line.startswith(("Failed", "During", "File", "-"))]
-    return (told or lines or [type(error).__name__])[0]
+    """Why numba cannot compile a function, in a line without colours: the innermost cause that it names."""
+    lines = [re.sub(r"\x1b\[\d+m", "", line).strip(" -") for line in str(error).splitlines()]
+    causes = [line for line in lines if line.startswith(("Unknown", "Use of", "Untyped", "Cannot", "Invalid"))]
+    return (causes or [line for line in lines if line] or [type(error).__name__])[-1 if causes else 0]
 
 
 def copied(function: Function) -> Function:

@@ -50,7 +50,7 @@ PAIR = _record("i j side other", "")
 ONE_SIDED = 2
 CONTACT = _record(
     "first second slot constants state",
-    "law clearance radius angle closed impact_velocity "
+    "law clearance radius angle arm closed impact_velocity "
     "depth rate slip normal friction damping push x y vx vy nx ny fx fy "
     "largest largest_at asked_depth asked_rate asked_slip asked_deflection",
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -10,7 +10,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from support_exudyn.formulations.compilation import compiled_law
+from support_exudyn.formulations.compilation import address_of, contact_law, joint_friction
 from support_exudyn.formulations.compiled import arrays
 from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
 from support_exudyn.formulations.compiled.courses import (
@@ -34,7 +34,7 @@ from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import Load
 from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.compilation.flat import friction_source, law_source
+from user_forces.friction.law import FrictionLaw
 from user_forces.values.value import Vector2
 
 
@@ -82,12 +82,11 @@ class _Builder:
             self.points.append((self.numbers[body], (point[0] - x, point[1] - y)))
         return self.known[key]
 
-    def law(self, source: tuple[str, Sequence[float]]) -> tuple[float, int]:
-        """Address of a compiled function and where its constants begin."""
-        text, constants = source
+    def law(self, law: Callable[..., float], constants: Sequence[float]) -> tuple[float, int]:
+        """Address of the machine code of a function for `call_law`, and where its constants begin."""
         place = len(self.constants)
         self.constants += constants
-        return float(compiled_law(text).address), place
+        return float(address_of(law)), place
 
 
 def model_of(scenario: Scenario) -> Model:
@@ -304,13 +303,22 @@ def _contact(record: Any, place: ContactPlace, build: _Builder, linkage: Linkage
     record["first"] = build.point(place.bore, place.bore_point)
     record["second"] = build.point(place.journal, place.journal_point)
     record["slot"] = arrays.ONE_SIDED if bearing.is_one_sided else bearing.is_slot
-    record["law"], record["constants"] = build.law(law_source(contact))
-    record["clearance"] = bearing.clearance
-    # distance of the contact point from the bore's centre at no depth, less the clearance in a slot
-    record["radius"] = bearing.contact_arms(0.0)[1] if bearing.is_slot else bearing.contact_arms(0.0)[0]
+    record["law"], record["constants"] = build.law(
+        contact_law(contact.law_kernel, len(contact.law_constants)), contact.law_constants
+    )
+    record["radius"], record["clearance"] = bearing.constants
     record["angle"] = place.axes(linkage)
     record["state"] = states if contact.friction.has_state else -1
     return states + contact.friction.has_state
+
+
+def friction_law(law: FrictionLaw) -> tuple[Callable[..., float], tuple[float, ...]]:
+    """The friction law of an ideal joint for `call_law`, and its constants."""
+    force, own = law.force_formula
+    if not law.has_state:
+        return joint_friction(force, len(own), None, 0), own
+    rate, others = law.rate_formula
+    return joint_friction(force, len(own), rate, len(others)), (*own, *others)
 
 
 def _cylinder(record: Any, one: PreloadedCylinder, build: _Builder, course: int, state: int) -> None:
@@ -392,7 +400,7 @@ def _rubbing(scenario: Scenario, build: _Builder, joints: Records, states: int) 
     laws, linkage = scenario.friction_laws.values(), scenario.linkage
     found = np.zeros(len(laws), arrays.RUBBING)
     for record, law in zip(found, laws, strict=True):
-        record["law"], record["constants"] = build.law(friction_source(law))
+        record["law"], record["constants"] = build.law(*friction_law(law))
         record["state"] = states if law.has_state else -1
         states += law.has_state
     pins, held = scenario.friction_pins, list(scenario.held_pins)
