@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from support_exudyn.machines.planar_linkage import PlanarLinkage
     from support_exudyn.machines.slider_crank import SliderCrank, ravn_slider_crank
     from support_exudyn.machines.two_leg_shield import TwoLegShield
-    from support_exudyn.mechanics.contact_state import Onset
     from support_exudyn.mechanics.trajectory import Impulse
     from support_exudyn.model.actuators import (
         ActuatorModel,
@@ -111,6 +110,7 @@ if TYPE_CHECKING:
     from support_exudyn.simulation.result import Result
     from support_exudyn.simulation.simulate import simulate
     from user_forces.contact import JournalContact
+    from user_forces.contact_state import Onset
     from user_forces.friction.law import FrictionLaw
     from user_forces.journal import JournalBearing
     from user_forces.normal.law import NormalLaw

@@ -14,6 +14,7 @@ from functools import cache, cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 from pydantic import model_validator
 
 from user_forces.face import Face
@@ -63,6 +64,7 @@ class SlipHistory(NamedTuple):
     step: float
 
 
+Array = npt.NDArray[np.float64]
 AT_REST = SlipHistory(0.0, 0.0, 0.0)
 Kernel = Callable[..., Any]
 
@@ -163,6 +165,19 @@ class Contact(Value, ABC):
         if closed:
             self.normal.check(result.depth)
         return result
+
+    def forces(self, rows: Array) -> tuple[ContactForce, Array]:
+        """Forces and stored energy [J] at many instants, (n,) each.
+
+        Arguments:
+            rows: arguments of `force_kernel` without its constants, shape (n, 11).
+        """
+        energy = self.normal.energy_formula
+        over = rows_kernel_of(self.force_kernel, energy.function, len(energy.parameters))
+        out = np.empty((len(rows), len(ContactForce._fields) + 1))
+        over(np.ascontiguousarray(rows), np.array(self.constants), np.array(energy.parameters), out)
+        columns: list[Any] = [*out.T]
+        return ContactForce(*columns[:-1]), columns[-1]
 
 
 @value
@@ -326,12 +341,22 @@ def force_kernel_of(
 
 
 @cache
-def compiled_force(force: Kernel) -> Kernel:
-    """A force kernel as machine code for calls from Python; the kernel itself where numba cannot compile it.
+def rows_kernel_of(force: Kernel, energy: Kernel, of_energy: int) -> Kernel:
+    """A force kernel and the stored energy [J] over many instants, as machine code if numba can compile it."""
 
-    What numba reports then is told once as a note: the contact runs on Exudyn, with the law in Python.
-    """
-    return compiled_or_plain(force, (*6 * (0.0,), False, *4 * (0.0,), np.zeros(64)))
+    def over(rows: Any, constants: Any, parameters: Any, out: Any) -> None:
+        for n in range(rows.shape[0]):
+            x, y, vx, vy, bore_spin, journal_spin, closed, speed, deflection, slip, step = rows[n]
+            result = force(
+                x, y, vx, vy, bore_spin, journal_spin, closed > 0.5, speed, deflection, slip, step, constants
+            )
+            for k in range(len(result)):
+                out[n, k] = result[k]
+            depth = result[0]
+            out[n, len(result)] = energy(depth, *numbers(parameters, 0, of_energy)) if depth > 0.0 else 0.0
+
+    arrays = np.zeros((1, 1)), np.zeros(1), np.zeros(1), np.zeros((1, 1))
+    return compiled_or_plain(over, arrays)
 
 
 def _check_straight(law: NormalLaw) -> None:

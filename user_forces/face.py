@@ -74,6 +74,10 @@ class Face(ContactGeometry):
         """Distances [m] of the contact point from the line and from the point, across: it is the point."""
         return self.clearance + depth, 0.0
 
+    def placed(self, depth: float, rate: float, slip: float) -> tuple[float, ...]:
+        """A motion, as `kinematics` takes it first, with this depth [m], rate [m/s] and slip [m/s]."""
+        return 0.0, self.clearance + depth, -slip, rate, 0.0, 0.0
+
     @property
     def kinematics(self) -> Kinematics:
         """See `point_on_face`."""

@@ -99,6 +99,10 @@ class ContactGeometry(Value, ABC):
         """What encloses the journal, with its size."""
 
     @abstractmethod
+    def placed(self, depth: float, rate: float, slip: float) -> tuple[float, ...]:
+        """A motion, as `kinematics` takes it first, with this depth [m], rate [m/s] and slip [m/s]."""
+
+    @abstractmethod
     def contact_arms(self, depth: float) -> tuple[float, float]:
         """Distances [m] of the contact point from the centres of bore and journal, both along n."""
 
@@ -143,6 +147,10 @@ class JournalBearing(ContactGeometry):
     def kinematics(self) -> Kinematics:
         """See `journal_in_bore`."""
         return journal_in_bore
+
+    def placed(self, depth: float, rate: float, slip: float) -> tuple[float, ...]:
+        """A motion, as `kinematics` takes it first, with this depth [m], rate [m/s] and slip [m/s]."""
+        return self.clearance + depth, 0.0, rate, slip, 0.0, 0.0
 
     def contact_arms(self, depth: float) -> tuple[float, float]:
         """Distances [m] of the contact point from the centres of bore and journal, both along n.

@@ -87,6 +87,10 @@ class Slot(ContactGeometry):
         """Radius of the pin [m] and clearance [m]."""
         return self.radius, self.clearance
 
+    def placed(self, depth: float, rate: float, slip: float) -> tuple[float, ...]:
+        """A motion, as `kinematics` takes it first, with this depth [m], rate [m/s] and slip [m/s]."""
+        return 0.0, self.clearance + depth, -slip, rate, 0.0, 0.0
+
     @property
     def kinematics(self) -> Kinematics:
         """See `corner_in_slot`."""

@@ -26,7 +26,7 @@ from studies.benchmarking.stopwatch import fastest
 from studies.slider_crank.run import REFERENCE
 from support_exudyn import Scenario, simulate
 from support_exudyn.formulations.registry import FORMULATIONS
-from support_exudyn.mechanics.contact_state import Onset
+from user_forces.contact_state import Onset
 
 SCENE = "slider-crank"
 TOLERANCES = tuple(tolerance(10.0**-n) for n in range(3, 9))

@@ -28,7 +28,7 @@ from support_exudyn import (
 )
 from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.formulations.registry import formulation
-from support_exudyn.mechanics.contact_state import PinMemory
+from user_forces.contact_state import PinMemory
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.recorded_channels import Channel, channels
 from support_exudyn.simulation.result_checks import energy_open, joints_apart, result_checks, turned_over

@@ -15,7 +15,6 @@ import numpy as np
 from llvmlite import ir
 from numba.extending import intrinsic
 
-from support_exudyn.formulations import contact_events
 from support_exudyn.model.hydraulics import oil
 from user_forces import contact
 from user_forces.kernel import copied, numbers, prepare, reason
@@ -28,7 +27,7 @@ except ImportError:  # Windows
 fcntl: Any = _fcntl
 SECONDS = {"compiled": 17}  # that compiling takes on a quiet machine of 2020
 COMPILED = ("compiled", "hydraulics", "statistics")  # folders with compiled functions
-CONSTANTS_OF = (contact_events, oil)  # modules of which compiled functions use constants
+CONSTANTS_OF = (oil,)  # modules of which compiled functions use constants
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
 prepare()  # kernels are known to numba from now on
 Function = TypeVar("Function", bound=Callable[..., Any])

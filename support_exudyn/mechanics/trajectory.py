@@ -7,8 +7,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.time_statistics import TimeStatistics
+from user_forces.contact_state import Onset
 
 Series = npt.NDArray[np.float64]
 

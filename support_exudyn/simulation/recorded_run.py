@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.time_statistics import TimeStatistics, TimeWindow, statistics_of_records
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Series
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.provenance import WARNINGS
+from user_forces.contact_state import Onset
 from user_forces.values.names import Named, UnknownNameError, no_attribute
 from user_forces.values.value import InputError, short
 

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from support_exudyn.formulations.impact_steps import (
+from user_forces.impact_steps import (
     DURATIONS,
     HALVINGS,
     LIVELY,

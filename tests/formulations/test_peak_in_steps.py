@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError
-from support_exudyn.formulations.contact_events import DepthPath
-from support_exudyn.formulations.peak_force import has_a_top, peak
+from user_forces.contact_events import DepthPath
+from user_forces.peak_force import has_a_top, peak
 from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 from support_exudyn.formulations.redundant.clearance.pin_motion import Course

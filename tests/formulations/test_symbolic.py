@@ -24,7 +24,7 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
 )
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce, engine
-from support_exudyn.mechanics.contact_state import Onset, PinMemory
+from user_forces.contact_state import Onset, PinMemory
 from tests.cases.law_cases import (
     BEARING,
     FRICTION_LAWS,

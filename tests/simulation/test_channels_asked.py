@@ -33,7 +33,7 @@ from support_exudyn.formulations.redundant.run import build
 from support_exudyn.formulations.redundant.scene.record_forces import with_causes
 from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
 from support_exudyn.formulations.redundant.solver.solver import SolverRun
-from support_exudyn.mechanics.contact_state import PinMemory
+from user_forces.contact_state import PinMemory
 from support_exudyn.scenario.recorded_channels import needs
 from tests.cases.run_cases import FORCE, PIN, loose_support, support
 from user_forces import JournalBearing, JournalContact, LankaraniNikravesh, LuGre

@@ -30,7 +30,7 @@ from studies.benchmarking.yardstick import YardstickError, compiled, run_yardsti
 from studies.slider_crank.run import REFERENCE
 from support_exudyn import Failure, SimulationError, simulate
 from support_exudyn.files.toml.text import load_toml
-from support_exudyn.mechanics.contact_state import Onset
+from user_forces.contact_state import Onset
 from support_exudyn.simulation.result_checks import energy_open
 
 # --- lines ---

@@ -15,7 +15,7 @@ from studies.benchmarking.peers.peer_run import PeerRun, impacts
 from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.peers.tree import run_tree
 from support_exudyn import Held
-from support_exudyn.mechanics.contact_state import Onset
+from user_forces.contact_state import Onset
 from support_exudyn.scenario.scenario import Scenario
 from tests.cases.run_cases import loose_slider_crank, loose_support
 from tests.formulations.test_drop import SPEEDS as DROP_SPEEDS

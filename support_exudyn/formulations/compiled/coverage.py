@@ -2,12 +2,13 @@
 
 from typing import NoReturn
 
+from user_forces.compilation.flat import UnwrittenLawError, friction_source, law_source
+
 from support_exudyn.formulations.compiled.written import load_source
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.compilation.flat import UnwrittenLawError, friction_source, law_source
 from user_forces.values.value import InputError
 
 WRITTEN = (

@@ -3,10 +3,6 @@
 from collections.abc import Callable
 from typing import Any
 
-from support_exudyn.formulations.compiled.arrays import COURSES_OF_LOAD, FIRST_COURSE
-from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
-from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
-from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
 from user_forces.compilation.flat import (
     LAW_ARGUMENTS,
     Formulas,
@@ -15,6 +11,11 @@ from user_forces.compilation.flat import (
     function_source,
     lines,
 )
+
+from support_exudyn.formulations.compiled.arrays import COURSES_OF_LOAD, FIRST_COURSE
+from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
+from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
+from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
 
 TimeFunction = Callable[[float], float]
 

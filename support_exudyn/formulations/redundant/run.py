@@ -10,7 +10,6 @@ from typing import TypeVar
 import numpy as np
 
 from support_exudyn.formulations.contract import Progress
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.cylinder_item import UNIT, CylinderItem
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.redundant.scene.record_forces import (
@@ -38,6 +37,7 @@ from support_exudyn.mechanics.oil_column import OilSeries, oil_series
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.connector.contact_connector import ContactConnector
 from user_forces.values.value import InputError
 
 EDGES = {"left": 0, "right": -1}  # of bearings in space: the first and the last section
@@ -129,7 +129,7 @@ def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
     edges = {
         f"{name}.{side}": group[n] for name, group in groups for side, n in EDGES.items() if len(group) > 1
     }
-    single: dict[str, ClearanceJoint] = {**edges, **scene.faces}
+    single: dict[str, ContactConnector] = {**edges, **scene.faces}
     return Outcome(
         trajectory=SpatialObservation(scene, recorder.history()),
         onsets={name: tuple(group[0].whole.onsets) for name, group in groups}

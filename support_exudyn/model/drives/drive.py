@@ -6,8 +6,8 @@ import math
 from abc import ABC, abstractmethod
 
 from pydantic import model_validator
-
 from user_forces.expressions.scalar import cos, in_time, is_number, maximum, minimum, sin
+
 from user_forces.values.units import Seconds, Travel, TravelRate
 from user_forces.values.value import NonNegative, Positive, Real, Value, value
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from user_forces.expressions.scalar import maximum, minimum, sqrt
+
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.loads.load import LoadChannel, Powers
 from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
-from user_forces.expressions.scalar import maximum, minimum, sqrt
 from user_forces.values.units import Metres, Pascals, SecondsPerMetre
 from user_forces.values.value import NonNegative, Positive, Vector2, value
 

@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field, model_validator
+from user_forces.expressions.scalar import is_number, sin, step
 
 from support_exudyn.model.drives.table_drive import MOST_POINTS, TableDrive
-from user_forces.expressions.scalar import is_number, sin, step
 from user_forces.values.units import Radians, Seconds
 from user_forces.values.value import NonNegative, Positive, Real, Value, value
 

@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping
 
+from user_forces.expressions.scalar import maximum
+
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
-from user_forces.expressions.scalar import maximum
 from user_forces.values.units import Metres, NewtonsPerMetre, SecondsPerMetre
 from user_forces.values.value import NonNegative, Positive, Vector2, value
 

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 
 from pydantic import model_validator
 from typing_extensions import Self
+from user_forces.expressions.scalar import hypot
 
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
 from support_exudyn.model.loads.moment_load import check_two
-from user_forces.expressions.scalar import hypot
 from user_forces.values.units import Metres, NewtonSecondsPerMetre, NewtonsPerMetre
 from user_forces.values.value import NonNegative, Real, Vector2, value
 

@@ -6,13 +6,13 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.bands import BandRms
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.sentences import sentences
 from support_exudyn.postprocessing.comparing.told import faults
 from support_exudyn.simulation.estimate import Estimate
+from user_forces.contact_state import Onset
 
 MOST_IMPACTS = 1000  # of a contact that are told one by one
 

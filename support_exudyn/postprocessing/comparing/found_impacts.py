@@ -5,7 +5,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.mechanics.contact_state import Onset
+from user_forces.contact_state import Onset
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]

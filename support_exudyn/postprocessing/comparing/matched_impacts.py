@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from support_exudyn.mechanics.contact_state import Onset
+from user_forces.contact_state import Onset
 
 Pair = tuple[Onset, Onset]
 NEAREST = 64  # impacts to either side in time that are looked at; chatter may have thousands

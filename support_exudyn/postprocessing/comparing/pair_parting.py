@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
 from support_exudyn.postprocessing.comparing.found_impacts import impacts_of_force
 from support_exudyn.postprocessing.comparing.parting import Parting, parting_of_impacts, parting_of_runs
+from user_forces.contact_state import Onset
 from user_forces.values.value import InputError
 
 NEVER = Parting(math.inf, "", "", 0, math.nan)

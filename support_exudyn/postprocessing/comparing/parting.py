@@ -30,13 +30,13 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.matched_impacts import Pair, match_impacts
 from support_exudyn.postprocessing.comparing.with_errors import BesideErrors
 from support_exudyn.simulation.estimate import errors
 from support_exudyn.simulation.horizon import APART
 from support_exudyn.simulation.reported_numbers import impact_numbers
 from support_exudyn.simulation.result import Result
+from user_forces.contact_state import Onset
 
 Values = npt.NDArray[np.float64]
 SUDDEN = 10.0  # times what growth explains

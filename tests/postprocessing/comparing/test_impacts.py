@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from support_exudyn.mechanics.contact_state import Onset
+from user_forces.contact_state import Onset
 from support_exudyn.postprocessing.comparing.found_impacts import impacts_of_force
 from support_exudyn.postprocessing.comparing.matched_impacts import match_impacts
 from support_exudyn.postprocessing.comparing.parting import parting_of_impacts

@@ -13,7 +13,7 @@ import pytest
 
 from studies.benchmarking.fresh_scenes import MACHINES, fresh
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
-from support_exudyn.mechanics.contact_state import Onset
+from user_forces.contact_state import Onset
 from support_exudyn.postprocessing.comparing.found_impacts import impacts_of_force
 from support_exudyn.postprocessing.comparing.parting import parting_of_impacts, parting_of_runs
 from support_exudyn.postprocessing.comparing.statistics import compared_statistics

@@ -9,11 +9,11 @@ from typing import Any, NamedTuple
 import exudyn
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import ObjectConnectorRigidBodySpringDamper
+from user_forces.expressions.scalar import cos, sin
 
 from support_exudyn.formulations.redundant.clearance.symbolic_force import engine, is_formula, real, unknown
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
-from user_forces.expressions.scalar import cos, sin
 from user_forces.values.value import Vector2
 
 NAME = "springForceTorqueUserFunction"  # the engine's, of its rigid-body connector

@@ -15,7 +15,6 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn.formulations.contact_events import SHARE
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.formulations.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.formulations.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
@@ -41,6 +40,7 @@ from support_exudyn.formulations.time_grid import StepPlan
 from support_exudyn.mechanics.oil_column import force_rounding
 from support_exudyn.mechanics.trajectory import Counts, Impulse
 from user_forces import Frictionless
+from user_forces.contact_events import SHARE
 from user_forces.lawful import UNLAWFUL, LawError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated

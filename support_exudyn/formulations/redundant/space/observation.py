@@ -96,7 +96,7 @@ class SpatialObservation:
         y = (journal.position - bore.position) @ across
         rate = (journal.velocity - bore.velocity) @ across
         moving = RelativeMotion(still, y, still, rate, still, still)
-        found = series(face.contact, moving, memory)
+        found = series(face.block.contact, moving, memory)
         return replace(found, force_x=-s * found.force_y, force_y=c * found.force_y)
 
     def contacts_of(self, pin: str) -> list[ContactSeries]:
@@ -107,7 +107,7 @@ class SpatialObservation:
 
     def _section(self, pin: SectionPin, memory: Series) -> SectionSeries:
         bore, journal = pin.ends
-        moving = section_motion(self.motion, bore, journal, pin.section.place, pin.connector.at, pin.slides)
+        moving = section_motion(self.motion, bore, journal, pin.section.place, pin.item.at, pin.slides)
         relative = RelativeMotion(
             moving.x, moving.y, moving.vx, moving.vy, moving.bore_spin, moving.journal_spin
         )

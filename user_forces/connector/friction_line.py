@@ -12,18 +12,15 @@ on the friction, by a softness that two solutions tell. So the step ends with th
 The line is laid when Newton's method has failed, and stands until the surfaces part.
 """
 
-import math
 import sys
 from collections.abc import Callable
 
-from support_exudyn.formulations.engine_settings import TRIES
-from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
-from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce
-from user_forces.contact import ContactForce
-from user_forces.friction.laws import Frictionless
+from user_forces.contact import Contact, LawCounts, force_kernel_of, law_kernel_of
 from user_forces.friction.law import FrictionLaw
+from user_forces.friction.laws import Frictionless
+from user_forces.kernel import kernel
 
-EngineForce = SymbolicForce | PythonForce
+TRIES = 30  # lines that may stand for steep friction in a step, one after another
 MEETS = 1e-6  # share of the largest friction so far, by which line and law may differ
 LITTLE = 1e-3  # friction over normal force that is counted as the largest at least
 # the tangent is taken over shorter and shorter parts of the law, until it changes no more
@@ -32,78 +29,24 @@ SLOWEST = 1e-9  # [m/s] that parts are shares of at least
 HALVINGS = 200
 
 
-class SteepFriction:
-    """Which force acts: that of the pin's laws, or one with a line in place of friction.
+@kernel
+def line_force(slip: float, normal_force: float, offset: float, slope: float) -> float:
+    """Friction force [N] on a line: normal force (offset + slope slip)."""
+    return normal_force * (offset + slope * slip)
 
-    Arguments:
-        law: of friction. One with a state is never replaced.
-        force: makes the engine's force, with the law (False) or with a line (True).
-    """
 
-    def __init__(self, law: FrictionLaw, force: Callable[[bool], EngineForce]) -> None:
-        self._law = law
-        self._make = force
-        self._plain = force(False)
-        self._straight: EngineForce | None = None
-        self._line: FrictionLine | None = None
-        self._replaceable = not law.has_state and not isinstance(law, Frictionless)
+def can_be_line(law: FrictionLaw) -> bool:
+    """Whether a line may stand for a law: for none with a state, which is never replaced."""
+    return not law.has_state and not isinstance(law, Frictionless)
 
-    @property
-    def acting(self) -> EngineForce:
-        """The engine uses this force now."""
-        return self._plain if self._line is None or self._straight is None else self._straight
 
-    @property
-    def is_straight(self) -> bool:
-        """Whether a line acts."""
-        return self._line is not None
-
-    @property
-    def calls(self) -> int:
-        """Python was called so often."""
-        return self._plain.calls + (self._straight.calls if self._straight else 0)
-
-    def begin(self) -> None:
-        """Begin to try a step from its start."""
-        if self._line is not None:
-            self._line.begin()
-
-    def straighten(self, slip: float, normal_force: float) -> bool:
-        """Let a line act, at first the tangent at a slip [m/s] under a force [N]; whether that is new."""
-        if self._line is not None or not self._replaceable:
-            return False
-        if self._straight is None:
-            self._straight = self._make(True)
-        self._line = FrictionLine(self._law)
-        self._line.lay(slip, normal_force)
-        return True
-
-    def part(self) -> bool:
-        """Let the law act again, for the surfaces have separated; return whether a line acted."""
-        straight, self._line = self._line is not None, None
-        return straight
-
-    def lay(self) -> None:
-        """Tell the engine's force the line."""
-        if self._line is not None and self._straight is not None:
-            self._straight.lay(self._line.offset, self._line.slope)
-
-    def after_newton(self, force: ContactForce, step: float, mass: float) -> float | None:
-        """Decide on a solved step: None if the force was that of the law, which is given.
-
-        Else with which length [s] it is to be repeated; infinite: with the same and another line.
-
-        Arguments:
-            force: of the laws. step: length [s]. mass: that moves along the surface, about [kg].
-        """
-        line, softness = self._line, force.normal_force * step / mass
-        if line is None or line.meets(force.slip, force.normal_force, softness):
-            return None
-        return 0.5 * step if line.exhausted else math.inf
-
-    def rounding(self, normal_force: float, size: float, step: float) -> float:
-        """Return by how much a line scatters, see `FrictionLine.rounding`; 0 without one."""
-        return 0.0 if self._line is None else self._line.rounding(normal_force, size, step)
+def with_line(contact: Contact) -> tuple[Callable[..., object], list[float]]:
+    """The force kernel of a contact with a line in place of its law, and its constants, the line's last."""
+    normal, elastic = contact.normal.force_formula, contact.normal.elastic_formula
+    counts = LawCounts(len(normal.parameters), len(elastic.parameters), 2, 0, 0)
+    law = law_kernel_of(normal.function, elastic.function, line_force, None, counts)
+    known = [*contact.bearing.constants, contact.normal.largest_depth, *normal.parameters, *elastic.parameters]
+    return force_kernel_of(contact.bearing.kinematics, law, None, len(known) + 2, 0), [*known, 0.0, 0.0]
 
 
 class FrictionLine:

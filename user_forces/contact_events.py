@@ -10,7 +10,7 @@ from collections.abc import Callable
 from enum import Enum
 from typing import NamedTuple
 
-from support_exudyn.mechanics.contact_state import Onset, PinMemory
+from user_forces.contact_state import Onset, PinMemory
 from user_forces.roots import bracketed_root
 
 # A step that ends within this share of an impact's step from an impact or a separation is taken as ending

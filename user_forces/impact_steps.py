@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 
-from user_forces.compilation.flat import flat_function
 from user_forces.normal.law import NormalLaw
 
 # An impact that does not part is over after so many swings in a row, deep and back, that were small: by less
@@ -37,7 +36,7 @@ class ImpactSteps:
     """
 
     def __init__(self, law: NormalLaw, number: int) -> None:
-        self._law, self._energy = law, flat_function(law.elastic_energy)
+        self._law, self._energy = law, law.elastic_energy
         self._number = number
         self.step = math.inf  # largest length of the next step [s]; infinite if there is no impact
         self._length = math.inf  # of steps in the impact going on [s]; infinite: there is none
