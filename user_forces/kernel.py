@@ -13,7 +13,7 @@ import threading
 import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
-from inspect import signature
+from inspect import Parameter, signature
 from pathlib import Path
 from types import CodeType, FunctionType
 from typing import Any, NamedTuple, TypeVar
@@ -78,11 +78,14 @@ def formula_of(owner: object, function: Callable[..., Any], variables: int) -> F
 
     Arguments:
         owner: the law or load.
-        function: of so many variables, which come first, and of parameters.
+        function: of so many variables, which come first, and of parameters; a last one, `*name`, is a tuple.
         variables: their number.
     """
-    names = list(signature(function).parameters)[variables:]
-    return Formula(function, tuple(float(getattr(owner, name)) for name in names))
+    found: list[float] = []
+    for name, parameter in list(signature(function).parameters.items())[variables:]:
+        known = getattr(owner, name)
+        found += known if parameter.kind is Parameter.VAR_POSITIONAL else [known]
+    return Formula(function, tuple(map(float, found)))
 
 
 @cache

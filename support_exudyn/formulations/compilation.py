@@ -16,6 +16,7 @@ from llvmlite import ir
 from numba.extending import intrinsic
 
 from support_exudyn.model.hydraulics import oil
+from support_exudyn.model.loads.load import ActingLoad
 from user_forces import contact
 from user_forces.kernel import copied, numbers, prepare, reason
 
@@ -209,6 +210,7 @@ def _tell(module: str) -> None:
 
 
 NUMBER = numba.types.float64
+FIRST_COURSE = 3  # where the values of a load's courses stand in out
 LAW = NUMBER(*5 * (NUMBER,), *2 * (numba.types.CPointer(NUMBER),))
 
 
@@ -287,6 +289,42 @@ def joint_friction(
         return force(slip, normal, deflection, *numbers(given, 0, of_force))
 
     return friction_with_state
+
+
+def load_law(load: ActingLoad) -> tuple[Callable[..., float], tuple[float, ...]]:
+    """The action of a load for `call_law`, and its constants."""
+    action, own = load.formula
+    return _load_law(action, load.FORCES, len(load.MOTION._fields), len(load.courses), len(own)), own
+
+
+@cache
+def _load_law(
+    action: Callable[..., tuple[float, ...]], forces: int, motion: int, courses: int, count: int
+) -> Callable[..., float]:
+    """A load as a function that gives the force forward [N], the moment [N m], or F1 of a stretch [N].
+
+    Into out it writes the power of what moves the load and the loss [W], and then the force up or F2 [N].
+
+    Arguments:
+        forces: how many of them the action gives.
+        motion: how many numbers it follows besides the values of its courses.
+        courses: how many there are; their values stand in out from FIRST_COURSE on.
+        count: of its parameters.
+    """
+
+    def load(
+        time: float, first: float, second: float, third: float, fourth: float, constants: Any, out: Any
+    ) -> float:
+        results = numba.carray(out, FIRST_COURSE + courses)
+        found: tuple[float, ...] = action(
+            *(time, first, second, third, fourth, 0.0, 0.0)[:motion],
+            *numbers(results, FIRST_COURSE, courses),
+            *numbers(numba.carray(constants, count), 0, count),
+        )
+        results[0], results[1], results[2] = found[forces + 1], found[forces + 2], found[1]
+        return found[0]
+
+    return load
 
 
 @intrinsic  # type: ignore[untyped-decorator]

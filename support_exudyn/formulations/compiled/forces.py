@@ -2,10 +2,9 @@
 
 import math
 
-from support_exudyn.formulations.compilation import call_law, compiled, inlined, once
+from support_exudyn.formulations.compilation import FIRST_COURSE, call_law, compiled, inlined, once
 from support_exudyn.formulations.compiled.arrays import (
     DAMPING_LOSS,
-    FIRST_COURSE,
     FRICTION_LOSS,
     MOMENT,
     ONE_SIDED,

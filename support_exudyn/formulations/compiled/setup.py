@@ -10,18 +10,22 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from support_exudyn.formulations.compilation import address_of, contact_law, joint_friction
+from support_exudyn.formulations.compilation import (
+    FIRST_COURSE,
+    address_of,
+    contact_law,
+    joint_friction,
+    load_law,
+)
 from support_exudyn.formulations.compiled import arrays
 from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
 from support_exudyn.formulations.compiled.courses import (
     Courses,
-    TimeFunction,
     courses,
     extension_of,
     segment_edges,
 )
 from support_exudyn.formulations.compiled.motion import rounds_of
-from support_exudyn.formulations.compiled.written import load_source
 from support_exudyn.formulations.hydraulics.fill import Legs, fill_legs
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.mechanics.closing import repeated_count
@@ -31,7 +35,7 @@ from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.linkage import GROUND, Linkage
-from support_exudyn.model.loads.load import Load
+from support_exudyn.model.loads.load import Load, TimeFunction
 from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.friction.law import FrictionLaw
@@ -100,9 +104,8 @@ def model_of(scenario: Scenario) -> Model:
     edges = segment_edges(scenario.breaks, scenario.duration)
     functions: list[TimeFunction] = [extension_of(scenario.drive_of(name)) for name in moving]
     functions += [scenario.valved[name].inlet.opening for name in valves]
-    sources = {name: load_source(load) for name, load in scenario.acting_loads.items()}
     of_loads = len(functions)
-    functions += [function for *_, own in sources.values() for function in own]
+    functions += [function for load in scenario.acting_loads.values() for function in load.courses]
     found = courses(functions, edges)
     course = {name: n for n, name in enumerate((*moving, *valves))}
     joints, order, held = _joints(scenario, build, rigid, course)
@@ -122,7 +125,7 @@ def model_of(scenario: Scenario) -> Model:
         _oil(record, filled, build, course.get(name, -1))
     legs = _legs(scenario, build, course, states)
     states += legs.states
-    loads = _loads(scenario, build, sources, of_loads)
+    loads = _loads(scenario, build, of_loads)
     bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
     rubbing = _rubbing(scenario, build, joints, states)
@@ -155,7 +158,7 @@ def model_of(scenario: Scenario) -> Model:
         bushings=bushings,
         rubbing=rubbing,
         constants=np.array([*build.constants, 0.0]),
-        out=np.zeros(arrays.FIRST_COURSE + arrays.COURSES_OF_LOAD),
+        out=np.zeros(FIRST_COURSE + int(loads["courses"].max(initial=0))),
     )
     return Model(
         scenario=scenario,
@@ -359,12 +362,7 @@ def _oil(record: Any, one: PreloadedActuator, build: _Builder, course: int) -> N
     record["natural"] = one.natural_length(0.0)
 
 
-def _loads(
-    scenario: Scenario,
-    build: _Builder,
-    sources: Mapping[str, tuple[str, list[float], list[TimeFunction]]],
-    course: int,
-) -> Records:
+def _loads(scenario: Scenario, build: _Builder, course: int) -> Records:
     """Loads with their compiled functions; course: the first of theirs."""
     found = np.zeros(len(scenario.acting_loads), arrays.LOAD)
     for record, (name, load) in zip(found, scenario.acting_loads.items(), strict=True):
@@ -376,10 +374,9 @@ def _loads(
             kind, against, (point, origin) = arrays.STRETCH, load.body, load.points
         record["kind"], record["first"], record["second"] = kind, point[1], origin[1]
         record["point"], record["origin"] = build.point(load.body, point), build.point(against, origin)
-        source, constants, own = sources[name]
-        record["law"], record["constants"] = build.law((source, constants))
-        record["course"], record["courses"] = course, len(own)
-        course += len(own)
+        record["law"], record["constants"] = build.law(*load_law(load))
+        record["course"], record["courses"] = course, len(load.courses)
+        course += len(load.courses)
     return found
 
 

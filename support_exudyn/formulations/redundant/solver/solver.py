@@ -31,7 +31,6 @@ from support_exudyn.formulations.redundant.solver.refusals import (
     why,
 )
 from support_exudyn.formulations.redundant.solver.step_growth import StepGrowth, step_growth
-from support_exudyn.formulations.redundant.solver.symbolic_drive import turns_by_itself
 from support_exudyn.formulations.redundant.solver.uninterrupted_steps import (
     UninterruptedSteps,
     solve_uninterrupted,
@@ -164,7 +163,7 @@ class SolverRun:
                 mbs.SetPostNewtonUserFunction(self._after_newton)
             mbs.SetPostStepUserFunction(self._after_step)
             return
-        if self.has_prescribed_motion and not turns_by_itself(self.scene):
+        if self.has_prescribed_motion:
             mbs.SetPreStepUserFunction(self._follow)
         if self.recorder.integrates or self.recorder.follows:
             mbs.SetPostStepUserFunction(self._result_checks)
