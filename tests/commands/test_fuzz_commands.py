@@ -182,11 +182,6 @@ def test_every_study_takes_its_command_line_or_refuses_it(noted: list[Options]) 
     assert ran  # the words are not all refused
 
 
-def test_names_run_those_studies_in_folders_of_their_own(noted: list[Options]) -> None:
-    assert all_studies.main(["--runs", "7", "extremes", "--out", "here", "which_pin"]) == 0
-    assert [(chosen.out.name, chosen.runs) for chosen in noted] == [("extremes", 7), ("which_pin", 7)]
-
-
 @pytest.mark.parametrize("out", ["\x00", "a\x00b", "\ud800", "x" * 300, "/dev/null/x", "/proc/nothing"])
 def test_a_folder_that_cannot_be_is_refused_in_a_sentence(
     out: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -200,19 +195,3 @@ def test_a_folder_that_cannot_be_is_refused_in_a_sentence(
     assert said.startswith("error: --out ")
     assert "allowed: " in said
     return None
-
-
-def test_an_input_that_a_study_refuses_is_a_sentence(tmp_path: Path) -> None:
-    def work(_: Options) -> Any:
-        raise InputError("Scenario.step = 0.0: allowed: > 0")
-
-    refusing = Study("refusing", "What is asked.", work)
-    given_back, _, said = outcome(lambda: refusing.main(["--out", str(tmp_path / "out")]))
-    assert given_back == 1
-    assert "error: Scenario.step = 0.0: allowed: > 0" in said
-
-
-def test_a_number_of_thousands_of_digits_is_refused_in_a_line() -> None:
-    chosen, code, said = outcome(lambda: options(["--workers", "1" * 5000]))
-    assert (chosen, code) == (None, 2)
-    is_usage_and_a_line(said)
