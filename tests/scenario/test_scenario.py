@@ -104,7 +104,7 @@ def test_bores_and_their_sides_are_checked() -> None:
         ("integrator", "euler", "'generalised_alpha' or 'trapezoidal'"),
         ("newton", "none", "'modified' or 'full'"),
         ("constraint_index", 1, "2 or 3"),
-        ("most_steps", 0, "> 0"),
+        ("most_steps", 0, ">= 1"),
     ],
 )
 def test_settings_of_the_solver_that_cannot_be_are_refused(field: str, wrong: object, allowed: str) -> None:
