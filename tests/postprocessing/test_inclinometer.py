@@ -6,7 +6,6 @@ import math
 from dataclasses import replace
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
@@ -14,7 +13,6 @@ from scipy.spatial.transform import Rotation
 from support_exudyn import CubicStep, Result, Scenario, machine, reference_support, simulate
 from support_exudyn.postprocessing.instruments.felt import felt
 from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer
-from support_exudyn.postprocessing.instruments.orientation import turn_of
 from support_exudyn.postprocessing.instruments.station import MeasuringStation, measure
 from tests import synthetic
 
@@ -68,15 +66,6 @@ def test_at_a_constant_rate_gravity_and_the_centripetal_acceleration_are_felt(
     np.testing.assert_array_equal(found[:, 2], 0.0)
 
 
-def test_the_mean_of_an_impact_is_felt_whole() -> None:
-    speed = np.where(TIME < 0.2, 0.0, 0.7)
-    still = np.zeros(TIME.size)
-    channels = {"angle": (still, "rad"), "angular_velocity": (still, "rad/s"), "velocity_x": (speed, "m/s")}
-    channels |= {"velocity_y": (still, "m/s")}
-    run = synthetic.result(PLANE, TIME, {f"canopy.{name}": one for name, one in channels.items()})
-    assert -PERIOD * felt(run, "canopy")[:, 0].sum() == pytest.approx(0.7, rel=1e-12)
-
-
 def test_an_acceleration_that_grows_evenly_is_felt_exactly_to_both_ends() -> None:
     still = np.zeros(TIME.size)
     channels = {"angle": still, "angular_velocity": still, "velocity_x": 4.0 * TIME**2, "velocity_y": still}
@@ -121,16 +110,6 @@ def spatial(turn: Rotation, spin: np.ndarray, pivot: np.ndarray) -> Result:
     velocity = -np.cross(spin, matrix @ pivot)
     channels |= {f"velocity_{axis}": (velocity[:, n], "m/s") for n, axis in enumerate("xyz")}
     return synthetic.result(SPACE, TIME, {f"canopy.{name}": one for name, one in channels.items()})
-
-
-@given(st.lists(st.floats(-0.5, 0.5), min_size=3, max_size=3))
-def test_a_turn_is_found_from_its_three_angles(vector: list[float]) -> None:
-    matrix = Rotation.from_rotvec([vector]).as_matrix()
-    roll, yaw, angle = (
-        math.atan2(matrix[0, i, k], matrix[0, j, k]) for i, j, k in ((2, 1, 1), (0, 2, 2), (1, 0, 0))
-    )
-    found = turn_of(np.array([[roll, yaw, angle]]))
-    np.testing.assert_allclose(found, matrix, atol=1e-11)
 
 
 @given(roll=st.floats(-0.6, 0.6), angle=st.floats(-0.6, 0.6))

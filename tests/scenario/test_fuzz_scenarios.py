@@ -162,16 +162,3 @@ def test_a_short_run_ends_in_numbers_or_says_why_not(scene: Scenario | None) -> 
         assert 0.0 <= force < math.inf, pin
     assert math.isfinite(result.energy_error)
     assert repr(result)
-
-
-@given(scenario=some.oddities | some.scraps, accuracy=some.oddities | some.scraps, right=st.booleans())
-@some.tried("simulate")
-def test_what_is_no_scenario_or_accuracy_is_refused(scenario: Any, accuracy: Any, right: bool) -> None:
-    given_scene = some.seeds()[0] if right else scenario
-    if right and (accuracy is None or _could_be_asked(accuracy)):
-        return
-    assert taken_or_refused(lambda: simulate(given_scene, accuracy=accuracy)) is None
-
-
-def _could_be_asked(accuracy: Any) -> bool:
-    return accuracy == "draft" if isinstance(accuracy, str) else isinstance(accuracy, float) and accuracy <= 0.1

@@ -13,7 +13,6 @@ from support_exudyn import (
     AppliedForce,
     AppliedTorque,
     ClearancePin,
-    CubicStep,
     Held,
     Scenario,
     SpringDamper,
@@ -25,7 +24,6 @@ from support_exudyn import (
 )
 from support_exudyn.mechanics.pin_stability import painleve_friction
 from support_exudyn.model.loads.load import ActingLoad
-from support_exudyn.postprocessing.pin_shaking import rows
 from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from tests.metamorphic.moving import MIRROR, Move, moved, turn
 from tests.metamorphic.scaling import Scale
@@ -91,16 +89,6 @@ def test_front_pins_are_stable_and_rear_pins_shake() -> None:
     assert rear.frequency == pytest.approx(63.0, rel=0.05)
     assert painleve_friction(found["rear_base"].journals[0], contact()) == pytest.approx(0.202, abs=2e-3)
     assert [one.assumed for one in found.values()] == [False, True, True, True, True]
-
-
-def test_the_worst_time_is_among_those_looked_at() -> None:
-    found = pin_outlooks(rise())[0]
-    worst = found.worst
-    assert worst is not None
-    assert all(3.0 < t < 5.0 for t in found.times)  # the columns stand still before
-    assert found.growth(worst) == max(found.growth(n) for n in range(len(found.times)))
-    assert 0.0 < found.critical_friction < 0.05
-    assert found.travels[worst] == CubicStep().extension(found.times[worst])
 
 
 @pytest.mark.parametrize(
@@ -182,13 +170,6 @@ def test_a_slider_crank_over_one_turn() -> None:
     )
     loads = np.array([one.load for one in found["slider_pin"].journals])
     assert np.abs(loads - force).max() < 0.02 * np.abs(force).max()
-
-
-def test_a_pin_that_is_nowhere_at_rest_at_one_posture_is_not_told_to_shake() -> None:
-    (front,) = pin_outlooks(rise("front_base"), TIMES, ("front_base",))
-    assert rows([front])[0][1] == "stable"
-    assert rows([replace(front, found=[None, *front.found[1:]])])[0][1] == "in part nowhere at rest"
-    assert rows([replace(front, found=[None] * 3)])[0][1] == "nowhere at rest"
 
 
 def test_nothing_is_told_of_what_is_not_known_beforehand() -> None:

@@ -15,21 +15,16 @@ from support_exudyn import (
     ClearancePin,
     CubicStep,
     Drive,
-    Failure,
     Held,
     Result,
     Scenario,
-    SimulationError,
     SolverSettings,
     simulate,
 )
-from support_exudyn.formulations.contract import Progress
 from support_exudyn.simulation import to_accuracy
 from support_exudyn.simulation.reported_numbers import measures
 from support_exudyn.simulation.to_accuracy import FEWEST_RUNS, MOST_RUNS, PATIENCE
-from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import (
-    FORCE,
     PIN,
     SLIDER_PIN,
     loose_slider_crank,
@@ -38,17 +33,13 @@ from tests.cases.run_cases import (
     slider_crank_contact,
     support,
 )
-from tests.processes import soon_started
 from user_forces import (
     Ambrosio,
-    FrictionLaw,
     Frictionless,
     Hertz,
     JournalContact,
     LankaraniNikravesh,
-    value,
 )
-from user_forces.expressions.scalar import where
 
 DROP = loose_support(drive=Held(), duration=0.05)
 
@@ -74,18 +65,6 @@ def test_the_result_has_the_settings_that_were_chosen(drop: Result) -> None:
     assert drop.met
 
 
-def test_an_accuracy_can_stand_in_the_scenario_or_beside_it() -> None:
-    beside = simulate(replace(DROP, accuracy="draft"), accuracy=1e-3)
-    inside = simulate(replace(DROP, accuracy=1e-3))
-    assert beside.goal == inside.goal == 1e-3
-    np.testing.assert_array_equal(beside[FORCE], inside[FORCE])
-
-
-@pytest.mark.parametrize(("accuracy", "goal"), [("draft", 1e-2), ("standard", 1e-3), ("reference", 1e-5)])
-def test_the_words_for_an_accuracy(accuracy: str, goal: float) -> None:
-    assert simulate(DROP, accuracy=accuracy).goal == goal  # type: ignore[arg-type]
-
-
 @pytest.mark.parametrize("formulation", ["compiled", "redundant"])
 def test_the_settings_that_were_chosen_give_the_same_run_again(formulation: str) -> None:
     result = simulate(replace(DROP, formulation=formulation, duration=0.03), accuracy="draft")
@@ -97,23 +76,6 @@ def test_the_settings_that_were_chosen_give_the_same_run_again(formulation: str)
     assert again.onsets == result.onsets
     assert again.largest_force == result.largest_force
     assert (again.goal, again.coarser) == (None, None)
-
-
-def test_without_an_accuracy_the_settings_stand() -> None:
-    result = simulate(DROP)
-    assert result.scenario == DROP
-    assert (result.goal, result.coarser, result.met) == (None, None, False)
-
-
-def test_the_time_is_that_of_all_runs(drop: Result) -> None:
-    alone: list[float] = []
-    part = drop
-    while part.coarser is not None:
-        part = part.coarser
-        alone.append(part.wall_time)
-    # each coarser one has its own
-    assert min(alone) > 0.0
-    assert drop.wall_time > sum(alone)
 
 
 @pytest.mark.parametrize("scene", ["compiled", "ideal", "redundant"])
@@ -204,85 +166,7 @@ def test_a_goal_beyond_the_finest_steps_gives_what_can_be_had(monkeypatch: pytes
     assert all(math.isfinite(number.error) for number in result.numbers().values())
 
 
-def test_a_goal_that_is_met_costs_no_more_than_three_runs(monkeypatch: pytest.MonkeyPatch) -> None:
-    made = runs_of(monkeypatch)
-    assert simulate(DROP, accuracy="draft").met
-    assert len(made) == FEWEST_RUNS
-
-
-@pytest.mark.parametrize("tilted", [False, True])
-def test_sections_become_more_only_as_long_as_they_tell_anything(
-    tilted: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    once = to_accuracy.single_run
-
-    def tilting(scenario: Scenario, progress: Progress) -> Result:
-        """A run whose forces depend on the number of sections, as those of a tilted pin do."""
-        # it is made with the fewest
-        run = once(replace(scenario, solver=replace(scenario.solver, sections=5)), progress)
-        channel = run.channels[FORCE]
-        channel = replace(channel, values=(1.0 + 1e-3 / scenario.solver.sections) * channel.values)
-        return replace(run, scenario=scenario, channels={**run.channels, FORCE: channel}, statistics=None)
-
-    monkeypatch.setattr(to_accuracy, "single_run", tilting if tilted else once)
-    made = runs_of(monkeypatch)
-    monkeypatch.setattr(Result, "worst_error", property(lambda run: 0.5 ** len(made)))
-    # beyond the first impact
-    result = simulate(replace(DROP, duration=0.02, record_period=2e-3, dimensions=3), accuracy=0.02)
-    assert f"pin.{PIN}.left.onset_1.speed" in result.numbers()
-    # a section's share of the force depends on how many there are
-    assert f"pin.{PIN}.left.largest_force" not in result.numbers()
-    sections = [run.solver.sections for run in made]
-    # the fourth is the first again, with as many sections as the third
-    assert sections[:4] == [5, 9, 17, 17]
-    assert made[3].step == made[0].step
-    assert sections[4:] == ([33, 64] if tilted else [5, 5])
-
-
 # --- failures ---
-
-
-@value
-class Breaking(FrictionLaw):
-    """Works until it is pressed with 10 kN."""
-
-    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
-        return where(normal_force > 1e4, math.nan, 0.0)
-
-
-def breaking() -> Scenario:
-    contact = replace(paper_contact(1.5, 0.0), friction=Breaking())
-    return replace(DROP, pins={PIN: ClearancePin(contact=contact)}, formulation="redundant")
-
-
-def test_a_run_that_fails_is_had_as_a_value_or_raised() -> None:
-    failure = simulate(breaking(), accuracy="draft", throw=False)
-    assert isinstance(failure, Failure)
-    assert 0.017 < failure.time < 0.05  # the first impact is at 17.4 ms
-    with pytest.raises(SimulationError) as caught:
-        simulate(breaking(), accuracy="draft")
-    assert caught.value.failure == failure
-
-
-@soon_started(__name__)
-def test_sweeps_take_scenarios_with_an_accuracy(drop: Result) -> None:
-    scenarios = {
-        "good": replace(DROP, accuracy="standard"),
-        "plain": DROP,
-        "bad": replace(breaking(), accuracy="draft"),
-    }
-    found = run_all(scenarios, workers=1)
-    good, plain, bad = found.values()
-    assert isinstance(good, Result)
-    assert good.met
-    assert good.scenario == drop.scenario
-    # another process, the same machine and versions: to the bit
-    assert {name: str(n) for name, n in good.numbers().items()} == {
-        name: str(n) for name, n in drop.numbers().items()
-    }
-    assert isinstance(plain, Result)
-    assert plain.coarser is None
-    assert isinstance(bad, Failure)
 
 
 # --- are the estimated errors the true ones? ---

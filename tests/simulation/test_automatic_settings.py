@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Held, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.registry import Formulation
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL, LARGEST_STEP, SMALLEST_GOAL
 from support_exudyn.scenario.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.scenario.timescales import timescales
@@ -25,7 +24,7 @@ from support_exudyn.simulation.automatic_settings import (
     RESTING,
     settings_for,
 )
-from tests.cases.run_cases import loose_slider_crank, loose_support, slider_crank, support
+from tests.cases.run_cases import loose_slider_crank, loose_support
 from tests.formulations.test_formulations import COVERED, SCENES
 from user_forces import Ambrosio, InputError
 
@@ -112,17 +111,6 @@ def test_settings_are_allowed_ones_and_nothing_else_is_changed(goal: float, name
     assert back == scene
 
 
-@given(goal=goals, name=st.sampled_from(sorted(SCENES)))
-def test_settings_can_be_refined_twice_without_which_no_error_is_known(goal: float, name: str) -> None:
-    chosen = settings_for(replace(SCENES[name], formulation="redundant"), goal)
-    finer = chosen.refined(2.0).refined(2.0)
-    assert finer.solver.impact_steps == 4 * chosen.solver.impact_steps
-    if name in COVERED["compiled"]:
-        first = settings_for(replace(SCENES[name], formulation="compiled"), goal)
-        second = first.refined(2.0)
-        assert second.refined(2.0).solver.tolerance < second.solver.tolerance < first.solver.tolerance
-
-
 @given(pair=st.tuples(goals, goals), name=st.sampled_from(sorted(SCENES)))
 def test_a_smaller_goal_is_never_coarser(pair: tuple[float, float], name: str) -> None:
     fine, coarse = (settings_for(SCENES[name], goal) for goal in sorted(pair))
@@ -141,27 +129,3 @@ def test_steps_are_shares_of_the_scenes_times() -> None:
     finer = settings_for(scene, GOAL_OF_SHARES / 4.0)
     assert finer.step == pytest.approx(0.5 * chosen.step, rel=1e-12)
     assert finer.solver.impact_steps == 2 * IMPACT_STEPS
-
-
-def test_a_scene_without_loose_pins_takes_no_steps_for_impacts() -> None:
-    # which would end the refinement long before they are used
-    for scene in (support(), slider_crank(1e-3)):
-        assert settings_for(scene, 1e-6).solver.impact_steps == FEWEST_IMPACT_STEPS
-
-
-def test_a_scene_in_which_nothing_happens_has_a_step_all_the_same() -> None:
-    still = support(drive=Held(), record_period=1.0)
-    assert settings_for(replace(still, formulation="redundant"), 0.1).step == LARGEST_STEP
-
-
-def test_only_the_formulations_that_come_first_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[str] = []
-
-    def covers(self: Formulation, scenario: Scenario) -> bool:
-        asked.append(self.name)
-        return self.name == "compiled"
-
-    monkeypatch.setattr(Formulation, "covers", covers)
-    scene = replace(SCENES["clearance support on oil"], accuracy=1e-3)
-    assert settings_for(scene, 1e-3).formulation == "compiled"
-    assert asked == ["compiled"]

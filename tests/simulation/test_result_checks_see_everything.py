@@ -82,8 +82,3 @@ def test_every_look_is_taken_whatever_is_recorded(
     assert not isinstance(simulate(scenario, throw=False), Failure)
     monkeypatch.setattr(looking, what, PLANTED[what](getattr(looking, what)))
     assert isinstance(simulate(scenario, throw=False), Failure)
-
-
-def test_without_an_audit_only_what_is_asked_is_recorded() -> None:
-    scenario = replace(soft(), channels=("tip.x",), solver=SolverSettings(result_checks=False), duration=0.02)
-    assert set(simulate(scenario).channels) == {"time", "tip.x"}

@@ -10,7 +10,6 @@ import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SolverSettings, simulate
 from support_exudyn.scenario.timescales import loaded_contacts
-from support_exudyn.simulation.automatic_settings import settings_for
 from support_exudyn.simulation.contact_ringing import (
     FASTEST,
     GONE,
@@ -93,13 +92,6 @@ def test_the_last_of_three_runs_leaves_what_rings() -> None:
     less = replace(scene, solver=SolverSettings(spectral_radius=0.9))
     assert ringing_step(less) > 3.0 * ringing_step(scene)
     assert ringing_step(replace(scene, duration=0.1)) > 2.0 * ringing_step(scene)
-
-
-def test_redundant_runs_to_an_accuracy_begin_with_steps_that_let_contacts_ring() -> None:
-    # at steps that follow the vibration along the load only, all three runs damp out the one across it
-    scene = narrow(duration=120.0)
-    scene = replace(scene, record_period=0.1, formulation="redundant")
-    assert settings_for(scene, 1e-2).step <= ringing_step(scene)
 
 
 @pytest.mark.slow

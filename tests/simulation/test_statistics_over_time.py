@@ -25,7 +25,6 @@ from support_exudyn import (
 from support_exudyn.files.hdf5 import BLOCK, with_checksum
 from support_exudyn.files.series.own_runs import OLDER
 from support_exudyn.formulations.statistics.collected import StepStatistics
-from support_exudyn.formulations.statistics.ends import between_ends
 from support_exudyn.formulations.statistics.steps import NODES
 from support_exudyn.mechanics.time_statistics import TimeStatistics, statistics_of_records
 from tests.cases.run_cases import FORCE, support
@@ -160,26 +159,6 @@ def test_intervals_combine_to_any_window(intervals: int, after: float, until: fl
     if intervals == 1000:
         assert window.mean_doubt + window.std_doubt < 5e-3
         assert window.greatest[1] == pytest.approx(time[values.argmax()], abs=1e-3)
-
-
-def test_what_jumps_has_a_value_on_either_side() -> None:
-    before, after = collected(20).window("one", 1.0, 1.3), collected(20).window("other", 1.3, 1.5)
-    assert before.last == pytest.approx(course(np.array([1.3]))[0], abs=1e-6)
-    assert after.first == pytest.approx(-course(np.array([1.3]))[0] - 2.0, abs=1e-6)
-
-
-def test_between_the_ends_of_steps_parabolas_are_met_and_corners_do_not_overshoot() -> None:
-    time = np.array([0.0, 0.1, 0.25, 0.3, 0.3, 0.5, 0.6])
-    begins = np.array([True, False, False, False, True, False, False])
-    values = np.where(np.arange(7) < 4, 1.0 + time - 3.0 * time**2, 5.0 + 2.0 * time**2)
-    found = between_ends(time, begins, values)
-    nodes = time[:-1, None] + np.diff(time)[:, None] * NODES
-    np.testing.assert_allclose(found[:3], 1.0 + nodes[:3] - 3.0 * nodes[:3] ** 2, rtol=1e-12)
-    np.testing.assert_allclose(found[4:], 5.0 + 2.0 * nodes[4:] ** 2, rtol=1e-12)
-    corner = np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
-    smooth = between_ends(np.linspace(0.0, 1.0, 6), np.array([True] + 5 * [False]), corner)
-    assert smooth.min() >= 0.0
-    assert smooth.max() <= 1.0
 
 
 # --- records ---
