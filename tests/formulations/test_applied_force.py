@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -11,8 +9,6 @@ from studies.common.subject import paper_subject
 from studies.which_pin import closed_form as clearance
 from support_exudyn import (
     AppliedForce,
-    ClearancePin,
-    Held,
     Result,
     Scenario,
     SolverSettings,
@@ -20,8 +16,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.mechanics.kinetics import kinetics_of
-from tests.cases.run_cases import PIN, loose_support
-from tests.roof_cases import DAMPED, MASS, ON_OIL, OVER_THE_COLUMNS, TOP, Ram
+from tests.roof_cases import DAMPED, MASS, OVER_THE_COLUMNS, TOP, Ram
 from user_forces.values.value import InputError, Vector2
 
 MEGANEWTON = 1e6
@@ -79,17 +74,6 @@ def test_actuators_and_pins_carry_what_statics_say(actuators: dict[str, object],
         assert result[f"{name}.force"][-1] == pytest.approx(-pull, rel=1e-6)
     # 1 MN over some tenths of a millimetre of oil
     assert result.energy_error < 1e-4 * max(1.0, result["energy.work"].max())
-
-
-def test_a_support_can_start_settled_under_it() -> None:
-    base = loose_support().pins[PIN].contact
-    pin = ClearancePin(contact=replace(base, normal=replace(base.normal)))
-    load = pressing(start=0.0, end=0.0)
-    result = pressed(load, pins={PIN: pin}, actuators=ON_OIL, start="settled", drive=Held(), duration=0.05)
-    # at rest at once: what is left of the static solver's tolerance
-    assert np.ptp(result["tip.y"]) < 1e-7
-    assert np.ptp(result["front_column.force"]) < 1e-4 * result["front_column.force"][0]
-    assert result["front_column.force"][0] > 4e5
 
 
 def test_times_in_disorder_are_refused() -> None:

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-import support_exudyn
 from support_exudyn import (
     Body,
     BushingPin,
-    IdealPin,
     Linkage,
     Machine,
     PinPlace,
@@ -24,7 +21,6 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.files.scenarios.scenario_file import read_scenario
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.timescales import timescales
 from tests.cases.run_cases import support
@@ -113,15 +109,6 @@ def test_energies_add_up() -> None:
     assert result["energy.elastic"] == pytest.approx(stored, rel=1e-12, abs=1e-12)
 
 
-def test_the_force_moves_the_block() -> None:
-    result = simulate(on_bushing(Block(arm=ARM, velocity=(0.4, -0.7), spin=5.0)))
-    h = result.time[1] - result.time[0]
-    for axis in "xy":
-        slope = np.gradient(result[f"block.velocity_{axis}"], h)[1:-1]
-        assert MASS * slope == pytest.approx(result[f"pin.mount.force_{axis}"][1:-1], abs=4.0)
-    assert np.isfinite(result["block.angular_acceleration"]).all()
-
-
 def test_a_stiff_one_tends_to_the_ideal_pin() -> None:
     scene = support(duration=0.2)
     (pin,) = [name for name in scene.linkage.pins if name == "rear_base"]
@@ -157,41 +144,12 @@ def test_both_bodies_may_move() -> None:
     assert np.abs(found["energy.balance"]).max() < 1e-3 * np.abs(found["energy.kinetic"]).max()
 
 
-def test_a_file_says_it(tmp_path: Path) -> None:
-    file = tmp_path / "scene.toml"
-    file.write_text(
-        'machine = "reference"\nduration_s = 1.0\n[pins.rear_base]\ntype = "BushingPin"\n'
-        "stiffness_kN_per_mm = [50.0, 80.0]\ndamping_N_s_per_m = [1e4, 2e4]\n"
-        "rotational_stiffness_N_m_per_rad = 9.0\n"
-    )
-    pin = read_scenario(file).pins["rear_base"]
-    assert pin == BushingPin(stiffness=(5e7, 8e7), damping=(1e4, 2e4), rotational_stiffness=9.0)
-
-
 def test_space_refuses_it() -> None:
     scene = Scenario(machine=reference_support(), pins={"rear_base": BUSHING}, duration=0.1)
     assert all(formulation(name).covers(scene) for name in ("redundant", "compiled"))
     said = r"pins\.rear_base = BushingPin: is planar; allowed in space: IdealPin, ClearancePin"
     with pytest.raises(InputError, match=said):
         simulate(replace(scene, dimensions=3))
-
-
-def test_a_stiffness_is_positive() -> None:
-    with pytest.raises(InputError, match="stiffness"):
-        BushingPin(stiffness=(1e6, 0.0))
-
-
-def test_no_stage_asks_which_kind_a_pin_is() -> None:
-    # but for the list of those that have contacts, and of those that rub; and of the bushings among the records
-    root = Path(support_exudyn.__file__).parent
-    asks = [file for file in root.rglob("*.py") if "isinstance(pin, " in file.read_text()]
-    assert {file.relative_to(root).as_posix() for file in asks} <= {
-        "scenario/scenario_data.py",
-        "postprocessing/summary.py",
-        "formulations/compiled/setup.py",
-        "formulations/compiled/outcome.py",
-    }
-    assert IdealPin().holds
 
 
 def test_a_crank_rocker_with_a_bushing_moves_as_its_equations() -> None:

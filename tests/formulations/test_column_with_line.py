@@ -176,16 +176,6 @@ def _top(three: npt.NDArray[np.float64]) -> float:
     return float(b - (a - c) ** 2 / (8.0 * (a - 2.0 * b + c)))
 
 
-def test_without_a_line_nothing_damps() -> None:
-    mass, speed = 3000.0, 1e-3
-    result = carried("compiled", Carried(mass=mass, speed=speed), replace(OIL, line=None), Held(), 0.1)
-    w = math.sqrt(MODULUS * AREA / LENGTH / mass)
-    np.testing.assert_allclose(
-        result["body.y"] - 1.0, speed / w * np.sin(w * result.time), atol=1e-6 * speed / w
-    )
-    assert result["energy.damping_loss"][-1] == 0.0
-
-
 def test_who_asks_for_the_damping_time_is_told_of_the_line() -> None:
     with pytest.raises(InputError, match=r"OilColumn\.damping_time = 0\.001.*allowed: a line"):
         OilColumn(bore_area=AREA, oil_length=LENGTH, bulk_modulus=MODULUS, damping_time=1e-3)

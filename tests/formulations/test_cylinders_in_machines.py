@@ -12,7 +12,6 @@ from support_exudyn import (
     Inlet,
     OilColumn,
     RampedOpening,
-    Result,
     Roof,
     Scenario,
     SimulationError,
@@ -102,15 +101,3 @@ def test_a_piston_at_the_end_of_its_cylinder_stops_the_run() -> None:
     cylinder = opened(SuddenOpening(start=0.0, end=0.4), rod_side_length=0.05)
     with pytest.raises(SimulationError, match=r"jack is extended by 0\.05.*allowed: -0\.5 to 0\.05 m"):
         lift(cylinder, duration=0.5)
-
-
-def test_errors_are_known_and_files_keep_cylinders(tmp_path: object) -> None:
-    scenario = on_cylinders(False, SuddenOpening(start=0.01, end=0.1, extent=0.5), duration=0.05)
-    result = simulate(scenario, errors=True)
-    assert result.coarser is not None
-    again = Result.load(result.save(f"{tmp_path}/cylinders.h5"))
-    assert again.scenario == result.scenario
-    np.testing.assert_array_equal(again["rear_column.pressure"], result["rear_column.pressure"])
-    asked = replace(result.scenario, channels=("rear_column.pressure", "energy.balance"))
-    np.testing.assert_array_equal(simulate(asked)["rear_column.pressure"], result["rear_column.pressure"])
-    assert simulate(replace(scenario, accuracy=1e-2)).scenario.formulation == "compiled"

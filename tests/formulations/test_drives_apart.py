@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from support_exudyn import CubicStep, Held, OilColumn, Result, UniformSpeed, bore_area, simulate
+from support_exudyn import CubicStep, Held, Result, UniformSpeed, simulate
 from support_exudyn.files.machines import reference_support
 from support_exudyn.postprocessing.pytest_plugin import SimulateCached
-from tests.cases.run_cases import FORCE, loose_support, support
+from tests.cases.run_cases import support
 
 FRONT = CubicStep(stroke=0.12, start=0.05, end=0.45)
 REAR = CubicStep(stroke=-0.03, start=0.15, end=0.35)
-OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 
 
 @pytest.fixture(scope="module")
@@ -71,37 +70,3 @@ def test_a_jump_of_one_actuator_strikes_the_other_too() -> None:
     np.testing.assert_allclose(result["rear_column.length"], result["rear_column.length"][0], atol=1e-11)
     # a step after the jump is known by its end only: second order of the step, of 40 J
     assert result.energy_error < 1e-3 * impulse.energy
-
-
-def test_a_jump_of_an_oil_column_strikes_nothing() -> None:
-    drive = UniformSpeed(stroke=0.05, start=0.1, end=0.3)
-    result = simulate(
-        support(drives={"front_column": drive}, actuators={"front_column": OIL}, duration=0.15, step=1e-4)
-    )
-    assert result.impulses == ()
-    assert result.energy_error < 1e-3 * result["energy.work"][-1]  # as above
-
-
-def test_breaks_of_all_drives_are_met() -> None:
-    scenario = support(drive=FRONT, drives={"rear_column": REAR}, duration=0.5)
-    assert scenario.breaks == (0.05, 0.15, 0.35, 0.45)
-    assert scenario.drive_of("front_column") == FRONT
-    assert scenario.drive_of("rear_column") == REAR
-
-
-def test_the_compiled_formulation_follows_the_drives_too() -> None:
-    scene = {
-        "drive": FRONT,
-        "drives": {"rear_column": REAR},
-        "actuators": {"front_column": OIL, "rear_column": OIL},
-        "duration": 0.22,
-    }
-    compiled = simulate(loose_support(formulation="compiled", **scene))
-    redundant = simulate(loose_support(step=1e-4, **scene))
-    # the redundant formulation's error of impacts and steps, as in `test_formulations_agree`
-    np.testing.assert_allclose(compiled["tip.y"], redundant["tip.y"], atol=2e-6)
-    np.testing.assert_allclose(
-        compiled["energy.work"], redundant["energy.work"], atol=1e-3 * compiled["energy.work"].max()
-    )
-    mean = [run[FORCE][run.time > 0.15].mean() for run in (compiled, redundant)]
-    assert mean[0] == pytest.approx(mean[1], rel=1e-3)

@@ -11,9 +11,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from support_exudyn import ClosedInlet, Held, Inlet, Linkage, RampedOpening, Scenario, SuddenOpening, simulate
-from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.oil_column import static_loads
-from tests.cases.cylinder_cases import GRAVITY, MASS, Ram, lift, on_cylinders, opened
+from tests.cases.cylinder_cases import GRAVITY, MASS, Ram, lift, opened
 from user_forces import value
 
 
@@ -114,62 +112,6 @@ def test_pressures_and_motion_are_those_of_another_integrator_to_second_order(
     assert (fine < [4e-5, 4e-4, 3e-4, 3e-4]).all()
     # 4 for second order, as norm of all: single ones have zeros of their error
     assert 3.0 < np.linalg.norm(coarse) / np.linalg.norm(fine) < 5.5
-
-
-def test_the_whole_support_on_cylinders_is_that_of_another_integrator_to_second_order() -> None:
-    start, duration, names = 0.01, 0.08, ("front_column", "rear_column")
-    scenario = on_cylinders(False, SuddenOpening(start=start, end=1.0, extent=0.5), duration=duration)
-    linkage, n = scenario.linkage, 3 * len(scenario.linkage.bodies)
-    pins = kinetics_of(linkage, rigid=())  # masses and pins by matrices; no engine
-    weight, mass = pins.weight(scenario.gravity), pins.mass()
-    loads = static_loads(linkage, scenario.gravity)
-    pressures = [
-        ((loads[name] + 0.5e6 * 0.03) / 0.098, 0.5e6)
-        if loads[name] > 0.5e6 * 0.068
-        else (0.5e6, (0.5e6 * 0.098 - loads[name]) / 0.03)
-        for name in names
-    ]
-
-    def flow(drop: float) -> float:
-        return 0.5 * 6e-6 * math.copysign(math.sqrt(abs(drop)), drop)
-
-    def rates(t: float, y: np.ndarray) -> np.ndarray:
-        q, v, p = y[:n], y[n : 2 * n], y[2 * n :]
-        force, changes = weight.copy(), []
-        for k, name in enumerate(names):
-            actuator = linkage.actuators[name]
-            foot, foot_rate = pins.point(q, actuator.foot, actuator.foot_point)
-            head, head_rate = pins.point(q, actuator.head, actuator.head_point)
-            length = float(np.hypot(*(head - foot)))
-            along = (head - foot) / length @ (head_rate - foot_rate)
-            piston, rod = p[2 * k : 2 * k + 2]
-            force += along * (0.098 * piston - 0.03 * rod)
-            e, speed = length - actuator.start_length, float(along @ v)
-            changes += [
-                1.5e9 / (0.098 * (0.5 + e) + 5e-3) * (flow(31.5e6 - piston) - 0.098 * speed),
-                1.5e9 / (0.03 * (1.0 - e) + 3e-3) * (flow(0.5e6 - rod) + 0.03 * speed),
-            ]
-        rows, h = pins.rows(q), 1e-6
-        turning = (pins.rows(q + h * v) - pins.rows(q - h * v)) @ v / (2.0 * h)
-        system = np.block([[np.diag(mass), rows.T], [rows, np.zeros((len(rows), len(rows)))]])
-        answer = np.linalg.solve(system, np.concatenate([force, -turning]))
-        return np.concatenate([v, answer[:n], changes])
-
-    state = np.concatenate([np.zeros(2 * n), *pressures])
-    times = np.arange(2, 9) * 0.01
-    scales = np.concatenate([np.full(n, 1e-12), np.full(n, 1e-11), np.full(4, 1e-2)])
-    exact = solve_ivp(rates, (start, duration), state, method="LSODA", rtol=1e-10, atol=scales, t_eval=times)
-    assert exact.success
-
-    def error(step: float) -> float:
-        run = simulate(replace(scenario, step=step, record_period=0.01))
-        found = np.array([run[f"{name}.{p}pressure"][2:] for name in names for p in ("", "rod_")])
-        wanted = exact.y[2 * n :]
-        return float((np.abs(found - wanted).max(axis=1) / np.ptp(wanted, axis=1)).max())
-
-    coarse, fine = error(2e-4), error(1e-4)
-    assert fine < 2e-3  # of what pressures pass through; 500 rad/s and 1e-4 s
-    assert 3.0 < coarse / fine < 5.5  # 4 for second order
 
 
 @value

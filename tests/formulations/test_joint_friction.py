@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
@@ -29,11 +28,10 @@ from support_exudyn import (
     Steady,
     simulate,
 )
-from support_exudyn.files.scenarios.simple_scenario import simple_scenario
 from support_exudyn.model.linkage import pinned
 from tests.formulations.test_slots_and_gears import SPEED as YOKE_SPEED
 from tests.formulations.test_slots_and_gears import ScotchYoke
-from user_forces import Ambrosio, CubicCoulomb, FrictionLaw, InputError, LuGre, value
+from user_forces import Ambrosio, CubicCoulomb, FrictionLaw, LuGre, value
 
 G, MU = 9.81, 0.1
 R, L, RADIUS, OMEGA = 0.05, 0.2, 0.01, 20.0 * math.pi  # slider-crank: lengths, pin [m], 600 rpm
@@ -238,20 +236,3 @@ def test_a_guide_that_jams_is_refused_with_its_name() -> None:
     # 5 tan of the rod's angle is above 1: pushed against its guide, the slider would need infinite force
     assert "a joint jams by its friction" in failure.advice
     assert "in guides.g." in failure.advice
-
-
-def test_files_keep_friction_where_there_is_no_clearance() -> None:
-    nothing: dict[str, Any] = {"clearance_mm": 0.0, "friction": 0.1}
-    scene = simple_scenario(
-        "slider_crank_guide", duration_s=0.01, pins={"B": nothing}, guides={"slot": nothing}
-    )
-    assert scene.pins["B"] == IdealPin(friction=DRY, radius=0.01)
-    assert scene.guides["slot"] == IdealGuide(friction=DRY, block=(0.1, 0.05))
-    with pytest.raises(InputError, match="bore_radius_mm: missing"):
-        simple_scenario(Crankshaft(), duration_s=0.01, pins={"B": nothing})
-    bare = simple_scenario(
-        Crankshaft(), duration_s=0.01, guides={"g": nothing | {"friction_law": "CubicCoulomb"}}
-    )
-    assert bare.guides["g"] == IdealGuide(friction=CubicCoulomb(sliding_coefficient=0.1))
-    assert (refused := scene.guides["slot"].refused_in_space()) is not None
-    assert refused.what == "IdealGuide with friction"

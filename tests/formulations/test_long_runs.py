@@ -5,19 +5,14 @@ from __future__ import annotations
 import math
 import tracemalloc
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from studies.extremes import long_runs
 from support_exudyn import Drive, Reciprocating, Scenario, SolverSettings, Steady, reference_support, simulate
-from support_exudyn.formulations.contract import silent
 from support_exudyn.formulations.redundant.solver import recorder
-from support_exudyn.formulations.redundant.solver.solver import SolverRun
-from support_exudyn.formulations.registry import formulation
-from support_exudyn.simulation.result_checks import joints_apart
-from tests.cases.run_cases import loose_slider_crank, slider_crank
+from tests.cases.run_cases import slider_crank
 from user_forces import value
 
 # share of what was turned over that is lost in the impacts of the first two seconds, at 64 steps each;
@@ -158,44 +153,3 @@ def test_forces_late_in_a_long_run_are_as_quiet_as_early() -> None:
     # whole periods are left out without rounding: to the last bit. (With the angle of all of them the scatter
     # from step to step is six times as large.)
     np.testing.assert_array_equal(forces(1025.0), forces(1.0))
-
-
-def test_cut_steps_end_where_drives_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    inexact: list[bool] = []
-    plain = SolverRun._before_try
-
-    def watched(self: SolverRun, mbs: object, t: float) -> bool:
-        if self.trying:
-            inexact.append(t - self.time != float(self.solver.it.currentStepSize))
-        return plain(self, mbs, t)
-
-    monkeypatch.setattr(SolverRun, "_before_try", watched)
-    simulate(long_runs.scene(long_runs.DRY, 4.0))
-    assert len(inexact) > 20
-    # the engine shortens some more by itself
-    assert sum(inexact) <= 0.1 * len(inexact)
-
-
-# --- measures ---
-
-
-def test_a_body_beside_its_guide_counts_as_apart() -> None:
-    scene = loose_slider_crank(2e-4, step=1e-5, record_period=1e-4, formulation="redundant")
-    outcome = formulation("redundant").run(scene, silent)
-    assert joints_apart(scene, outcome).max() < 1e-12  # rounding
-    moved = outcome.trajectory.position.copy()
-    moved[:, 3 * list(scene.linkage.bodies).index("slider") + 1] += 1e-3
-    outcome = replace(outcome, trajectory=replace(outcome.trajectory, position=moved))
-    assert joints_apart(scene, outcome) == pytest.approx(1e-3, abs=1e-12)  # rounding
-
-
-def test_slopes_are_those_of_the_line() -> None:
-    times = np.linspace(0.0, 1000.0, 1001)
-    scatter = np.where(np.arange(1001) % 2, 1e-12, -1e-12)
-    # of the scatter the line takes its size over the time, over the number of records
-    assert long_runs.slope(times, 1e-9 + 3e-12 * times + scatter) == pytest.approx(3e-12, abs=1e-17)
-
-
-def test_memory_is_not_known_where_the_system_does_not_tell(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(long_runs, "STATUS", Path("/nowhere/status"))
-    assert math.isnan(long_runs.resident())

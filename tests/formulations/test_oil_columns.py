@@ -99,19 +99,6 @@ def test_a_sudden_start_follows_the_closed_form_of_an_oscillator() -> None:
     assert result.impulses == ()
 
 
-def test_forces_after_a_sudden_start_converge_with_second_order() -> None:
-    def force(step: float) -> float:
-        drive = UniformSpeed(start=0.1, end=2.1)
-        scene = support(actuators=BOTH, drive=drive, duration=0.108, record_period=0.108, step=step)
-        return float(simulate(scene)[FORCE][-1])
-
-    coarse, middle, fine = (force(step) for step in (4e-4, 2e-4, 1e-4))
-    # 4 for second order
-    assert 2.5 < (coarse - middle) / (middle - fine) < 6.0
-    assert abs(fine - middle) < 2e-3 * fine
-    assert fine > 2.0 * 58779.0  # the static force
-
-
 def test_stiffer_oil_tends_to_rigid_actuators_with_order_one() -> None:
     drive = CubicStep(start=0.05, end=0.55, stroke=0.1)
     rigid = simulate(support(drive=drive, duration=0.3))
@@ -168,10 +155,3 @@ def test_wrong_oil_is_refused() -> None:
         OilColumn(bore_area=1.0, oil_length=1.0, bulk_modulus=0.0)
     with pytest.raises(InputError, match="diameter"):
         bore_area(0.0)
-
-
-def test_oil_survives_the_result_file(tmp_path: object) -> None:
-    scenario = support(actuators=BOTH, duration=0.01)
-    result = simulate(scenario)
-    path = result.save(f"{tmp_path}/oil.h5")
-    assert Result.load(path).scenario == scenario

@@ -49,7 +49,6 @@ W = math.sqrt(STIFFNESS / MASS)
 # landings at many places of a step, see `test_steps_that_miss_the_landing...`
 COARSE = 2e-3  # [s]
 GAPS = [0.01 + COARSE * (0.6180339887 * n % 1.0) for n in range(24)]
-BODIES = ("rear_link", "front_link", "shield", "canopy")
 WITH_CLEARANCE = loose_support().pins
 KINDS = {
     "rigid, ideal": {},
@@ -349,12 +348,3 @@ def test_runs_to_an_accuracy_know_the_roof() -> None:
     assert other.scenario.formulation == "compiled"
     ours, theirs = other.numbers(), result.numbers()
     assert ours["roof.force.largest"].value == pytest.approx(theirs["roof.force.largest"].value, rel=2e-3)
-
-
-def test_a_result_under_a_roof_survives_its_file(tmp_path: object) -> None:
-    result = pressed("oil, clearance", 1.0)
-    read = Result.load(result.save(f"{tmp_path}/roof.h5"))
-    assert read.scenario == result.scenario
-    for name in ("roof.force", "roof.gap", "energy.elastic"):
-        np.testing.assert_array_equal(read[name], result[name])
-        assert read.channels[name].unit == result.channels[name].unit

@@ -92,23 +92,6 @@ def test_a_body_on_the_ground_loses_what_the_audit_says(
     assert np.abs(context.balance).max() < 2e-3 * (context.kinetic[0] + context.stored[0]) + 1e-12
 
 
-@few
-@given(space=placements(), bore=bores, friction=st.sampled_from([0.0, 0.3]))
-def test_both_backends_run_the_same(space: SpatialLinkage, bore: Bore, friction: float) -> None:
-    runs = [
-        replace(scenario(space, bore, backend, friction, by_depth=False), duration=5e-3)
-        for backend in ("python", "symbolic")
-    ]
-    one, other = map(simulate, runs)
-    # one formula, but the engine's expression is told the bore's spin with a repeat, and is rounded otherwise;
-    # impacts multiply it, each by up to some thousands: compared up to the third. Measured 1e-9
-    first, second = (run.onsets["pin"][:3] for run in (one, other))
-    assert len(first) == len(second)
-    before = one.time <= (first[2].time if len(first) == 3 else math.inf)
-    for name in ("two.x", "two.y", "two.z"):
-        np.testing.assert_allclose(one[name][before], other[name][before], atol=1e-7)
-
-
 @settings(few)
 @given(space=placements(), bore=bores, friction=st.sampled_from([0.0, 0.3]))
 def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
@@ -129,18 +112,6 @@ def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
         sign = 1.0 if bore == "first" else -1.0
         total = sign * sum(section.force for section in context.sections["pin"])
         np.testing.assert_allclose(force, total, atol=1e-9 * largest)  # rounding
-
-
-@few
-@given(space=placements(), sections=st.sampled_from([2, 4, 7]))
-def test_an_impact_lasts_as_many_steps_with_any_number_of_sections(
-    space: SpatialLinkage, sections: int
-) -> None:
-    scene = scenario(space, "first", "python", 0.0, by_depth=False)
-    context, _ = observed(replace(scene, solver=replace(scene.solver, sections=sections)))
-    # as above, whatever the number of sections
-    assert np.abs(context.balance).max() < 2e-3 * (context.kinetic[0] + context.stored[0]) + 1e-12
-    assert len(context.sections["pin"]) == sections
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
@@ -164,30 +135,6 @@ def test_a_shift_along_the_bore_does_not_press_the_journal(friction: float) -> N
     assert result["two.z"][-1] > 5 * CLEARANCE
     assert not result.onsets["pin"]
     np.testing.assert_allclose(result["pin.pin.depth"], -CLEARANCE, rtol=1e-9)  # rounding
-
-
-def test_the_energy_error_falls_with_the_steps_of_an_impact() -> None:
-    one = SpatialBody(mass=2.0, inertia=(0.02, 0.03, 0.025, 0.002, -0.003, 0.001), centre=(0.1, 0.0, 0.05))
-    two = replace(one, centre=(-0.1, 0.05, 0.0), velocity=(0.3, -0.2, 0.1), spin=(1.0, 2.0, -3.0))
-    axis = (0.6, 0.0, 0.8)
-    bearing = Bearing(
-        first="one",
-        second="two",
-        first_point=(0.0, 0.0, 0.0),
-        second_point=(0.0, 0.0, 0.0),
-        first_axis=axis,
-        second_axis=axis,
-        length=LENGTH,
-        holds=frozenset(),
-        pin="pin",
-    )
-    space = SpatialLinkage(bodies={"one": one, "two": two}, bearings={"pin": bearing})
-    off = []
-    for impact_steps in (64, 256):
-        context, outcome = observed(scenario(space, "first", "python", 0.3, False, impact_steps))
-        assert len(outcome.onsets["pin"]) >= 1
-        off.append(np.abs(context.balance).max())
-    assert off[1] < off[0] / 2.0  # by the steps of an impact, in which the result checks knows no parabola
 
 
 @pytest.mark.parametrize("backend", ["python", "symbolic"])

@@ -23,7 +23,6 @@ from support_exudyn import (
     cylinders_and_rods,
     simulate,
 )
-from support_exudyn.sweeps.parallel_runs import run_all
 from tests.cases.run_cases import PIN, loose_support, paper_contact, support
 
 RISE = CubicStep(start=0.02, end=0.2, stroke=0.03)
@@ -176,13 +175,6 @@ def test_energies_are_those_of_the_plane() -> None:
 SAVED = replace(CASES["with_clearance"], dimensions=3, duration=0.02, channels=("tip.*", "pin.rear_base*"))
 
 
-@pytest.mark.slow  # another process has to be started
-def test_a_scenario_is_swept() -> None:
-    (other,) = run_all({"one": SAVED}, workers=1).values()
-    assert isinstance(other, Result)
-    np.testing.assert_array_equal(other["tip.y"], simulate(SAVED)["tip.y"])
-
-
 def test_a_scenario_is_saved_and_pickled(tmp_path: Any) -> None:
     scenario, result = SAVED, simulate(SAVED)
     again = Result.load(result.save(tmp_path / "run.h5"))
@@ -197,27 +189,8 @@ def test_a_scenario_is_saved_and_pickled(tmp_path: Any) -> None:
     assert pickle.loads(pickle.dumps(result)).onsets == result.onsets
 
 
-def test_channels_asked_for_are_the_same_bits() -> None:
-    scenario = replace(CASES["friction"], dimensions=3, duration=0.03)
-    whole = simulate(scenario)
-    part = simulate(replace(scenario, channels=("tip_*.z", "pin.*depth", "*.roll", "energy.balance")))
-    assert {"tip_left.z", "pin.rear_base.left_depth", "shield.roll", "energy.balance"} <= set(part.channels)
-    for name in part.channels:
-        np.testing.assert_array_equal(part[name], whole[name], err_msg=name)
-
-
 def test_an_accuracy_is_met_in_space() -> None:
     result = simulate(replace(CASES["ideal"], dimensions=3, duration=0.1), accuracy="draft")
     assert result.met
     assert result.scenario.formulation == "redundant"
     assert result.scenario.dimensions == 3
-
-
-@pytest.mark.slow
-def test_refined_runs_tell_the_error() -> None:
-    scenario = replace(CASES["depth_speed"], dimensions=3, duration=0.03)
-    finer = scenario.refined()
-    assert finer.dimensions == 3
-    assert finer.solver.impact_steps == 2 * scenario.solver.impact_steps
-    # the errors of an impact or two at 512 steps: measured 1e-7 m
-    np.testing.assert_allclose(simulate(finer)["tip.y"], simulate(scenario)["tip.y"], atol=1e-5)

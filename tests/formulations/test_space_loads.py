@@ -23,7 +23,6 @@ from support_exudyn import (
     TorsionSpring,
     simulate,
 )
-from support_exudyn.mechanics.space.acting_loads import turning_axis
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from tests.cases.run_cases import PIN, loose_support, support
 from tests.cases.spatial_cases import InSpace, observed
@@ -175,15 +174,6 @@ def test_turns_beyond_half_a_turn_are_counted() -> None:
     assert np.abs(result["energy.balance"]).max() < 3e-4 * 0.5 * INERTIA[2] * 3600.0
 
 
-def test_the_axis_of_a_turn_gives_its_rate() -> None:
-    # e' = omega x e, and the difference of atan2 of both
-    e, omega = np.array([0.6, 0.2, -0.77]), np.array([0.3, -1.1, 0.7])
-    h = 1e-6
-    ahead, behind = (e + s * h * np.cross(omega, e) for s in (1.0, -1.0))
-    rate = (math.atan2(ahead[1], ahead[0]) - math.atan2(behind[1], behind[0])) / (2.0 * h)
-    assert np.dot(turning_axis(*e), omega) == pytest.approx(rate, rel=1e-8)
-
-
 def test_a_torque_between_two_bodies_turns_them_against_each_other() -> None:
     other = SpatialBody(mass=1.0, inertia=(0.1, 0.1, 0.08, 0.0, 0.0, 0.0), centre=(1.0, 0.0, 0.0))
     space = replace(free().space, bodies={**free().space.bodies, "b": other})
@@ -229,12 +219,6 @@ def test_a_load_in_the_middle_acts_as_in_the_plane(name: str) -> None:
                 space[channel], plane[channel], rtol=1e-5, atol=1e-6 * max(size, scale), err_msg=channel
             )
     assert np.abs(space["canopy.roll"]).max() < 1e-9
-
-
-def test_in_the_plane_a_lateral_place_has_no_effect() -> None:
-    force = LOADS["force"]
-    aside = pressed(replace(force, lateral=0.6), 2)
-    np.testing.assert_array_equal(aside["tip.y"], pressed(force, 2)["tip.y"])
 
 
 def beside(**loads: Load) -> Result:

@@ -89,14 +89,6 @@ def test_a_free_crank_rocker_moves_as_published() -> None:
         assert (4.0 * found - coarse[t]) / 3.0 == pytest.approx(PUBLISHED[t], rel=1e-6)
 
 
-@pytest.mark.slow
-def test_a_free_crank_rocker_moves_as_published_for_two_seconds() -> None:
-    coarse, fine = crank_rocker(4e-5), crank_rocker(2e-5)
-    for t, found in fine.items():
-        assert found == pytest.approx(PUBLISHED[t], rel=2e-6)
-        assert (4.0 * found - coarse[t]) / 3.0 == pytest.approx(PUBLISHED[t], rel=1e-8)
-
-
 def test_energies_of_a_free_crank_rocker_add_up() -> None:
     result = simulate(Scenario(machine=FREE, duration=0.5, step=1e-4))
     length, force = result["spring.length"], result["spring.force"]

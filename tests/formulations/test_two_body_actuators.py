@@ -16,7 +16,6 @@ from support_exudyn import (
     Held,
     HydraulicSupport,
     OilColumn,
-    OwnBody,
     Result,
     Scenario,
     UniformSpeed,
@@ -25,9 +24,7 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.formulations.redundant.scene.scene_builder import build
-from support_exudyn.mechanics.kinetics import kinetics_of
-from tests.cases.run_cases import FORCE, loose_support, paper_contact, support
+from tests.cases.run_cases import FORCE, paper_contact, support
 
 G = 9.81
 RISE = CubicStep(start=0.05, end=0.45, stroke=0.1)
@@ -77,29 +74,6 @@ def test_bodies_of_no_mass_change_nothing() -> None:
         assert light[f"{name}_guide.force"].max() < 1e-3
 
 
-def test_bodies_of_no_mass_change_nothing_beside_a_loose_pin() -> None:
-    massless, light = both(loose_support(machine=nameless(), drive=RISE, duration=0.15))
-    # impacts multiply what Newton's tolerance leaves: 1e-9 m have been seen after three of them
-    np.testing.assert_allclose(light["tip.y"], massless["tip.y"], atol=1e-8)
-    # of 0.44 MN, see above
-    np.testing.assert_allclose(light[FORCE], massless[FORCE], atol=1e-4 * massless[FORCE].max())
-    pairs = zip(light.onsets["rear_base"][:3], massless.onsets["rear_base"][:3], strict=True)
-    for one, other in pairs:
-        assert one.time == pytest.approx(other.time, abs=1e-7)
-
-
-def test_the_engine_holds_nothing_that_was_not_asked_for() -> None:
-    def objects(**changes: object) -> int:
-        scene = build(support(**changes))  # owns the system
-        return int(scene.mbs.systemData.NumberOfObjects())
-
-    # ground, 4 bodies, 5 pins, 2 actuators
-    assert objects() == 12
-    # a pair of actuators more: 2 bodies, 2 pins and a guide each
-    assert objects(actuators=cylinders_and_rods()) == 12 + 2 * 5
-    assert objects(parts={"tail_beam": OwnBody()}) == 12 + 3  # body, pin, jack
-
-
 # --- statics ---
 
 
@@ -141,61 +115,12 @@ def test_pins_and_guide_carry_what_a_static_balance_says(held: Result, name: str
     assert held[f"{name}_guide.moment"][-1] == pytest.approx(rod * abs(n[1]) * model.rod_centre, abs=1e-3)
 
 
-def test_the_canopy_is_held_by_the_heads_and_its_hinge(held: Result) -> None:
-    canopy = held.scenario.linkage.bodies["canopy"]
-    assert canopy.mass == 3000.0  # without the rods, which would be on it otherwise
-    total = sum(
-        held[f"pin.{pin}.force_y"][-1] for pin in ("front_column_head", "rear_column_head", "shield_canopy")
-    )
-    assert total == pytest.approx(canopy.mass * G, rel=1e-7)  # Newton's tolerance of 1e-8
-
-
 @pytest.mark.parametrize("drive", [None, OIL], ids=["rigid", "oil"])
 def test_a_machine_at_rest_stays_there(drive: OilColumn | None) -> None:
     still = simulate(support(actuators=cylinders_and_rods(drive), drive=Held(), duration=0.2))
     np.testing.assert_allclose(still["tip.y"], still["tip.y"][0], atol=1e-12)  # rounding
     np.testing.assert_allclose(still["front_column.force"], still["front_column.force"][0], rtol=1e-6)
     assert still.energy_error < 1e-6
-
-
-# --- motion ---
-
-
-def test_a_machine_that_moves_at_the_start_has_actuators_that_move_along() -> None:
-    machine = nameless()
-    linkage = machine.linkage()
-    closed = kinetics_of(linkage)
-    speeds = closed.respond(np.zeros(12), np.zeros(12), closed.rates(lambda name: 0.1))[0].reshape(-1, 3)
-    bodies = {
-        name: replace(body, velocity=tuple(v[:2].tolist()), spin=float(v[2]))
-        for (name, body), v in zip(linkage.bodies.items(), speeds, strict=True)
-    }
-
-    class Moving(HydraulicSupport):
-        def detailed(self, actuators: object, parts: object) -> object:
-            return replace(linkage, bodies=bodies)
-
-    moving = Moving(**{name: getattr(machine, name) for name in machine.to_data() if name != "type"})
-    detailed = support(machine=moving, actuators=cylinders_and_rods(), drive=RISE).linkage
-    system = kinetics_of(detailed)
-    velocity = np.concatenate([[*body.velocity, body.spin] for body in detailed.bodies.values()])
-    rates = system.rows(np.zeros(velocity.size)) @ velocity
-    # no pin opens, no rod leaves its cylinder, and both actuators grow as they did; rounding
-    np.testing.assert_allclose(rates, system.rates(lambda name: 0.1), atol=1e-13)
-
-
-def test_oil_columns_of_two_bodies_tend_to_rigid_ones_with_order_one() -> None:
-    rigid = simulate(support(actuators=cylinders_and_rods(), drive=RISE, duration=0.35))
-
-    def off(stiffer: float) -> float:
-        oil = replace(OIL, bulk_modulus=stiffer * OIL.bulk_modulus)
-        actuators = cylinders_and_rods(oil)
-        soft = simulate(support(actuators=actuators, drive=RISE, duration=0.35, step=2.5e-4))
-        late = rigid.time > 0.2  # over some vibrations of the start, which nothing damps
-        return abs(float((soft["tip.y"] - rigid["tip.y"])[late].mean()))
-
-    # compliance is what moves: ten times stiffer, ten times nearer; 5 % for what vibrates
-    assert off(10.0) / off(100.0) == pytest.approx(10.0, rel=0.05)
 
 
 # --- energy ---

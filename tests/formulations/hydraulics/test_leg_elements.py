@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from support_exudyn import (
@@ -17,19 +16,14 @@ from support_exudyn import (
     Scenario,
     SolverSettings,
     SuddenOpening,
-    TrappedAir,
-    UniformSpeed,
     simulate,
 )
 from tests.formulations.hydraulics.leg_cases import (
-    AIR,
     COLUMN,
     CYLINDER,
     LENGTH,
-    LINE,
     MASS,
     PUMP,
-    SEALS,
     VAPOUR,
     YIELDING,
     Uprights,
@@ -37,7 +31,6 @@ from tests.formulations.hydraulics.leg_cases import (
 
 FIXED = 1e15  # [kg]: what does not move in a second
 WEIGHT = MASS * 9.81
-ATMOSPHERE = 101325.0
 AREA = COLUMN.bore_area
 
 
@@ -68,56 +61,6 @@ def test_filling_through_an_orifice() -> None:
     root = math.sqrt(leg.system_pressure - leg.tank_pressure) - falls * result.time
     assert 0.0 < root[-1] < 0.5 * root[0]
     np.testing.assert_allclose(result["leg0.pressure"], leg.system_pressure - root**2, rtol=1e-8)
-
-
-def test_a_line_relaxes_into_the_column() -> None:
-    # two chambers and a resistance: 1/(R C1) + 1/(R C2), C = V/B; the drive has stopped after a millisecond
-    drive = UniformSpeed(start=0.0, end=1e-3, stroke=1e-4)
-    result = standing(replace(COLUMN, line=LINE), drive=drive, duration=0.004, record_period=1e-4)
-    b, rest = COLUMN.bulk_modulus, AREA * (COLUMN.oil_length + 1e-4)
-    rate = b / LINE.resistance * (1.0 / LINE.volume + 1.0 / rest)
-    late = result.time >= 1e-3 - 1e-9
-    drop = (result["leg0.line_pressure"] - result["leg0.pressure"])[late]
-    t = result.time[late] - 1e-3
-    np.testing.assert_allclose(drop[:10] / drop[0], np.exp(-rate * t[:10]), rtol=1e-7)
-    assert rate * t[-1] > 3.0
-
-
-def air_of(pressure: float, air: TrappedAir) -> float:
-    return air.volume * (ATMOSPHERE / (pressure + ATMOSPHERE)) ** (1.0 / air.exponent)
-
-
-@pytest.mark.parametrize("exponent", [1.0, 1.4])
-def test_air_is_an_isothermal_or_adiabatic_spring(exponent: float) -> None:
-    # stiff oil; k = A^2 n (p + pa)/V_air; a ten-thousandth of the air's length is linear to 1e-7
-    air = replace(AIR, exponent=exponent)
-    still = WEIGHT / AREA
-    stiffness = AREA**2 * exponent * (still + ATMOSPHERE) / air_of(still, air)
-    oil = 1e14 * AREA / COLUMN.oil_length
-    wanted = math.sqrt(stiffness * oil / (stiffness + oil) / MASS)
-    leg = replace(COLUMN, bulk_modulus=1e14, trapped_air=air)
-    turns = 2.0 * math.pi / wanted
-    result = simulate(on(leg, speed=1e-6, duration=3.0 * turns, record_period=turns / 100))
-    swing = result["leg0.length"] - LENGTH
-    np.testing.assert_allclose(swing, 1e-6 / wanted * np.sin(wanted * result.time), atol=3e-4 * 1e-6 / wanted)
-
-
-def test_a_blow_on_air_turns_where_the_energy_is_used_up() -> None:
-    # stiff oil, n = 1.4; m v^2/2 + m g x = work on the air between both volumes
-    leg = replace(COLUMN, bulk_modulus=1e15, trapped_air=AIR)
-    still, speed = WEIGHT / AREA, 0.2
-    start = air_of(still, AIR)
-
-    def pressure(volume: float) -> float:
-        return (AIR.volume / volume) ** AIR.exponent * ATMOSPHERE - ATMOSPHERE
-
-    def left(volume: float) -> float:
-        work = quad(pressure, volume, start, epsabs=1e-9, epsrel=1e-12)[0]
-        return 0.5 * MASS * speed**2 + WEIGHT * (start - volume) / AREA - work
-
-    smallest = brentq(left, 1e-3 * start, 0.99 * start)
-    result = simulate(on(leg, speed=-speed, duration=0.02, record_period=1e-5))
-    assert result["leg0.pressure"].max() == pytest.approx(pressure(smallest), rel=2e-5)
 
 
 def test_a_cavity_opens_flies_and_closes() -> None:
@@ -164,22 +107,6 @@ def test_a_leg_rises_as_fast_as_the_pump_gives() -> None:
     squeezed = np.exp(result["leg0.pressure"][late] / CYLINDER.bulk_modulus)
     speed = flow / squeezed / leg.bore_area
     np.testing.assert_allclose(result["mass0.velocity_y"][late], speed, rtol=1e-4)
-
-
-def test_a_leg_on_seals_creeps_at_the_speed_of_their_stiction() -> None:
-    # pushed by more than the load, but by less than F_s: F(v) = excess; oil as soft as air
-    much = replace(AIR, volume=10.0, exponent=1.0)
-    soft = replace(COLUMN, trapped_air=much, oil_length=60.0)
-    leg = replace(soft, setting_pressure=(WEIGHT + 0.4 * SEALS.static) / AREA, seal_friction=SEALS)
-    result = simulate(on(leg, duration=0.3))
-    excess = result["leg0.pressure"][-1] * AREA - WEIGHT
-
-    def left(v: float) -> float:
-        bump = (SEALS.static - SEALS.coulomb) * math.exp(-((v / SEALS.stribeck_speed) ** 2))
-        return (SEALS.coulomb + bump) * math.tanh(v / SEALS.transition_speed) - excess
-
-    speed = brentq(left, 0.0, SEALS.transition_speed)
-    assert result["mass0.velocity_y"][-1] == pytest.approx(speed, rel=1e-3)
 
 
 def test_a_stop_gives_back_what_its_law_does() -> None:

@@ -10,7 +10,6 @@ import pytest
 from scipy.integrate import trapezoid
 
 from support_exudyn import Result, Scenario, SolverSettings, simulate
-from support_exudyn.mechanics.trajectory import OilEvent
 from tests.formulations.hydraulics.integrated import Stand, Trajectory
 from tests.formulations.hydraulics.leg_cases import CASES, LENGTH
 
@@ -100,30 +99,6 @@ def test_steps_stay_few_where_an_open_poppet_has_drained_the_leg(name: str) -> N
     drained = (pressure < tank + 0.1 * 4e6) & (pressure > tank) & (fine["leg0.yield_flow"] > 0.0)
     assert drained.sum() > 3
     assert fine.counts.steps < 10 * coarse.counts.steps
-
-
-def stops(events: tuple[OilEvent, ...], what: str) -> list[float]:
-    return [event.time for event in events if event.what == what]
-
-
-def test_stops_are_met_when_scipy_says() -> None:
-    for name in ("column, stops", "cylinder, stops"):
-        happened = simulate(precise(CASES[name])).oil_events["leg0"]
-        theirs = reference(name).switched("leg0.gland")
-        assert len(theirs) == 4
-        np.testing.assert_allclose(stops(happened, "upper stop met"), theirs, rtol=0.0, atol=2e-9)
-
-
-@pytest.mark.parametrize("name", ["cylinder, line", "cylinder, hysteresis", "two on a pump"])
-def test_errors_fall_with_the_tolerance(name: str) -> None:
-    wanted = reference(name)
-
-    def off(tolerance: float) -> float:
-        ours, theirs = pairs(simulate(precise(CASES[name], tolerance)), wanted)["leg0.pressure"]
-        return float(np.abs(ours - theirs).max() / np.ptp(theirs))
-
-    assert off(1e-8) < 0.2 * off(1e-6)
-    assert off(1e-6) < 1e-4
 
 
 @pytest.mark.parametrize(

@@ -111,17 +111,6 @@ def test_a_valve_for_40_megapascal_stays_closed() -> None:
     assert result["leg0.yielded"][-1] == 0.0
 
 
-def test_scipy_finds_the_same_digits() -> None:
-    found = by_scipy(Struck(), FINE)
-    when, largest = peak(found.time, found["leg0.p"])
-    assert largest == pytest.approx(10608326.2, abs=0.06)
-    assert when == pytest.approx(0.332696506, abs=1e-9)
-    touched, opened, _, closed = (t for t, *_ in found.events[:4])
-    assert touched == pytest.approx(0.319275428, abs=1e-9)
-    assert (opened, closed) == pytest.approx((0.331221499, 0.337352114), abs=1e-9)
-    assert found["leg0.out"][-1] == pytest.approx(2.22564578e-4, abs=1e-12)
-
-
 EARLY = replace(VALVE, opening_pressure=5e6)
 SLOW = replace(VALVE, poppet=Poppet(mass=2.0, stiffness=1e6, damping=500.0))
 OTHERS = {
