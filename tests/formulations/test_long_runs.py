@@ -11,8 +11,12 @@ import pytest
 
 from studies.extremes import long_runs
 from support_exudyn import Drive, Reciprocating, Scenario, SolverSettings, Steady, reference_support, simulate
+from support_exudyn.formulations.contract import silent
 from support_exudyn.formulations.redundant.solver import recorder
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.simulation.result_checks import joints_apart
 from tests.cases.run_cases import slider_crank
+from tests.linkage_cases import CrankRocker
 from user_forces import value
 
 # share of what was turned over that is lost in the impacts of the first two seconds, at 64 steps each;
@@ -46,6 +50,14 @@ def test_a_support_raised_and_lowered_for_long_neither_drifts_nor_loses_energy(n
         assert found.energy_share < IMPACTS
         assert abs(found.energy_open - found.energy_first) < A_SECOND * duration * found.turned_over
     assert found.late == 0.0
+
+
+def test_every_record_of_the_compiled_formulation_has_its_joints_closed() -> None:
+    scene = Scenario(
+        machine=CrankRocker(angle=0.3, speed=10.0), duration=2.0, solver=SolverSettings(tolerance=1e-9)
+    )
+    # within rounding; steps of this tolerance that nothing closes add up to some 1e-8 m
+    assert joints_apart(scene, formulation("compiled").run(scene, silent)).max() < 3e-13
 
 
 def test_what_has_come_to_rest_stays_at_rest_and_costs_little() -> None:

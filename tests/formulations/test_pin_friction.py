@@ -16,7 +16,9 @@ from support_exudyn import (
     Linkage,
     Machine,
     Pin,
+    Result,
     Scenario,
+    SolverSettings,
     UniformSpeed,
     cylinders_and_rods,
     simulate,
@@ -58,34 +60,46 @@ class Pendulum(Machine):
         return Linkage(bodies={"bob": body}, pins={"pivot": pinned("ground", "bob", (0.0, 0.0))})
 
 
-@pytest.mark.parametrize("ground_first", [True, False])
-@pytest.mark.parametrize("spin", [8.0, -8.0])
-def test_a_wheel_is_slowed_down_by_mu_n_r(spin: float, ground_first: bool) -> None:
-    machine = Wheel(spin=spin, ground_first=ground_first)
-    result = simulate(Scenario(machine=machine, pins={"pivot": RUBBING}, duration=1.0))
+FORMULATIONS = pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+
+
+def spun_down(pin: IdealPin, formulation: str, tolerance: float, **changes: object) -> Result:
+    """A second of a wheel on a pin."""
+    solver = SolverSettings(tolerance=tolerance)
+    return simulate(
+        Scenario(
+            machine=Wheel(**changes), pins={"pivot": pin}, duration=1.0, formulation=formulation, solver=solver
+        )
+    )
+
+
+@FORMULATIONS
+@pytest.mark.parametrize(("spin", "ground_first"), [(8.0, True), (-8.0, True), (8.0, False)])
+def test_a_wheel_is_slowed_down_by_mu_n_r(spin: float, ground_first: bool, formulation: str) -> None:
+    result = spun_down(RUBBING, formulation, 1e-9, spin=spin, ground_first=ground_first)
     moment = MU * MASS * G * RADIUS
     expected = spin - math.copysign(moment / INERTIA, spin) * result.time
-    # constant deceleration, which the integrator takes exactly; rounding of 2000 steps
-    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, atol=1e-10)
+    # constant deceleration, which both integrators take exactly but for rounding; some 1e-9 where steps are few
+    close = 1e-10 if formulation == "redundant" else 1e-9
+    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, atol=close)
     on_second = -1.0 if ground_first else 1.0  # against the wheel's spin if that is the second body
     np.testing.assert_allclose(
         result["pin.pivot.friction_moment"], on_second * math.copysign(moment, spin), rtol=1e-9
     )
     lost = 0.5 * INERTIA * (spin**2 - expected**2)
-    np.testing.assert_allclose(result["energy.friction_loss"], lost, atol=1e-8)
-    assert result.energy_error < 1e-8
-    assert result.counts.user_function_calls > result.counts.steps
+    np.testing.assert_allclose(result["energy.friction_loss"], lost, atol=100.0 * close)
+    assert result.energy_error < 100.0 * close
 
 
-def test_a_wheel_that_creeps_is_slowed_down_by_the_ramp_of_the_law() -> None:
+@FORMULATIONS
+def test_a_wheel_that_creeps_is_slowed_down_by_the_ramp_of_the_law(formulation: str) -> None:
     law = Ambrosio(sliding_coefficient=MU, static_speed=0.0, dynamic_speed=1.0)
-    result = simulate(
-        Scenario(machine=Wheel(), pins={"pivot": IdealPin(friction=law, radius=RADIUS)}, duration=1.0)
-    )
+    result = spun_down(IdealPin(friction=law, radius=RADIUS), formulation, 1e-11)
     # below 1 m/s a dashpot of mu N r^2
     expected = 8.0 * np.exp(-MU * MASS * G * RADIUS**2 / INERTIA * result.time)
     # second order of a step of 0.5 ms, against a decay within 5 s: 1e-9
-    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, rtol=1e-8)
+    close = 1e-8 if formulation == "redundant" else 1e-9
+    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, rtol=close)
 
 
 def test_a_pendulum_loses_the_same_angle_every_half_swing() -> None:

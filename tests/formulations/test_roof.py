@@ -14,7 +14,6 @@ from support_exudyn import (
     ClearancePin,
     CubicStep,
     Held,
-    OilColumn,
     Result,
     Scenario,
     SolverSettings,
@@ -52,7 +51,6 @@ GAPS = [0.01 + COARSE * (0.6180339887 * n % 1.0) for n in range(24)]
 WITH_CLEARANCE = loose_support().pins
 KINDS = {
     "rigid, ideal": {},
-    "rigid, clearance": {"pins": WITH_CLEARANCE},
     "oil, ideal": {"actuators": DAMPED},
     "oil, clearance": {"actuators": DAMPED, "pins": WITH_CLEARANCE},
 }
@@ -62,18 +60,27 @@ GIVES = {name: GIVES_DAMPED if "oil" in name else 0.0 for name in KINDS}
 # --- a ram thrown at the roof ---
 
 
-def test_a_ram_thrown_at_the_roof_comes_back_after_half_a_period() -> None:
-    scene = replace(thrown(0.01, 1e-4), record_period=1e-3)
-    result = simulate(scene)
+FORMULATIONS = pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+
+
+def by(formulation: str, scene: Scenario) -> Result:
+    solver = SolverSettings(tolerance=1e-9)
+    return simulate(replace(scene, formulation=formulation, solver=solver))
+
+
+@FORMULATIONS
+def test_a_ram_thrown_at_the_roof_comes_back_after_half_a_period(formulation: str) -> None:
+    result = by(formulation, replace(thrown(0.01, 1e-4), record_period=1e-3))
     t = result.time - 0.01  # it flies for 10 ms
     swing = np.sin(W * np.clip(t, 0.0, math.pi / W))
-    # second order: (W h)^2 = 1e-5 of the largest
-    np.testing.assert_allclose(result["roof.force"], STIFFNESS / W * swing, atol=1e-4 * STIFFNESS / W)
+    # second order: (W h)^2 = 1e-5 of the largest; the landing of a step with error control is not met
+    close = 1e-5 if formulation == "redundant" else 1e-6
+    np.testing.assert_allclose(result["roof.force"], STIFFNESS / W * swing, atol=10.0 * close * STIFFNESS / W)
     after = t > math.pi / W + 1e-3
-    np.testing.assert_allclose(result["ram.velocity_y"][after], -1.0, atol=1e-5)
-    np.testing.assert_allclose(result["roof.gap"][after], (t - math.pi / W)[after], atol=1e-5)
+    np.testing.assert_allclose(result["ram.velocity_y"][after], -1.0, atol=close)
+    np.testing.assert_allclose(result["roof.gap"][after], (t - math.pi / W)[after], atol=close)
     # of 500 J; half of it is stored when the ram is half as deep as it gets times the root of two
-    assert result.energy_error < 1e-2
+    assert result.energy_error < 1e3 * close
     assert result["energy.elastic"].max() == pytest.approx(500.0, rel=1e-3)  # a record beside the peak
     assert result["energy.work"][-1] == result["energy.damping_loss"][-1] == 0.0
 
@@ -111,8 +118,7 @@ def test_a_damped_roof_gives_back_what_the_closed_form_says(damping: float) -> N
 def test_a_ram_that_a_descent_pushes_is_given_its_work() -> None:
     # the roof overtakes the ram at rest: seen from the roof, the ram is thrown at it
     down = over_the_ram(gap=0.01, descent=UniformSpeed(stroke=1.0, start=0.0, end=1.0))
-    scene = replace(thrown(0.01, 1e-4), machine=Ram(), loads={"roof": down})
-    result = simulate(scene)
+    result = simulate(replace(thrown(0.01, 1e-4), machine=Ram(), loads={"roof": down}))
     assert result["ram.velocity_y"][-1] == pytest.approx(-2.0, rel=1e-4)  # second order: 1e-5
     assert result["energy.work"][-1] == pytest.approx(0.5 * MASS * 4.0, rel=1e-4)
     assert result.energy_error < 2e-2  # of 2 kJ
@@ -127,25 +133,28 @@ def test_what_no_expression_can_python_does() -> None:
     assert told["roof.force"].max() > 3e4
 
 
-def test_a_dead_load_takes_no_more_than_its_class() -> None:
+@FORMULATIONS
+def test_a_dead_load_takes_no_more_than_its_class(formulation: str) -> None:
     load = DeadLoad(body="ram", point=TOP, vector=(7.0, -300.0))
-    result = simulate(replace(thrown(0.01, 1e-3), loads={"weight": load}, record_period=1e-2))
+    result = by(formulation, replace(thrown(0.01, 1e-3), loads={"weight": load}, record_period=1e-2))
     expected = TOP[1] + result.time - 0.5 * 0.3 * result.time**2
-    # constant acceleration, which the integrator takes exactly; Newton's tolerance of 1e-8
-    np.testing.assert_allclose(result["ram.y"], expected, atol=1e-8)
-    np.testing.assert_allclose(result["guide.force"][1:], 7.0, rtol=1e-6)
+    # constant acceleration, which both integrators take exactly; Newton's tolerance of 1e-8, else rounding
+    place, share = (1e-8, 1e-6) if formulation == "redundant" else (1e-13, 1e-12)
+    np.testing.assert_allclose(result["ram.y"], expected, atol=place)
+    np.testing.assert_allclose(result["guide.force"][1:], 7.0, rtol=share)
     assert result.energy_error < 1e-4  # of 500 J
     assert "weight.force" not in result.channels
 
 
-def test_a_block_that_waits_is_an_elastic_impact() -> None:
+@FORMULATIONS
+def test_a_block_that_waits_is_an_elastic_impact(formulation: str) -> None:
     # 250 kg meet 1 t that comes up at 1 m/s, after 10 mm; without weight, loss and outer force
     block = elastic_block(body="ram", point=TOP, mass=MASS / 4.0, height=0.01, stiffness=STIFFNESS)
-    scene = replace(thrown(0.01, 1e-4), loads={"block": block})
-    result = simulate(scene)
+    result = by(formulation, replace(thrown(0.01, 1e-4), loads={"block": block}))
     # the formulas of an elastic impact; second order in the steps: 1e-5
-    assert result["ram.velocity_y"][-1] == pytest.approx(0.6, rel=1e-4)
-    assert result["block.velocity_y"][-1] == pytest.approx(1.6, rel=1e-4)
+    close = 6e-5 if formulation == "redundant" else 1e-6
+    assert result["ram.velocity_y"][-1] == pytest.approx(0.6, abs=close)
+    assert result["block.velocity_y"][-1] == pytest.approx(1.6, abs=close)
     assert result.energy_error < 1e-2  # of 500 J
     # both masses together as one of a fifth of a ton; half a swing, second order
     (onset,) = result.onsets["block"]
@@ -153,13 +162,10 @@ def test_a_block_that_waits_is_an_elastic_impact() -> None:
     assert lasted == pytest.approx(math.pi * math.sqrt(MASS / 5.0 / STIFFNESS), rel=1e-5)
 
 
-@pytest.mark.parametrize("actuators", [pytest.param({}, marks=pytest.mark.slow), ON_OIL], ids=["rigid", "oil"])
-def test_a_block_that_falls_on_the_canopy_gives_its_energy_to_the_audit(
-    actuators: dict[str, OilColumn],
-) -> None:
+def test_a_block_that_falls_on_the_canopy_gives_its_energy_to_the_audit() -> None:
     block = elastic_block(body="canopy", point=OVER_THE_COLUMNS, mass=2000.0, height=0.05, stiffness=1e8)
     result = simulate(
-        pressed_support(block, actuators=actuators, loads={"rock": block}, pins=WITH_CLEARANCE, step=1e-4)
+        pressed_support(block, actuators=ON_OIL, loads={"rock": block}, pins=WITH_CLEARANCE, step=1e-4)
     )
     fallen = result.time < 0.1  # it lands after 0.101 s
     expected = result["rock.y"][0] - 0.5 * 9.81 * result.time**2
@@ -234,12 +240,11 @@ def test_the_roof_on_rigid_actuators_is_known_to_the_last_digit() -> None:
     assert result["energy.work"][-1] == pytest.approx(TEN_MEGANEWTONS**2 / HARD / 2.0, rel=1e-5)
 
 
-@pytest.mark.parametrize("kind", [pytest.param("rigid, clearance", marks=pytest.mark.slow), "oil, clearance"])
-def test_a_loose_pin_is_pressed_with_the_force_of_statics(kind: str) -> None:
+def test_a_loose_pin_is_pressed_with_the_force_of_statics() -> None:
     # one that soon rests
     base = WITH_CLEARANCE[PIN].contact
     pin = ClearancePin(contact=replace(base, normal=replace(base.normal, restitution=0.3)))
-    result = simulate(replace(press(kind), pins={PIN: pin}, start="settled"))
+    result = simulate(replace(press("oil, clearance"), pins={PIN: pin}, start="settled"))
     place = list(result.scenario.linkage.pins).index(PIN)
     late = np.flatnonzero(result.time > 0.25)
     # forces along the line of centres have the same moment wherever on it they act: as in an ideal pin
@@ -255,17 +260,14 @@ def test_a_loose_pin_is_pressed_with_the_force_of_statics(kind: str) -> None:
 @pytest.mark.parametrize(
     ("kind", "damping"),
     [
+        ("rigid, ideal", 0.0),
         ("rigid, ideal", 1.0),
+        ("oil, ideal", 0.0),
         ("oil, ideal", 1.0),
         ("oil, clearance", 1.0),
-        ("rigid, ideal", 0.0),
-        ("oil, ideal", 0.0),
-        pytest.param("rigid, clearance", 1.0, marks=pytest.mark.slow),
-        pytest.param("rigid, clearance", 0.0, marks=pytest.mark.slow),
-        pytest.param("oil, clearance", 0.0, marks=pytest.mark.slow),
     ],
 )
-def test_energy_adds_up(kind: str, damping: float) -> None:
+def test_energy_adds_up_under_a_roof_that_never_pulls(kind: str, damping: float) -> None:
     result = pressed(kind, damping)
     work = result["energy.work"].max()
     assert work > 4.7e4
@@ -274,14 +276,6 @@ def test_energy_adds_up(kind: str, damping: float) -> None:
     assert (np.diff(result["energy.damping_loss"]) > -1e-5 * work).all()
     lost = result["energy.damping_loss"][-1]
     assert lost > 100.0 if damping or "clearance" in kind else True
-
-
-@pytest.mark.parametrize(
-    "kind",
-    ["rigid, ideal", pytest.param("rigid, clearance", marks=pytest.mark.slow), "oil, ideal", "oil, clearance"],
-)
-def test_the_roof_never_pulls(kind: str) -> None:
-    result = pressed(kind, 1.0)
     assert (result["roof.force"] >= 0.0).all()
     apart = result["roof.gap"] > 0.0
     assert apart[0]

@@ -17,6 +17,7 @@ from support_exudyn import (
     Result,
     Scenario,
     Slide,
+    SolverSettings,
     Steady,
     simulate,
 )
@@ -96,39 +97,51 @@ class Planetary(Machine):
         )
 
 
-@pytest.fixture(scope="module")
-def yoke() -> Result:
-    scenario = Scenario(machine=ScotchYoke(), drive=Steady(rate=SPEED), duration=0.3, step=1e-4)
-    return simulate(scenario)
+# of places and forces, in second place that of the engine's steps of 0.1 ms
+FORMULATIONS = {"compiled": (1e-11, 1e-8), "redundant": (1e-9, 1e-4)}
+EVERY_FORMULATION = pytest.mark.parametrize("formulation", FORMULATIONS)
 
 
-@pytest.fixture(scope="module")
-def gears() -> Result:
-    return simulate(Scenario(machine=GearPair(), drive=Steady(rate=SPEED), duration=0.3, step=1e-4))
+def turned(machine: Machine, formulation: str) -> Result:
+    """A run at a steady speed of the crank."""
+    solver = SolverSettings(tolerance=1e-9)
+    return simulate(
+        Scenario(
+            machine=machine,
+            drive=Steady(rate=SPEED),
+            duration=0.3,
+            step=1e-4,
+            formulation=formulation,
+            solver=solver,
+        )
+    )
 
 
-def test_a_scotch_yoke_moves_as_the_cosine(yoke: Result) -> None:
+@EVERY_FORMULATION
+def test_a_scotch_yoke_moves_as_the_cosine(formulation: str) -> None:
+    place, force = FORMULATIONS[formulation]
+    yoke = turned(ScotchYoke(), formulation)
     x = RADIUS * np.cos(0.4 + SPEED * yoke.time)
-    np.testing.assert_allclose(yoke["yoke.x"] - 0.2, x, atol=1e-9)
+    np.testing.assert_allclose(yoke["yoke.x"] - 0.2, x, atol=place)
     np.testing.assert_allclose(yoke["yoke.y"], 0.0, atol=1e-12)
-
-
-def test_the_slot_accelerates_the_yoke_and_carries_no_moment(yoke: Result) -> None:
-    x = RADIUS * np.cos(0.4 + SPEED * yoke.time)
-    np.testing.assert_allclose(yoke["slot.force"], YOKE * SPEED**2 * np.abs(x), atol=1e-4)
+    # the slot accelerates the yoke, and carries no moment
+    np.testing.assert_allclose(yoke["slot.force"], YOKE * SPEED**2 * np.abs(x), atol=force)
     assert not yoke["slot.moment"].any()
     arm = RADIUS * np.sin(0.4 + SPEED * yoke.time)
-    np.testing.assert_allclose(yoke["crank.moment"], YOKE * SPEED**2 * x * arm, atol=1e-5)
-    np.testing.assert_allclose(yoke["guide.force"], YOKE * G, atol=1e-6)
+    np.testing.assert_allclose(yoke["crank.moment"], YOKE * SPEED**2 * x * arm, atol=0.1 * force)
+    np.testing.assert_allclose(yoke["guide.force"], YOKE * G, atol=0.01 * force)
     assert abs(yoke["energy.balance"]).max() < 1e-3 * yoke["energy.kinetic"].max()
 
 
-def test_geared_bodies_turn_in_proportion(gears: Result) -> None:
-    np.testing.assert_allclose(gears["pinion.angle"], 0.3 + RATIO * SPEED * gears.time, atol=1e-9)
+@EVERY_FORMULATION
+def test_geared_bodies_turn_in_proportion(formulation: str) -> None:
+    place, force = FORMULATIONS[formulation]
+    gears = turned(GearPair(), formulation)
+    np.testing.assert_allclose(gears["pinion.angle"], 0.3 + RATIO * SPEED * gears.time, atol=place)
     # its weight beside the axis
     moment = 1.0 * G * 0.05 * np.cos(RATIO * SPEED * gears.time)
-    np.testing.assert_allclose(gears["mesh.moment"], moment, atol=1e-6)
-    np.testing.assert_allclose(gears["wheel.moment"], RATIO * moment, atol=1e-6)
+    np.testing.assert_allclose(gears["mesh.moment"], moment, atol=0.01 * force)
+    np.testing.assert_allclose(gears["wheel.moment"], RATIO * moment, atol=0.01 * force)
 
 
 def test_slots_and_gears_count_one_condition_each() -> None:
@@ -143,7 +156,7 @@ def test_slots_and_gears_count_one_condition_each() -> None:
     assert held.cranks["wheel"] == pytest.approx(RATIO * G * 0.05)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+@EVERY_FORMULATION
 def test_a_planet_turns_by_willis_equation(formulation: Any) -> None:
     """A planet turns at 9 rad/s for an arm at 3 rad/s on a sun at rest; the moment holds its weight."""
     drives = {"sun": Steady(rate=0.0), "arm": Steady(rate=3.0)}
@@ -156,7 +169,7 @@ def test_a_planet_turns_by_willis_equation(formulation: Any) -> None:
     np.testing.assert_allclose(run["sun.moment"], -2.0 * moment, atol=1e-6)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+@EVERY_FORMULATION
 def test_a_planet_adds_inertia_to_its_arm(formulation: Any) -> None:
     """A free arm falls as a pendulum whose planet turns three times as fast: energy as the angle says."""
     machine = Planetary(driven=("sun",), beside=0.0)
