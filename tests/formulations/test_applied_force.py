@@ -5,13 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from studies.common.subject import paper_subject
-from studies.which_pin import closed_form as clearance
 from support_exudyn import (
     AppliedForce,
     Result,
     Scenario,
-    SolverSettings,
     reference_support,
     simulate,
 )
@@ -79,27 +76,3 @@ def test_actuators_and_pins_carry_what_statics_say(actuators: dict[str, object],
 def test_times_in_disorder_are_refused() -> None:
     with pytest.raises(InputError, match=r"end = 0\.1 s: allowed: > start = 0\.2 s, or both 0"):
         pressing(start=0.2, end=0.1)
-
-
-def test_worn_pins_let_a_roof_push_the_tip_forward() -> None:
-    # all five pins clearance, without friction: to the rear under the weight, forward under a roof of 1 MN
-    pins = dict.fromkeys(reference_support().linkage().pins, paper_subject().clearance_pin(1.5, 0.0))
-    stand = clearance.standing(reference_support())
-    for presses, loads in (
-        ([], {}),
-        (
-            [clearance.Press("canopy", OVER_THE_COLUMNS, (0.0, -MEGANEWTON))],
-            {"roof": pressing(start=0.0, end=0.0)},
-        ),
-    ):
-        scene = Scenario(
-            machine=reference_support(), pins=pins, loads=loads, start="settled", duration=0.002,
-            solver=SolverSettings(impact_steps=16),
-        )  # fmt: skip
-        result = simulate(scene)
-        ideal = reference_support().start().tip
-        shift = sum(clearance.shifts(stand, pins, presses).values())
-        # first order in the clearance: 0.5 % of 17 mm under the weight, 2.9 % under the roof
-        assert result["tip.x"][0] - ideal[0] == pytest.approx(shift[0], rel=0.035)
-        assert abs(shift[0]) > 0.015
-        assert (shift[0] > 0.0) == bool(presses)

@@ -98,9 +98,7 @@ SCENES: dict[str, Callable[[], Scenario]] = {
     ),
     "pins of a slider-crank": lambda: loose_slider_crank(1e-3, 0.1, gravity=(300.0, -981.0)),
     # guides and gears
-    "ideal slot that turns": lambda: Scenario(
-        machine=FreePair(turns=True, carrier_spin=8.0), duration=0.1, formulation="redundant"
-    ),
+    "slot that turns": lambda: Scenario(machine=slots.SlottedLever(), drive=Steady(rate=20.0), duration=0.2),
     "slot and pins with clearance": lambda: loose_everywhere(),
     "slot between bodies": lambda: Scenario(
         machine=slots.ScotchYoke(), drive=Reciprocating(stroke=1.0, period=0.2), duration=0.2

@@ -16,11 +16,10 @@ from support_exudyn import (
     Scenario,
     SimulationError,
     SuddenOpening,
-    UniformSpeed,
     simulate,
 )
 from tests.cases.cylinder_cases import CYLINDER, Ram, lift, on_cylinders, opened
-from tests.cases.run_cases import FORCE, loose_support, support
+from tests.cases.run_cases import FORCE, loose_support
 
 
 def test_a_machine_with_closed_valves_stays_where_it_is() -> None:
@@ -86,15 +85,6 @@ def test_a_ram_is_set_against_a_roof_with_the_pressure_of_the_pump() -> None:
     assert result["jack.rod_pressure"][-1] == pytest.approx(0.5e6, abs=1e3)
     assert result["jack.force"][-1] == pytest.approx(31.5e6 * 0.098 - 0.5e6 * 0.03, rel=1e-4)
     assert result.energy_error < 1e-4 * result["energy.work"][-1]
-
-
-def test_cylinders_stand_beside_rigid_actuators_whose_speed_jumps() -> None:
-    actuators = {"front_column": opened(SuddenOpening(start=0.1, end=0.3, extent=0.5))}
-    scenario = support(actuators=actuators, drive=UniformSpeed(start=0.1, end=2.1), duration=0.2)
-    coarse, fine = (simulate(replace(scenario, step=step)) for step in (5e-4, 2.5e-4))
-    assert list(fine.impulses[0].actuators) == ["rear_column"]
-    assert fine.energy_error < 0.4 * coarse.energy_error  # 0.25 for second order
-    assert fine.energy_error < 1e-4 * fine["energy.work"][-1]
 
 
 def test_a_piston_at_the_end_of_its_cylinder_stops_the_run() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -21,10 +21,8 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.files.machines.read import shipped
-from support_exudyn.model.linkage import Linkage
-from support_exudyn.model.machine import Machine
 from tests.cases.run_cases import paper_contact
-from user_forces.values.value import Vector2, value
+from user_forces.values.value import Vector2
 
 SHIFTS = [(300.0, 0.0), (0.0, 300.0), (-900.0, 600.0)]
 OIL = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9)
@@ -98,38 +96,3 @@ def test_the_ram_of_a_two_leg_shield_follows_its_leg_elsewhere() -> None:
         force, tip = apart(near, simulate(scene(by)), by)
         assert force < 1e-2, by  # in the first short step of the drive constraints show their rounding
         assert tip < 1e-10, by
-
-
-# --- as far as own machines may be ---
-
-PLACES = ("centre", "first_point", "second_point", "foot_point", "head_point", "point")
-
-
-@value
-class Elsewhere(Machine):
-    """The reference support, so far to the right [m]."""
-
-    by: float
-
-    def linkage(self) -> Linkage:
-        return moved(reference_support().linkage(), self.by)
-
-
-def moved(item: Any, by: float) -> Any:
-    if isinstance(item, Mapping):
-        return {name: moved(one, by) for name, one in item.items()}
-    if not dataclasses.is_dataclass(item):
-        return item
-    fields = {field.name: getattr(item, field.name) for field in dataclasses.fields(item)}
-    places = {name: (one[0] + by, one[1]) for name, one in fields.items() if name in PLACES}
-    return replace(item, **places, **{n: moved(one, by) for n, one in fields.items() if n not in PLACES})  # type: ignore[type-var]
-
-
-def test_an_own_machine_settles_ten_kilometres_away() -> None:
-    near, far = (
-        simulate(Scenario(machine=Elsewhere(by=by), pins=with_clearance(), start="settled", duration=0.01))
-        for by in (0.0, 1e4)
-    )
-    force, tip = apart(near, far, (1e4, 0.0))
-    assert force < 1e-4  # coordinates are rounded by 2e-12 m
-    assert tip < 1e-9

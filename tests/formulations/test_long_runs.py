@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import tracemalloc
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +10,6 @@ import pytest
 from studies.extremes import long_runs
 from support_exudyn import Drive, Reciprocating, Scenario, SolverSettings, Steady, reference_support, simulate
 from support_exudyn.formulations.contract import silent
-from support_exudyn.formulations.redundant.solver import recorder
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.simulation.result_checks import joints_apart
 from tests.cases.run_cases import slider_crank
@@ -71,32 +68,6 @@ def test_what_has_come_to_rest_stays_at_rest_and_costs_little() -> None:
     longer = simulate(long_runs.scene(long_runs.REST, 60.0))
     # steps of 0.1 s: two records
     assert longer.counts.steps - result.counts.steps == pytest.approx(20.0 / 0.1, abs=2)
-
-
-@pytest.mark.parametrize("name", [long_runs.IDEAL, pytest.param(long_runs.DRY, marks=pytest.mark.slow)])
-def test_memory_grows_by_the_numbers_that_are_recorded_and_no_more(
-    name: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(recorder, "AT_ONCE", 10)  # ends of steps, which are held until statistics take them
-    duration = 16.0
-    scene = long_runs.scene(name, duration)
-    held: list[int] = []
-
-    def watch(share: float) -> None:
-        if share in (0.5, 1.0):
-            held.append(tracemalloc.get_traced_memory()[0])
-
-    simulate(replace(scene, duration=0.2), progress=watch)  # what is made once
-    held.clear()
-    tracemalloc.start()
-    try:
-        simulate(scene, progress=watch)
-    finally:
-        tracemalloc.stop()
-    records = 0.5 * duration / scene.record_period * long_runs.record_bytes(scene)
-    # lists grow by up to an eighth ahead; the interpreter keeps up to 2000 tuples to use again, some hundred
-    # bytes each, of which a few come in a second
-    assert 0.8 * records < held[1] - held[0] < 1.2 * records + 8000.0
 
 
 # --- angles of thousands of radians ---

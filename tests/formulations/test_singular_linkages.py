@@ -172,12 +172,6 @@ def test_a_step_that_jumps_over_a_change_point_hides_nothing(tolerance: float) -
     assert error.value.failure.time == pytest.approx(0.125, abs=1e-4)
 
 
-@pytest.mark.parametrize("formulation", FORMULATIONS)
-def test_a_run_that_ends_in_a_change_point_shows_no_force_there(formulation: str) -> None:
-    with pytest.raises(SimulationError, match=r"change point or dead centre \(crank at 180 degrees"):
-        run(PARALLELOGRAM, formulation, 1.0 / 3.0, record=1.0 / 360.0)
-
-
 def test_without_weight_a_parallelogram_passes_with_the_forces_of_its_coupler() -> None:
     result = run(PARALLELOGRAM, "redundant", 1.0, record=1e-3, gravity=(0.0, 0.0))
     # half of m r w^2 each

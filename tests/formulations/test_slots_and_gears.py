@@ -28,6 +28,7 @@ from user_forces import InputError, value
 RADIUS, SPEED = 0.1, 20.0  # of the crank [m], [rad/s]
 CRANK, YOKE, G = 1.5, 4.0, 9.81  # [kg]
 RATIO = -2.5
+BELOW, LEVER = 0.3, 0.15  # [m], [kg m^2]
 
 
 @value
@@ -49,6 +50,24 @@ class ScotchYoke(Machine):
                 "slot": Slide(body="crank", point=pin, direction=0.5 * math.pi, against="yoke", turns=True),
                 "guide": Slide(body="yoke", point=(0.3, 0.0)),
             },
+        )
+
+
+@value
+class SlottedLever(Machine):
+    """A crank's pin in the slot of a lever, whose pivot and centre of mass lie `BELOW` the crank's pivot."""
+
+    def linkage(self) -> Linkage:
+        pin, pivot = (RADIUS, 0.0), (0.0, -BELOW)
+        slot = Slide(body="crank", point=pin, direction=math.atan2(BELOW, RADIUS), against="lever", turns=True)
+        return Linkage(
+            bodies={
+                "crank": Body(mass=CRANK, inertia=0.01, centre=(0.0, 0.0)),
+                "lever": Body(mass=YOKE, inertia=LEVER, centre=pivot),
+            },
+            pins={"main": pinned("ground", "crank", (0.0, 0.0)), "pivot": pinned("ground", "lever", pivot)},
+            cranks={"crank": Crank(body="crank")},
+            slides={"slot": slot},
         )
 
 
@@ -131,6 +150,22 @@ def test_a_scotch_yoke_moves_as_the_cosine(formulation: str) -> None:
     np.testing.assert_allclose(yoke["crank.moment"], YOKE * SPEED**2 * x * arm, atol=0.1 * force)
     np.testing.assert_allclose(yoke["guide.force"], YOKE * G, atol=0.01 * force)
     assert abs(yoke["energy.balance"]).max() < 1e-3 * yoke["energy.kinetic"].max()
+
+
+@EVERY_FORMULATION
+def test_a_slotted_lever_swings_as_its_closed_form(formulation: str) -> None:
+    place, force = FORMULATIONS[formulation]
+    lever = turned(SlottedLever(), formulation)
+    a = SPEED * lever.time
+    x, y = RADIUS * np.cos(a), RADIUS * np.sin(a) + BELOW  # of the crank's pin from the lever's pivot
+    square = x**2 + y**2
+    angle = np.arctan2(y, x)
+    np.testing.assert_allclose(lever["lever.angle"] - lever["lever.angle"][0], angle - angle[0], atol=place)
+    rate = SPEED * RADIUS * (RADIUS + BELOW * np.sin(a)) / square
+    np.testing.assert_allclose(lever["lever.angular_velocity"], rate, atol=0.1 * force)
+    # the slot turns while the pin moves along it: without Coriolis' share this is wrong
+    bend = SPEED**2 * RADIUS * BELOW * np.cos(a) * (BELOW**2 - RADIUS**2) / square**2
+    np.testing.assert_allclose(lever["slot.force"], LEVER * np.abs(bend) / np.sqrt(square), atol=10.0 * force)
 
 
 @EVERY_FORMULATION

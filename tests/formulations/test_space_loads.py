@@ -12,7 +12,9 @@ from scipy.integrate import solve_ivp
 from support_exudyn import (
     AppliedForce,
     AppliedTorque,
+    BeddedRoof,
     CubicStep,
+    FallingBlock,
     Held,
     Load,
     MomentLoad,
@@ -27,6 +29,7 @@ from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLi
 from tests.cases.run_cases import PIN, loose_support, support
 from tests.cases.spatial_cases import InSpace, observed
 from tests.roof_cases import ON_OIL
+from tests.roof_cases import OVER_THE_COLUMNS as OVER
 
 TIP = (3.19590271431274, 1.95)  # of the reference support's canopy [m]
 INERTIA = (0.03, 0.05, 0.04, 0.0, 0.0, 0.0)
@@ -186,6 +189,7 @@ def test_a_torque_between_two_bodies_turns_them_against_each_other() -> None:
 
 # --- the support ---
 
+BLOCK = FallingBlock(body="canopy", point=TIP, mass=1e3, height=0.01, speed=2.0, stiffness=1e9, restitution=0.4)
 LOADS = {
     "force": AppliedForce(body="canopy", point=TIP, full_force=(0.0, -1e6), start=0.01, end=0.03),
     "torque": AppliedTorque(body="canopy", other="shield", full_torque=1e5, start=0.01, end=0.03),
@@ -205,6 +209,15 @@ LOADS = {
         stiffness=1e8,
         damping=0.5,
     ),
+    "bed": BeddedRoof(
+        body="canopy",
+        points=((OVER[0] - 0.6, OVER[1]), (OVER[0] + 1.4, OVER[1])),
+        bedding=5e8,
+        gaps=(0.001, 0.003),
+        descent=CubicStep(stroke=0.006, start=0.0, end=0.05),
+    ),
+    "block": BLOCK,
+    "block with a sloping face": replace(BLOCK, slope=0.2),
 }
 
 
@@ -219,6 +232,12 @@ def test_a_load_in_the_middle_acts_as_in_the_plane(name: str) -> None:
                 space[channel], plane[channel], rtol=1e-5, atol=1e-6 * max(size, scale), err_msg=channel
             )
     assert np.abs(space["canopy.roll"]).max() < 1e-9
+    for load, blows in plane.onsets.items():
+        assert [one.time for one in space.onsets[load]] == pytest.approx([one.time for one in blows])
+        assert space.largest_force[load] == pytest.approx(plane.largest_force[load], rel=1e-6)
+    if hasattr(LOADS[name], "lateral"):  # a place across counts in space alone
+        aside = pressed(replace(LOADS[name], lateral=0.6), 2)
+        np.testing.assert_array_equal(aside["tip.y"], plane["tip.y"])
 
 
 def beside(**loads: Load) -> Result:
@@ -226,23 +245,27 @@ def beside(**loads: Load) -> Result:
     return simulate(loose_support(drive=Held(), duration=0.05, actuators=ON_OIL, loads=loads, dimensions=3))
 
 
-def test_left_mirrors_right_and_two_halves_are_one() -> None:
-    whole = AppliedForce(body="canopy", point=TIP, full_force=(0.0, -4e5), start=0.0, end=0.02)
-    half = replace(whole, full_force=(0.0, -2e5))
-    right, left = (beside(load=replace(whole, lateral=z)) for z in (0.5, -0.5))
+WHOLE = AppliedForce(body="canopy", point=TIP, full_force=(0.0, -4e5), start=0.0, end=0.02)
+
+
+@pytest.mark.parametrize("load", [WHOLE, LOADS["bed"], BLOCK], ids=["force", "bed", "block"])
+def test_left_mirrors_right(load: Load) -> None:
+    right, left = (beside(load=replace(load, lateral=z)) for z in (0.5, -0.5))
     roll = np.abs(right["canopy.roll"]).max()
     assert roll > 1e-5
     for what in ("roll", "yaw", "z"):
         np.testing.assert_allclose(left[f"canopy.{what}"], -right[f"canopy.{what}"], atol=1e-3 * roll)
     np.testing.assert_allclose(left["canopy.y"], right["canopy.y"], atol=1e-3 * roll)
-    np.testing.assert_allclose(
-        left["front_column_left.force"],
-        right["front_column_right.force"],
-        atol=1e-4 * np.abs(right["front_column_right.force"]).max(),
-    )
-    both, one = beside(l=replace(half, lateral=-0.5), r=replace(half, lateral=0.5)), beside(load=whole)
+    for one, other in (("left", "right"), ("right", "left")):
+        wanted = right[f"front_column_{other}.force"]
+        np.testing.assert_allclose(left[f"front_column_{one}.force"], wanted, atol=1e-4 * np.abs(wanted).max())
+
+
+def test_two_halves_are_one() -> None:
+    half = replace(WHOLE, full_force=(0.0, -2e5))
+    both, one = beside(l=replace(half, lateral=-0.5), r=replace(half, lateral=0.5)), beside(load=WHOLE)
     np.testing.assert_allclose(both["canopy.y"], one["canopy.y"], atol=1e-9)
-    assert np.abs(both["canopy.roll"]).max() < 1e-3 * roll
+    assert np.abs(both["canopy.roll"]).max() < 1e-8
 
 
 def test_the_support_settles_under_a_load_beside_its_middle() -> None:

@@ -1,16 +1,13 @@
-"""A bed of rock over a stretch of a machine in space: single roofs, runs in the plane, symmetry, energy."""
+"""A bed of rock over a stretch of a body that spins in space, against many single roofs, and its energy."""
 
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
-from support_exudyn import BeddedRoof, CubicStep, Held, Result, Roof, Scenario, simulate
+from support_exudyn import BeddedRoof, CubicStep, Result, Roof, Scenario, simulate
 from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
-from tests.cases.run_cases import support
 from tests.cases.spatial_cases import InSpace
-from tests.roof_cases import ON_OIL, OVER_THE_COLUMNS
 
 COMES_DOWN = CubicStep(stroke=0.05, start=0.0, end=0.1)
 ENDS = ((-1.0, 0.1), (1.5, 0.3))
@@ -75,51 +72,3 @@ def test_many_single_roofs_tend_to_the_bed_with_second_order() -> None:
         assert fine < 2e-3 * way + 1e-12, name
         assert coarse > 6.0 * fine or fine < 1e-9, name
     assert whole.energy_error < 1e-4 * whole["energy.work"].max()
-
-
-def on_the_canopy(dimensions: int, lateral: float = 0.0) -> Result:
-    x, y = OVER_THE_COLUMNS
-    roof = bed(
-        body="canopy",
-        points=((x - 0.6, y), (x + 1.4, y)),
-        lateral=lateral,
-        bedding=5e8,
-        gaps=(0.001, 0.003),
-        damping=0.0,
-        descent=CubicStep(stroke=0.006, start=0.0, end=0.05),
-    )
-    return simulate(
-        support(
-            drive=Held(),
-            duration=0.05,
-            step=2e-4,
-            actuators=ON_OIL,
-            loads={"roof": roof},
-            dimensions=dimensions,
-        )
-    )
-
-
-def test_a_bed_in_the_middle_does_in_space_what_it_does_in_the_plane() -> None:
-    plane, space = on_the_canopy(2), on_the_canopy(3)
-    for channel in ("roof.force", "roof.place", "roof.pressed", "tip.y"):
-        size = np.abs(plane[channel]).max()
-        np.testing.assert_allclose(space[channel], plane[channel], atol=1e-7 * size, err_msg=channel)
-
-
-def test_a_bed_beside_the_middle_is_mirrored_by_one_on_the_other_side() -> None:
-    left, right = on_the_canopy(3, -0.4), on_the_canopy(3, 0.4)
-    size = np.abs(left["roof.force"]).max()
-    np.testing.assert_allclose(left["roof.force"], right["roof.force"], atol=1e-9 * size)
-    one, other = (run["pin.front_base_left.force"] for run in (left, right))
-    mirrored = right["pin.front_base_right.force"]
-    np.testing.assert_allclose(one, mirrored, atol=1e-6 * mirrored.max())
-    assert np.abs(one - other).max() > 0.01 * mirrored.max()
-
-
-@pytest.mark.parametrize("dimensions", [2, 3])
-def test_a_place_across_counts_in_space_alone(dimensions: int) -> None:
-    middle, beside = on_the_canopy(dimensions), on_the_canopy(dimensions, 0.4)
-    name = "pin.front_base.force" if dimensions == 2 else "pin.front_base_left.force"
-    apart = np.abs(middle[name] - beside[name]).max() / middle[name].max()
-    assert (apart > 0.01) == (dimensions == 3)

@@ -21,7 +21,6 @@ from support_exudyn import (
     Scenario,
     SolverSettings,
     SpringDamper,
-    Steady,
     TableCourse,
     TorsionSpring,
     reference_support,
@@ -215,32 +214,6 @@ def test_a_settled_start_is_in_the_springs() -> None:
     assert result["one.angle"] == pytest.approx(angle, abs=1e-9)
 
 
-def test_a_settled_start_has_the_weight_of_both_bodies_of_a_spring() -> None:
-    machine = CrankRocker(angle=-1.3)
-    spring = SpringDamper(
-        body="rocker",
-        point=machine.middle("rocker"),
-        other="crank",
-        other_point=machine.middle("crank"),
-        stiffness=400.0,
-    )
-    scene = Scenario(
-        machine=replace(machine, springs={"spring": spring}), start="settled", duration=0.02, step=1e-3
-    )
-    result = simulate(scene)
-
-    def potential(turn: float) -> float:
-        one = CrankRocker(angle=turn)
-        bodies = one.linkage().bodies.values()
-        weight = sum(9.81 * body.mass * body.centre[1] for body in bodies)
-        return weight + 200.0 * math.dist(one.middle("rocker"), one.middle("crank")) ** 2
-
-    settled = float(result["crank.angle"][0])
-    assert abs(settled + 1.3) > 0.05
-    assert (potential(settled + 1e-5) - potential(settled - 1e-5)) / 2e-5 == pytest.approx(0.0, abs=1e-5)
-    assert result["crank.angle"] == pytest.approx(settled, abs=1e-8)
-
-
 def test_a_support_settles_with_a_spring_between_two_bodies() -> None:
     shield = reference_support().linkage().bodies["shield"].centre
     tip = reference_support().linkage().points["tip"].point
@@ -257,31 +230,6 @@ def test_a_support_settles_with_a_spring_between_two_bodies() -> None:
     for body in ("canopy", "shield"):
         assert np.abs(result[f"{body}.angular_velocity"]).max() < 1e-8
     assert result["spring.force"][0] == pytest.approx(-2e5 * result["spring.length"][0], rel=1e-9)
-
-
-def test_a_driven_crank_carries_what_its_springs_ask() -> None:
-    machine = CrankRocker(driven=True, springs={"spring": replace(SPRING, damping=0.0)})
-    moved = replace(SPRING, point=machine.middle("rocker"), other_point=machine.middle("crank"), damping=0.0)
-    scene = Scenario(
-        machine=machine,
-        loads={"torque": TORQUE},
-        drive=Steady(rate=1e-3),
-        duration=0.1,
-        step=1e-3,
-        gravity=(0, 0),
-    )
-    with pytest.raises(InputError, match="spring: the machine has something of this name"):
-        replace(scene, loads={"spring": SPRING})
-    scene = replace(scene, machine=replace(machine, springs={"spring": moved}))
-    moment = simulate(scene)["crank.moment"][0]
-
-    def stored(turn: float) -> float:
-        one = CrankRocker(angle=turn)
-        stretch = math.dist(one.middle("rocker"), one.middle("crank")) - 0.3
-        rocker = one.linkage().bodies["rocker"].angle
-        return 1500.0 * stretch**2 - 6.0 * rocker
-
-    assert moment == pytest.approx((stored(1e-5) - stored(-1e-5)) / 2e-5, rel=1e-6)
 
 
 @pytest.mark.parametrize(

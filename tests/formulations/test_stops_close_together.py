@@ -128,15 +128,6 @@ def test_records_that_end_just_before_the_run(formulation: Any) -> None:
         assert typed[name][-1] == pytest.approx(exact[name][-1], rel=1e-6)
 
 
-def test_a_duration_of_single_precision() -> None:
-    short = replace(RISE, duration=float(np.float32(0.3)))
-    found, exact = simulate(short), simulate(replace(RISE, duration=0.3))
-    assert found.time[-1] == short.duration != 0.3
-    for name in ("front_column.force", "rear_column.force", "pin.front_base.force"):
-        assert found[name][-1] == pytest.approx(exact[name][-1], rel=1e-5)
-        assert found[name].max() == pytest.approx(exact[name].max(), rel=1e-5)
-
-
 @cache
 def dropped(record_period: float) -> Result:
     return simulate(loose_support(0.5, 0.25, duration=0.04, record_period=record_period))

@@ -6,13 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from support_exudyn import CubicStep, SolverSettings, TableDrive, UniformSpeed, simulate
+from support_exudyn import CubicStep, TableDrive, UniformSpeed, simulate
 from tests.commands import test_scenario_commands
 from tests.commands.test_scenario_commands import same
 
 STROKE = CubicStep(stroke=0.02, start=0.02, end=0.08)
 BASE = replace(test_scenario_commands.BASE, drive=STROKE, duration=0.1, record_period=1e-3)
-COMPILED = replace(BASE, formulation="compiled", solver=SolverSettings(tolerance=1e-6))
 
 
 def test_a_fine_table_of_a_cubic_step_drives_as_it_does() -> None:
@@ -36,13 +35,5 @@ def test_two_points_on_a_line_drive_as_uniform_speed_to_the_bit() -> None:
     points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02), between="linear")
     one = simulate(replace(BASE, drive=points))
     other = simulate(replace(BASE, drive=UniformSpeed(stroke=0.02, start=0.02, end=0.08)))
-    assert len(one.impulses) == 2
-    same(one, other)
-
-
-def test_two_points_on_a_line_drive_the_compiled_support_as_uniform_speed_to_the_bit() -> None:
-    points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02), between="linear")
-    one = simulate(replace(COMPILED, drive=points))
-    other = simulate(replace(COMPILED, drive=UniformSpeed(stroke=0.02, start=0.02, end=0.08)))
     assert len(one.impulses) == 2
     same(one, other)
