@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from support_exudyn import (
     Body,
@@ -15,7 +14,6 @@ from support_exudyn import (
     Machine,
     PinPlace,
     Scenario,
-    SolverSettings,
     Steady,
     ravn_slider_crank,
     reference_support,
@@ -23,8 +21,6 @@ from support_exudyn import (
 )
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.timescales import timescales
-from tests.cases.run_cases import support
-from tests.linkage_cases import LENGTHS, MASSES, CrankRocker, closed, rates
 from user_forces.values.value import InputError, Vector2, value
 
 MASS, INERTIA, ARM = 3.0, 0.2, 0.25
@@ -109,20 +105,6 @@ def test_energies_add_up() -> None:
     assert result["energy.elastic"] == pytest.approx(stored, rel=1e-12, abs=1e-12)
 
 
-def test_a_stiff_one_tends_to_the_ideal_pin() -> None:
-    scene = support(duration=0.2)
-    (pin,) = [name for name in scene.linkage.pins if name == "rear_base"]
-    ideal = simulate(replace(scene, pins={}))[f"pin.{pin}.force"]
-    off = []
-    for stiffness in (1e9, 1e10):
-        bushing = BushingPin(stiffness=(stiffness, stiffness), damping=(1e-3 * stiffness, 1e-3 * stiffness))
-        settings = SolverSettings(growth=1.0)
-        found = simulate(replace(scene, pins={pin: bushing}, start="settled", solver=settings))
-        off.append(np.abs(found[f"pin.{pin}.force"] - ideal)[-1] / ideal[-1])
-    assert off[0] < 1e-2
-    assert off[1] < 0.2 * off[0] or off[1] < 1e-5
-
-
 def test_both_bodies_may_move() -> None:
     crank = ravn_slider_crank()
     pins = crank.linkage().pins.items()
@@ -150,44 +132,3 @@ def test_space_refuses_it() -> None:
     said = r"pins\.rear_base = BushingPin: is planar; allowed in space: IdealPin, ClearancePin"
     with pytest.raises(InputError, match=said):
         simulate(replace(scene, dimensions=3))
-
-
-def test_a_crank_rocker_with_a_bushing_moves_as_its_equations() -> None:
-    # the crank is driven; the coupler hangs on it, the rocker on the ground, the bushing joins both
-    a, b, c, d = LENGTHS
-    _, coupler_mass, rocker_mass = MASSES
-    speed, stiffness, damping, turning, twisting = 30.0, 2e5, 150.0, 40.0, 0.5
-    pin = BushingPin(
-        stiffness=(stiffness, 2.0 * stiffness),
-        damping=(damping, damping),
-        rotational_stiffness=turning,
-        rotational_damping=twisting,
-    )
-    machine = CrankRocker(angle=0.4, driven=True)
-    scene = Scenario(
-        machine=machine, pins={"B": pin}, drive=Steady(rate=speed), duration=0.1, step=1e-5, record_period=1e-3
-    )
-    first = np.array(closed(0.4))
-
-    def slope(t: float, state: np.ndarray) -> np.ndarray:
-        (one, two), (spin, other) = state[:2], state[2:]
-        crank = 0.4 + speed * t
-        out = [np.array([np.cos(angle), np.sin(angle)]) for angle in (crank, one, two)]
-        across = [np.array([-along[1], along[0]]) for along in out]
-        apart = np.array([d, 0.0]) + c * out[2] - a * out[0] - b * out[1]
-        rate = c * other * across[2] - a * speed * across[0] - b * spin * across[1]
-        force = -np.array(pin.stiffness) * apart - np.array(pin.damping) * rate  # on the rocker
-        moment = -turning * ((two - first[1]) - (one - first[0])) - twisting * (other - spin)
-        down = np.array([0.0, -9.81])
-        pull = coupler_mass * (down + a * speed**2 * out[0])  # seen from the crank's end
-        coupler = 0.5 * b * across[1] @ pull - b * across[1] @ force - moment
-        rocker = 0.5 * c * across[2] @ down * rocker_mass + c * across[2] @ force + moment
-        return np.array([spin, other, 3 * coupler / (coupler_mass * b**2), 3 * rocker / (rocker_mass * c**2)])
-
-    start = [*first, *(speed * rate for rate in rates(0.4))]
-    times = np.arange(101) * 1e-3
-    known = solve_ivp(slope, (0.0, 0.1), start, method="DOP853", rtol=1e-11, atol=1e-12, t_eval=times).y
-    result = simulate(scene)
-    assert result["coupler.angle"] == pytest.approx(known[0], abs=2e-7)
-    assert result["rocker.angle"] == pytest.approx(known[1], abs=2e-7)
-    assert result["pin.B.deflection"].max() > 1e-4  # it does give way

@@ -22,7 +22,6 @@ from support_exudyn import (
     Scenario,
     Slide,
     SolverSettings,
-    UniformSpeed,
     simulate,
 )
 from support_exudyn.model.linkage import GROUND
@@ -34,8 +33,6 @@ AREA, LENGTH, MODULUS = 0.1, 0.5, 1.5e9
 LINE = Line(volume=0.02, nominal_flow=200e-3 / 60.0, nominal_drop=1e6)
 OIL = OilColumn(bore_area=AREA, oil_length=LENGTH, bulk_modulus=MODULUS, line=LINE)
 CHAMBER = AREA * LENGTH
-TIME = LINE.resistance * LINE.volume * CHAMBER / (MODULUS * (LINE.volume + CHAMBER))  # of the relaxation [s]
-WALL = 1e10  # [kg], which oil does not move
 
 
 @value
@@ -71,27 +68,6 @@ def carried(formulation: str, machine: Machine, oil: OilColumn, drive: Drive, du
             solver=TIGHT[formulation],
         )
     )
-
-
-@pytest.mark.parametrize("formulation", FORMULATIONS)
-def test_a_step_of_oil_relaxes_into_the_column(formulation: str) -> None:
-    stroke, begin, took = 1e-6, 1e-3, 1e-3
-    drive = UniformSpeed(stroke=stroke, start=begin, end=begin + took)
-    result = carried(formulation, Carried(mass=WALL), OIL, drive, begin + took + 6.0 * TIME)
-    late = result.time > begin + took + 1e-9
-    since = result.time[late] - begin
-    last = MODULUS * AREA * stroke / (CHAMBER + LINE.volume)
-    # of a ramp: what is still in the line, each part of the oil from its own instant on
-    open_share = TIME / took * math.expm1(took / TIME) * np.exp(-since / TIME)
-    # steps of 20 us, and a stroke of 2e-6 of the oil's length
-    np.testing.assert_allclose(
-        result["jack.pressure"][late], last * (1.0 - open_share), rtol=1e-4, atol=1e-4 * last
-    )
-    in_line = last * (1.0 + CHAMBER / LINE.volume * open_share)
-    np.testing.assert_allclose(result["jack.line_pressure"][late], in_line, rtol=1e-4)
-    # the line takes what the drive has given and the oil does not store
-    assert result["jack.line_loss"][-1] > 0.1 * result["energy.work"][-1]
-    assert result.energy_error < 1e-4 * result["energy.work"][-1]
 
 
 def linear_system(mass: float) -> npt.NDArray[np.float64]:

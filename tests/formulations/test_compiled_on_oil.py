@@ -25,7 +25,6 @@ from support_exudyn import (
     Scenario,
     SimulationError,
     SolverSettings,
-    UniformSpeed,
     bore_area,
     simulate,
 )
@@ -127,31 +126,6 @@ def test_energy_adds_up() -> None:
         # the share of the dissipated energy falls with the tolerance; it amounts to some tens of joule
         assert result.dissipated > 10.0
         assert result.energy_error < allowed * result.dissipated
-
-
-def test_largest_forces_lie_between_the_records() -> None:
-    ours, finer = rise(1e-7), rise(1e-11)
-    assert ours.largest_force[PIN] > ours[FORCE].max()
-    # the parabola through three of some fifty points of an impact
-    assert ours.largest_force[PIN] == pytest.approx(finer.largest_force[PIN], rel=1e-5)
-
-
-def test_a_sudden_start_needs_no_impulse() -> None:
-    result = simulate(on_oil(drive=UniformSpeed(start=0.05, end=2.05), duration=0.06, record_period=1e-5))
-    assert result.impulses == ()
-    jump = int(np.searchsorted(result.time, 0.05 + 1e-9))
-    # nothing jumps: beside what it vibrated with before, oil is compressed by what has been let in since
-    before, after = np.diff(result["rear_column.force"])[jump - 2 : jump]
-    assert after - before == pytest.approx(OIL.stiffness(0.0) * 0.25 * 1e-5, rel=0.02)  # bodies give way
-
-
-def test_records_do_not_change_the_run() -> None:
-    often, seldom = (simulate(on_oil(1e-6, drive=Held(), duration=0.05, record_period=p)) for p in (1e-4, 7e-3))
-    assert often.counts.steps == seldom.counts.steps
-    assert often.onsets == seldom.onsets
-    assert seldom.time.tolist() == pytest.approx([7e-3 * n for n in range(8)] + [0.05])
-    # the same motion within the steps; joints of a record are closed by the factors of what was looked at last
-    np.testing.assert_allclose(often["tip.y"][::70], seldom["tip.y"][:-1], rtol=0.0, atol=1e-14)
 
 
 @pytest.mark.parametrize("name", ["exact", "kelvin_voigt", "anagnostopoulos", "johnson"])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
@@ -13,10 +12,8 @@ from scipy.integrate import solve_ivp
 from studies.common import paper_machine
 from support_exudyn import (
     FallingBlock,
-    Result,
     Scenario,
     SolverSettings,
-    SpringDamper,
     reference_support,
     simulate,
 )
@@ -161,60 +158,6 @@ def test_a_block_that_lies_on_its_point_stays(formulation: str) -> None:
 
 
 # --- on what gives ---
-
-
-SPRING = 2e7  # [N/m]
-
-
-def on_a_spring(steps: int, step: float = 1e-3, **changes: object) -> Scenario:
-    rock = block(body="ram", point=TOP, mass=400.0, height=0.2, restitution=1.0, stiffness=2e8)
-    hold = SpringDamper(
-        body="ram", point=TOP, other_point=(TOP[0], TOP[1] - 1.0), stiffness=SPRING, free_length=1.0
-    )
-    scene = Scenario(
-        machine=Ram(),
-        loads={"rock": rock, "spring": hold},
-        duration=0.3,
-        step=step,
-        record_period=0.01,
-        solver=SolverSettings(impact_steps=steps, tolerance=1e-9),
-    )
-    return replace(scene, **changes)
-
-
-@cache
-def both() -> np.ndarray:
-    """Places of ram and block since the start and their speeds at the end of `on_a_spring`."""
-
-    def rates(t: float, state: np.ndarray) -> list[float]:
-        ram, at, up, fall = state
-        push = 2e8 * max(0.0, ram - at - 0.2) ** 1.5
-        return [up, fall, -SPRING * ram / MASS - G - push / MASS, push / 400.0 - G]
-
-    found = solve_ivp(rates, (0.0, 0.3), [0.0] * 4, method="DOP853", rtol=1e-12, atol=1e-13, max_step=1e-4)
-    return found.y[:, -1]
-
-
-def ends(result: Result) -> np.ndarray:
-    return np.array(
-        [
-            result["ram.y"][-1] - result["ram.y"][0],
-            result["rock.y"][-1] - result["rock.y"][0],
-            result["ram.velocity_y"][-1],
-            result["rock.velocity_y"][-1],
-        ]
-    )
-
-
-def test_on_a_spring_it_converges_to_an_independent_solution_with_second_order() -> None:
-    errors = [
-        float(np.abs(ends(simulate(on_a_spring(steps, step))) - both()).max())
-        for steps, step in ((64, 1e-3), (256, 2.5e-4))
-    ]
-    # 16 with second order
-    assert errors[0] / errors[1] > 10.0
-    assert errors[1] < 2e-3  # of 2 m/s
-    np.testing.assert_allclose(ends(simulate(on_a_spring(64, formulation="compiled"))), both(), atol=1e-6)
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)

@@ -219,15 +219,6 @@ def test_a_block_with_a_rubbing_pin_is_alike_in_both_formulations(law: FrictionL
     assert fast["energy.friction_loss"][-1] == pytest.approx(slow["energy.friction_loss"][-1], rel=2e-4)
 
 
-def test_a_block_that_is_held_by_its_moment_creeps() -> None:
-    guides: dict[str, Guide] = {"g": IdealGuide(friction=Ambrosio(sliding_coefficient=1.0), block=BLOCK)}
-    pull = AppliedForce(body="sled", point=(0.0, 0.2), full_force=(10.0, 0.0))
-    scene = Scenario(machine=Sled(), gravity=(0.0, 0.0), duration=0.2, guides=guides, loads={"pull": pull})
-    result = simulate(replace(scene, formulation="compiled"))
-    # friction of four times the pull holds: the block creeps where the ramp gives a quarter
-    assert result["sled.velocity_x"][-1] == pytest.approx(1e-4 + 0.25 * 9.9e-3, rel=1e-5)
-
-
 def test_a_guide_that_jams_is_refused_with_its_name() -> None:
     guides: dict[str, Guide] = {"g": IdealGuide(friction=Ambrosio(sliding_coefficient=5.0))}
     scene = Scenario(machine=Crankshaft(), drive=Steady(rate=OMEGA), duration=0.1, guides=guides)

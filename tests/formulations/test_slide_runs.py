@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from support_exudyn import Body, Linkage, Machine, Result, Scenario, Slide, TracePoint, simulate
+from support_exudyn import Body, Linkage, Machine, Scenario, Slide, TracePoint, simulate
 from tests.cases.run_cases import slider_crank
 from user_forces import value
 
@@ -32,37 +32,21 @@ class Block(Machine):
         )
 
 
-@pytest.fixture(scope="module", params=[(d, a) for d in (0.0, 0.4, -1.2, 2.5) for a in (0.0, 0.7)], ids=str)
-def slid(request: pytest.FixtureRequest) -> Result:
-    direction, angle = request.param
-    return simulate(Scenario(machine=Block(direction=direction, angle=angle), duration=0.2))
-
-
-def test_a_block_slides_down_an_incline(slid: Result) -> None:
-    direction = slid.scenario.machine.direction
+@pytest.mark.parametrize("angle", [0.0, 0.7])
+@pytest.mark.parametrize("direction", [0.0, 0.4, -1.2, 2.5])
+def test_a_block_slides_down_an_incline_that_carries_it(direction: float, angle: float) -> None:
+    slid = simulate(Scenario(machine=Block(direction=direction, angle=angle), duration=0.2))
     path = -0.5 * G * math.sin(direction) * slid.time**2
     expected = np.array(POINT) + path[:, None] * np.array([math.cos(direction), math.sin(direction)])
     # constant acceleration, which the integrator takes exactly; Newton's tolerance of 1e-8
     np.testing.assert_allclose(slid["edge.x"], expected[:, 0], atol=1e-9)
     np.testing.assert_allclose(slid["edge.y"], expected[:, 1], atol=1e-9)
-    np.testing.assert_allclose(slid["block.angle"], slid.scenario.machine.angle, atol=1e-12)
-    # nothing is lost
+    np.testing.assert_allclose(slid["block.angle"], angle, atol=1e-12)
     assert slid.energy_error < 1e-9
-
-
-def test_the_guide_carries_the_weight_across_it(slid: Result) -> None:
-    force = MASS * G * abs(math.cos(slid.scenario.machine.direction))
-    # Newton's tolerance of 1e-8
+    # across the guide acts the weight's part, at the centre of mass: its moment is about the point on the guide
+    force = MASS * G * abs(math.cos(direction))
     np.testing.assert_allclose(slid["guide.force"][1:], force, rtol=1e-7)
-
-
-def test_moment_of_the_guide_is_that_about_the_point_on_it(slid: Result) -> None:
-    cosine = math.cos(slid.scenario.machine.direction)
-    # across the guide acts the weight's part, at the centre of mass; along it the block falls freely. It stays
-    # the same as the block slides, by up to 0.2 m
-    moment = MASS * G * abs(cosine) * abs(ASIDE * cosine)
-    # Newton's tolerance of 1e-8
-    np.testing.assert_allclose(slid["guide.moment"][1:], moment, rtol=1e-7)
+    np.testing.assert_allclose(slid["guide.moment"][1:], force * abs(ASIDE * math.cos(direction)), rtol=1e-7)
 
 
 def test_the_slider_of_a_slider_crank_does_not_tilt() -> None:

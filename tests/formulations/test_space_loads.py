@@ -70,20 +70,6 @@ def pressed(load: Load | MomentLoad, dimensions: int = 3, **more: object) -> Res
 # --- a free body ---
 
 
-def test_a_force_beside_the_centre_shifts_and_rolls_a_free_body() -> None:
-    # a short time: F t^2 / 2 m up, F z t^2 / 2 J_xx about x, what the turn changes is of the fourth order
-    force, lateral, t = 3.0, 0.4, 1e-2
-    load = AppliedForce(body="a", point=(0.0, 0.0), lateral=lateral, full_force=(0.0, force))
-    result = simulate(flight(load, duration=t, step=1e-4, record_period=t))
-    assert result["a.y"][-1] == pytest.approx(0.5 * force / MASS * t * t, rel=1e-6)
-    # the force is up and to the right: about x it turns the right side up, which is a negative roll
-    turn = 0.5 * lateral * force / INERTIA[0] * t * t
-    assert abs(result["a.roll"][-1]) == pytest.approx(turn, rel=1e-4)
-    assert result["a.angular_velocity_x"][-1] == pytest.approx(-lateral * force / INERTIA[0] * t, rel=1e-4)
-    for still in ("a.x", "a.z", "a.yaw"):
-        assert abs(result[still][-1]) < 1e-9 * turn
-
-
 def test_a_body_on_a_lengthwise_hinge_swings_under_a_force_beside_it() -> None:
     # J phi'' = F z cos(phi): the force keeps its direction, its point goes with the body
     force, lateral, arm = 40.0, 0.5, 0.3

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from studies.common.paper_machine import oil_columns
 from support_exudyn import (
@@ -109,30 +108,6 @@ def test_records_know_the_forces_of_springs() -> None:
     slope = np.gradient(result["crank.angular_velocity"], result.time)[5:-5]
     acceleration = result["crank.angular_acceleration"]
     assert acceleration[5:-5] == pytest.approx(slope, abs=2e-3 * np.abs(acceleration).max())
-
-
-def test_a_spring_pendulum_swings_as_its_equation() -> None:
-    stiffness, free_length, damping = 400.0, 0.8, 3.0
-    spring = SpringDamper(
-        body="one", point=(1.0, 0.0), other_point=(0.0, 0.0), stiffness=stiffness, free_length=free_length,
-        damping=damping,
-    )  # fmt: skip
-    machine = Loose(velocity=(0.4, -0.9))
-    held = SpringDamper(body="other", point=(0.0, 0.0), other_point=(0.0, 1.0), damping=1.0)
-    scene = free(machine, loads={"spring": spring, "held": held}, gravity=(0.0, -9.81), duration=1.0)
-
-    def slope(_: float, s: np.ndarray) -> list[float]:
-        x, y, vx, vy = s
-        length = math.hypot(x, y)
-        pull = stiffness * (length - free_length) + damping * (x * vx + y * vy) / length
-        return [vx, vy, -pull * x / length / MASS, -pull * y / length / MASS - 9.81]
-
-    times = np.arange(101) * 1e-2
-    known = solve_ivp(slope, (0.0, 1.0), [1.0, 0.0, 0.4, -0.9], rtol=1e-11, atol=1e-12, t_eval=times).y
-    result = simulate(scene)
-    assert result["one.x"] == pytest.approx(known[0], abs=2e-7)
-    assert result["one.y"] == pytest.approx(known[1], abs=2e-7)
-    assert result["spring.length"] == pytest.approx(np.hypot(known[0], known[1]), abs=2e-7)
 
 
 def test_a_torsional_pendulum_swings_as_its_closed_form() -> None:

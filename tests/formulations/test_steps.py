@@ -177,39 +177,6 @@ def test_far_times_by_hand() -> None:
     assert plan.records_between(0.1, 0.2) == []
 
 
-@given(
-    duration=st.floats(0.01, 1.0),
-    period=st.floats(1e-3, 0.1),
-    step=st.floats(1e-4, 0.05),
-    breaks=st.lists(st.floats(0.0, 1.0), max_size=3),
-    share=st.sampled_from([1.0, 1.0 / 32.0]),
-)
-def test_stretches_are_the_steps_one_by_one(
-    duration: float, period: float, step: float, breaks: list[float], share: float
-) -> None:
-    plan = StepPlan(duration, min(period, duration), step, breaks)
-    assume(duration / step < 2000)
-
-    def largest(t: float) -> float:
-        return share * step if plan.follows_break(t) else math.inf
-
-    singles, t = [], 0.0
-    while t < duration * (1.0 - 1e-12):
-        t = plan.next_time(t, largest(t))
-        singles.append(t)
-    together, t = [], 0.0
-    while t < duration * (1.0 - 1e-12):
-        end, steps = plan.run_of_steps(t, largest(t))
-        assert steps >= 1
-        # nothing that has to be looked at lies inside
-        assert not [b for b in plan.breaks if t + 1e-9 < b < end - 1e-9]
-        assert not plan.records_between(t, end)
-        together += [t + (end - t) * n / steps for n in range(1, steps)] + [end]
-        t = end
-    # times of the same grid: rounding
-    assert together == pytest.approx(singles, abs=1e-9 * step + 1e-14)
-
-
 # --- late in a long run ---
 
 

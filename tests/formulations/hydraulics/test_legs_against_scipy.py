@@ -38,6 +38,11 @@ def precise(scenario: Scenario, tolerance: float = 1e-11) -> Scenario:
 
 
 @cache
+def run(name: str) -> Result:
+    return simulate(precise(CASES[name]))
+
+
+@cache
 def reference(name: str) -> Trajectory:
     scenario = CASES[name]
     times = np.linspace(0.0, scenario.duration, 81)
@@ -68,7 +73,7 @@ def test_every_element_is_met_by_some_case() -> None:
 
 @pytest.mark.parametrize("name", EVERY)
 def test_motion_pressures_and_oil_are_those_of_scipy(name: str) -> None:
-    result, wanted = simulate(precise(CASES[name])), reference(name)
+    result, wanted = run(name), reference(name)
     np.testing.assert_allclose(result.time, wanted.time, rtol=0.0, atol=1e-12)
     for channel, (ours, theirs) in pairs(result, wanted).items():
         # of what it passes through; either's own error is some 1e-8, and falls with its tolerance
@@ -79,7 +84,7 @@ def test_motion_pressures_and_oil_are_those_of_scipy(name: str) -> None:
 @pytest.mark.parametrize("name", EVERY)
 def test_valves_and_cavities_open_and_close_when_scipy_says(name: str) -> None:
     wanted = reference(name)
-    happened = simulate(precise(CASES[name])).oil_events
+    happened = run(name).oil_events
     for leg, events in happened.items():
         poppet = getattr(CASES[name].actuators[leg], "yield_valve", None)
         for what, (switch, _) in SWITCHES.items():
@@ -130,13 +135,13 @@ def test_what_an_element_takes_is_flow_times_drop(name: str, loss: str) -> None:
         bump = (seal.static - seal.coulomb) * np.exp(-((rate / seal.stribeck_speed) ** 2))
         power = (seal.coulomb + bump) * np.tanh(rate / seal.transition_speed) * rate
     wanted = trapezoid(power, times)
-    result = simulate(precise(scenario))
+    result = run(name)
     assert result[f"leg0.{loss}"][-1] == pytest.approx(wanted, rel=1e-5)
 
 
 @pytest.mark.parametrize("name", EVERY)
 def test_energy_adds_up(name: str) -> None:
-    result = simulate(precise(CASES[name]))
+    result = run(name)
     turned = max(
         float(np.ptp(result[f"energy.{kind}"])) for kind in ("kinetic", "potential", "elastic", "work")
     )

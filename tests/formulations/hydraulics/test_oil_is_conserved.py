@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -15,9 +16,9 @@ ATMOSPHERE = 101325.0
 SHARE = 1e-10  # of the oil
 
 
-def run(name: str, tolerance: float = 1e-7) -> Result:
-    scene = replace(CASES[name], formulation="compiled", solver=SolverSettings(tolerance=tolerance))
-    return simulate(scene)
+@cache
+def run(name: str) -> Result:
+    return simulate(replace(CASES[name], formulation="compiled", solver=SolverSettings(tolerance=1e-7)))
 
 
 def channel(result: Result, name: str) -> np.ndarray:
