@@ -41,6 +41,7 @@ from user_forces import (
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 BOTH = {"front_column": OIL, "rear_column": OIL}
+NORMAL = ("exact", "kelvin_voigt", "anagnostopoulos", "johnson")
 
 
 def on_oil(tolerance: float = 1e-8, friction: float = 0.25, **changes: object) -> Scenario:
@@ -128,24 +129,22 @@ def test_energy_adds_up() -> None:
         assert result.energy_error < allowed * result.dissipated
 
 
-@pytest.mark.parametrize("name", ["exact", "kelvin_voigt", "anagnostopoulos", "johnson"])
+# of laws with hysteresis, a dashpot, one that asks for tension, cylinders, and of friction
+LAWS = {
+    **{f"normal {name}": {"normal": normal_laws(1.5, 0.3)[name]} for name in NORMAL},
+    **{f"friction {name}": {"friction": friction_laws(0.25)[name]} for name in ("stribeck", "threlfall")},
+}
+
+
+@pytest.mark.parametrize("name", LAWS)
 def test_laws_of_every_kind(name: str) -> None:
-    # one with hysteresis, a dashpot, one that asks for tension, cylinders
-    pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), normal=normal_laws(1.5, 0.3)[name]))
+    pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), **LAWS[name]))
     coarse, fine = (simulate(on_oil(t, drive=Held(), duration=0.06, pins={PIN: pin})) for t in (1e-7, 1e-10))
     assert len(coarse.onsets[PIN]) == len(fine.onsets[PIN]) >= 1
     for one, other in zip(coarse.onsets[PIN], fine.onsets[PIN], strict=True):
         assert one.speed == pytest.approx(other.speed, rel=1e-3, abs=1e-5)
     assert fine.energy_error < 1e-6 * fine.dissipated
-
-
-@pytest.mark.parametrize("name", ["stribeck", "threlfall"])
-def test_friction_laws(name: str) -> None:
-    pin = ClearancePin(contact=replace(paper_contact(1.5, 0.0), friction=friction_laws(0.25)[name]))
-    result = simulate(on_oil(1e-7, drive=Held(), duration=0.04, pins={PIN: pin}))
-    assert result["energy.friction_loss"][-1] > 0.1
-    # of only 1.3 J after two impacts
-    assert result.energy_error < 1e-4 * result.dissipated
+    assert (fine["energy.friction_loss"][-1] > 0.1) == name.startswith("friction")
 
 
 # --- other linkages ---

@@ -120,9 +120,8 @@ def bounced(rock: FallingBlock, duration: float) -> list[tuple[float, float, flo
         found.append((land, struck, v))
 
 
-@pytest.mark.parametrize("restitution", [pytest.param(0.3, marks=pytest.mark.slow), 0.7])
-def test_weight_and_all_bounces_are_as_in_an_independent_solution(restitution: float) -> None:
-    rock = block(restitution=restitution)
+def test_weight_and_all_bounces_are_as_in_an_independent_solution() -> None:
+    rock = block(restitution=0.7)
     # without what rounding makes of a block that rests
     told = [one for one in bounced(rock, 0.95) if one[1] > 1e-3]
     assert len(told) >= 2
@@ -135,16 +134,6 @@ def test_weight_and_all_bounces_are_as_in_an_independent_solution(restitution: f
             assert onset.speed == pytest.approx(speed, rel=share)
             if math.isfinite(onset.separation_time):
                 assert onset.separation_velocity == pytest.approx(parting, rel=2.0 * share)
-
-
-def test_it_comes_to_rest_with_its_weight() -> None:
-    result = simulate(on_the_held(block(restitution=0.1), duration=1.5))
-    depth = (MASS * G / 1e9) ** (1.0 / 1.5)
-    assert result["rock.force"][-1] == pytest.approx(MASS * G, rel=2e-3)  # what is left of swings
-    assert result["rock.gap"][-1] == pytest.approx(-depth, rel=2e-3)
-    actuators = result["front_column.force"][-1] + result["rear_column.force"][-1]
-    before = result["front_column.force"][100] + result["rear_column.force"][100]
-    assert actuators - before == pytest.approx(MASS * G, rel=0.02)  # actuators lean by some degrees
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)
@@ -180,33 +169,20 @@ def test_momentum_and_energy_balance_where_two_move(formulation: str) -> None:
     assert result.energy_error < 1e-4 * lost
 
 
-@pytest.mark.parametrize(
-    ("place", "pins"),
-    [
-        *((place, "ideal") for place in PLACES),
-        *(pytest.param(place, "with_clearance", marks=pytest.mark.slow) for place in PLACES),
-    ],
-)
-def test_on_the_support_energies_add_up_and_half_the_steps_give_the_same(place: str, pins: str) -> None:
-    with_clearance = (
-        {paper_machine.CLEARANCE_PIN: paper_machine.clearance_joint(1.5, 0.25)}
-        if pins == "with_clearance"
-        else {}
-    )
-    scene = on_the_held(
-        block(point=PLACES[place]), actuators=ON_OIL, pins=with_clearance, duration=0.4,
-        solver=SolverSettings(impact_steps=128),
-    )  # fmt: skip
+@pytest.mark.parametrize("place", PLACES)
+def test_on_the_support_energies_add_up_and_half_the_steps_give_the_same(place: str) -> None:
+    solver = SolverSettings(impact_steps=128)
+    scene = on_the_held(block(point=PLACES[place]), actuators=ON_OIL, duration=0.4, solver=solver)
     coarse, fine = simulate(scene), simulate(scene.refined())
     assert fine.energy_error < 2e-3 * MASS * G * HEIGHT  # second order
     for channel in ("rock.force", "front_column.force", "pin.rear_base.force"):
-        # records every millisecond beside a peak of ten; loose, the rattling before the block lands decides
+        # records every millisecond beside a peak of ten
         largest = [np.abs(run[channel]).max() for run in (coarse, fine)]
-        assert largest[0] == pytest.approx(largest[1], rel=5e-3 if pins == "ideal" else 0.05)
+        assert largest[0] == pytest.approx(largest[1], rel=5e-3)
     assert fine["rock.force"].max() > 1e5
 
 
-# --- as data, and at rest ---
+# --- at rest ---
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)

@@ -128,15 +128,6 @@ def in_space(**changes: Any) -> Scenario:
     return scenario(machine=reference_support(), dimensions=3, **changes)
 
 
-def test_bodies_in_space_have_seven_coordinates() -> None:
-    one = in_space()
-    found, bodies = inventory(one), len(one.space.bodies)
-    assert (found.bodies, found.nodes, found.loads) == (bodies, bodies, bodies)
-    assert found.coordinates == 7 * bodies
-    assert found.objects == bodies + found.connectors + 1  # the ground
-    assert (found.user_functions, found.callbacks) == (0, 0)
-
-
 @pytest.mark.parametrize("number", [2, 5, 9])
 def test_a_pin_freed_in_space_has_one_connector_whatever_its_sections(number: int) -> None:
     settings = SolverSettings(sections=number)

@@ -31,7 +31,7 @@ from support_exudyn import (
 from support_exudyn.model.linkage import pinned
 from tests.formulations.test_slots_and_gears import SPEED as YOKE_SPEED
 from tests.formulations.test_slots_and_gears import ScotchYoke
-from user_forces import Ambrosio, CubicCoulomb, FrictionLaw, LuGre, value
+from user_forces import Ambrosio, FrictionLaw, LuGre, value
 
 G, MU = 9.81, 0.1
 R, L, RADIUS, OMEGA = 0.05, 0.2, 0.01, 20.0 * math.pi  # slider-crank: lengths, pin [m], 600 rpm
@@ -158,39 +158,6 @@ def test_a_block_on_a_slope_creeps_with_a_warning_or_holds(way: str) -> None:
     assert way_down[-1] < 5e-5  # while bristles swing in they slip: steady deflections are 5 micrometres
     assert abs(way_down[-1] - way_down[50]) < 1e-7
     assert found["holds"]["g.friction_force"][-1] == pytest.approx(G * math.sin(SLOPE), rel=1e-5)
-
-
-TURNING = RADIUS * math.radians(10.0)  # slip at 10 deg/s [m/s]
-
-
-@value
-class Turned(Machine):
-    """A wheel of 1 kN on a driven shaft."""
-
-    def linkage(self) -> Linkage:
-        body = Body(mass=1000.0 / G, inertia=0.1, centre=(0.0, 0.0))
-        pins = {"O": pinned("ground", "wheel", (0.0, 0.0))}
-        return Linkage(bodies={"wheel": body}, pins=pins, cranks={"motor": Crank(body="wheel")})
-
-
-@both
-@pytest.mark.parametrize(
-    ("law", "share"),
-    [
-        (STICKING, 1.0),
-        (DRY, (TURNING - 1e-4) / 9.9e-3),
-        (CubicCoulomb(sliding_coefficient=MU), (TURNING / 1e-2) ** 2 * (3.0 - TURNING / 5e-3)),
-    ],
-)
-def test_a_slow_pin_has_its_whole_friction_or_a_warning(way: str, law: FrictionLaw, share: float) -> None:
-    pins = {"O": IdealPin(friction=law, radius=RADIUS)}
-    scene = Scenario(machine=Turned(), drive=Steady(rate=math.radians(10.0)), duration=0.5, pins=pins)
-    result = simulate(replace(scene, formulation=way, step=1e-3))
-    assert abs(result["pin.O.friction_moment"][-1]) == pytest.approx(share * MU * RADIUS * 1000.0, rel=1e-5)
-    assert bool(result.warnings) == (share < 1.0)
-    if result.warnings:
-        assert f"pins.O: {type(law).__name__} slips below its full-friction speed" in result.warnings[0]
-        assert f"with {share:.0%} of its full friction" in result.warnings[0]
 
 
 def test_a_pin_in_a_slot_rubs_and_rolls_alike_in_both_formulations() -> None:

@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 
 from studies.extremes import long_runs
-from support_exudyn import Drive, Reciprocating, Scenario, SolverSettings, Steady, reference_support, simulate
+from support_exudyn import Scenario, SolverSettings, Steady, simulate
 from support_exudyn.formulations.contract import silent
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.simulation.result_checks import joints_apart
 from tests.cases.run_cases import slider_crank
 from tests.linkage_cases import CrankRocker
-from user_forces import value
 
 # share of what was turned over that is lost in the impacts of the first two seconds, at 64 steps each;
 # measured: up to 1e-5
@@ -93,46 +92,3 @@ def test_after_a_thousand_revolutions_a_crank_is_where_the_closed_form_says() ->
     # of 6283 rad by 5e-13
     assert result["slider.x"][last] == pytest.approx(wanted, abs=2e-12)
     assert result["crank.angle"][-1] == pytest.approx(rate * 10.0, abs=4e-11)
-
-
-# --- times late in a run ---
-
-
-@value
-class Later(Drive):
-    """A drive that is met so much [s] after its start."""
-
-    drive: Drive
-    after: float
-
-    def extension(self, t: float) -> float:
-        return self.drive.extension(t + self.after) - self.drive.extension(self.after)
-
-    def speed(self, t: float) -> float:
-        return self.drive.speed(t + self.after)
-
-    @property
-    def initial_speed(self) -> float:
-        return self.speed(0.0)
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        return ()
-
-    def span(self, duration: float) -> tuple[float, float]:
-        return -0.1, 0.1
-
-
-def test_forces_late_in_a_long_run_are_as_quiet_as_early() -> None:
-    step = 2.0**-20  # so that times after 1024 s are exact
-
-    def forces(after: float) -> np.ndarray:
-        drive = Later(drive=Reciprocating(stroke=0.1, period=4.0), after=after)
-        scene = Scenario(
-            machine=reference_support(), drive=drive, duration=200 * step, step=step, record_period=step
-        )
-        return simulate(scene)["rear_column.force"][50:]
-
-    # whole periods are left out without rounding: to the last bit. (With the angle of all of them the scatter
-    # from step to step is six times as large.)
-    np.testing.assert_array_equal(forces(1025.0), forces(1.0))

@@ -19,8 +19,6 @@ from support_exudyn import (
     Result,
     Scenario,
     SolverSettings,
-    UniformSpeed,
-    cylinders_and_rods,
     simulate,
 )
 from support_exudyn.model.linkage import pinned
@@ -45,19 +43,6 @@ class Wheel(Machine):
         ends = ("ground", "wheel") if self.ground_first else ("wheel", "ground")
         body = Body(mass=MASS, inertia=INERTIA, centre=(0.3, 0.4), spin=self.spin)
         return Linkage(bodies={"wheel": body}, pins={"pivot": pinned(*ends, (0.3, 0.4))})
-
-
-@value
-class Pendulum(Machine):
-    """A point-like mass on a long light rod, held out by a small angle."""
-
-    angle: float
-    length: float = 2.0
-
-    def linkage(self) -> Linkage:
-        at = (self.length * math.sin(self.angle), -self.length * math.cos(self.angle))
-        body = Body(mass=MASS, inertia=1e-3, centre=at, angle=self.angle)
-        return Linkage(bodies={"bob": body}, pins={"pivot": pinned("ground", "bob", (0.0, 0.0))})
 
 
 FORMULATIONS = pytest.mark.parametrize("formulation", ["redundant", "compiled"])
@@ -102,22 +87,6 @@ def test_a_wheel_that_creeps_is_slowed_down_by_the_ramp_of_the_law(formulation: 
     np.testing.assert_allclose(result["wheel.angular_velocity"], expected, rtol=close)
 
 
-def test_a_pendulum_loses_the_same_angle_every_half_swing() -> None:
-    law = Ambrosio(sliding_coefficient=MU, static_speed=0.0, dynamic_speed=1e-5)
-    machine, radius = Pendulum(angle=0.1), 0.005
-    half = math.pi * math.sqrt(machine.length / G)
-    scenario = Scenario(
-        machine=machine, pins={"pivot": IdealPin(friction=law, radius=radius)}, duration=4.0 * half, step=5e-4
-    )
-    result = simulate(scenario)
-    turned = result["bob.angle"]
-    ends = [np.abs(turned[np.abs(result.time - n * half) < 0.1 * half]).max() for n in range(1, 5)]
-    # about mu N r/(m g l) from the middle as far as before: twice that less. The force is the weight within the
-    # square of the angle, 1 %, and the ramp softens the ends
-    np.testing.assert_allclose(-np.diff([0.1, *ends]), 2.0 * MU * radius / machine.length, rtol=0.02)
-    assert result.energy_error < 1e-4 * result.dissipated  # second order; kinks where it turns
-
-
 PINS = tuple(support().linkage.pins)
 
 
@@ -146,16 +115,6 @@ def test_energy_adds_up_with_friction_beside_a_loose_pin(sliding: float) -> None
     assert result.counts.failed_newton == 0
     # as without friction in the ideal pins; measured 4e-5
     assert result.energy_error < 3e-4 * result.dissipated
-
-
-def test_energy_adds_up_with_friction_in_the_pins_of_actuators_and_a_sudden_start() -> None:
-    pins: dict[str, Pin] = dict.fromkeys((*PINS, "front_column_foot", "rear_column_head"), SUPPORT_PIN)
-    drive = UniformSpeed(stroke=0.05, start=0.05, end=0.25)
-    result = simulate(
-        support(drive=drive, duration=0.3, pins=pins, actuators=cylinders_and_rods(), start="settled")
-    )
-    assert len(result.impulses) == 2
-    assert result.energy_error < 1e-3 * result.dissipated  # steps after a jump are known by their ends only
 
 
 def test_friction_and_radius_go_together() -> None:

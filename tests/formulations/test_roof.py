@@ -15,6 +15,7 @@ from support_exudyn import (
     ClearancePin,
     CubicStep,
     Held,
+    OilColumn,
     Result,
     Scenario,
     SolverSettings,

@@ -118,13 +118,3 @@ def test_energy_adds_up_with_a_loose_pin_of_an_actuator() -> None:
     assert len(result.onsets["front_column_head"]) > 1
     # as on massless actuators (`test_oil_columns`, which says 3e-4); measured 1e-4 and less
     assert result.energy_error < 5e-4 * result.dissipated
-
-
-def test_actuators_of_different_kinds_may_be_mixed() -> None:
-    actuators = {
-        "front_column": cylinders_and_rods(OIL)["front_column"],
-        "rear_column": OIL,
-    }
-    result = simulate(support(actuators=actuators, drive=RISE, duration=0.3, step=2.5e-4))
-    assert "rear_column_rod" not in result.scenario.linkage.bodies
-    assert result.energy_error < 1e-5 * result["energy.work"].max()  # second order, see above
