@@ -59,8 +59,7 @@ def guided(law: NormalLaw, duration: float = 0.02) -> Scenario:
     )
 
 
-@pytest.mark.parametrize("mirror", [False, True])
-@pytest.mark.parametrize("links", [2, 3])
+@pytest.mark.parametrize(("links", "mirror"), [(2, False), (3, True)])
 @EVERY_LAW
 def test_a_table_on_equal_links_does_not_turn(law: NormalLaw, links: int, mirror: bool) -> None:
     scenario = table(links, law)
@@ -99,8 +98,8 @@ def measured(run: Result) -> np.ndarray:
     return np.array([*run.largest_force.values(), *(run[name].std() for name in names)])
 
 
-@pytest.mark.parametrize("scenario", [guided(HuGuo(stiffness=1e9, restitution=0.3), 0.05)], ids=["guide"])
-def test_a_block_has_one_limit_and_the_engines(scenario: Scenario) -> None:
+def test_a_block_has_one_limit_and_the_engines() -> None:
+    scenario = guided(HuGuo(stiffness=1e9, restitution=0.3), 0.05)
     *coarse, finest = limits(scenario, (1e-7, 1e-8, 1e-9, 1e-11))
     for found, close in zip(coarse, (1e-5, 1e-6, 1e-7), strict=True):
         np.testing.assert_allclose(found, finest, rtol=0.0, atol=close * finest.max())
