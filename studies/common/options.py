@@ -73,6 +73,6 @@ def read_options(given: argparse.Namespace) -> Options:
     import_modules(given.imports)
     subject = own_subject(given.machine, given.pin) if given.machine else paper_subject()
     if subject.is_slow:
-        only = "only the redundant formulation covers it: minutes where --list tells seconds"
+        only = "only the Exudyn formulation covers it: minutes where --list tells seconds"
         warn(f"--machine {given.machine}: {only}")
     return Options(given.out, given.workers, given.out / KEPT, given.machines, given.runs, subject)

@@ -127,7 +127,7 @@ def _first(case: Scenario) -> Scenario:
     compiled = replace(case, formulation="compiled", solver=FIRST)
     if formulation("compiled").covers(compiled):
         return compiled
-    return replace(case, formulation="redundant", solver=COARSE if case.clearance_pins else SolverSettings())
+    return replace(case, formulation="exudyn", solver=COARSE if case.clearance_pins else SolverSettings())
 
 
 def naive_peaks() -> dict[float, float]:

@@ -57,17 +57,17 @@ def on_oil(tolerance: float = 1e-8, friction: float = 0.25, **changes: object) -
     return support(**fields | changes)
 
 
-# --- against the redundant formulation ---
+# --- against the Exudyn formulation ---
 
 DRIVES = {"mode 2": CubicStep(start=0.05, end=0.25, stroke=0.02), "mode 1": UniformSpeed(start=0.05, end=2.05)}
 
 
 @cache
 def both(drive: str, actuators: str) -> tuple[Result, Result]:
-    """The same scene in the compiled and in the redundant formulation."""
+    """The same scene in the compiled and in the Exudyn formulation."""
     columns, step = {"oil": (BOTH, 1e-4), "stiff": (STIFF, 2.5e-5)}[actuators]
     scene = on_oil(drive=DRIVES[drive], actuators=columns, duration=0.15, step=step)
-    return simulate(scene), simulate(replace(scene, formulation="redundant"))
+    return simulate(scene), simulate(replace(scene, formulation="exudyn"))
 
 
 CASES = [
@@ -106,7 +106,7 @@ def test_all_channels_are_those_of_the_redundant_formulation(case: tuple[str, st
 def test_the_redundant_formulation_tends_to_the_compiled_one() -> None:
     ours = simulate(on_oil(1e-11, drive=Held(), duration=0.06))
     settings = SolverSettings(impact_steps=256)
-    base = on_oil(drive=Held(), duration=0.06, formulation="redundant", step=1e-4, solver=settings)
+    base = on_oil(drive=Held(), duration=0.06, formulation="exudyn", step=1e-4, solver=settings)
 
     def off(scene: Scenario) -> float:
         return float(np.sqrt(np.mean((ours[FORCE] - simulate(scene)[FORCE]) ** 2)))
@@ -148,7 +148,7 @@ def test_the_mass_that_moves_is_that_of_the_bores_axes_where_both_bodies_turn() 
         solver=SolverSettings(tolerance=1e-8),
     )
     right = simulate(scene).largest_force["front_shield"]
-    engine = replace(scene, formulation="redundant", step=1e-4, solver=SolverSettings(impact_steps=400))
+    engine = replace(scene, formulation="exudyn", step=1e-4, solver=SolverSettings(impact_steps=400))
     # in the axes in the middle: 1.7e-4 off, at any step
     assert simulate(engine).largest_force["front_shield"] == pytest.approx(right, rel=5e-6)
 
@@ -240,7 +240,7 @@ def test_a_settled_machine_stays_at_rest() -> None:
     result = simulate(scene)
     # steps grow to the limit of stability, where errors of the tolerance come and go
     np.testing.assert_allclose(result[FORCE], result[FORCE][0], rtol=1e-6)
-    theirs = simulate(replace(scene, formulation="redundant", duration=0.01))
+    theirs = simulate(replace(scene, formulation="exudyn", duration=0.01))
     assert result[FORCE][0] == pytest.approx(theirs[FORCE][0], rel=1e-8)
     assert result["tip.x"][0] == pytest.approx(theirs["tip.x"][0], abs=1e-9)
     assert result["front_column.force"][0] == pytest.approx(theirs["front_column.force"][0], rel=1e-7)
@@ -248,7 +248,7 @@ def test_a_settled_machine_stays_at_rest() -> None:
 
 def test_a_drive_that_moves_from_the_start_on_finds_the_machine_moving() -> None:
     scene = on_oil(drive=Steady(rate=0.05), duration=0.01)
-    ours, theirs = simulate(scene), simulate(replace(scene, formulation="redundant", step=1e-4))
+    ours, theirs = simulate(scene), simulate(replace(scene, formulation="exudyn", step=1e-4))
     for name in ("rear_link.angular_velocity", "canopy.velocity_y"):
         assert ours[name][0] == pytest.approx(theirs[name][0], rel=1e-9)
     # free flight, second order in a step of 0.1 ms
@@ -315,7 +315,7 @@ def test_loose_pins_between_moving_bodies_of_several_branches() -> None:
         step=5e-5,
         solver=SolverSettings(tolerance=1e-9),
     )
-    ours, theirs = simulate(scene), simulate(replace(scene, formulation="redundant"))
+    ours, theirs = simulate(scene), simulate(replace(scene, formulation="exudyn"))
     for name in pins:
         assert len(ours.onsets[name]) >= 2
         for one, other in zip(ours.onsets[name][:3], theirs.onsets[name][:3], strict=True):
@@ -331,7 +331,7 @@ def test_a_drive_that_is_no_cubic_is_followed_too() -> None:
     ours, cut = (simulate(on_oil(t, drive=drive, duration=0.02)) for t in (1e-8, 1e-10))
     assert ours["front_column.force"][-1] == pytest.approx(cut["front_column.force"][-1], rel=1e-6)
     assert ours.energy_error < 1e-6 * abs(ours["energy.work"]).max()
-    theirs = simulate(on_oil(drive=drive, duration=0.02, formulation="redundant", step=5e-6))
+    theirs = simulate(on_oil(drive=drive, duration=0.02, formulation="exudyn", step=5e-6))
     # second order of an implicit step of 5 us
     assert ours["front_column.force"][-1] == pytest.approx(theirs["front_column.force"][-1], rel=1e-5)
 
@@ -369,7 +369,7 @@ class Torn(Bars):
         return replace(good, bodies={"bar0": replace(good.bodies["bar0"], velocity=(1.0, 0.0))})
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
-def test_velocities_that_tear_a_pin_are_refused(formulation: Literal["redundant", "compiled"]) -> None:
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
+def test_velocities_that_tear_a_pin_are_refused(formulation: Literal["exudyn", "compiled"]) -> None:
     with pytest.raises(SimulationError, match="energy does not add up: it is open by 1"):
         simulate(Scenario(machine=Torn(number=1), duration=0.1, formulation=formulation))

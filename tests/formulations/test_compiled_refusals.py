@@ -132,7 +132,7 @@ def test_what_is_not_covered_is_refused(case: str) -> None:
     with pytest.raises(InputError, match=what) as caught:
         simulate_compiled(make(), backend=backend)
     assert "allowed:" in str(caught.value)
-    assert str(caught.value).endswith("formulation = 'redundant' covers it.")
+    assert str(caught.value).endswith("formulation = 'exudyn' covers it.")
 
 
 def test_a_changed_law_is_not_taken_for_one_of_its_family() -> None:
@@ -158,7 +158,7 @@ def test_a_law_that_cannot_be_compiled_is_left_to_the_redundant_formulation(
 ) -> None:
     scenario = scene(pin_with(law(stiffness=1e10, restitution=0.5)), duration=0.01)
     result = simulate(scenario, accuracy="draft")
-    assert result.scenario.formulation == "redundant"
+    assert result.scenario.formulation == "exudyn"
     assert result.counts.user_function_calls > 0
 
 

@@ -98,7 +98,7 @@ def test_the_compiled_formulation_follows_the_drives_too() -> None:
     }
     compiled = simulate(loose_support(formulation="compiled", **scene))
     redundant = simulate(loose_support(step=1e-4, **scene))
-    # the redundant formulation's error of impacts and steps, as in `test_formulations_agree`
+    # the Exudyn formulation's error of impacts and steps, as in `test_formulations_agree`
     np.testing.assert_allclose(compiled["tip.y"], redundant["tip.y"], atol=2e-6)
     np.testing.assert_allclose(
         compiled["energy.work"], redundant["energy.work"], atol=1e-3 * compiled["energy.work"].max()

@@ -37,7 +37,7 @@ G = 9.81
 HEIGHT = 0.5
 SPEED = math.sqrt(2.0 * G * HEIGHT)
 LANDING = math.sqrt(2.0 * HEIGHT / G)
-FORMULATIONS = ("redundant", "compiled")
+FORMULATIONS = ("exudyn", "compiled")
 EXACT = SolverSettings(tolerance=1e-9)  # of the compiled formulation
 # support on oil: what the paper's machine has, and a soft rock
 ON_OIL = paper_machine.oil_columns()
@@ -72,13 +72,13 @@ def weightless(rock: FallingBlock, **changes: object) -> Scenario:
 
 @pytest.mark.parametrize(("exponent", "stiffness"), [(1.0, 1e8), (1.5, 1e9), (2.2, 3e10)])
 @pytest.mark.parametrize("restitution", [0.1, 0.5, 1.0])
-@pytest.mark.parametrize(("formulation", "share"), [("redundant", 2e-5), ("compiled", 1e-9)])
+@pytest.mark.parametrize(("formulation", "share"), [("exudyn", 2e-5), ("compiled", 1e-9)])
 def test_a_blow_gives_back_what_was_asked(
     formulation: str, share: float, restitution: float, exponent: float, stiffness: float
 ) -> None:
     rock = block(restitution=restitution, exponent=exponent, stiffness=stiffness)
     result = simulate(weightless(rock, formulation=formulation, solver=EXACT))
-    # of the redundant formulation: second order in 512 steps an impact
+    # of the Exudyn formulation: second order in 512 steps an impact
     (onset,) = result.onsets["rock"]
     assert onset.time == pytest.approx(0.01 / 3.0, rel=1e-9)
     assert onset.speed == pytest.approx(3.0, rel=1e-9)
@@ -93,7 +93,7 @@ def test_a_sloping_face_is_struck_along_its_normal() -> None:
     # the guide carries what is forward; along the normal the block has the speed v cos and the mass m/cos^2
     slope = 0.6
     rock = block(slope=slope)
-    for formulation, share in (("redundant", 2e-5), ("compiled", 1e-9)):
+    for formulation, share in (("exudyn", 2e-5), ("compiled", 1e-9)):
         result = simulate(weightless(rock, formulation=formulation, solver=EXACT))
         (onset,) = result.onsets["rock"]
         assert onset.time == pytest.approx(0.01 / 3.0, rel=1e-9)
@@ -197,7 +197,7 @@ def test_weight_and_all_bounces_are_as_in_an_independent_solution(restitution: f
     # without what rounding makes of a block that rests
     told = [one for one in bounced(rock, 0.95) if one[1] > 1e-3]
     assert len(told) >= 2
-    for formulation, share in (("redundant", 3e-5), ("compiled", 1e-7)):
+    for formulation, share in (("exudyn", 3e-5), ("compiled", 1e-7)):
         scene = on_the_held(rock, duration=0.95, formulation=formulation, solver=EXACT)
         onsets = simulate(scene).onsets["rock"]
         assert len(onsets) == len(told)
@@ -344,7 +344,7 @@ def test_a_leg_that_is_struck_through_a_straight_spring(formulation: str, start:
     assert onset.speed == pytest.approx(3.13209195, abs=1e-8)
     depth = np.maximum(0.0, -result["rock.gap"])
     np.testing.assert_allclose(result["rock.force"], 1e8 * depth, rtol=1e-12)
-    share = 1e-5 if formulation == "redundant" else 2e-6  # records beside the top of a peak
+    share = 1e-5 if formulation == "exudyn" else 2e-6  # records beside the top of a peak
     pressure, force = struck_leg()
     assert result["leg.force"].max() / bore_area(0.4) == pytest.approx(pressure, rel=share)
     assert pressure == pytest.approx(13153284.1, abs=1.0)  # by an independent program

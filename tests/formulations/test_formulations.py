@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from types import ModuleType
 from typing import get_args, get_type_hints
 
@@ -18,11 +19,13 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
+from support_exudyn.files import read_scenario, save_scenario
 from support_exudyn.formulations.registry import FORMULATIONS, Formulation, formulation
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, slider_crank, support
 from tests.linkages import four_bar
 from user_forces import InputError, LankaraniNikravesh, LuGre, value
+from user_forces.values.value import Value
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 BOTH = {"front_column": OIL, "rear_column": OIL}
@@ -68,7 +71,7 @@ SCENES = {
     "ideal slider-crank": slider_crank(1e-4),
     "a law that branches": with_a_branch(),
 }
-COVERED = {"compiled": set(SCENES) - {"a law that branches"}, "redundant": set(SCENES)}
+COVERED = {"compiled": set(SCENES) - {"a law that branches"}, "exudyn": set(SCENES)}
 # scenes with what the compiled formulation says of them
 NOT_COMPILED = {
     "a law that branches": (
@@ -94,7 +97,7 @@ def test_every_formulation_offers_a_check_and_a_run() -> None:
     names = set(FORMULATIONS)
     assert set(ERROR_CONTROLLED) < names
     assert {"auto", *names} == set(get_args(get_type_hints(Scenario)["formulation"]))
-    assert formulation("auto") is formulation("redundant")
+    assert formulation("auto") is formulation("exudyn")
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -102,7 +105,7 @@ def test_every_formulation_offers_a_check_and_a_run() -> None:
 def test_a_formulation_covers_what_it_says(name: str, scene: str) -> None:
     assert formulation(name).covers(SCENES[scene]) == (scene in COVERED[name])
     # whatever the scenario asks for
-    assert formulation(name).covers(replace(SCENES[scene], formulation="redundant")) == (scene in COVERED[name])
+    assert formulation(name).covers(replace(SCENES[scene], formulation="exudyn")) == (scene in COVERED[name])
 
 
 @pytest.mark.parametrize("scene", NOT_COMPILED)
@@ -112,7 +115,7 @@ def test_what_is_not_covered_is_refused_before_anything_runs(scene: str, accurac
     given, said = NOT_COMPILED[scene]
     asked = replace(given, formulation="compiled")
     # what, why, and what to do
-    with pytest.raises(InputError, match=rf"{said}.*: .*allowed: .*redundant.* covers it"):
+    with pytest.raises(InputError, match=rf"{said}.*: .*allowed: .*exudyn.* covers it"):
         simulate(asked, accuracy=accuracy, progress=heard.append, throw=False)
     assert heard == []
 
@@ -125,7 +128,7 @@ def test_a_backend_of_the_engine_is_refused(backend: str) -> None:
 
 
 def test_space_is_refused() -> None:
-    with pytest.raises(InputError, match=r"formulation = 'compiled': is planar.*'redundant'"):
+    with pytest.raises(InputError, match=r"formulation = 'compiled': is planar.*'exudyn'"):
         support(dimensions=3, formulation="compiled")
     assert not formulation("compiled").covers(support(dimensions=3))
 
@@ -147,3 +150,15 @@ def test_what_cannot_be_imported_is_no_matter_of_coverage() -> None:
     broken = Formulation("compiled", "support_exudyn.there_is_none", cost=1, safety=1.0)
     with pytest.raises(ModuleNotFoundError, match="there_is_none"):
         broken.covers(SCENES["clearance support"])
+
+
+def test_the_earlier_name_of_the_exudyn_formulation_is_read(tmp_path: Path) -> None:
+    scene = replace(SCENES["ideal support"], formulation="exudyn")
+    assert replace(scene, formulation="redundant") == scene
+    assert Value.from_data({**scene.to_data(), "formulation": "redundant"}) == scene
+    assert formulation("redundant") is formulation("exudyn")
+    save_scenario(scene, tmp_path / "scene.toml")
+    text = (tmp_path / "scene.toml").read_text().replace('"exudyn"', '"redundant"')
+    (tmp_path / "earlier.toml").write_text(text)
+    assert '"redundant"' in text
+    assert read_scenario(tmp_path / "earlier.toml") == scene

@@ -72,7 +72,7 @@ ON_OIL = {
     ),
 }
 WAYS = {  # with settings that are ten times as fine as what is asserted needs
-    "redundant": {"formulation": "redundant", "solver": SolverSettings(impact_steps=512)},
+    "exudyn": {"formulation": "exudyn", "solver": SolverSettings(impact_steps=512)},
     "compiled": {"formulation": "compiled", "solver": SolverSettings(tolerance=1e-9)},
 }
 STEPS = {"slider-crank": 1e-6, "slider-crank, friction, bore in the rod": 1e-6}  # others: 0.1 ms
@@ -84,13 +84,13 @@ def run(scene: str, way: str) -> Result:
     return simulate(scenario)
 
 
-PAIRS = [(scene, "compiled", "redundant") for scene in (*SCENES, *ON_OIL)]
+PAIRS = [(scene, "compiled", "exudyn") for scene in (*SCENES, *ON_OIL)]
 # of which every part is in another scene, too
 SLOW = ("up and down", "slider-crank", "rise on oil, damped by depth")
 EVERY_PAIR = pytest.mark.parametrize(
     "pair",
     [
-        pytest.param(pair, marks=[pytest.mark.slow] if pair[0] in SLOW and "redundant" in pair else [])
+        pytest.param(pair, marks=[pytest.mark.slow] if pair[0] in SLOW and "exudyn" in pair else [])
         for pair in PAIRS
     ],
     ids=", ".join,
@@ -100,7 +100,7 @@ EVERY_PAIR = pytest.mark.parametrize(
 def closeness(first: str, second: str) -> float:
     """How well two ways agree: two methods of error control, or one with fixed steps of second order."""
     # 1e-9 times what three to five impacts make of it; steps of 1/170 of a flight and 512 an impact
-    return 1e-3 if "redundant" in (first, second) else 2e-6
+    return 1e-3 if "exudyn" in (first, second) else 2e-6
 
 
 @EVERY_PAIR
@@ -152,7 +152,7 @@ def test_means_and_spreads_are_the_same(pair: tuple[str, str, str]) -> None:
         mine, theirs = one[name][first:], other[name][first:]
         size = float(np.abs(other[name]).max())
         # less than this share of the largest in its unit is rounding, which steps of 1 us show in accelerations
-        rounding = 1e-6 if "redundant" in ways else 1e-8
+        rounding = 1e-6 if "exudyn" in ways else 1e-8
         allowed = close * size + rounding * sizes[one.channels[name].unit]
         assert abs(mine.mean() - theirs.mean()) <= allowed, name
         # a record beside an impact may be before it in one run and after it in the other
@@ -170,7 +170,7 @@ def test_energies_are_the_same_and_add_up(pair: tuple[str, str, str]) -> None:
         assert last[0] == pytest.approx(last[1], abs=5.0 * close * turned), name
     for result, way in ((one, ways[0]), (other, ways[1])):
         # trapezoids over fixed steps of work and losses; quadrature as good as the steps
-        share = 1e-3 if way == "redundant" else 1e-5
+        share = 1e-3 if way == "exudyn" else 1e-5
         assert result.energy_error <= share * turned, way
 
 
@@ -185,7 +185,7 @@ def test_energies_are_the_same_and_add_up(pair: tuple[str, str, str]) -> None:
 def test_runs_to_an_accuracy_agree_within_what_they_say(scene: str) -> None:
     scenario = (SCENES | ON_OIL)[scene]
     runs = [
-        simulate(replace(scenario, formulation=name), accuracy="standard") for name in ("redundant", "compiled")
+        simulate(replace(scenario, formulation=name), accuracy="standard") for name in ("exudyn", "compiled")
     ]
     assert all(result.met for result in runs)
     one, other = (result.numbers() for result in runs)

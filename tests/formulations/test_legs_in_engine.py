@@ -48,7 +48,7 @@ def error(run: Result, wanted: Result) -> float:
 @pytest.mark.parametrize("name", CASES)
 def test_legs_are_those_of_the_compiled_formulation_to_second_order(name: str) -> None:
     wanted = lift(CASES[name], "compiled")
-    coarse, fine = lift(CASES[name], "redundant"), lift(CASES[name], "redundant", step=2e-4)
+    coarse, fine = lift(CASES[name], "exudyn"), lift(CASES[name], "exudyn", step=2e-4)
     assert error(fine, wanted) < 1e-3
     assert 3.3 < error(coarse, wanted) / error(fine, wanted) < 4.7
     events, known = fine.oil_events["jack"], wanted.oil_events["jack"]
@@ -59,7 +59,7 @@ def test_legs_are_those_of_the_compiled_formulation_to_second_order(name: str) -
 
 
 def test_oil_is_conserved() -> None:
-    run = lift(CASES["yields"], "redundant")
+    run = lift(CASES["yields"], "exudyn")
     kept = run["jack.oil"] + run["jack.yielded"] - run["jack.let_in"]
     assert np.abs(kept - kept[0]).max() < 1e-10 * kept[0]
     assert run["jack.yielded"][-1] > 1e-6
@@ -67,7 +67,7 @@ def test_oil_is_conserved() -> None:
 
 def test_stops_far_away_leave_a_plain_cylinder() -> None:
     far = replace(CYLINDER, end_stops=EndStops(lowest=-0.4, highest=0.9))
-    plain, leg = lift(CYLINDER, "redundant"), lift(far, "redundant")
+    plain, leg = lift(CYLINDER, "exudyn"), lift(far, "exudyn")
     assert error(leg, plain) < 2e-3
 
 
@@ -78,7 +78,7 @@ def test_a_valve_that_opens_very_slowly_cuts_no_step_again_and_again(speed: floa
     scene = replace(leg_cases.on_cylinder(speed), actuators={"leg0": leg}, duration=1e-3, record_period=1e-5)
     run, known = (
         simulate(replace(scene, formulation=one, step=1e-5, solver=SolverSettings(tolerance=1e-10)))
-        for one in ("redundant", "compiled")
+        for one in ("exudyn", "compiled")
     )
     assert run.counts.cut_steps <= 1
     assert [one[1:] for one in run.oil_events["leg0"]] == [one[1:] for one in known.oil_events["leg0"]]

@@ -340,7 +340,7 @@ def test_runs_to_an_accuracy_know_the_roof() -> None:
     lowered = over_the_canopy(GAP + 0.01 + GIVES_ON_OIL)
     scene = pressed_support(lowered, actuators=ON_OIL, duration=0.2)
     result, other = (
-        simulate(replace(scene, formulation=name), accuracy="standard") for name in ("redundant", "auto")
+        simulate(replace(scene, formulation=name), accuracy="standard") for name in ("exudyn", "auto")
     )
     assert result.met
     # a fifth of sqrt(m/k) and less; the default step is ten times as long as that of a reference

@@ -116,7 +116,7 @@ class Swing(Machine):
         )
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 @pytest.mark.parametrize("bore", ["first", "second"])
 def test_formulations_part_as_fast_as_the_law_delivers(formulation: str, bore: str) -> None:
     laws = JournalContact(bearing=JournalBearing(bore_radius=0.02, clearance=1e-3), normal=LAW)

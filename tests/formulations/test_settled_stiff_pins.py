@@ -12,7 +12,7 @@ from support_exudyn import Scenario, simple_scenario, simulate
 WEIGHT_ON_PIN = 58.98e3  # of the reference support in its start posture [N]
 
 
-def settled(clearance_mm: float, formulation: str = "redundant", **pin: object) -> Scenario:
+def settled(clearance_mm: float, formulation: str = "exudyn", **pin: object) -> Scenario:
     return simple_scenario(
         "reference",
         duration_s=1e-3,
@@ -41,7 +41,7 @@ def test_the_compiled_formulation_finds_it_too(backing: str, on_oil: bool) -> No
     scenario = replace(scenario, actuators=oil_columns() if on_oil else {})
     one, other = (
         simulate(replace(scenario, formulation=name))["pin.rear_base.force"][0]
-        for name in ("redundant", "compiled")
+        for name in ("exudyn", "compiled")
     )
     assert other == pytest.approx(WEIGHT_ON_PIN, rel=0.01)
     assert other == pytest.approx(one, rel=1e-6)  # both by Newton's method

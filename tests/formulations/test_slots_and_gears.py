@@ -143,7 +143,7 @@ def test_slots_and_gears_count_one_condition_each() -> None:
     assert held.cranks["wheel"] == pytest.approx(RATIO * G * 0.05)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 def test_a_planet_turns_by_willis_equation(formulation: Any) -> None:
     """A planet turns at 9 rad/s for an arm at 3 rad/s on a sun at rest; the moment holds its weight."""
     drives = {"sun": Steady(rate=0.0), "arm": Steady(rate=3.0)}
@@ -156,7 +156,7 @@ def test_a_planet_turns_by_willis_equation(formulation: Any) -> None:
     np.testing.assert_allclose(run["sun.moment"], -2.0 * moment, atol=1e-6)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 def test_a_planet_adds_inertia_to_its_arm(formulation: Any) -> None:
     """A free arm falls as a pendulum whose planet turns three times as fast: energy as the angle says."""
     machine = Planetary(driven=("sun",), beside=0.0)

@@ -209,7 +209,7 @@ def test_channels_asked_for_are_the_same_bits() -> None:
 def test_an_accuracy_is_met_in_space() -> None:
     result = simulate(replace(CASES["ideal"], dimensions=3, duration=0.1), accuracy="draft")
     assert result.met
-    assert result.scenario.formulation == "redundant"
+    assert result.scenario.formulation == "exudyn"
     assert result.scenario.dimensions == 3
 
 

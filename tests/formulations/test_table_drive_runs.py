@@ -56,7 +56,7 @@ def test_the_compiled_formulation_follows_a_table() -> None:
     oil = oil_columns()
     scenario = replace(BASE, formulation="compiled", actuators=oil, drive=POINTS, duration=0.06, pins=pins)
     one = simulate(scenario)
-    other = simulate(replace(scenario, formulation="redundant", step=1e-4))
+    other = simulate(replace(scenario, formulation="exudyn", step=1e-4))
     # until the journal makes contact both integrate the same smooth motion: errors of second order at 0.1 ms
     before = one.time < one.onsets["rear_base"][0].time - 1e-3
     assert np.abs(one["tip.y"] - other["tip.y"])[before].max() < 1e-6

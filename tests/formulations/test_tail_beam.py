@@ -107,7 +107,7 @@ def test_a_soft_jack_is_as_in_the_compiled_formulation(assert_close: AssertClose
     scene = {"drive": RISE, "duration": 0.15, "actuators": oil_columns(), "parts": SOFT}
     compiled = simulate(loose_support(formulation="compiled", **scene))
     redundant = simulate(loose_support(step=1e-4, **scene))
-    # measured 2e-7 m and 4e-7 rad: the redundant formulation's errors of impacts and steps
+    # measured 2e-7 m and 4e-7 rad: the Exudyn formulation's errors of impacts and steps
     assert_close(compiled, redundant, "0.002 mm", channels=["tip.y"])
     assert_close(compiled, redundant, "4e-6 rad", channels=["tail_beam.angle"])
     largest = compiled["tail_jack.force"].max()

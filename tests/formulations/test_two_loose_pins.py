@@ -143,7 +143,7 @@ def test_impacts_of_two_pins_are_those_of_an_independent_solution(friction: floa
         duration=until,
         step=2e-6,
         record_period=1e-4,
-        formulation="redundant",
+        formulation="exudyn",
         solver=SolverSettings(impact_steps=1024),
     )
     onsets = simulate(scene).onsets

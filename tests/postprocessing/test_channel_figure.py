@@ -116,7 +116,7 @@ def test_curves_of_a_panel_differ_in_colour_and_in_dashes() -> None:
 def test_five_clearance_pins_are_in_one_panel_in_five_colours() -> None:
     pins = ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy")
     found = run()
-    scenario = replace(SCENARIO, formulation="redundant", pins=dict.fromkeys(pins, SCENARIO.pins["rear_base"]))
+    scenario = replace(SCENARIO, formulation="exudyn", pins=dict.fromkeys(pins, SCENARIO.pins["rear_base"]))
     channel = found.channels["pin.rear_base.force"]
     channels = {**found.channels, **{f"pin.{pin}.force": channel for pin in pins}}
     found = replace(found, scenario=scenario, channels=channels, onsets=dict.fromkeys(pins, ()))

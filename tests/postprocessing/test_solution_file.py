@@ -122,7 +122,7 @@ def places(scenario: Scenario, solution: Any, body: str, point: tuple[float, ...
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 COLUMNS = ("front_column", "rear_column")
 RISES = {
-    "redundant": loose_support(1.5, 0.25, **RISE),
+    "exudyn": loose_support(1.5, 0.25, **RISE),
     "compiled": loose_support(1.5, 0.25, formulation="compiled", actuators=dict.fromkeys(COLUMNS, OIL), **RISE),
     "crank": loose_slider_crank(2e-3, formulation="compiled"),
     "space": loose_support(1.5, 0.25, dimensions=3, **RISE),
@@ -151,7 +151,7 @@ def test_the_engines_model_is_where_the_run_was(name: str, tmp_path: Path) -> No
             assert there[1] == pytest.approx(result[f"{point}.y"][row], rel=0.0, abs=1e-13)
 
 
-@pytest.mark.parametrize("name", ["redundant", "space"])
+@pytest.mark.parametrize("name", ["exudyn", "space"])
 def test_rates_are_those_of_the_coordinates(name: str) -> None:
     result = simulate(dataclasses.replace(RISES[name], pins={}, record_period=2.5e-4, step=2.5e-4))
     scene = model(result.scenario)
@@ -291,7 +291,7 @@ def test_a_solution_file_of_another_model_is_not_shown(run: Result, tmp_path: Pa
 
 
 def test_a_run_to_an_accuracy_keeps_it_too(tmp_path: Path) -> None:
-    scenario = loose_support(1.5, 0.0, formulation="redundant", **RISE)
+    scenario = loose_support(1.5, 0.0, formulation="exudyn", **RISE)
     result = simulate(scenario, accuracy="draft")
     save_solution(result, tmp_path / "run.txt")
     kept = load(tmp_path / "run.txt")["data"]
@@ -310,7 +310,7 @@ def test_a_model_is_let_go_of(run: Result, tmp_path: Path) -> None:
 # --- what is drawn changes nothing of the model ---
 
 
-@pytest.mark.parametrize("name", ["redundant", "space", "crank"])
+@pytest.mark.parametrize("name", ["exudyn", "space", "crank"])
 def test_the_look_of_a_machine_changes_no_equation(name: str) -> None:
     plain, looking = model(RISES[name]), model_for_viewer(RISES[name])
     try:
@@ -362,7 +362,7 @@ def test_it_can_be_exported(run: Result, tmp_path: Path) -> None:
 # --- what is drawn is where the run was ---
 
 
-@pytest.mark.parametrize("name", ["redundant", "space", "crank"])
+@pytest.mark.parametrize("name", ["exudyn", "space", "crank"])
 def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
     result = risen(name)
     shown, poses = model_for_viewer(result.scenario), Poses(result)
@@ -398,7 +398,7 @@ def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
 
 @pytest.mark.parametrize("bore", ["first", "second"])
 def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    scenario = RISES["redundant"]
+    scenario = RISES["exudyn"]
     with_clearance = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore, eccentricity=(0.0, -0.0015))
     scenario = dataclasses.replace(scenario, pins={PIN: with_clearance})
     place, bearing = scenario.linkage.pins[PIN], with_clearance.contact.bearing

@@ -50,7 +50,7 @@ def _rise(dimensions: int, formulation: str) -> Result:
 
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_both_sides_do_what_the_pair_does_in_the_plane(side: str) -> None:
-    space, plane = _rise(3, "redundant"), _rise(2, "redundant")
+    space, plane = _rise(3, "exudyn"), _rise(2, "exudyn")
     for row in ("front_column", "rear_column"):
         for what in ("pressure", "rod_pressure", "length"):
             expected = plane[f"{row}.{what}"]
@@ -63,7 +63,7 @@ def test_both_sides_do_what_the_pair_does_in_the_plane(side: str) -> None:
 
 
 def test_the_plane_in_the_engine_is_near_the_compiled_one() -> None:
-    engine, compiled = _rise(2, "redundant"), _rise(2, "compiled")
+    engine, compiled = _rise(2, "exudyn"), _rise(2, "compiled")
     for row in ("front_column", "rear_column"):
         found, expected = engine[f"{row}.pressure"], compiled[f"{row}.pressure"]
         # of second order in steps of 0.25 ms, which are a tenth of what the oil swings with
@@ -74,7 +74,7 @@ def test_the_plane_in_the_engine_is_near_the_compiled_one() -> None:
 
 @pytest.mark.parametrize("dimensions", [2, 3])
 def test_oil_and_energy_add_up_in_the_engine(dimensions: int) -> None:
-    run = _rise(dimensions, "redundant")
+    run = _rise(dimensions, "exudyn")
     name = "front_column_left" if dimensions == 3 else "front_column"
     open_oil = run[f"{name}.oil"] - run[f"{name}.let_in"]
     assert np.abs(open_oil - open_oil[0]).max() < 1e-10 * open_oil[0]
