@@ -13,7 +13,7 @@ from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
 MOST_WORKERS, MOST_MACHINES, MOST_RUNS = 1024, 100_000, 1_000_000
-KEPT = "kept"  # the folder of runs, beside those of the studies
+KEPT, WITNESSES = "kept", "witness"  # folders of runs, beside those of the studies
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,11 @@ class Options:
     runs: int | None = None
     subject: Subject = field(default_factory=paper_subject)
     thorough: bool = False
+
+    @property
+    def witnesses(self) -> Path | None:
+        """The folder of runs of witnesses, beside that of kept runs; None: none is kept."""
+        return None if self.kept is None else self.kept.with_name(WITNESSES)
 
     def of_study(self, name: str, workers: Workers) -> "Options":
         """These options for one of several studies, in a folder of its own."""
