@@ -34,7 +34,7 @@ OURS = "ours, "
 # ours by formulation; one that does not exist here is left out
 FORMULATION_SETTINGS: Mapping[str, Sequence[Setting]] = {
     "compiled": TOLERANCES,
-    "redundant": tuple(
+    "exudyn": tuple(
         steps(step, each, 1.0) for step, each in ((1e-5, 64), (1e-5, 128), (5e-6, 256), (2e-6, 512))
     ),
 }

@@ -107,7 +107,7 @@ def _support(duration: float, sliding_coefficient: float | None = None, drive: D
         pins=with_clearance,
         drive=drive or Reciprocating(stroke=STROKE, period=PERIOD),
         duration=duration,
-        formulation="redundant",
+        formulation="exudyn",
         step=STEP,
         record_period=RECORD_PERIOD,
         solver=SolverSettings(
@@ -134,7 +134,7 @@ def _crank(duration: float) -> Scenario:
         slider_crank.scenarios()[slider_crank.DRY],
         drive=Steady(rate=CRANK_SPEED),
         duration=duration,
-        formulation="redundant",
+        formulation="exudyn",
         step=STEP,
         record_period=RECORD_PERIOD,
         gravity=(0.0, -9.81),

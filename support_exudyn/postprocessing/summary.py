@@ -129,10 +129,10 @@ def _formulation(result: Result) -> str:
     ran = formulation(result.scenario.formulation).name
     if asked != "auto":
         return ran
-    if result.goal is None and ran == "redundant":
+    if result.goal is None and ran == "exudyn":
         return f"{ran} (auto: without an accuracy that is the one wherever it covers the scene)"
     if result.goal is None:
-        return f"{ran} (auto: {_why_not(FORMULATIONS['redundant'], result)})"
+        return f"{ran} (auto: {_why_not(FORMULATIONS['exudyn'], result)})"
     cheaper = [one for one in CHEAPEST_FIRST if one.cost < FORMULATIONS[ran].cost]
     if not cheaper:
         return f"{ran} (auto: the cheapest, and it covers this scene)"

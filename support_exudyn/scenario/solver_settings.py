@@ -13,13 +13,13 @@ ERROR_CONTROLLED = ("compiled",)  # formulations that choose their steps by a to
 SMALLEST_TOLERANCE = 1e-13  # rounding
 MOST_IMPACT_STEPS = 10000
 MOST_SECTIONS = 64
-MOST_STEPS = 5_000_000  # some minutes of the redundant formulation
+MOST_STEPS = 5_000_000  # some minutes of the Exudyn formulation
 REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
 
 
 @value
 class SolverSettings(Value):
-    """Settings of the time integration; all but `tolerance` and `backend` are of the redundant formulation.
+    """Settings of the time integration; all but `tolerance` and `backend` are of the Exudyn formulation.
 
     Arguments:
         integrator: "generalised_alpha", or "trapezoidal", the engine's rule of that name, which has no
@@ -51,7 +51,7 @@ class SolverSettings(Value):
             smallest clearance for places, and of the speed of a fall through half of it for velocities; the
             root mean square over all of them. 1e-5 is enough for most.
         backend: what evaluates the force of clearance pins. "python": a Python function. "symbolic": the same
-            law as an expression of the engine, both redundant. "compiled": the law compiled by numba. "auto":
+            law as an expression of the engine, both of `exudyn`. "compiled": the law compiled by numba. "auto":
             compiled in the compiled formulation, else Python.
         sections: in how many places along its axis the contact of a clearance pin is evaluated in space, 2 to
             64, the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil

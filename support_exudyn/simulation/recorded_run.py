@@ -28,7 +28,7 @@ class RecordedRun:
     scenario: what was run. channels: quantities over time by name, see `result["tip.x"]`.
     onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
     largest force [N] at any time, also inside steps. largest_force_time: when it is [s]; in the
-    redundant formulation the end of the step that has it.
+    Exudyn formulation the end of the step that has it.
     impulses: where the speed of
     rigid actuators or cranks jumped. counts: what the solver did.
     oil_events: for each hydraulic leg with elements, when valves opened and closed, cavities grew and were

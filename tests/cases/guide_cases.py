@@ -84,7 +84,7 @@ def slider_crank(
         duration=duration,
         step=step,
         record_period=min(1e-3, duration),
-        formulation="redundant",
+        formulation="exudyn",
         gravity=(0.0, -GRAVITY),
         solver=SolverSettings(backend=backend, impact_steps=impact_steps),
     )

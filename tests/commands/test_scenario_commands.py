@@ -44,7 +44,7 @@ ROOF = Roof(
 )
 RUBBING = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
 SCENARIOS = {
-    "redundant": BASE,
+    "exudyn": BASE,
     "compiled": replace(BASE, machine=reference_support(), formulation="compiled", actuators=oil_columns()),
     "space": replace(BASE, dimensions=3, duration=0.02, record_period=0.005),
     "accuracy": replace(BASE, accuracy="draft", channels=("tip.*",)),

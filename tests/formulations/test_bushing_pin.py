@@ -128,7 +128,7 @@ def test_both_bodies_may_move() -> None:
 
 def test_space_refuses_it() -> None:
     scene = Scenario(machine=reference_support(), pins={"rear_base": BUSHING}, duration=0.1)
-    assert all(formulation(name).covers(scene) for name in ("redundant", "compiled"))
+    assert all(formulation(name).covers(scene) for name in ("exudyn", "compiled"))
     said = r"pins\.rear_base = BushingPin: is planar; allowed in space: IdealPin, ClearancePin"
     with pytest.raises(InputError, match=said):
         simulate(replace(scene, dimensions=3))

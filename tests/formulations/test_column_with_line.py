@@ -27,7 +27,7 @@ from support_exudyn import (
 from support_exudyn.model.linkage import GROUND
 from user_forces import InputError, value
 
-TIGHT = {"compiled": SolverSettings(tolerance=1e-10), "redundant": SolverSettings()}
+TIGHT = {"compiled": SolverSettings(tolerance=1e-10), "exudyn": SolverSettings()}
 FORMULATIONS = tuple(TIGHT)
 AREA, LENGTH, MODULUS = 0.1, 0.5, 1.5e9
 LINE = Line(volume=0.02, nominal_flow=200e-3 / 60.0, nominal_drop=1e6)

@@ -1,4 +1,4 @@
-"""Scenes of every kind in the compiled and in the redundant formulation: as near as the engine's steps go.
+"""Scenes of every kind in the compiled and in the Exudyn formulation: as near as the engine's steps go.
 
 The engine runs with two steps. At second order the finer run is off by a third of what both differ by; at the
 first, behind jumps and with friction in ideal pins, by as much.
@@ -197,7 +197,7 @@ class Runs(NamedTuple):
 
 @cache
 def runs(scene: str) -> Runs:
-    scenario = replace(SCENES[scene](), formulation="redundant", step=STEPS.get(scene, STEP))
+    scenario = replace(SCENES[scene](), formulation="exudyn", step=STEPS.get(scene, STEP))
     scenario = replace(scenario, record_period=min(1e-3, scenario.duration / 20.0))
     engine = replace(scenario, solver=replace(scenario.solver, impact_steps=256))
     ours = replace(scenario, formulation="compiled", solver=SolverSettings(tolerance=1e-9))

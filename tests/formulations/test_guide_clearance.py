@@ -72,7 +72,7 @@ def pair(machine: FreePair, guide: ClearanceGuide, duration: float, **others: ob
     """A block or a pin and its carrier."""
     known = {
         "gravity": GRAVITY, "step": 2e-5, "solver": SolverSettings(impact_steps=128), "record_period": 1e-3,
-        "formulation": "redundant",
+        "formulation": "exudyn",
     }  # fmt: skip
     return Scenario(machine=machine, guides={"guide": guide}, duration=duration, **(known | others))
 

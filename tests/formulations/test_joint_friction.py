@@ -39,7 +39,7 @@ ROD, ROD_INERTIA, SLIDER = 0.5, 0.002, 0.8
 DRY, STICKING = Ambrosio(sliding_coefficient=MU), LuGre(static_coefficient=MU, sliding_coefficient=MU)
 WAYS: dict[str, Callable[[Scenario], Result]] = {
     "compiled": lambda s: simulate(replace(s, formulation="compiled", solver=SolverSettings(tolerance=1e-9))),
-    "redundant": lambda s: simulate(replace(s, formulation="redundant", step=2e-5)),
+    "exudyn": lambda s: simulate(replace(s, formulation="exudyn", step=2e-5)),
 }
 both = pytest.mark.parametrize("way", WAYS)
 
@@ -182,7 +182,7 @@ def test_a_block_with_a_rubbing_pin_is_alike_in_both_formulations(law: FrictionL
     pins = {"B": IdealPin(friction=law, radius=0.02)}
     scene = Scenario(machine=Crankshaft(), drive=Steady(rate=OMEGA), duration=0.1, pins=pins, guides=guides)
     fast, slow = (way(scene) for way in WAYS.values())
-    # at dead centres the slip passes the ramp within a step of the redundant formulation
+    # at dead centres the slip passes the ramp within a step of the Exudyn formulation
     assert fast["energy.friction_loss"][-1] == pytest.approx(slow["energy.friction_loss"][-1], rel=2e-4)
 
 

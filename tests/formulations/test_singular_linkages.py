@@ -31,7 +31,7 @@ from tests.linkages import bar_of, four_bar, towards
 from user_forces import Ambrosio, JournalBearing, JournalContact, LankaraniNikravesh
 from user_forces.values.value import InputError
 
-FORMULATIONS = ("redundant", "compiled")
+FORMULATIONS = ("exudyn", "compiled")
 GRAVITY = 9.81
 TURN = 2.0 * math.pi
 
@@ -114,10 +114,10 @@ def test_friction_in_a_pin_that_shares_its_force_is_of_the_formulation_that_take
     with pytest.raises(
         InputError, match=r"pins\.G0\.friction: not covered .*; allowed: formulation = 'compiled'"
     ):
-        run(linkage, "redundant", 0.2, pins=pins)
+        run(linkage, "exudyn", 0.2, pins=pins)
     result = run(linkage, "auto", 0.2, pins=pins)
     assert result.scenario.formulation == "compiled"
-    assert "redundant does not cover pins.G0.friction" in dict(how(result))["formulation"]
+    assert "exudyn does not cover pins.G0.friction" in dict(how(result))["formulation"]
     # its own force, times radius, coefficient and the way that it has turned
     force = result.channels["pin.G0.force"].values
     lost = result.channels["energy.friction_loss"].values[-1]
@@ -173,7 +173,7 @@ def test_a_step_that_jumps_over_a_change_point_hides_nothing(tolerance: float) -
 
 
 def test_without_weight_a_parallelogram_passes_with_the_forces_of_its_coupler() -> None:
-    result = run(PARALLELOGRAM, "redundant", 1.0, record=1e-3, gravity=(0.0, 0.0))
+    result = run(PARALLELOGRAM, "exudyn", 1.0, record=1e-3, gravity=(0.0, 0.0))
     # half of m r w^2 each
     assert result.channels["pin.A.force"].values == pytest.approx(0.5 * 1.0 * 0.1 * TURN**2, rel=1e-3)
 

@@ -153,5 +153,5 @@ def test_a_scenario_in_space_is_saved_and_pickled(tmp_path: Path) -> None:
 def test_an_accuracy_is_met_in_space() -> None:
     result = simulate(replace(CASES["ideal"], dimensions=3, duration=0.1), accuracy="draft")
     assert result.met
-    assert result.scenario.formulation == "redundant"
+    assert result.scenario.formulation == "exudyn"
     assert result.scenario.dimensions == 3

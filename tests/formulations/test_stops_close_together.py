@@ -110,7 +110,7 @@ def test_a_break_just_beside_a_record_is_as_one_on_it(scene: str, beside: float)
 RISE = support(drive=CubicStep(start=0.1, end=0.9, stroke=0.05), duration=1.0)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 def test_records_that_end_just_before_the_run(formulation: Any) -> None:
     period = 0.0333333333  # as a third of a tenth is typed in ms
     rise = replace(RISE, formulation=formulation)

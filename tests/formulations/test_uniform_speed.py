@@ -172,7 +172,7 @@ def test_actuators_and_cranks_get_impulses_of_their_own() -> None:
     np.testing.assert_allclose(result["pin.axle.force_y"][1:], 5.0 * 9.81, rtol=1e-6)
 
 
-@pytest.mark.parametrize(("dimensions", "formulation"), [(2, "compiled"), (2, "redundant"), (3, "redundant")])
+@pytest.mark.parametrize(("dimensions", "formulation"), [(2, "compiled"), (2, "exudyn"), (3, "exudyn")])
 def test_a_force_without_limit_is_refused_and_its_impulse_printed(dimensions: int, formulation: str) -> None:
     # two-leg shield on rigid legs, ideal pins: a sudden start within the run, none after 0.2 s
     drive = UniformSpeed(stroke=0.1, start=0.1, end=1.0)

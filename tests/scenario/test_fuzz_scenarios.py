@@ -124,7 +124,7 @@ def short_runs(draw: st.DrawFn) -> Scenario:
         step=duration / steps,
         record_period=duration / draw(st.integers(1, steps)),
         gravity=draw(st.tuples(st.floats(-20.0, 20.0), st.floats(-20.0, 20.0))),
-        formulation=draw(st.sampled_from(("auto", "redundant", "compiled"))),
+        formulation=draw(st.sampled_from(("auto", "exudyn", "compiled"))),
         start="concentric" if stand else draw(st.sampled_from(("concentric", "settled"))),
         solver=SolverSettings(
             impact_steps=16,

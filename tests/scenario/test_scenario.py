@@ -170,7 +170,7 @@ def test_an_accuracy_is_a_word_or_a_number(accuracy: str | float | None, goal: f
 def test_of_a_scenario_with_an_accuracy_that_is_refined() -> None:
     # errors are of second order in the steps; settings are chosen anew, so they stay
     coarse = scenario(accuracy="draft", solver=SolverSettings(impact_steps=9000))
-    for formulation in ("auto", "redundant", "compiled"):
+    for formulation in ("auto", "exudyn", "compiled"):
         one = dataclasses.replace(coarse, formulation=formulation)
         assert one.refined() == dataclasses.replace(one, accuracy=2.5e-3)
     assert scenario(accuracy=2e-8).refined().accuracy == 1e-8

@@ -1,4 +1,4 @@
-"""What the settings of the time integration do in the redundant formulation."""
+"""What the settings of the time integration do in the Exudyn formulation."""
 
 from __future__ import annotations
 

@@ -243,7 +243,7 @@ def test_a_touch_is_not_known_better_than_a_step_may_be() -> None:
         assert found[f"{name}.time"].error == pytest.approx(1e-5 * CLEARANCE / impact.speed)
         assert found[f"{name}.speed"].error == pytest.approx(1e-5 * impact.speed)
     # steps that are given follow nothing else
-    given = replace(run, scenario=replace(run.scenario, formulation="redundant"))
+    given = replace(run, scenario=replace(run.scenario, formulation="exudyn"))
     assert three(given, given, given).numbers()[f"pin.{PIN}.onset_1.speed"].error < 1e-6 * impact.speed
 
 
@@ -364,7 +364,7 @@ def test_what_newton_leaves_of_a_force_is_more_of_its_spread_where_it_hardly_var
         duration=0.005,
         step=5e-5,
         record_period=1e-4,
-        formulation="redundant",
+        formulation="exudyn",
     )
     result = simulate(scene, errors=True)
     fine = replace(scene, formulation="compiled", solver=SolverSettings(tolerance=1e-11))

@@ -39,7 +39,7 @@ RUNS = {
     "space": replace(PLANE, dimensions=3),
     "space, ideal pins, one channel": replace(PLANE, dimensions=3, pins={}, channels=("tip.x",)),
     "compiled": replace(PLANE, formulation="compiled", actuators=ACTUATORS),
-    "with an accuracy": replace(PLANE, accuracy="draft", formulation="redundant"),
+    "with an accuracy": replace(PLANE, accuracy="draft", formulation="exudyn"),
 }
 
 

@@ -24,10 +24,10 @@ def limited(scenario: Scenario, steps: int) -> Result | Failure:
 
 
 CASES = {
-    "redundant": held("redundant"),
+    "exudyn": held("exudyn"),
     "compiled": held("compiled", actuators=oil_columns()),
-    "space": replace(held("redundant"), dimensions=3),
-    "growing": replace(held("redundant"), solver=SolverSettings(growth=4.0)),
+    "space": replace(held("exudyn"), dimensions=3),
+    "growing": replace(held("exudyn"), solver=SolverSettings(growth=4.0)),
 }
 
 

@@ -96,7 +96,7 @@ def test_numbers_of_a_rattling_six_bar_do_not_depend_on_its_records(tmp_path: Pa
     assert known["pin.P.force.largest"].value == pytest.approx(known["pin.P.largest_force"].value, rel=1e-4)
 
 
-@pytest.mark.parametrize("formulation", ["compiled", "redundant"])
+@pytest.mark.parametrize("formulation", ["compiled", "exudyn"])
 def test_the_mean_of_a_coupler_point_is_that_of_its_curve(formulation: str) -> None:
     rate, duration, links = -25.0 * math.pi / 30.0, 2.0, (0.04, 0.11, 0.09)
 
@@ -180,7 +180,7 @@ def test_a_file_of_the_version_before_gives_the_numbers_of_its_records(tmp_path:
     [
         ({}, 2e-3),  # a rise of 2 s, ideal pins; the finest of a run of 5 s is 1 ms
         ({"duration": 40.0}, 1e-2),
-        ({"drive": Held(), "duration": 0.3}, 5e-4),  # steps of the redundant formulation are not cut
+        ({"drive": Held(), "duration": 0.3}, 5e-4),  # steps of the Exudyn formulation are not cut
         ({"drive": Held(), "duration": 0.3, "formulation": "compiled"}, 2e-4),
         ({"record_period": 0.07}, 0.07),
     ],

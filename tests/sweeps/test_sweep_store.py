@@ -50,7 +50,7 @@ CHANGES: dict[str, Any] = {
     "start": "settled",
     "gravity": (0.0, -9.82),
     "accuracy": "draft",
-    "formulation": "redundant",
+    "formulation": "exudyn",
     "step": 4e-4,
     "record_period": 2e-3,
     "channels": ("tip.*",),

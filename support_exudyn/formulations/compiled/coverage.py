@@ -51,5 +51,5 @@ def _check_written(scenario: Scenario) -> None:
 def _refuse(where: str, what: str, allowed: str) -> NoReturn:
     raise InputError(
         f"{where} = {what}: not covered by formulation = 'compiled'; allowed: {allowed}. "
-        "formulation = 'redundant' covers it."
+        "formulation = 'exudyn' covers it."
     )

@@ -51,7 +51,7 @@ from user_forces.normal.law import LoadError
 FIRST_STEP = 1e-5  # at most [s]
 AT_FIRST = 1e-6  # tolerance below which the first step is shorter
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
-STEEP = ' Very small hoses and very steep valves need fewer with `formulation = "redundant"`.'
+STEEP = ' Very small hoses and very steep valves need fewer with `formulation = "exudyn"`.'
 AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then it cannot be interrupted, and tells no progress
 NUMBERS_AT_ONCE = 400_000  # of the nodes of steps, 3 MB: then they become statistics
 CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed far out of its place."

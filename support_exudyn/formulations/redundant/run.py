@@ -1,4 +1,4 @@
-"""The redundant formulation: Exudyn's rigid bodies with constraints, generalised alpha, located impacts.
+"""The Exudyn formulation: Exudyn's rigid bodies with constraints, generalised alpha, located impacts.
 
 It covers every scenario but friction in pins whose forces rigid bodies do not determine, and is the reference
 for the others.
@@ -81,7 +81,7 @@ def check(scenario: Scenario) -> None:
         parts = [f"{FIELDS.get(kind, kind)}.{name}" for kind, name in one.parts]
         if rough := [name for name in parts if name in scenario.friction_laws]:
             raise InputError(
-                f"{rough[0]}.friction: not covered by formulation = 'redundant', for {one.said()}, and "
+                f"{rough[0]}.friction: not covered by formulation = 'exudyn', for {one.said()}, and "
                 "the engine takes any forces that fit; allowed: formulation = 'compiled', which takes the "
                 "least, or a bushing in one of them"
             )

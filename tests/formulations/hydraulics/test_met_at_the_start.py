@@ -21,7 +21,7 @@ from support_exudyn import (
 from support_exudyn.model.actuator_model import ActuatorModel
 from tests.formulations.hydraulics.leg_cases import Uprights
 
-FORMULATIONS = ("compiled", "redundant")
+FORMULATIONS = ("compiled", "exudyn")
 COLUMN = OilColumn(bore_area=0.1, oil_length=0.73, bulk_modulus=1.4e9, vapour_pressure=-99e3)
 CYLINDER = HydraulicCylinder(
     bore_area=0.1,
