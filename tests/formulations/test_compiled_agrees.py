@@ -264,7 +264,7 @@ def test_energies_of_all_scenes_add_up() -> None:
 def test_runs_to_an_accuracy_agree_within_what_they_say(scene: str) -> None:
     one, other = (
         simulate(replace(SCENES[scene](), formulation=name), accuracy="standard")
-        for name in ("redundant", "compiled")
+        for name in ("exudyn", "compiled")
     )
     assert one.met
     assert other.met

@@ -61,7 +61,7 @@ def on_oil(tolerance: float = 1e-8, friction: float = 0.25, **changes: object) -
 def test_the_redundant_formulation_tends_to_the_compiled_one() -> None:
     ours = simulate(on_oil(1e-11, drive=Held(), duration=0.06))
     settings = SolverSettings(impact_steps=256)
-    base = on_oil(drive=Held(), duration=0.06, formulation="redundant", step=1e-4, solver=settings)
+    base = on_oil(drive=Held(), duration=0.06, formulation="exudyn", step=1e-4, solver=settings)
 
     def off(scene: Scenario) -> float:
         return float(np.sqrt(np.mean((ours[FORCE] - simulate(scene)[FORCE]) ** 2)))
@@ -93,7 +93,7 @@ def test_the_mass_that_moves_is_that_of_the_bores_axes_where_both_bodies_turn() 
         solver=SolverSettings(tolerance=1e-8),
     )
     right = simulate(scene).largest_force["front_shield"]
-    engine = replace(scene, formulation="redundant", step=1e-4, solver=SolverSettings(impact_steps=400))
+    engine = replace(scene, formulation="exudyn", step=1e-4, solver=SolverSettings(impact_steps=400))
     # in the axes in the middle: 1.7e-4 off, at any step
     assert simulate(engine).largest_force["front_shield"] == pytest.approx(right, rel=5e-6)
 
@@ -192,7 +192,7 @@ def test_loose_pins_between_moving_bodies_of_several_branches() -> None:
         step=5e-5,
         solver=SolverSettings(tolerance=1e-9),
     )
-    ours, theirs = simulate(scene), simulate(replace(scene, formulation="redundant"))
+    ours, theirs = simulate(scene), simulate(replace(scene, formulation="exudyn"))
     for name in pins:
         assert len(ours.onsets[name]) >= 2
         for one, other in zip(ours.onsets[name][:3], theirs.onsets[name][:3], strict=True):
@@ -236,7 +236,7 @@ class Torn(Bars):
         return replace(good, bodies={"bar0": replace(good.bodies["bar0"], velocity=(1.0, 0.0))})
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
-def test_velocities_that_tear_a_pin_are_refused(formulation: Literal["redundant", "compiled"]) -> None:
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
+def test_velocities_that_tear_a_pin_are_refused(formulation: Literal["exudyn", "compiled"]) -> None:
     with pytest.raises(SimulationError, match="energy does not add up: it is open by 1"):
         simulate(Scenario(machine=Torn(number=1), duration=0.1, formulation=formulation))

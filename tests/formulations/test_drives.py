@@ -94,7 +94,7 @@ def test_a_fine_table_of_a_cubic_step_drives_as_it_does() -> None:
     assert difference > 0.0
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 @pytest.mark.parametrize(
     ("between", "drive"), [("smooth", STROKE), ("linear", UniformSpeed(stroke=0.02, start=0.02, end=0.08))]
 )

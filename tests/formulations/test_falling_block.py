@@ -21,7 +21,7 @@ from tests.roof_cases import MASS, OVER_THE_COLUMNS, TOP, Ram
 
 G = 9.81
 HEIGHT = 0.5
-FORMULATIONS = ("redundant", "compiled")
+FORMULATIONS = ("exudyn", "compiled")
 EXACT = SolverSettings(tolerance=1e-9)  # of the compiled formulation
 # support on oil: what the paper's machine has, and a soft rock
 ON_OIL = paper_machine.oil_columns()
@@ -56,7 +56,7 @@ def weightless(rock: FallingBlock, **changes: object) -> Scenario:
 
 @pytest.mark.parametrize(("exponent", "stiffness"), [(1.0, 1e8), (1.5, 1e9), (2.2, 3e10)])
 @pytest.mark.parametrize("restitution", [0.1, 0.5, 1.0])
-@pytest.mark.parametrize(("formulation", "share"), [("redundant", 2e-5), ("compiled", 1e-9)])
+@pytest.mark.parametrize(("formulation", "share"), [("exudyn", 2e-5), ("compiled", 1e-9)])
 def test_a_blow_gives_back_what_was_asked(
     formulation: str, share: float, restitution: float, exponent: float, stiffness: float
 ) -> None:
@@ -77,7 +77,7 @@ def test_a_sloping_face_is_struck_along_its_normal() -> None:
     # the guide carries what is forward; along the normal the block has the speed v cos and the mass m/cos^2
     slope = 0.6
     rock = block(slope=slope)
-    for formulation, share in (("redundant", 2e-5), ("compiled", 1e-9)):
+    for formulation, share in (("exudyn", 2e-5), ("compiled", 1e-9)):
         result = simulate(weightless(rock, formulation=formulation, solver=EXACT))
         (onset,) = result.onsets["rock"]
         assert onset.time == pytest.approx(0.01 / 3.0, rel=1e-9)
@@ -125,7 +125,7 @@ def test_weight_and_all_bounces_are_as_in_an_independent_solution() -> None:
     # without what rounding makes of a block that rests
     told = [one for one in bounced(rock, 0.95) if one[1] > 1e-3]
     assert len(told) >= 2
-    for formulation, share in (("redundant", 3e-5), ("compiled", 1e-7)):
+    for formulation, share in (("exudyn", 3e-5), ("compiled", 1e-7)):
         scene = on_the_held(rock, duration=0.95, formulation=formulation, solver=EXACT)
         onsets = simulate(scene).onsets["rock"]
         assert len(onsets) == len(told)

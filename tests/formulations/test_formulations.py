@@ -77,7 +77,7 @@ SCENES = {
     "ideal slider-crank": slider_crank(1e-4),
     "a law that branches": with_laws(normal=Branching(stiffness=1e10, restitution=0.5)),
 }
-COVERED = {"compiled": set(SCENES) - {"a law that branches"}, "redundant": set(SCENES)}
+COVERED = {"compiled": set(SCENES) - {"a law that branches"}, "exudyn": set(SCENES)}
 
 
 # scenes with what the compiled formulation says of them
@@ -114,7 +114,7 @@ NOT_COMPILED = {
 def test_a_formulation_covers_what_it_says(name: str, scene: str) -> None:
     assert formulation(name).covers(SCENES[scene]) == (scene in COVERED[name])
     # whatever the scenario asks for
-    assert formulation(name).covers(replace(SCENES[scene], formulation="redundant")) == (scene in COVERED[name])
+    assert formulation(name).covers(replace(SCENES[scene], formulation="exudyn")) == (scene in COVERED[name])
 
 
 @pytest.mark.parametrize("scene", NOT_COMPILED)
@@ -138,7 +138,7 @@ def test_space_is_refused() -> None:
 @pytest.mark.parametrize("law", [Branching, ByMath])
 def test_a_law_that_cannot_be_compiled_is_left_to_the_engine(law: type[LankaraniNikravesh]) -> None:
     result = simulate(with_laws(normal=law(stiffness=1e10, restitution=0.5)), accuracy="draft")
-    assert result.scenario.formulation == "redundant"
+    assert result.scenario.formulation == "exudyn"
     assert result.counts.user_function_calls > 0
 
 

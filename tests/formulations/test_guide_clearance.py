@@ -103,7 +103,7 @@ def test_a_slider_between_walls_impacts_as_computed_otherwise() -> None:
 
 @pytest.mark.parametrize(
     ("sliding", "formulation"),
-    [(0.0, "compiled"), (0.01, "compiled"), pytest.param(0.01, "redundant", marks=pytest.mark.slow)],
+    [(0.0, "compiled"), (0.01, "compiled"), pytest.param(0.01, "exudyn", marks=pytest.mark.slow)],
 )
 def test_a_slider_between_walls_moves_as_by_scipy(sliding: float, formulation: str) -> None:
     friction = Ambrosio(sliding_coefficient=sliding) if sliding else Frictionless()
@@ -138,7 +138,7 @@ def by_scipy(machine: FreePair, guide: ClearanceGuide) -> tuple[np.ndarray, list
     return other.run(*start_of(machine.linkage()), 0.0045, rtol=1e-9), other.touches
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 @pytest.mark.parametrize(
     ("machine", "guide"),
     [

@@ -21,7 +21,7 @@ CHECK = {
     4.00: (51200.383, -33441.761, 38770.193, -14.754937, -2.718542),
     4.50: (44955.553, -25005.249, 37359.594, -12.049091, 14.355602),
 }
-FORMULATIONS = ("redundant", "compiled")
+FORMULATIONS = ("exudyn", "compiled")
 EVERY_FORMULATION = pytest.mark.parametrize("formulation", FORMULATIONS)
 
 
@@ -116,7 +116,7 @@ def test_energy_of_an_ideal_rise_is_the_work_of_the_columns(rises: dict[str, Res
 
 
 def test_no_overshoot_after_the_columns_start(rises: dict[str, Result]) -> None:
-    just_after = rises["redundant"][FORCE][3001:3004]
+    just_after = rises["exudyn"][FORCE][3001:3004]
     finer = simulate(support(step=2.5e-4, duration=3.01))[FORCE][3001:3004]
     # without care the multipliers overshoot by 1 %, and that does not shrink with the step
     np.testing.assert_allclose(just_after, finer, rtol=3e-5)

@@ -49,7 +49,7 @@ def error(run: Result, wanted: Result) -> float:
 @pytest.mark.parametrize("name", CASES)
 def test_legs_are_those_of_the_compiled_formulation_to_second_order(name: str) -> None:
     wanted = lift(CASES[name], "compiled")
-    coarse, fine = lift(CASES[name], "redundant"), lift(CASES[name], "redundant", step=2e-4)
+    coarse, fine = lift(CASES[name], "exudyn"), lift(CASES[name], "exudyn", step=2e-4)
     assert error(fine, wanted) < 1e-3
     assert 3.3 < error(coarse, wanted) / error(fine, wanted) < 4.7
     events, known = fine.oil_events["jack"], wanted.oil_events["jack"]
@@ -66,7 +66,7 @@ def test_a_valve_that_opens_very_slowly_cuts_no_step_again_and_again(speed: floa
     scene = replace(leg_cases.on_cylinder(speed), actuators={"leg0": leg}, duration=1e-3, record_period=1e-5)
     run, known = (
         simulate(replace(scene, formulation=one, step=1e-5, solver=SolverSettings(tolerance=1e-10)))
-        for one in ("redundant", "compiled")
+        for one in ("exudyn", "compiled")
     )
     assert run.counts.cut_steps <= 1
     assert [one[1:] for one in run.oil_events["leg0"]] == [one[1:] for one in known.oil_events["leg0"]]

@@ -25,7 +25,7 @@ def contact(friction: float) -> JournalContact:
     )
 
 
-def fly(one: Body, two: Body, bore: Bore, formulation: str = "redundant") -> Result:
+def fly(one: Body, two: Body, bore: Bore, formulation: str = "exudyn") -> Result:
     scenario = Scenario(
         machine=Pair(one=one, two=two, one_point=(0.2, 0.25), two_point=(0.2, 0.25)),
         pins={"pin": ClearancePin(contact=contact(0.3), bore=bore)},
@@ -55,7 +55,7 @@ def momenta(result: Result, one: Body, two: Body) -> tuple[np.ndarray, np.ndarra
 
 
 # what steps leave of the angular momentum, as a share; a force pair that does not act at one point gives 1e-3
-FORMULATIONS = {"redundant": 1e-6, "compiled": 1e-8}
+FORMULATIONS = {"exudyn": 1e-6, "compiled": 1e-8}
 
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)

@@ -45,7 +45,7 @@ class Wheel(Machine):
         return Linkage(bodies={"wheel": body}, pins={"pivot": pinned(*ends, (0.3, 0.4))})
 
 
-FORMULATIONS = pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+FORMULATIONS = pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 
 
 def spun_down(pin: IdealPin, formulation: str, tolerance: float, **changes: object) -> Result:
@@ -65,7 +65,7 @@ def test_a_wheel_is_slowed_down_by_mu_n_r(spin: float, ground_first: bool, formu
     moment = MU * MASS * G * RADIUS
     expected = spin - math.copysign(moment / INERTIA, spin) * result.time
     # constant deceleration, which both integrators take exactly but for rounding; some 1e-9 where steps are few
-    close = 1e-10 if formulation == "redundant" else 1e-9
+    close = 1e-10 if formulation == "exudyn" else 1e-9
     np.testing.assert_allclose(result["wheel.angular_velocity"], expected, atol=close)
     on_second = -1.0 if ground_first else 1.0  # against the wheel's spin if that is the second body
     np.testing.assert_allclose(
@@ -83,7 +83,7 @@ def test_a_wheel_that_creeps_is_slowed_down_by_the_ramp_of_the_law(formulation: 
     # below 1 m/s a dashpot of mu N r^2
     expected = 8.0 * np.exp(-MU * MASS * G * RADIUS**2 / INERTIA * result.time)
     # second order of a step of 0.5 ms, against a decay within 5 s: 1e-9
-    close = 1e-8 if formulation == "redundant" else 1e-9
+    close = 1e-8 if formulation == "exudyn" else 1e-9
     np.testing.assert_allclose(result["wheel.angular_velocity"], expected, rtol=close)
 
 

@@ -18,8 +18,8 @@ PRINTED = {
 # asked of the engine's default step; those of the compiled formulation are rounding of the print, and with
 # friction that the print has the contact point elsewhere in the overlap: 3e-5 in the mean, 2e-4 in the spread
 SHARES = {
-    ("redundant", False): (1e-4, 1e-3, 1e-3),
-    ("redundant", True): (1e-3, 3e-3, 1e-3),
+    ("exudyn", False): (1e-4, 1e-3, 1e-3),
+    ("exudyn", True): (1e-3, 3e-3, 1e-3),
     ("compiled", False): (1.2e-6, 1e-5, 2.5e-6),
     ("compiled", True): (1e-4, 5e-4, 1e-5),
 }
@@ -28,8 +28,8 @@ DISSIPATED = {(1.5, 0.0): (94.264, 2e-3), (1.5, 0.25): (363.315, 4e-3)}
 Case = tuple[float, float]
 CASES = [
     *(("compiled", case) for case in PRINTED),
-    ("redundant", (0.5, 0.25)),
-    *(pytest.param(("redundant", case), marks=pytest.mark.slow) for case in ((1.5, 0.0), (1.5, 0.25))),
+    ("exudyn", (0.5, 0.25)),
+    *(pytest.param(("exudyn", case), marks=pytest.mark.slow) for case in ((1.5, 0.0), (1.5, 0.25))),
 ]
 
 

@@ -63,7 +63,7 @@ GIVES = {name: GIVES_DAMPED if "oil" in name else 0.0 for name in KINDS}
 # --- a ram thrown at the roof ---
 
 
-FORMULATIONS = pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+FORMULATIONS = pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 
 
 def by(formulation: str, scene: Scenario) -> Result:
@@ -77,7 +77,7 @@ def test_a_ram_thrown_at_the_roof_comes_back_after_half_a_period(formulation: st
     t = result.time - 0.01  # it flies for 10 ms
     swing = np.sin(W * np.clip(t, 0.0, math.pi / W))
     # second order: (W h)^2 = 1e-5 of the largest; the landing of a step with error control is not met
-    close = 1e-5 if formulation == "redundant" else 1e-6
+    close = 1e-5 if formulation == "exudyn" else 1e-6
     np.testing.assert_allclose(result["roof.force"], STIFFNESS / W * swing, atol=10.0 * close * STIFFNESS / W)
     after = t > math.pi / W + 1e-3
     np.testing.assert_allclose(result["ram.velocity_y"][after], -1.0, atol=close)
@@ -156,7 +156,7 @@ def test_a_dead_load_takes_no_more_than_its_class(formulation: str) -> None:
     result = by(formulation, replace(thrown(0.01, 1e-3), loads={"weight": load}, record_period=1e-2))
     expected = TOP[1] + result.time - 0.5 * 0.3 * result.time**2
     # constant acceleration, which both integrators take exactly; Newton's tolerance of 1e-8, else rounding
-    place, share = (1e-8, 1e-6) if formulation == "redundant" else (1e-13, 1e-12)
+    place, share = (1e-8, 1e-6) if formulation == "exudyn" else (1e-13, 1e-12)
     np.testing.assert_allclose(result["ram.y"], expected, atol=place)
     np.testing.assert_allclose(result["guide.force"][1:], 7.0, rtol=share)
     assert result.energy_error < 1e-4  # of 500 J
@@ -169,7 +169,7 @@ def test_a_block_that_waits_is_an_elastic_impact(formulation: str) -> None:
     block = elastic_block(body="ram", point=TOP, mass=MASS / 4.0, height=0.01, stiffness=STIFFNESS)
     result = by(formulation, replace(thrown(0.01, 1e-4), loads={"block": block}))
     # the formulas of an elastic impact; second order in the steps: 1e-5
-    close = 6e-5 if formulation == "redundant" else 1e-6
+    close = 6e-5 if formulation == "exudyn" else 1e-6
     assert result["ram.velocity_y"][-1] == pytest.approx(0.6, abs=close)
     assert result["block.velocity_y"][-1] == pytest.approx(1.6, abs=close)
     assert result.energy_error < 1e-2  # of 500 J

@@ -71,7 +71,7 @@ def tilted(damping: float) -> np.ndarray:
     return found.y[:, -1]
 
 
-@pytest.mark.parametrize(("formulation", "share"), [("redundant", 2e-4), ("compiled", 1e-6)])
+@pytest.mark.parametrize(("formulation", "share"), [("exudyn", 2e-4), ("compiled", 1e-6)])
 @pytest.mark.parametrize("damping", [0.0, 0.3])
 def test_a_bedding_is_the_integral_over_its_stretch(formulation: str, share: float, damping: float) -> None:
     scene = Scenario(
@@ -152,7 +152,7 @@ def reaction(**changes: object) -> GroundReaction:
 
 @pytest.mark.parametrize("between", ["linear", "smooth"])
 # redundant: second order, four times less with half the steps
-@pytest.mark.parametrize(("formulation", "share"), [("redundant", 4e-4), ("compiled", 1e-7)])
+@pytest.mark.parametrize(("formulation", "share"), [("exudyn", 4e-4), ("compiled", 1e-7)])
 def test_a_ram_under_a_reaction_curve_is_as_by_scipy(between: str, formulation: str, share: float) -> None:
     roof = reaction(between=between)
     hold = SpringDamper(body="ram", point=TOP, other_point=(0.0, 0.0), stiffness=3e7, free_length=1.0)

@@ -111,7 +111,7 @@ def test_the_equilibrium_of_a_stiff_pin_is_found(
         step_s=1e-4,
     )
     one, other = (
-        simulate(replace(scene, actuators=actuators, formulation=name)) for name in ("redundant", "compiled")
+        simulate(replace(scene, actuators=actuators, formulation=name)) for name in ("exudyn", "compiled")
     )
     force, depth = one[FORCE][0], one[f"pin.{PIN}.depth"][0]
     assert force == pytest.approx(WEIGHT_ON_PIN, rel=0.01)

@@ -59,7 +59,7 @@ def test_drive_puts_in_what_the_bodies_have(ideal: Result) -> None:
 # printed, at 1e-8 five impacts multiply it
 Close = dict[str, float]
 WAYS: dict[str, tuple[str, float, Close, Close]] = {
-    "engine": ("redundant", 1e-7, {"rtol": 1e-5}, {"rtol": 1e-4}),
+    "engine": ("exudyn", 1e-7, {"rtol": 1e-5}, {"rtol": 1e-4}),
     "compiled, fine": ("compiled", 1e-12, {"rtol": 0.0, "atol": 6e-10}, {"rtol": 0.0, "atol": 6e-7}),
     "compiled": ("compiled", 1e-8, {"rtol": 0.0, "atol": 5e-9}, {"rtol": 0.0, "atol": 5e-5}),
 }

@@ -121,7 +121,7 @@ class Planetary(Machine):
 
 
 # of places and forces, in second place that of the engine's steps of 0.1 ms
-FORMULATIONS = {"compiled": (1e-11, 1e-8), "redundant": (1e-9, 1e-4)}
+FORMULATIONS = {"compiled": (1e-11, 1e-8), "exudyn": (1e-9, 1e-4)}
 EVERY_FORMULATION = pytest.mark.parametrize("formulation", FORMULATIONS)
 
 

@@ -128,7 +128,7 @@ class Lifted(Machine):
         )
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 def test_an_actuator_pushes_with_what_the_bar_asks_for(formulation: str) -> None:
     result = simulate(
         Scenario(

@@ -129,7 +129,7 @@ class Equations:
 
 
 WAYS: dict[str, dict[str, object]] = {
-    "redundant": {"step": 2e-6, "solver": SolverSettings(impact_steps=1024)},
+    "exudyn": {"step": 2e-6, "solver": SolverSettings(impact_steps=1024)},
     "compiled": {"solver": SolverSettings(tolerance=1e-10)},
 }
 
@@ -154,7 +154,7 @@ def test_impacts_of_two_pins_are_those_of_an_independent_solution(friction: floa
     for formulation, settings in WAYS.items():
         onsets = simulate(replace(scene, formulation=formulation, **settings)).onsets
         # each impact multiplies the errors of those before
-        time, speed = (1e-6, 1e-3) if formulation == "redundant" else (1e-6 * until, 1e-6)
+        time, speed = (1e-6, 1e-3) if formulation == "exudyn" else (1e-6 * until, 1e-6)
         for name, impacts in known.items():
             found = np.array([(one.time, one.speed) for one in onsets[name]])
             np.testing.assert_allclose(found[:, 0], np.array(impacts)[:, 0], rtol=0.0, atol=time)

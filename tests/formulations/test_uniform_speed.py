@@ -33,7 +33,7 @@ from support_exudyn.sweeps.plan import Record
 from tests.cases.run_cases import loose_support, slider_crank, support
 from user_forces import value
 
-FORMULATIONS = pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+FORMULATIONS = pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 
 
 @cache
@@ -50,7 +50,7 @@ def test_velocities_after_the_jump_are_the_closed_form_ones(formulation: str) ->
     assert upper is not None
     result = rise(formulation)
     # central difference over 0.02 mm: 1e-9; generalised alpha at this step: 1e-6
-    close = 3e-6 if formulation == "redundant" else 1e-7
+    close = 3e-6 if formulation == "exudyn" else 1e-7
     for body in ("rear_link", "canopy"):
         slope = (getattr(upper, body) - getattr(lower, body)) / (2 * small)
         assert result[f"{body}.angular_velocity"][3001] == pytest.approx(slope * speed, rel=close)

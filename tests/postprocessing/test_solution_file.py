@@ -109,7 +109,7 @@ def places(scenario: Scenario, solution: Any, body: str, point: tuple[float, ...
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 COLUMNS = ("front_column", "rear_column")
 RISES = {
-    "redundant": loose_support(1.5, 0.25, **RISE),
+    "exudyn": loose_support(1.5, 0.25, **RISE),
     "compiled": loose_support(1.5, 0.25, formulation="compiled", actuators=dict.fromkeys(COLUMNS, OIL), **RISE),
     "crank": loose_slider_crank(2e-3, formulation="compiled"),
     "space": loose_support(1.5, 0.25, dimensions=3, **RISE),
@@ -239,7 +239,7 @@ def test_a_solution_file_of_another_model_is_not_shown(run: Result, tmp_path: Pa
 # --- what is drawn is where the run was ---
 
 
-@pytest.mark.parametrize("name", ["redundant", "space", "crank"])
+@pytest.mark.parametrize("name", ["exudyn", "space", "crank"])
 def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
     result = risen(name)
     shown, poses = model_for_viewer(result.scenario), Poses(result)
@@ -275,7 +275,7 @@ def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
 
 @pytest.mark.parametrize("bore", ["first", "second"])
 def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    scenario = RISES["redundant"]
+    scenario = RISES["exudyn"]
     with_clearance = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore, eccentricity=(0.0, -0.0015))
     scenario = dataclasses.replace(scenario, pins={PIN: with_clearance})
     place, bearing = scenario.linkage.pins[PIN], with_clearance.contact.bearing

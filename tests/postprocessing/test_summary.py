@@ -93,13 +93,13 @@ def test_whether_an_accuracy_was_met_is_told(monkeypatch: pytest.MonkeyPatch) ->
 @pytest.mark.parametrize(
     ("scene", "ran", "said"),
     [
-        ("a law that branches", "redundant", "redundant (auto: compiled does not cover pins.rear_base.contact"),
-        ("clearance support", "redundant", "redundant (auto: compiled would need too many steps"),
+        ("a law that branches", "exudyn", "redundant (auto: compiled does not cover pins.rear_base.contact"),
+        ("clearance support", "exudyn", "redundant (auto: compiled would need too many steps"),
         ("clearance support", "compiled", "compiled (auto: the cheapest, and it covers this scene)"),
     ],
 )
 def test_why_a_formulation_was_chosen_is_told(
-    scene: str, ran: Literal["redundant", "compiled"], said: str
+    scene: str, ran: Literal["exudyn", "compiled"], said: str
 ) -> None:
     scenario = replace(SCENES[scene], formulation=ran)
     found = replace(run(), scenario=scenario, goal=0.01, coarser=run(), provenance={FORMULATION_ASKED: "auto"})

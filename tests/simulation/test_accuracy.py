@@ -65,7 +65,7 @@ def test_the_result_has_the_settings_that_were_chosen(drop: Result) -> None:
     assert drop.met
 
 
-@pytest.mark.parametrize("formulation", ["compiled", "redundant"])
+@pytest.mark.parametrize("formulation", ["compiled", "exudyn"])
 def test_the_settings_that_were_chosen_give_the_same_run_again(formulation: str) -> None:
     result = simulate(replace(DROP, formulation=formulation, duration=0.03), accuracy="draft")
     assert result.scenario.formulation == formulation
@@ -78,13 +78,13 @@ def test_the_settings_that_were_chosen_give_the_same_run_again(formulation: str)
     assert (again.goal, again.coarser) == (None, None)
 
 
-@pytest.mark.parametrize("scene", ["compiled", "ideal", "redundant"])
+@pytest.mark.parametrize("scene", ["compiled", "ideal", "exudyn"])
 def test_progress_only_rises_and_ends_at_one(scene: str) -> None:
     short = replace(DROP, duration=0.03)
     scenario = {
         "compiled": short,
         "ideal": support(duration=0.05),
-        "redundant": replace(short, formulation="redundant"),
+        "exudyn": replace(short, formulation="exudyn"),
     }[scene]
     shares: list[float] = []
     result = simulate(scenario, accuracy="draft", progress=shares.append)
@@ -99,7 +99,7 @@ def test_progress_only_rises_and_ends_at_one(scene: str) -> None:
 # --- ideal machines ---
 
 
-@pytest.mark.parametrize("formulation", ["auto", "redundant"])
+@pytest.mark.parametrize("formulation", ["auto", "exudyn"])
 def test_a_machine_with_ideal_pins_has_errors_too(formulation: str) -> None:
     drive = CubicStep(stroke=0.05, start=0.02, end=0.2)
     result = simulate(support(drive=drive, duration=0.25, formulation=formulation), accuracy="standard")
@@ -156,7 +156,7 @@ def test_a_scene_that_forgets_its_start_is_given_up(monkeypatch: pytest.MonkeyPa
 
 def test_a_goal_beyond_the_finest_steps_gives_what_can_be_had(monkeypatch: pytest.MonkeyPatch) -> None:
     made = runs_of(monkeypatch)
-    result = simulate(replace(DROP, duration=0.018, formulation="redundant", record_period=1e-4), accuracy=1e-7)
+    result = simulate(replace(DROP, duration=0.018, formulation="exudyn", record_period=1e-4), accuracy=1e-7)
     assert len(made) == FEWEST_RUNS  # 2500, 5000, 10000 steps an impact; there are no finer ones
     assert made[-1].solver.impact_steps == 10000
     assert result.goal == 1e-7

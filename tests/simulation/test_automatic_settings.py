@@ -39,7 +39,7 @@ DROP = loose_support(drive=Held(), duration=0.02)
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_the_cheapest_that_covers_a_scene_is_taken(scene: str) -> None:
-    expected = next(name for name in ("compiled", "redundant") if scene in COVERED[name])
+    expected = next(name for name in ("compiled", "exudyn") if scene in COVERED[name])
     assert settings_for(SCENES[scene], 1e-3).formulation == expected
 
 
@@ -56,12 +56,12 @@ def test_one_that_does_not_cover_the_scene_is_refused() -> None:
 
 def test_a_backend_that_is_asked_for_decides_too() -> None:
     symbolic = replace(DROP, solver=SolverSettings(backend="symbolic"))
-    assert settings_for(symbolic, 1e-3).formulation == "redundant"
+    assert settings_for(symbolic, 1e-3).formulation == "exudyn"
     python = replace(DROP, solver=SolverSettings(backend="python"))
     assert settings_for(python, 1e-3).formulation == "compiled"  # which has no Python function to choose
     assert settings_for(python, 1e-3).solver.backend == "auto"
-    named = settings_for(replace(python, formulation="redundant"), 1e-3)
-    assert (named.formulation, named.solver.backend) == ("redundant", "python")
+    named = settings_for(replace(python, formulation="exudyn"), 1e-3)
+    assert (named.formulation, named.solver.backend) == ("exudyn", "python")
 
 
 def rubbing(scene: Scenario, ramp: float) -> Scenario:
@@ -82,7 +82,7 @@ def test_friction_too_steep_for_explicit_steps_is_left_to_the_implicit_ones(scen
     assert 1e-9 < steepest < wide  # there are such friction laws
     assert settings_for(rubbing(scene, 1.05 * steepest), 1e-3).formulation == "compiled"
     steep = rubbing(scene, 0.95 * steepest)
-    assert settings_for(steep, 1e-3).formulation == "redundant"
+    assert settings_for(steep, 1e-3).formulation == "exudyn"
     # who asks for another has it
     assert settings_for(replace(steep, formulation="compiled"), 1e-3).formulation == "compiled"
 
@@ -90,7 +90,7 @@ def test_friction_too_steep_for_explicit_steps_is_left_to_the_implicit_ones(scen
 def test_a_run_to_an_accuracy_is_made_by_the_formulation_that_can() -> None:
     steep = rubbing(replace(DROP, duration=0.02), 2e-9)  # friction stops in 20 ps what slides
     result = simulate(steep, accuracy=0.1)
-    assert result.scenario.formulation == "redundant"
+    assert result.scenario.formulation == "exudyn"
     assert len(result.onsets["rear_base"]) == 1
 
 
@@ -120,7 +120,7 @@ def test_a_smaller_goal_is_never_coarser(pair: tuple[float, float], name: str) -
 
 
 def test_steps_are_shares_of_the_scenes_times() -> None:
-    scene = replace(loose_slider_crank(1e-3), record_period=1e-3, formulation="redundant")
+    scene = replace(loose_slider_crank(1e-3), record_period=1e-3, formulation="exudyn")
     times, chosen = timescales(scene), settings_for(scene, GOAL_OF_SHARES)
     shares = (FLIGHT * times.flight, RESTING * times.resting, DRIVE * times.drive)
     assert chosen.step == min(shares)

@@ -104,7 +104,7 @@ def test_what_is_left_of_a_fall_rings_as_told() -> None:
     # steps are for the least damping that the law may have; it falls as one over the impact velocity
     expected = found.fall * FASTEST / REST_VELOCITY
     assert math.log(sizes[0] / sizes[1]) / 0.8 == pytest.approx(expected, rel=0.1)
-    kept = simulate(replace(scene, formulation="redundant", step=0.25 * ringing_step(scene)))[
+    kept = simulate(replace(scene, formulation="exudyn", step=0.25 * ringing_step(scene)))[
         f"pin.{PIN}.force"
     ]
     size = float(np.ptp(kept[(time > 2.35) & (time <= 2.4)]))
