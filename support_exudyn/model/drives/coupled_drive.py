@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 from pydantic import model_validator
-from user_forces.expressions.scalar import in_time
 
 from support_exudyn.model.drives.drive import Drive
 from user_forces.values.units import Travel

@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field, model_validator
-from user_forces.expressions.scalar import in_time
 
 from support_exudyn.model.drives.drive import Drive
 from user_forces.values.units import Seconds, Travel

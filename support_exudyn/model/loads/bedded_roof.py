@@ -3,8 +3,6 @@
 import math
 from collections.abc import Mapping
 
-from user_forces.expressions.scalar import maximum, minimum, sqrt
-
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.loads.load import LoadChannel, TimeFunction
 from support_exudyn.model.loads.stretch_load import StretchLoad

@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field, model_validator
-from user_forces.expressions.scalar import is_number, sin, step
 
 from support_exudyn.model.drives.table_drive import MOST_POINTS, TableDrive
 from user_forces.kernel import smooth_step

@@ -6,7 +6,6 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
-from user_forces.expressions.scalar import maximum, minimum
 
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint

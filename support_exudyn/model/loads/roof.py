@@ -3,8 +3,6 @@
 import math
 from collections.abc import Mapping
 
-from user_forces.expressions.scalar import maximum
-
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.loads.load import Load, LoadChannel, TimeFunction
 from user_forces.kernel import kernel, limited

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 
 from pydantic import model_validator
 from typing_extensions import Self
-from user_forces.expressions.scalar import hypot
 
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint

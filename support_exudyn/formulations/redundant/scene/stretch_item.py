@@ -7,7 +7,6 @@ from typing import Any
 
 import exudyn
 from exudyn.itemInterface import ObjectConnectorRigidBodySpringDamper
-from user_forces.expressions.scalar import cos, sin
 
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
