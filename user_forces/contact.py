@@ -346,14 +346,12 @@ def rows_kernel_of(force: Kernel, energy: Kernel, of_energy: int) -> Kernel:
 
     def over(rows: Any, constants: Any, parameters: Any, out: Any) -> None:
         for n in range(rows.shape[0]):
-            x, y, vx, vy, bore_spin, journal_spin, closed, speed, deflection, slip, step = rows[n]
-            result = force(
-                x, y, vx, vy, bore_spin, journal_spin, closed > 0.5, speed, deflection, slip, step, constants
-            )
-            for k in range(len(result)):
-                out[n, k] = result[k]
-            depth = result[0]
-            out[n, len(result)] = energy(depth, *numbers(parameters, 0, of_energy)) if depth > 0.0 else 0.0
+            motion, memory = numbers(rows[n], 0, 6), numbers(rows[n], 7, 4)
+            result = force(*motion, rows[n, 6] > 0.5, *memory, constants)
+            depth, rate, slip, normal, friction, fx, fy, arm, clamped, deflection = result
+            out[n, 0], out[n, 1], out[n, 2], out[n, 3], out[n, 4] = depth, rate, slip, normal, friction
+            out[n, 5], out[n, 6], out[n, 7], out[n, 8], out[n, 9] = fx, fy, arm, clamped, deflection
+            out[n, 10] = energy(depth, *numbers(parameters, 0, of_energy)) if depth > 0.0 else 0.0
 
     arrays = np.zeros((1, 1)), np.zeros(1), np.zeros(1), np.zeros((1, 1))
     return compiled_or_plain(over, arrays)
