@@ -223,6 +223,7 @@ __all__ = [
 
 # imported when they are asked for, so that others need not wait: what a run is made of, and what it is read by
 _PLACES = {
+    "user_forces.contact_state": ("Onset",),
     ".files.machines": ("cylinders_and_rods", "load_machine", "load_support", "machine", "reference_support"),
     ".formulations.contract": ("Failure", "SimulationError"),
     ".machines.four_column_support": ("HydraulicSupport",),
@@ -230,7 +231,6 @@ _PLACES = {
     ".machines.planar_linkage": ("PlanarLinkage",),
     ".machines.slider_crank": ("SliderCrank", "ravn_slider_crank"),
     ".machines.two_leg_shield": ("TwoLegShield",),
-    ".mechanics.contact_state": ("Onset",),
     ".mechanics.trajectory": ("Impulse",),
     ".model.actuators": (
         "ActuatorModel",

@@ -1,6 +1,6 @@
 """The force of a bore on its journal: contact and friction laws, and the geometry they need; see README.md.
 
-Nothing in this package knows a multibody engine. Everything is SI (m, s, kg, N, rad). A law that lies in
+Only `connector` knows Exudyn. Everything is SI (m, s, kg, N, rad). A law that lies in
 `normal` or `friction` is found there by `laws`; it stands here by name for those who check types.
 What is named here is imported when it is asked for.
 """
@@ -31,6 +31,9 @@ if TYPE_CHECKING:
     from user_forces.friction.laws import Threlfall as Threlfall
     from user_forces.friction.lugre import LuGre as LuGre
     from user_forces.journal import JournalBearing as JournalBearing
+    from user_forces.connector.clearance_joint import ClearanceGuide as ClearanceGuide
+    from user_forces.connector.clearance_joint import ClearanceJoint as ClearanceJoint
+    from user_forces.connector.located import solve_located as solve_located
     from user_forces.kernel import kernel as kernel
     from user_forces.materials import STEEL as STEEL
     from user_forces.materials import STEEL_35CRMO as STEEL_35CRMO
@@ -77,6 +80,8 @@ if TYPE_CHECKING:
     from user_forces.values.value import value as value
 
 _PLACES = {
+    ".connector.clearance_joint": ("ClearanceGuide", "ClearanceJoint"),
+    ".connector.located": ("solve_located",),
     ".catalogue": ("laws",),
     ".conformal": (
         "LineContact",

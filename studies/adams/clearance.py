@@ -19,8 +19,7 @@ from dataclasses import dataclass
 
 from studies.adams.statements import Statements, functions, number
 from support_exudyn.model.pins import ClearancePin
-from user_forces.friction.laws import Ambrosio
-from user_forces.friction.laws import Frictionless
+from user_forces.friction.laws import Ambrosio, Frictionless
 from user_forces.normal.power_laws import LankaraniNikravesh
 from user_forces.values.value import InputError
 

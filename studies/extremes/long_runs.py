@@ -28,11 +28,11 @@ from support_exudyn import (
 )
 from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.formulations.registry import formulation
-from user_forces.contact_state import PinMemory
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.recorded_channels import Channel, channels
 from support_exudyn.simulation.result_checks import energy_open, joints_apart, result_checks, turned_over
 from support_exudyn.simulation.single_run import paused_collector
+from user_forces.contact_state import PinMemory
 
 Series = npt.NDArray[np.float64]
 STROKE, PERIOD = 0.1, 4.0  # [m], [s]

@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 
 import pytest
+from user_forces.expressions.scalar import power
 
 from support_exudyn import (
     Held,
@@ -21,7 +22,6 @@ from support_exudyn.formulations.registry import formulation
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, slider_crank, support
 from tests.linkages import four_bar
 from user_forces import FrictionLaw, InputError, LankaraniNikravesh, LuGre, NormalLaw, value
-from user_forces.expressions.scalar import power
 
 OIL = OilColumn(bore_area=bore_area(0.25, number=2), oil_length=0.5, bulk_modulus=1.5e9)
 BOTH = {"front_column": OIL, "rear_column": OIL}

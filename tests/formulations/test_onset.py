@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
+from tests.analytic import fall_through
 from user_forces.contact_events import (
     BEYOND,
     SHARE,
@@ -19,7 +20,6 @@ from user_forces.contact_events import (
     judge_at_ends,
 )
 from user_forces.contact_state import HEAVIEST, InverseMass, Onset, PinMemory
-from tests.analytic import fall_through
 
 H = 1e-3  # length of a step [s]
 BEHIND = BEYOND * SHARE  # how far behind an event a cut step is to end, in steps

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 
 from support_exudyn import Drive, Held, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from tests.cases.run_cases import loose_support

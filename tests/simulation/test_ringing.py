@@ -104,8 +104,6 @@ def test_what_is_left_of_a_fall_rings_as_told() -> None:
     # steps are for the least damping that the law may have; it falls as one over the impact velocity
     expected = found.fall * FASTEST / REST_VELOCITY
     assert math.log(sizes[0] / sizes[1]) / 0.8 == pytest.approx(expected, rel=0.1)
-    kept = simulate(replace(scene, formulation="exudyn", step=0.25 * ringing_step(scene)))[
-        f"pin.{PIN}.force"
-    ]
+    kept = simulate(replace(scene, formulation="exudyn", step=0.25 * ringing_step(scene)))[f"pin.{PIN}.force"]
     size = float(np.ptp(kept[(time > 2.35) & (time <= 2.4)]))
     assert 0.5 * math.exp(-KEPT) * sizes[1] < size < 1.1 * sizes[1]

@@ -30,8 +30,8 @@ from studies.benchmarking.yardstick import YardstickError, compiled, run_yardsti
 from studies.slider_crank.run import REFERENCE
 from support_exudyn import Failure, SimulationError, simulate
 from support_exudyn.files.toml.text import load_toml
-from user_forces.contact_state import Onset
 from support_exudyn.simulation.result_checks import energy_open
+from user_forces.contact_state import Onset
 
 # --- lines ---
 

@@ -65,7 +65,7 @@ def _rotation(mbs: Any, body: Any, state: Any) -> Array:
 
 
 def free_inverse_mass(mbs: Any, bodies: tuple[Any, Any], item: JointItem, state: Any) -> InverseMass:
-    """How a journal answers impulses in its bore's axes if both bodies were free: W = sum of 1/m + r x J^-1 r x.
+    """How a journal answers impulses in its bore's axes if both bodies were free: sum of 1/m + r x J^-1 r x.
 
     Joints make bodies heavier, so that steps that follow from these masses are rather too short.
 

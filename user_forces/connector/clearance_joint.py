@@ -20,9 +20,9 @@ from typing import Any
 import exudyn
 from exudyn.itemInterface import NodeGenericData
 
+from user_forces.connector.bodies import free_inverse_mass, mount
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.connector.item import JointItem
-from user_forces.connector.bodies import free_inverse_mass, mount
 from user_forces.contact import Contact, JournalContact, SlotContact
 from user_forces.contact_state import InverseMass, Onset
 from user_forces.friction.law import FrictionLaw
@@ -177,8 +177,8 @@ class ClearanceGuide(EngineContact):
         slot: body number, and a point of the slot's middle line in the body's frame [m] (3).
         pin: body number, and the pin's centre in its body's frame [m] (3).
         direction: of the slot in the model's reference configuration, global frame (3).
-        clearance: distance from the middle line at which the pin makes contact [m]. pin_radius: [m]; 0: a corner.
-        normal, friction: laws; no friction by default.
+        clearance: distance from the middle line at which the pin makes contact [m].
+        normal, friction: laws; no friction by default. pin_radius: [m]; 0: a corner.
         axis: across the plane of motion, global frame (3).
         impact_steps: steps in an undamped impact.
     """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import field
 from typing import ClassVar
 
 from pydantic import model_validator
@@ -46,7 +47,7 @@ class Ambrosio(FrictionLaw):
     "Dynamic Analysis of Hydraulic Support with Single Clearance".
     """
 
-    sliding_coefficient: Coefficient
+    sliding_coefficient: Coefficient = field(kw_only=False)
     static_speed: MetresPerSecond[NonNegative] = 1e-4
     dynamic_speed: MetresPerSecond[Positive] = 1e-2
 
