@@ -330,3 +330,18 @@ def test_a_drawn_sweep_is_told_shown_and_drawn(
     assert {"pin.pin.force.largest_histogram.png", "pin.pin.force.largest_tornado.png"} <= files
     for wrong in (["pin.pin.force.median"], ["pin.pin.force.largest", "--by", "x", "a", "b"]):
         assert main(["chart", store, *wrong]) == 1
+
+
+def test_a_chart_is_drawn_of_it(tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str]) -> None:
+    path = write_sweep(
+        tmp_path, '"pins.pin.clearance_mm" = [0.5, 1.0]\n"machine.speed_m_per_s" = [0.1, 0.2, -0.1]'
+    )
+    do(path)
+    store = str(tmp_path / "store")
+    by = ["--by", "pins.pin.clearance_mm", "--out", str(tmp_path)]
+    assert main(["chart", store, "machine.speed_m_per_s", "pin.pin.force.largest", *by]) == 0
+    files = [Path(line) for line in capsys.readouterr().out.splitlines()]
+    assert [file.suffix for file in files] == [".png", ".pdf"]
+    assert all(file.stat().st_size > 1000 for file in files)
+    assert main(["chart", store, "machine.speed_m_per_s", "pin.pin.force.median"]) == 1
+    assert "no such number; allowed: pin.pin.force." in capsys.readouterr().err
