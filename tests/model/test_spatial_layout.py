@@ -13,12 +13,16 @@ from hypothesis import strategies as st
 
 from support_exudyn import (
     Body,
+    Crank,
     Held,
+    LinearActuator,
     Linkage,
     OilColumn,
     OwnBody,
     Part,
     Scenario,
+    Slide,
+    TracePoint,
     cylinders_and_rods,
     load_support,
     ravn_slider_crank,
@@ -27,7 +31,7 @@ from support_exudyn import (
 from support_exudyn.mechanics.space.constraints import frame_of
 from support_exudyn.mechanics.space.kinetics import tensor
 from support_exudyn.model.drives.drive import CubicStep
-from support_exudyn.model.linkage import bar, check_moments, lumped, turned_moments
+from support_exudyn.model.linkage import bar, check_moments, lumped, pinned, turned_moments
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from support_exudyn.model.to_space import Width, lift
 from tests.cases.machine_cases import support as narrow_support
@@ -123,6 +127,21 @@ def test_a_slanted_bar_resists_turning_about_its_own_line_by_its_width_alone(deg
 def test_what_cannot_be_lifted_is_said(width: Width, said: str) -> None:
     with pytest.raises(InputError, match=said):
         lift(LINKAGE, width)
+
+
+def test_points_on_pairs_cranks_and_slides_are_refused() -> None:
+    body = Body(mass=1.0, inertia=1.0, centre=(0.0, 0.0))
+    width = Width(spreads={"a": 0.1}, pairs={"a": 0.2})
+    pin = {"p": pinned("ground", "a", (0.0, 0.0))}
+    with pytest.raises(InputError, match=r"points\.t on a, which is a pair"):
+        lift(Linkage(bodies={"a": body}, pins=pin, points={"t": TracePoint(body="a", point=(0.0, 0.0))}), width)
+    with pytest.raises(InputError, match=r"cranks\.c: not covered in space"):
+        lift(Linkage(bodies={"a": body}, pins=pin, cranks={"c": Crank(body="a")}), width)
+    with pytest.raises(InputError, match=r"slides\.s: not covered in space"):
+        lift(Linkage(bodies={"a": body}, slides={"s": Slide(body="a", point=(0.0, 0.0))}), width)
+    actuator = {"k": LinearActuator(foot="ground", head="a", foot_point=(0.0, -1.0), head_point=(0.0, 0.0))}
+    with pytest.raises(InputError, match=r"actuators\.k on a, which is a pair"):
+        lift(Linkage(bodies={"a": body}, actuators=actuator), width)
 
 
 # --- second moments ---

@@ -21,10 +21,12 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
+from support_exudyn.formulations.contract import Progress
 from support_exudyn.simulation import to_accuracy
 from support_exudyn.simulation.reported_numbers import measures
 from support_exudyn.simulation.to_accuracy import FEWEST_RUNS, MOST_RUNS, PATIENCE
 from tests.cases.run_cases import (
+    FORCE,
     PIN,
     SLIDER_PIN,
     loose_slider_crank,
@@ -164,6 +166,35 @@ def test_a_goal_beyond_the_finest_steps_gives_what_can_be_had(monkeypatch: pytes
     # in steps of 4 us rounding shows in the forces of actuators; that is told too
     assert 1e-7 < result.worst_error < math.inf
     assert all(math.isfinite(number.error) for number in result.numbers().values())
+
+
+@pytest.mark.parametrize("tilted", [False, True])
+def test_sections_become_more_only_as_long_as_they_tell_anything(
+    tilted: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    once = to_accuracy.single_run
+
+    def tilting(scenario: Scenario, progress: Progress) -> Result:
+        """A run whose forces depend on the number of sections, as those of a tilted pin do."""
+        # it is made with the fewest
+        run = once(replace(scenario, solver=replace(scenario.solver, sections=5)), progress)
+        channel = run.channels[FORCE]
+        channel = replace(channel, values=(1.0 + 1e-3 / scenario.solver.sections) * channel.values)
+        return replace(run, scenario=scenario, channels={**run.channels, FORCE: channel}, statistics=None)
+
+    monkeypatch.setattr(to_accuracy, "single_run", tilting if tilted else once)
+    made = runs_of(monkeypatch)
+    monkeypatch.setattr(Result, "worst_error", property(lambda run: 0.5 ** len(made)))
+    # beyond the first impact
+    result = simulate(replace(DROP, duration=0.02, record_period=2e-3, dimensions=3), accuracy=0.02)
+    assert f"pin.{PIN}.left.onset_1.speed" in result.numbers()
+    # a section's share of the force depends on how many there are
+    assert f"pin.{PIN}.left.largest_force" not in result.numbers()
+    sections = [run.solver.sections for run in made]
+    # the fourth is the first again, with as many sections as the third
+    assert sections[:4] == [5, 9, 17, 17]
+    assert made[3].step == made[0].step
+    assert sections[4:] == ([33, 64] if tilted else [5, 5])
 
 
 # --- failures ---

@@ -88,6 +88,34 @@ def test_without_a_list_the_usual_numbers_are_noted_with_their_errors(tmp_path: 
             assert table[f"{title}_error"][0] == error
 
 
+def test_patterns_note_what_runs_have(tmp_path: Path, ran: list[Task]) -> None:
+    path = write_sweep(tmp_path, speeds(2), record='numbers = ["pin.*.force.m??", "pin.*.force.l*", "*.first"]')
+    names = read_table(do(path).table).column_names
+    assert {"pin.pin.force.largest_N", "pin.pin.force.min_N", "journal.x.first_m"} <= set(names)
+    assert "pin.pin.force.mean_N" not in names
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("md", "| run | machine.speed [m/s] | journal.x.last [mm] |"),
+        ("latex", r"run & machine.speed [m/s] & journal.x.last [mm] \\"),
+        ("csv", "machine.speed_m_per_s,run,status,journal.x.last_m"),
+    ],
+)
+def test_a_table_for_a_text(
+    tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str], kind: str, words: str
+) -> None:
+    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2]'))
+    arguments = ["table", str(tmp_path / "store"), "--format", kind, "journal.*"]
+    assert main(arguments) == 0
+    printed = capsys.readouterr().out
+    assert words in printed
+    assert "speed" in printed.splitlines()[-1] or kind == "latex"
+    assert main([*arguments, "--out", str(tmp_path / "t")]) == 0
+    assert (tmp_path / "t").read_text(encoding="utf-8") == printed
+
+
 def test_runs_that_miss_their_accuracy_are_told(
     tmp_path: Path, ran: list[Task], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -302,3 +330,18 @@ def test_a_drawn_sweep_is_told_shown_and_drawn(
     assert {"pin.pin.force.largest_histogram.png", "pin.pin.force.largest_tornado.png"} <= files
     for wrong in (["pin.pin.force.median"], ["pin.pin.force.largest", "--by", "x", "a", "b"]):
         assert main(["chart", store, *wrong]) == 1
+
+
+def test_a_chart_is_drawn_of_it(tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str]) -> None:
+    path = write_sweep(
+        tmp_path, '"pins.pin.clearance_mm" = [0.5, 1.0]\n"machine.speed_m_per_s" = [0.1, 0.2, -0.1]'
+    )
+    do(path)
+    store = str(tmp_path / "store")
+    by = ["--by", "pins.pin.clearance_mm", "--out", str(tmp_path)]
+    assert main(["chart", store, "machine.speed_m_per_s", "pin.pin.force.largest", *by]) == 0
+    files = [Path(line) for line in capsys.readouterr().out.splitlines()]
+    assert [file.suffix for file in files] == [".png", ".pdf"]
+    assert all(file.stat().st_size > 1000 for file in files)
+    assert main(["chart", store, "machine.speed_m_per_s", "pin.pin.force.median"]) == 1
+    assert "no such number; allowed: pin.pin.force." in capsys.readouterr().err
