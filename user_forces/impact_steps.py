@@ -37,7 +37,7 @@ class ImpactSteps:
 
     def __init__(self, law: NormalLaw, number: int) -> None:
         self._law, self._energy = law, law.elastic_energy
-        self._number = number
+        self.number = number
         self.step = math.inf  # largest length of the next step [s]; infinite if there is no impact
         self._length = math.inf  # of steps in the impact going on [s]; infinite: there is none
         self._speed = 0.0  # for which it was chosen [m/s]
@@ -61,12 +61,12 @@ class ImpactSteps:
 
         A power of two, so that steps stay the same while the load changes a little.
         """
-        longest = math.pi * time / (OF_A_SWING * self._number)
+        longest = math.pi * time / (OF_A_SWING * self.number)
         return math.ldexp(0.5, math.frexp(longest)[1]) if longest < math.inf else math.inf
 
     def length(self, speed: float, mass: float) -> float:
         """Length of the steps in an impact of this speed [m/s] and mass [kg], [s]."""
-        return self._law.impact_time(speed, mass) / self._number
+        return self._law.impact_time(speed, mass) / self.number
 
     def impact(self, depth: float, rate: float, mass: float) -> None:
         """The surfaces have been in contact at the end of the last step; state and effective mass then."""
@@ -112,7 +112,7 @@ class ImpactSteps:
         elif self._opening:
             self._swung(depth)
         self._steps += 1
-        if self._small_swings >= SMALL_SWINGS or self._steps > DURATIONS * self._number:
+        if self._small_swings >= SMALL_SWINGS or self._steps > DURATIONS * self.number:
             self._set(math.inf)
         elif self._is_faster(depth, rate, mass):
             if find_mass is None:
