@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from user_forces.catalogue import laws as laws
     from user_forces.conformal import LineContact as LineContact
     from user_forces.conformal import line_contact as line_contact
+    from user_forces.connector.clearance_joint import ClearanceGuide as ClearanceGuide
+    from user_forces.connector.clearance_joint import ClearanceJoint as ClearanceJoint
+    from user_forces.connector.located import solve_located as solve_located
     from user_forces.contact import ContactForce as ContactForce
     from user_forces.contact import FaceContact as FaceContact
     from user_forces.contact import JournalContact as JournalContact
@@ -31,9 +34,6 @@ if TYPE_CHECKING:
     from user_forces.friction.laws import Threlfall as Threlfall
     from user_forces.friction.lugre import LuGre as LuGre
     from user_forces.journal import JournalBearing as JournalBearing
-    from user_forces.connector.clearance_joint import ClearanceGuide as ClearanceGuide
-    from user_forces.connector.clearance_joint import ClearanceJoint as ClearanceJoint
-    from user_forces.connector.located import solve_located as solve_located
     from user_forces.kernel import kernel as kernel
     from user_forces.materials import STEEL as STEEL
     from user_forces.materials import STEEL_35CRMO as STEEL_35CRMO

@@ -172,7 +172,7 @@ class Joint:
         if not self.subject.is_paper:
             return settings_for(case, OWN_GOAL)
         # of Newton's iterations a looser tolerance spares one a step; it changes means and spreads by 1e-6
-        settings = SolverSettings(impact_steps=RISE_IMPACT_STEPS, newton_tolerance=1e-6, backend="symbolic")
+        settings = SolverSettings(impact_steps=RISE_IMPACT_STEPS, newton_tolerance=1e-6)
         return replace(case, accuracy=None, step=RISE_STEP, solver=settings, formulation="exudyn")
 
 

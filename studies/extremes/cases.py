@@ -160,8 +160,6 @@ def _with_solver(point: Point, i: int, random: np.random.Generator) -> Made:
     }
     if i % 5 == 0:
         settings |= {"integrator": "trapezoidal", "constraint_index": 2}
-    if i % 5 == 1:
-        settings["backend"] = "symbolic"
     if i % 5 == 2:
         settings["locate"] = False
     said: dict[str, float | str] = {name: str(value) for name, value in settings.items()}

@@ -113,7 +113,6 @@ def _support(duration: float, sliding_coefficient: float | None = None, drive: D
         solver=SolverSettings(
             impact_steps=IMPACT_STEPS,
             growth=GROWTH if drive is None else AT_REST,
-            backend="symbolic",
             most_steps=MOST_STEPS,
         ),
     )
@@ -138,9 +137,7 @@ def _crank(duration: float) -> Scenario:
         step=STEP,
         record_period=RECORD_PERIOD,
         gravity=(0.0, -9.81),
-        solver=SolverSettings(
-            impact_steps=IMPACT_STEPS, growth=GROWTH, backend="symbolic", most_steps=MOST_STEPS
-        ),
+        solver=SolverSettings(impact_steps=IMPACT_STEPS, growth=GROWTH, most_steps=MOST_STEPS),
     )
 
 

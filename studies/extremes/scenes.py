@@ -63,7 +63,6 @@ class OtherSettings(TypedDict, total=False):
     growth: float
     integrator: Literal["generalised_alpha", "trapezoidal"]
     constraint_index: Literal[2, 3]
-    backend: Literal["auto", "python", "symbolic", "compiled"]
     locate: bool
 
 

@@ -34,10 +34,7 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
     plain = replace(scenario, accuracy=None, record_period=scenario.recorded_every)
     name = scenario.formulation
     if name == "auto":
-        # a Python function of the contact is what the Exudyn formulation may call; it decides of no other
-        free = replace(plain, solver=replace(plain.solver, backend="auto"))
-        name = cheapest(free if plain.solver.backend == "python" else plain)
-        plain = free if name in ERROR_CONTROLLED else plain
+        name = cheapest(plain)
     formulation(name).check(plain)
     finer = math.sqrt(GOAL_OF_SHARES / goal)
     times = timescales(plain)

@@ -22,7 +22,9 @@ from user_forces.values.value import InputError
 NEVER_LONGER = 2**30  # steps after which the engine would lengthen a step by itself
 ROUNDING = 1e-9  # of a grid step, by which its end may be missed
 GROWTH_AFTER = 4  # grid steps in a row without contact, before steps grow twofold
-SMOOTH = 0.02  # largest change of accelerations over a step, as a share of the largest so far, for steps to grow
+SMOOTH = (
+    0.02  # largest change of accelerations over a step, as a share of the largest so far, for steps to grow
+)
 
 
 @dataclass(frozen=True)
@@ -145,7 +147,9 @@ def solve_located(mbs: Any, settings: Any, *, growth: int = 1, estimates_error: 
     """
     joints: list[EngineContact] = mbs.variables.get(JOINTS, [])
     if not joints:
-        raise InputError("mbs: has no clearance joint; allowed: a model with `ClearanceJoint` or `ClearanceGuide`")
+        raise InputError(
+            "mbs: has no clearance joint; allowed: a model with `ClearanceJoint` or `ClearanceGuide`"
+        )
     if not estimates_error:
         return _run(mbs, settings, joints, 1, growth)
     coarse = _run(mbs, settings, joints, 1, growth)
@@ -172,7 +176,9 @@ def _run(mbs: Any, settings: Any, joints: Sequence[EngineContact], finer: int, g
     steps.time = integration.startTime
     kept = {name: getattr(integration, name) for name in CONTROL}
     numbers = [joint.impact_steps.number for joint in joints]
-    steps.own = {name: getattr(mbs, f"Get{name}UserFunction")() for name in ("PreStep", "PostNewton", "PostStep")}
+    steps.own = {
+        name: getattr(mbs, f"Get{name}UserFunction")() for name in ("PreStep", "PostNewton", "PostStep")
+    }
     try:
         for name, setting in CONTROL.items():
             setattr(integration, name, setting)

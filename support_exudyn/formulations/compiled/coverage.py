@@ -21,8 +21,6 @@ def check(scenario: Scenario) -> None:
     for name, pin in scenario.pins.items():
         if type(pin) not in PINS:
             _refuse(f"pins.{name}", type(pin).__name__, ", ".join(kind.__name__ for kind in PINS))
-    if scenario.solver.backend not in ("auto", "compiled"):
-        _refuse("solver.backend", repr(scenario.solver.backend), "'auto', 'compiled'")
     _check_compiled(scenario)
     if repeated_count(scenario.held)[1]:
         _refuse("machine", "its start posture is a dead centre", "one beside it")

@@ -55,11 +55,6 @@ def model(scenario: Scenario) -> Model:
 
 def check(scenario: Scenario) -> None:
     """Raise InputError if the settings do not fit the scenario."""
-    if scenario.solver.backend == "compiled":
-        raise InputError(
-            "solver.backend = 'compiled': only formulation = 'compiled' has it; allowed: 'auto', 'python', "
-            "'symbolic', or 'compiled' with formulation = 'compiled'"
-        )
     rigid = [
         name
         for name in scenario.linkage.actuators
