@@ -69,16 +69,6 @@ AT_REST = SlipHistory(0.0, 0.0, 0.0)
 Kernel = Callable[..., Any]
 
 
-class LawCounts(NamedTuple):
-    """How many constants the functions of a contact's laws take: force, elastic force, friction, state."""
-
-    force: int
-    elastic: int
-    friction: int
-    rate: int
-    advance: int
-
-
 class Contact(Value, ABC):
     """Contact of a journal in what encloses it: geometry, normal law and friction law."""
 
@@ -110,9 +100,9 @@ class Contact(Value, ABC):
         """Both laws as one function of numbers, see `law_kernel_of`."""
         functions = [part.function for part in self._formulas]
         counts = [len(part.parameters) for part in self._formulas]
-        if not self.friction.has_state:
-            return law_kernel_of(*functions, None, LawCounts(*counts, 0, 0))
-        return law_kernel_of(*functions[:4], LawCounts(*counts))
+        normal, elastic, friction = functions[:3]
+        rate = functions[3] if self.friction.has_state else None
+        return law_kernel_of(normal, elastic, friction, rate, tuple(counts[:4]))
 
     @cached_property
     def force_kernel(self) -> Kernel:
@@ -253,7 +243,7 @@ class FaceContact(Contact):
 
 @cache
 def law_kernel_of(
-    normal: Kernel, elastic: Kernel, friction: Kernel, rate_of: Kernel | None, counts: LawCounts
+    normal: Kernel, elastic: Kernel, friction: Kernel, rate_of: Kernel | None, counts: tuple[int, ...]
 ) -> Kernel:
     """Both laws of a contact as one function of numbers, the same for all parameters.
 
@@ -261,9 +251,10 @@ def law_kernel_of(
 
     gives the normal force [N] that the normal law asks for (negative: tension; NaN beyond the largest depth),
     its elastic part [N], the friction force [N], and the rate [m/s] of the deflection of a friction law with a
-    state. speed: impact velocity [m/s]. constants: largest depth, then the parameters.
+    state. speed: impact velocity [m/s]. constants: largest depth, then the parameters, so many of each (counts).
     """
-    of_force, of_elastic, of_friction, of_rate, _ = counts
+    of_force, of_elastic, of_friction = counts[:3]
+    of_rate = counts[3] if rate_of is not None else 0
     at_elastic = 1 + of_force
     at_friction = at_elastic + of_elastic
     at_rate = at_friction + of_friction

@@ -139,7 +139,7 @@ def _teach_numbers() -> None:
     import numba
     from numba.np.unsafe.ndarray import to_fixed_tuple
 
-    @numba.extending.overload(numbers)  # type: ignore[untyped-decorator]
+    @numba.extending.overload(numbers)
     def of_array(constants, first, count):  # type: ignore[no-untyped-def] # numba compares signatures
         if not isinstance(count, numba.types.IntegerLiteral):
             return None

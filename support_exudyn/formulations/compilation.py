@@ -258,7 +258,7 @@ def contact_law(law: Callable[..., Any], count: int) -> Callable[..., float]:
             depth, rate, slip, speed, deflection, numba.carray(constants, count)
         )
         results[0], results[1], results[2] = friction, elastic, bends
-        return asked
+        return float(asked)
 
     return contact
 

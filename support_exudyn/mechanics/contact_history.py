@@ -1,7 +1,7 @@
 """A clearance pin at all records, from the motion of its bodies and what it remembers."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -60,7 +60,8 @@ def series(contact: Contact, moving: RelativeMotion, memories: Series | Sequence
     # the memory was taken at the same instant: no time has passed since
     now = memory["impact_velocity"], memory["deflection"], memory["slip"], np.zeros(closed.size)
     rows = np.column_stack([*moving, closed, *now])
-    force, stored = contact.forces(rows)
+    result, stored = contact.forces(rows)
+    force: Any = result  # arrays in place of numbers
     return ContactSeries(
         force_x=force.force_x,
         force_y=force.force_y,

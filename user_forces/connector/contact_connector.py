@@ -73,7 +73,7 @@ class ContactConnector:
         self.memory = self.kept  # with which its force is computed
         self.reached = self.memory  # at its end
         self.force = self.contact.force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None)
-        self.place = 0.0, 0.0  # of the journal in its bore at its end [m]
+        self.place: tuple[float, float] = 0.0, 0.0  # of the journal in its bore at its end [m]
         self.onset: Onset | None = None
         self.wants_cut = False
         self.landing = math.inf  # where steps are to end, seen in a step that was then cut [s]
@@ -107,7 +107,7 @@ class ContactConnector:
         spins = motion.turn, motion.turning, motion.bore_spin
         memory = False, 0.0, 0.0, 0.0, 0.0
         result = function.kernel(*motion.displacement, *motion.velocity, *spins, *memory, function.constants)
-        self.force, self.place = ContactForce(*result[FIRST:LAST]), result[LAST:]
+        self.force, self.place = ContactForce(*result[FIRST:LAST]), (result[LAST], result[LAST + 1])
         self._turn, self._turn_rate = motion.turn, motion.turning
 
     # --- called by the solver ---
@@ -147,7 +147,7 @@ class ContactConnector:
         # the residual that satisfied Newton's method was evaluated at this same state
         result, start = self.user_function.last, self.memory
         self.force = force = tuple.__new__(ContactForce, result[FIRST:LAST])
-        self.place = result[LAST:]
+        self.place = result[LAST], result[LAST + 1]
         depth, rate, slip, normal, friction, *_, deflection = force
         if not -math.inf < normal + friction < math.inf:
             look(self.contact, depth, rate, slip, normal, friction)
@@ -278,7 +278,7 @@ class ContactConnector:
         """Mass [kg] that moves at least as the depth does, where the journal is now."""
         return self._inverse_mass.mass(*self._mass_place())
 
-    def _mass_place(self) -> tuple[float, ...]:
+    def _mass_place(self) -> tuple[float, float]:
         """The place [m] in the bore whose direction effective masses are of."""
         return self.place
 

@@ -15,7 +15,7 @@ The line is laid when Newton's method has failed, and stands until the surfaces 
 import sys
 from collections.abc import Callable
 
-from user_forces.contact import Contact, LawCounts, force_kernel_of, law_kernel_of
+from user_forces.contact import Contact, force_kernel_of, law_kernel_of
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.laws import Frictionless
 from user_forces.kernel import kernel
@@ -43,7 +43,7 @@ def can_be_line(law: FrictionLaw) -> bool:
 def with_line(contact: Contact) -> tuple[Callable[..., object], list[float]]:
     """The force kernel of a contact with a line in place of its law, and its constants, the line's last."""
     normal, elastic = contact.normal.force_formula, contact.normal.elastic_formula
-    counts = LawCounts(len(normal.parameters), len(elastic.parameters), 2, 0, 0)
+    counts = len(normal.parameters), len(elastic.parameters), 2
     law = law_kernel_of(normal.function, elastic.function, line_force, None, counts)
     known = [*contact.bearing.constants, contact.normal.largest_depth, *normal.parameters, *elastic.parameters]
     return force_kernel_of(contact.bearing.kinematics, law, None, len(known) + 2, 0), [*known, 0.0, 0.0]

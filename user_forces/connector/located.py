@@ -1,9 +1,9 @@
 """Dynamic solution of a user's own Exudyn model in steps that end at the impacts of its clearance joints.
 
-The stock solver cuts the step in which an impact lies, and lengthens steps again by its own rules. Here steps lie
-on a grid, so that what is recorded on the grid is not disturbed: a step with an impact ends there, and the rest of
-the grid step follows. Steps in an impact follow from law, speed and mass, and steps may grow where the motion is
-smooth. A second run with half the steps estimates the error.
+The stock solver cuts the step in which an impact lies, and lengthens steps again by its own rules. Here steps
+lie on a grid, so that records on the grid are not disturbed: a step with an impact ends there, and the rest of
+the grid step follows. Steps in an impact follow from law, speed and mass, and steps may grow where the motion
+is smooth. A second run with half the steps estimates the error.
 """
 
 from __future__ import annotations
@@ -134,8 +134,8 @@ def solve_located(mbs: Any, settings: Any, *, growth: int = 1, estimates_error: 
 
     Arguments:
         mbs: the Exudyn system, assembled, with clearance joints.
-        settings: `exudyn.SimulationSettings`: end time and number of steps (the grid), generalised alpha, Newton's
-            method and what is written, as for `mbs.SolveDynamic`. Step control is set here and put back.
+        settings: `exudyn.SimulationSettings`: end time and number of steps (the grid), generalised alpha,
+            Newton's method and what is written, as for `mbs.SolveDynamic`. Step control is set and put back.
         growth: so many grid steps at most make a step where nothing is in contact and the motion is smooth.
         estimates_error: whether a second run with half of all steps estimates the error, which takes twice the
             time in addition. The finer run is the result.
@@ -203,6 +203,7 @@ def _run(mbs: Any, settings: Any, joints: Sequence[EngineContact], finer: int, g
     return LocatedRun(results, steps.steps, steps.cut_steps)
 
 
+CALLED = ("PreStep", "PostNewton", "PostStep")  # user functions of the model
 CONTROL = {
     "adaptiveStep": True,  # else the engine computes times from a fixed step
     "adaptiveStepRecoverySteps": NEVER_LONGER,

@@ -6,6 +6,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import cache, cached_property
+from typing import Any
 
 from pydantic import model_validator
 from typing_extensions import Self
@@ -41,8 +42,8 @@ class FrictionLaw(Value, ABC):
 
     @staticmethod
     @abstractmethod
-    def force(slip: float, normal_force: float) -> float:
-        """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0; parameters follow."""
+    def force(*arguments: Any, **parameters: Any) -> float:
+        """Tangential force [N] of slip [m/s], normal force [N] >= 0, and parameters."""
 
     @property
     def has_state(self) -> bool:
@@ -70,8 +71,8 @@ class FrictionLaw(Value, ABC):
     def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
         """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection [m]."""
         if self.has_state:
-            return self.force_formula(slip, normal_force, deflection)
-        return self.force_formula(slip, normal_force)
+            return float(self.force_formula(slip, normal_force, deflection))
+        return float(self.force_formula(slip, normal_force))
 
     def next_deflection(self, deflection: float, slip: float, step: float) -> float:
         """Deflection [m] after a step [s] over which the slip [m/s] was this one on average."""

@@ -6,6 +6,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import cached_property
+from typing import Any
 
 from user_forces.kernel import Formula, formula_of, quadrature
 from user_forces.roots import bracketed_root
@@ -37,8 +38,8 @@ class NormalLaw(Value, ABC):
 
     @staticmethod
     @abstractmethod
-    def force(depth: float, rate: float, impact_velocity: float) -> float:
-        """Normal force [N], positive pushes apart, at depth [m] > 0 and rate [m/s]; parameters follow."""
+    def force(*arguments: Any, **parameters: Any) -> float:
+        """Normal force [N], positive pushes apart: of depth [m] > 0, rate [m/s], impact velocity, parameters."""
 
     @cached_property
     def force_formula(self) -> Formula:
@@ -62,17 +63,17 @@ class NormalLaw(Value, ABC):
     def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         """Normal force [N], positive pushes apart, at depth [m] > 0 and rate [m/s]."""
         self.check(depth)
-        return self.force_formula(depth, rate, impact_velocity)
+        return float(self.force_formula(depth, rate, impact_velocity))
 
     def elastic_force(self, depth: float) -> float:
         """Force [N] at rest at this depth [m] > 0."""
         self.check(depth)
-        return self.elastic_formula(depth)
+        return float(self.elastic_formula(depth))
 
     def elastic_energy(self, depth: float) -> float:
         """Energy [J] stored at this depth [m] > 0."""
         self.check(depth)
-        return self.energy_formula(depth)
+        return float(self.energy_formula(depth))
 
     @property
     def largest_depth(self) -> float:

@@ -23,7 +23,7 @@ class Inventory:
     one without effect for each direction that a joint of the engine's leaves free. nodes: of bodies, and
     the fixed one of cranks. objects: bodies, connectors and the ground. connectors: objects between
     markers: ideal and clearance pins, actuators, cranks, guides, and what presses on the machine besides its
-    weight; in space a clearance bearing has one between nodes, or if it is symbolic one for each section.
+    weight; in space a clearance bearing has one for each section.
     user_functions: forces and the like that Python computes, as often as the solver asks, several times a
     step. callbacks: functions of Python that the engine calls at every step.
     """

@@ -124,7 +124,10 @@ def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
     edges = {
         f"{name}.{side}": group[n] for name, group in groups for side, n in EDGES.items() if len(group) > 1
     }
-    single: dict[str, ContactConnector] = {**edges, **scene.faces}
+    single: dict[str, ContactConnector] = {
+        **edges,
+        **{name: face.contact for name, face in scene.faces.items()},
+    }
     return Outcome(
         trajectory=SpatialObservation(scene, recorder.history()),
         onsets={name: tuple(group[0].whole.onsets) for name, group in groups}
