@@ -251,7 +251,7 @@ def law_kernel_of(
 
     gives the normal force [N] that the normal law asks for (negative: tension; NaN beyond the largest depth),
     its elastic part [N], the friction force [N], and the rate [m/s] of the deflection of a friction law with a
-    state. speed: impact velocity [m/s]. constants: largest depth, then the parameters, so many of each (counts).
+    state. speed: impact velocity [m/s]. constants: largest depth, then the parameters. counts: of these.
     """
     of_force, of_elastic, of_friction = counts[:3]
     of_rate = counts[3] if rate_of is not None else 0

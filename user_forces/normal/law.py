@@ -39,7 +39,7 @@ class NormalLaw(Value, ABC):
     @staticmethod
     @abstractmethod
     def force(*arguments: Any, **parameters: Any) -> float:
-        """Normal force [N], positive pushes apart: of depth [m] > 0, rate [m/s], impact velocity, parameters."""
+        """Normal force [N], positive pushes apart, of depth [m], rate [m/s], impact velocity, parameters."""
 
     @cached_property
     def force_formula(self) -> Formula:
