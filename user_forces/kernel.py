@@ -147,29 +147,23 @@ def _teach_numbers() -> None:
         return lambda constants, first, count: to_fixed_tuple(constants[first:], length)
 
 
-def compiled(function: Function) -> Function:
-    """A function of numbers and arrays compiled by numba, for calls from Python.
+def compiled_or_plain(function: Function, arguments: tuple[Any, ...]) -> Function:
+    """A function compiled by numba for arguments of these types, for calls from Python.
 
-    Machine code is kept on disk, under a name that follows from the code of all kernels in the closure.
+    Machine code is kept on disk, under a name that follows from the code of all kernels in the closure. A
+    function that numba cannot compile comes back as it is, with a warning.
     """
     numba = prepare()
-    wrapped = copied(function)
+    types, same = tuple(map(numba.typeof, arguments)), copied(function)
+    options = {"error_model": "numpy", "nogil": True}
     try:
-        return numba.njit(cache=True, error_model="numpy", nogil=True)(wrapped)  # type: ignore[no-any-return]
-    except RuntimeError:  # there is no folder in which files may be written
-        return numba.njit(error_model="numpy", nogil=True)(wrapped)  # type: ignore[no-any-return]
-
-
-def compiled_or_plain(function: Function, arguments: tuple[Any, ...]) -> Function:
-    """A function compiled for arguments of these types; itself, with a note, if numba cannot compile it."""
-    numba = prepare()
-    machine = compiled(function)
-    try:
-        machine.compile(tuple(map(numba.typeof, arguments)))  # type: ignore[attr-defined]
+        try:
+            return numba.njit(types, cache=True, **options)(same)  # type: ignore[no-any-return]
+        except RuntimeError:  # there is no folder in which files may be written
+            return numba.njit(types, **options)(same)  # type: ignore[no-any-return]
     except numba.core.errors.NumbaError as error:
         warnings.warn(f"computed in Python, since numba cannot compile it: {reason(error)}", stacklevel=2)
         return function
-    return machine
 
 
 def reason(error: Exception) -> str:

@@ -150,11 +150,11 @@ def _is_kept_only_while_unchanged(dispatcher: Any) -> bool:
         return False
     kept._source_stamp = STAMP
     kept._version = f"{kept._version}, {STAMP[0]}"
-    _let_one_process_compile(dispatcher)
+    _one_process_at_a_time(dispatcher)
     return True
 
 
-def _let_one_process_compile(dispatcher: Any) -> None:
+def _one_process_at_a_time(dispatcher: Any) -> None:
     """Let processes that need a function at the same time wait for the first, and load what it has compiled."""
     kept: Any = dispatcher._cache
     load, save = kept.load_overload, kept.save_overload
