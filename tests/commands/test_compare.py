@@ -11,11 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from PIL import Image
 
 from support_exudyn import compare_files
 from support_exudyn.__main__ import main
-from support_exudyn.files.toml.text import load_toml
 from support_exudyn.postprocessing.comparing.compare_figure import MOST, compare_figure
 from user_forces import InputError
 
@@ -79,13 +77,6 @@ def test_the_exit_code_says_whether_it_is_within(
     assert said in capsys.readouterr().out
 
 
-def test_tolerances_of_the_command_line_go_before_those_of_the_file(folder: Path) -> None:
-    (folder / "compare.toml").write_text('[tolerances]\n"tip.*" = "0.1 %"\n', encoding="utf-8")
-    words = ["compare", "reference.csv", "larger.csv", "--map", "compare.toml"]
-    assert ended(words) == 1
-    assert ended([*words, "--tolerance", "tip.*=2%"]) == 0
-
-
 def test_several_files_are_compared_with_the_first(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["compare", "reference.csv", "reference.csv", "larger.csv", "--tolerance", "*=0.1%", "--json"]
     assert ended(words) == 1
@@ -133,21 +124,17 @@ def test_a_figure_shows_curves_differences_and_what_is_allowed(folder: Path) -> 
     assert "largest 50 N at 0.4 s, NOT within 0.5%" in force.get_title(loc="left")
 
 
-def test_figures_are_written_as_their_endings_say(folder: Path) -> None:
-    for name, begins in (("a.png", b"\x89PNG"), ("a.pdf", b"%PDF"), ("a.svg", b"<?xml")):
-        assert ended(["compare", "reference.csv", "larger.csv", "tip.x", "--figure", name]) == 0
-        assert (folder / name).read_bytes().startswith(begins)
-    with Image.open(folder / "a.png") as picture:
-        assert picture.width > 300
-    assert ended(["compare", "reference.csv", "larger.csv", "--figure", "nowhere/there/a.png"]) in (0, 2)
-
-
-def test_too_many_channels_for_a_figure_are_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_figures_are_written_as_their_endings_say_of_few_channels(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     head = "time_s," + ",".join(f"c{n}_m" for n in range(MOST + 1))
     table(folder / "wide.csv", head, *[TIME] * (MOST + 2))
     assert ended(["compare", "wide.csv", "wide.csv", "--figure", "a.png"]) == 2
     assert f"{MOST + 1} channels: allowed in a figure: {MOST}" in capsys.readouterr().err
     assert not (folder / "a.png").exists()
+    for name, begins in (("a.png", b"\x89PNG"), ("a.pdf", b"%PDF"), ("a.svg", b"<?xml")):
+        assert ended(["compare", "wide.csv", "wide.csv", "c1", "--figure", name]) == 0
+        assert (folder / name).read_bytes().startswith(begins)
 
 
 def test_the_page_has_the_verdict_the_tables_and_the_measures(folder: Path) -> None:
@@ -163,22 +150,12 @@ def test_the_page_has_the_verdict_the_tables_and_the_measures(folder: Path) -> N
     assert ended(words) == 1
     text = (folder / "compare.html").read_text(encoding="utf-8")
     assert "Not all channels are within their tolerances." in text
-    for part in ("NOT", "Sprague-Geers M", "ISO/TS 18571", "tip.force: largest difference 50", "difference ["):
+    for part in ("NOT", "Sprague-Geers M", "tip.force: largest difference 50", "difference ["):
         assert part in text, part
     assert not re.search(r"<(?:script|img|link)[^>]*(?:src|href)=\"(?!data:)", text)  # nothing from elsewhere
 
 
-def test_bands_are_compared_if_asked_for(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (folder / "compare.toml").write_text("bands_Hz = [0, 4, 20]\n", encoding="utf-8")
-    words = ["compare", "reference.csv", "larger.csv", "tip.force", "--map", "compare.toml"]
-    assert ended(words) == 0
-    rows = [line.split() for line in capsys.readouterr().out.partition("RMS in bands")[2].splitlines()]
-    shares = [float(row[-2]) for row in rows if row[:1] == ["tip.force"]]
-    assert len(shares) == 3
-    np.testing.assert_allclose(shares, 1.0, rtol=1e-3)  # percent, in every band
-
-
-def test_columns_that_match_nothing_are_told_with_the_way_out(
+def test_a_mapping_is_asked_for_and_a_shift_is_determined(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (folder / "units.toml").write_text('[units]\nt = "s"\n', encoding="utf-8")
@@ -186,41 +163,17 @@ def test_columns_that_match_nothing_are_told_with_the_way_out(
     told = capsys.readouterr().err
     assert "reference.csv has tip.x, tip.force; seen.csv has Tip X, Force" in told
     assert '[files."seen.csv".columns] "tip.x" = ' in told
-    assert "--propose" in told
 
-
-def test_a_proposal_is_refused_until_it_is_confirmed(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (folder / "units.toml").write_text('[units]\nt = "s"\n', encoding="utf-8")
-    assert ended(["compare", "reference.csv", "seen.csv", "--map", "units.toml", "--propose"]) == 0
-    text = capsys.readouterr().out
-    (folder / "compare.toml").write_text(text, encoding="utf-8")
-    proposed = load_toml(folder / "compare.toml")
-    assert proposed["files"]["seen.csv"]["columns"] == {
-        "tip.x": {"column": "Tip X", "sign": -1},
-        "tip.force": "Force",
-    }
-    assert proposed["files"]["seen.csv"]["units"] == {"t": "s", "Tip X": "?", "Force": "?"}
-    words = ["compare", "reference.csv", "seen.csv", "--map", "compare.toml", "--shift"]
-    assert ended(words) == 2
-    told = capsys.readouterr().err
-    assert "confirmed = false: allowed: true" in told
-    assert told.count("= '?': allowed: a unit") == 2
-    sure = text.replace("confirmed = false", "confirmed = true").replace('"Tip X" = "?"', '"Tip X" = "m"')
-    (folder / "compare.toml").write_text(sure.replace('"Force" = "?"', '"Force" = "kN"'), encoding="utf-8")
-    assert ended([*words, "--tolerance", "*=0.5%", "--after", "0.05", "--until", "0.95"]) == 0
+    (folder / "compare.toml").write_text(
+        '[files."seen.csv".columns]\n"tip.x" = { column = "Tip X", sign = -1 }\n"tip.force" = "Force"\n'
+        '[units]\nt = "s"\n"Tip X" = "m"\nForce = "kN"\n[tolerances]\n"*" = "0 %"\n',
+        encoding="utf-8",
+    )
+    words = ["compare", "reference.csv", "seen.csv", "--map", "compare.toml", "--shift", "--after", "0.05"]
+    assert ended([*words, "--until", "0.95", "--tolerance", "*=0.5%"]) == 0  # goes before the file's
     told = capsys.readouterr().out
     assert re.search(r"seen\.csv lags behind reference\.csv by (15|14\.99\d*|15\.00\d*) ms ± .* found by", told)
-
-
-def test_what_only_a_curve_speaks_for_is_a_comment(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    # both rise, as everything in a rise does
-    (folder / "rise.csv").write_text("time_s,q_mm\n0,0\n1,1\n2,4\n", encoding="utf-8")
-    (folder / "other.csv").write_text("time_s,Kraft,Weg_mm\n0,7,0\n1,9,1.1\n2,15,4\n", encoding="utf-8")
-    assert ended(["compare", "rise.csv", "other.csv", "--propose"]) == 0
-    assert '\n"q" = "Weg" # ' in capsys.readouterr().out
-    (folder / "other.csv").write_text("time_s,Kraft\n0,7\n1,9\n2,15\n", encoding="utf-8")
-    assert ended(["compare", "rise.csv", "other.csv", "--propose"]) == 0
-    assert '\n# "q" = "Kraft" # ' in capsys.readouterr().out
+    assert ended(words) == 1
 
 
 def test_a_shift_that_is_not_sure_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -251,8 +204,6 @@ def test_python_has_the_curves_and_the_verdict(folder: Path) -> None:
     channel = found.pairs[0].channels["tip.x"]
     assert (found.verdict, channel.verdict) == ("within", "within")
     np.testing.assert_allclose(channel.common.other, 0.101 * np.sin(6.0 * TIME), atol=1e-12)
-    assert channel.rating is not None
-    assert 0.9 < channel.rating.overall <= 1.0
     assert math.isnan(channel.largest.error)
     with pytest.raises(InputError, match="1 file: allowed: 2 or more"):
         compare_files("reference.csv")

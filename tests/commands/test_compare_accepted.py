@@ -144,7 +144,7 @@ def test_figure_and_page_of_runs_that_part(five_pins: Path, capsys: pytest.Captu
     words = ["compare", str(five_pins / "draft.h5"), str(five_pins / "reference.h5"), "tip.x"]
     assert ended([*words, "--page", str(five_pins / "a.html"), "--figure", str(five_pins / "a.png")]) == 0
     text = (five_pins / "a.html").read_text(encoding="utf-8")
-    for part in ("point by point up to", "Statistics after", "matched before parting"):
+    for part in ("Point by point up to", "Statistics after", "matched before parting"):
         assert part in text, part
     found = compare_files(five_pins / "draft.h5", five_pins / "reference.h5", channels=["tip.x"])
     drawing = compare_figure(found)

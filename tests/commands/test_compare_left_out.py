@@ -12,7 +12,7 @@ import pytest
 
 from support_exudyn import compare_files
 from support_exudyn.__main__ import main
-from support_exudyn.postprocessing.comparing.sentences import sentences
+from support_exudyn.postprocessing.comparing.notes import notes
 from user_forces import InputError
 
 ROWS = "0,0,10,7\n0.1,1,10,7\n0.2,2,10,7\n0.3,3,10,7\n"
@@ -82,7 +82,7 @@ def test_a_channel_with_a_tolerance_of_its_name_is_in_all_files(folder: Path) ->
     found = compare_files("reference.csv", "seen.csv", "less.csv", tolerance="*=1%")
     assert found.verdict == "within"
     assert found.pairs[1].common.lacking == ("pin.force", "Marker")
-    assert "less.csv has no pin.force, Marker" in list(sentences(found.pairs[1]))
+    assert "less.csv has no pin.force, Marker" in list(notes(found.pairs[1]))
 
 
 def test_nothing_that_can_be_compared_is_refused(folder: Path) -> None:

@@ -15,7 +15,8 @@ from scipy.integrate import trapezoid
 from support_exudyn import CubicStep, Result, compare_files, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
-from support_exudyn.postprocessing.comparing.own_runs import same_to_the_bit
+from support_exudyn.postprocessing.comparing.compared_file import of_run
+from support_exudyn.postprocessing.comparing.files_compared import same_to_the_bit
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
 
 STROKE = CubicStep(stroke=0.025, start=0.0, end=0.2)
@@ -94,14 +95,12 @@ def test_a_run_less_itself_is_nothing(runs: Path) -> None:
 
 
 def test_runs_of_the_same_bits_are_told(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    ideal, with_clearance = of(runs, "ideal", "with_clearance")
-    assert same_to_the_bit(with_clearance, Result.load(runs / "with_clearance.h5")) == len(
-        with_clearance.channels
-    )
-    assert same_to_the_bit(ideal, with_clearance) == 0
-    nudged = Result.load(runs / "with_clearance.h5")
+    nudged, with_clearance = Result.load(runs / "with_clearance.h5"), of(runs, "with_clearance")[0]
     nudged["tip.x"][-1] = np.nextafter(nudged["tip.x"][-1], np.inf)
-    assert same_to_the_bit(with_clearance, nudged) == 0
+    first, *others = (
+        of_run(run, Path(), "") for run in (with_clearance, *of(runs, "with_clearance", "ideal"), nudged)
+    )
+    assert [same_to_the_bit(first, other) for other in others] == [len(with_clearance.channels), 0, 0]
     loose_file = str(runs / "with_clearance.h5")
     assert main(["compare", loose_file, loose_file, "tip.x"]) == 0
     assert (

@@ -17,9 +17,9 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.baselines.kept_impacts import kept_impacts
 from support_exudyn.postprocessing.baselines.safe_errors import safe_errors
 from support_exudyn.postprocessing.comparing.common_times import on_common_times
+from support_exudyn.postprocessing.comparing.compared_channel import ToleranceVerdict
 from support_exudyn.postprocessing.comparing.compared_file import is_own
-from support_exudyn.postprocessing.comparing.tolerances import Tolerance, tolerance
-from support_exudyn.postprocessing.comparing.verdict import ToleranceVerdict
+from support_exudyn.postprocessing.comparing.mapping import Tolerance, tolerance
 from support_exudyn.postprocessing.figures.selection import CLEARANCE, matching
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
