@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from support_exudyn.__main__ import main
-from support_exudyn.postprocessing.baselines import folder as folders
+from support_exudyn.postprocessing.comparing import baselines as folders
 
 SLOW = """\
 machine = "crank_rocker"

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.postprocessing.baselines.kept_run import kept_run
+from support_exudyn.postprocessing.comparing.kept_run import kept_run
 from support_exudyn.postprocessing.pytest_plugin import Baseline, SimulateCached
 from tests.postprocessing.baselines.scenes import rise, rocker
 from tests.processes import ROOT, environment
@@ -31,9 +31,8 @@ njit = numba.njit
 numba.njit = lambda *given, **more: njit(*given, **more | {"fastmath": {"contract", "reassoc", "arcp", "afn"}})
 
 from support_exudyn import simulate
-from support_exudyn.postprocessing.baselines.baseline_file import read_baseline
-from support_exudyn.postprocessing.baselines.changes import changes
-from support_exudyn.postprocessing.baselines.kept_run import kept_run
+from support_exudyn.postprocessing.comparing.kept_run import kept_run, read_baseline
+from support_exudyn.postprocessing.comparing.changes import changes
 from tests.postprocessing.baselines import scenes
 
 told = {}
