@@ -18,14 +18,13 @@ from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge, column_of
 from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer
-from support_exudyn.postprocessing.instruments.instrument import Instrument
-from support_exudyn.postprocessing.instruments.low_pass import LowPass
-from support_exudyn.postprocessing.instruments.measured_table import write_measured
+from support_exudyn.postprocessing.instruments.instrument import Instrument, LowPass
 from support_exudyn.postprocessing.instruments.station import (
     MeasuringStation,
     measure,
     read_station,
     usual_station,
+    write_measured,
 )
 from tests import synthetic
 from user_forces.values.value import InputError
