@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.benchmarking.fresh_scenes import MACHINES, fresh
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.compared_file import of_run
@@ -25,7 +24,7 @@ from support_exudyn.postprocessing.comparing.with_errors import (
     curve_errors,
     numbers_beside_errors,
 )
-from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support
+from tests.cases.run_cases import FORCE, PIN, loose_support
 
 FINE = 1e-4  # an accuracy beyond "standard", whose tolerance is that of "draft" where steps are chosen by one
 SEED = 20261124
@@ -92,34 +91,11 @@ def drawn(number: int) -> Scenario:
     )
 
 
-@pytest.mark.parametrize("number", range(6))
+@pytest.mark.parametrize("number", range(3))
 def test_accuracies_of_drawn_scenes_are_told_equal(number: int) -> None:
     runs = [simulate(drawn(number), accuracy=accuracy) for accuracy in ("draft", FINE, "reference")]
     for first, second in combinations(runs, 2):
         assert min(told_equal(first, second)) > 0
-
-
-@pytest.mark.slow
-def test_accuracies_of_many_drawn_scenes_are_told_equal() -> None:
-    numbers = curves = scenes = 0
-    kinds = [kind for kind in MACHINES if kind != "hydraulic legs"]
-    drawn_scenes = [fresh(SEED + 1, number, kinds[number % len(kinds)]) for number in range(63)]
-    legs = [fresh(SEED + 1, number, "hydraulic legs") for number in range(63, 69)]
-    # the engine's formulation takes a minute for some of them
-    legs = [replace(leg, scenario=replace(leg.scenario, formulation="auto")) for leg in legs]
-    for scene in (*drawn_scenes, *legs):
-        if scene.kind == "space":
-            continue
-        runs = [simulate(scene.scenario, accuracy=accuracy) for accuracy in ("draft", "standard")]
-        if runs[0].scenario.formulation == "compiled":
-            runs.append(simulate(scene.scenario, accuracy="reference"))
-        for first, second in combinations(runs, 2):
-            one, other = told_equal(first, second)
-            numbers, curves = numbers + one, curves + other
-        scenes += 1
-    assert scenes > 50
-    assert numbers > 5000
-    assert curves > 8000
 
 
 def test_five_pins_are_equal_up_to_the_horizon_and_in_statistics_after_it() -> None:
@@ -155,17 +131,6 @@ def test_without_errors_they_part_near_the_horizon() -> None:
     assert parting_of_runs(bare, replace(second, coarser=None, goal=None)) == found
     # one that has errors brings its horizon
     assert parting_of_runs(bare, second).time == min(found.time, second.horizon)
-
-
-@pytest.mark.slow
-def test_a_crank_parts_near_its_horizon() -> None:
-    first, second = (
-        simulate(loose_slider_crank(0.05), accuracy=accuracy) for accuracy in ("draft", "reference")
-    )
-    true = min(first.horizon, second.horizon)
-    assert parting_of_runs(first, second).time == true
-    assert 0.5 * true < parting_of_impacts(first.onsets, second.onsets).time < 2.0 * true
-    told_equal(first, second)
 
 
 def test_a_clearance_that_is_larger_by_a_thousandth_is_told() -> None:
