@@ -222,7 +222,7 @@ def test_figure_and_page(folder: Path) -> None:
     for part in (
         "Not all channels",
         "NOT",
-        "Sprague-Geers M",
+        "magnitude error",
         "tip.force: largest difference 50",
         "difference [",
     ):

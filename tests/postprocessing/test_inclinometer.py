@@ -66,20 +66,20 @@ def test_at_a_constant_rate_gravity_and_the_centripetal_acceleration_are_felt(
     np.testing.assert_array_equal(found[:, 2], 0.0)
 
 
-def test_the_mean_of_an_impact_is_felt_whole() -> None:
-    speed = np.where(TIME < 0.2, 0.0, 0.7)
+def moving(speed: np.ndarray) -> Result:
+    """A run in which the canopy moves along x without turning."""
     still = np.zeros(TIME.size)
-    channels = {"angle": (still, "rad"), "angular_velocity": (still, "rad/s"), "velocity_x": (speed, "m/s")}
-    channels |= {"velocity_y": (still, "m/s")}
-    run = synthetic.result(PLANE, TIME, {f"canopy.{name}": one for name, one in channels.items()})
-    assert -PERIOD * specific_force(run, "canopy")[:, 0].sum() == pytest.approx(0.7, rel=1e-12)
+    channels = {"angle": still, "angular_velocity": still, "velocity_x": speed, "velocity_y": still}
+    return synthetic.result(PLANE, TIME, {f"canopy.{name}": (one, "") for name, one in channels.items()})
+
+
+def test_an_impact_and_an_even_growth_are_felt_whole() -> None:
+    impact = specific_force(moving(np.where(TIME < 0.2, 0.0, 0.7)), "canopy")
+    assert -PERIOD * impact[:, 0].sum() == pytest.approx(0.7, rel=1e-12)
 
 
 def test_an_acceleration_that_grows_evenly_is_felt_exactly_to_both_ends() -> None:
-    still = np.zeros(TIME.size)
-    channels = {"angle": still, "angular_velocity": still, "velocity_x": 4.0 * TIME**2, "velocity_y": still}
-    run = synthetic.result(PLANE, TIME, {f"canopy.{name}": (one, "") for name, one in channels.items()})
-    np.testing.assert_allclose(specific_force(run, "canopy")[:, 0], -8.0 * TIME, atol=1e-11)
+    np.testing.assert_allclose(specific_force(moving(4.0 * TIME**2), "canopy")[:, 0], -8.0 * TIME, atol=1e-11)
 
 
 def test_a_run_at_rest_reads_as_its_angles_and_a_base_as_none() -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +15,7 @@ from support_exudyn.files.machines.read import machine
 from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
-from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge, column_of
+from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge
 from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer
 from support_exudyn.postprocessing.instruments.instrument import Instrument, LowPass
 from support_exudyn.postprocessing.instruments.station import (
@@ -77,29 +76,29 @@ def test_a_filter_answers_a_step_as_its_closed_form(order: int, response: object
 
 
 @pytest.mark.parametrize("order", [1, 2, 4, 8])
-def test_a_wave_at_the_corner_loses_three_decibels(order: int) -> None:
+def test_a_wave_at_the_corner_loses_three_decibels_and_a_constant_nothing(order: int) -> None:
     time = np.arange(20000) * 1e-3
-    wave = np.sin(2.0 * math.pi * 2.0 * time)
-    late = LowPass(order=order, corner=2.0).filtered(wave[:, None], 1e-3)[10000:, 0]
-    assert np.abs(late).max() == pytest.approx(1.0 / math.sqrt(2.0), rel=2e-4)
+    wave = np.stack([np.sin(2.0 * math.pi * 2.0 * time), np.full(time.size, -7.0)], axis=-1)
+    late = LowPass(order=order, corner=2.0).filtered(wave, 1e-3)
+    assert np.abs(late[10000:, 0]).max() == pytest.approx(1.0 / math.sqrt(2.0), rel=2e-4)
+    np.testing.assert_array_equal(late[:, 1], -7.0)
 
 
-def test_a_filter_lets_what_does_not_change_pass() -> None:
-    steady = np.full((50, 2), [[3.0, -7.0]])
-    np.testing.assert_array_equal(LowPass(order=3, corner=5.0).filtered(steady, 1e-3), steady)
+UNEVEN = np.array([0.0, 0.1, 0.3, 0.4])
+BORE = {"column": "front_column", "bore": 0.25}
 
 
-def test_too_coarse_records_are_refused() -> None:
-    gauge = PressureGauge(column="front_column", bore=0.25, low_pass=LowPass(corner=60.0))
-    with pytest.raises(
-        InputError, match=r"corner = 60 Hz.*record_period <= 0.000833333 s, or a corner up to 50"
-    ):
-        read(pushed(TIME), gauge)
-    with pytest.raises(InputError, match=r"rate = 2000 Hz: the records are 0.001 s apart; allowed: up to 1000"):
-        read(pushed(TIME), PressureGauge(column="front_column", bore=0.25, rate=2000.0))
-    uneven = np.array([0.0, 0.1, 0.3, 0.4])
-    with pytest.raises(InputError, match=r"0.1 s apart, and 0.2 s at t = 0.1"):
-        read(pushed(uneven, time=uneven), PressureGauge(column="front_column", bore=0.25))
+@pytest.mark.parametrize(
+    ("chosen", "time", "said"),
+    [
+        ({"low_pass": LowPass(corner=60.0)}, TIME, r"corner = 60 Hz.*<= 0.000833333 s, or a corner up to 50"),
+        ({"rate": 2000.0}, TIME, r"rate = 2000 Hz: the records are 0.001 s apart; allowed: up to 1000"),
+        ({}, UNEVEN, r"0.1 s apart, and 0.2 s at t = 0.1"),
+    ],
+)
+def test_too_coarse_records_are_refused(chosen: dict[str, object], time: np.ndarray, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        read(pushed(time, time=time), PressureGauge(**BORE, **chosen))
 
 
 def test_a_shorter_last_step_is_left_out() -> None:
@@ -174,11 +173,6 @@ def test_what_is_missing_is_asked_for(gauge: Instrument, said: str) -> None:
     assert str(told.value).startswith("one: ")
 
 
-def test_in_space_one_of_a_pair_may_be_meant() -> None:
-    with pytest.raises(InputError, match="did you mean 'front_column_left' or 'front_column'"):
-        column_of(replace(REST, dimensions=3), "front_column_lef")
-
-
 def test_extension_is_measured_from_the_start_or_from_a_length() -> None:
     start = REST.linkage.actuators["front_column"].start_length
     run = synthetic.result(REST, TIME, {"front_column.length": (start + TIME, "m")})
@@ -206,13 +200,10 @@ def test_noise_is_seeded_and_has_its_rms() -> None:
 
 
 def test_digits_are_multiples_of_the_resolution() -> None:
-    gauge = PressureGauge(column="front_column", bore=0.25, rate=1000.0, resolution=1e5)
-    found = read(pushed(np.linspace(0.0, 8e5, TIME.size)), gauge) / 1e5
-    np.testing.assert_allclose(found, np.round(found), atol=1e-9)
-    plain = read(
-        pushed(np.linspace(0.0, 8e5, TIME.size)), gauge.__class__(column="front_column", bore=0.25, rate=1000.0)
-    )
-    assert 0.4 < np.abs(found - plain / 1e5).max() <= 0.5 + 1e-9
+    run = pushed(np.linspace(0.0, 8e5, TIME.size))
+    plain, rounded = (read(run, PressureGauge(**BORE, rate=1000.0, resolution=by)) / 1e5 for by in (0.0, 1e5))
+    np.testing.assert_allclose(rounded, np.round(rounded), atol=1e-9)
+    assert 0.4 < np.abs(rounded - plain).max() <= 0.5 + 1e-9
 
 
 def test_samples_are_taken_at_their_rates_and_told_by_the_clock(tmp_path: Path) -> None:

@@ -110,8 +110,7 @@ def _curves(
         look: dict[str, Any] = {"ls": dashes.get(colour, "-"), "lw": 1.3 if file is reference else 1.0}
         if file.run is None and time.size <= FEW:  # points are seen as such
             look = {"ls": "", "marker": "o", "ms": 3.5, "mfc": "none", "mew": 1.0, "zorder": 3}
-        look |= {"color": colour, "label": file.name, "rasterized": time.size > 20000}
-        axes.plot(seconds.scale * time, shown.scale * values, **look)
+        axes.plot(seconds.scale * time, shown.scale * values, color=colour, label=file.name, **look)
     label_values(axes, units.QUANTITIES.get(one.unit, "value"), shown.name)
     axes.set_title(f"{one.name}: {one.meaning}" if one.meaning else one.name, fontsize=8)
 
@@ -143,8 +142,7 @@ def _differences(axes: Axes, there: Compared, seconds: DisplayUnit) -> None:
         for end in (-bound, bound):
             axes.plot(ends, [end, end], color=ALLOWED, lw=0.8, ls="--", label="allowed")
     label_values(axes, "difference", shown.name)
-    far = f" (±{said(allowed, unit)} allowed: beyond the panel)" if beyond else ""
-    axes.set_title(f"{'; '.join(titles)}{far}", fontsize=7)
+    axes.set_title("; ".join(titles), fontsize=7)
 
 
 def _size(one: ComparedChannel) -> float:
@@ -160,7 +158,7 @@ def _difference(axes: Axes, one: ComparedChannel, colour: str, seconds: float, s
     time = seconds * one.common.time[before]
     difference = scale * (one.common.other - one.common.reference)[before]
     marks: dict[str, Any] = {"marker": "o", "ms": 2.5} if one.common.time.size <= FEW else {}
-    axes.plot(time, difference, color=colour, lw=0.9, rasterized=time.size > 20000, label="difference", **marks)
+    axes.plot(time, difference, color=colour, lw=0.9, label="difference", **marks)
     errors = scale * one.errors[before]
     if np.isfinite(errors).any() and np.nanmax(errors) > 0.0:
         axes.fill_between(time, difference - errors, difference + errors, color=colour, alpha=0.25, lw=0.0)
@@ -172,18 +170,12 @@ def _difference(axes: Axes, one: ComparedChannel, colour: str, seconds: float, s
 
 def _caption(compared: FilesCompared) -> str:
     """What is drawn, in sentences."""
-    channels = [one for pair in compared.pairs for one in pair.channels.values()]
-    sentences = [
+    known = any(file.has_errors for pair in compared.pairs for file in (pair.reference, pair.other))
+    errors = "Shaded: numerical errors that are known." if known else "Numerical errors are not known."
+    allowed = "" if compared.verdict == "told" else " Green: what is allowed."
+    parted = any(math.isfinite(pair.parting.time) for pair in compared.pairs)
+    grey = " Grey: after the first parting, from which on curves are compared by their statistics only."
+    return (
         "Curves as their files have them (few points of a file: markers); below each, the difference from the "
-        "reference.",
-        "Shaded in the colour of a curve, where it can be seen: numerical errors that are known."
-        if any(one.with_errors for one in channels)
-        else "Numerical errors are not known.",
-    ]
-    if any(one.tolerance is not None for one in channels):
-        sentences.append("Green: what is allowed.")
-    if any(math.isfinite(pair.parting.time) for pair in compared.pairs):
-        sentences.append(
-            "Grey: after the first parting, from which on curves are compared by their statistics only."
-        )
-    return " ".join(sentences)
+        f"reference. {errors}{allowed}{grey if parted else ''}"
+    )

@@ -1,4 +1,4 @@
-"""The page of a comparison: verdict, notes, tables, curves to look into, all measures with definitions."""
+"""The page of a comparison: verdict, notes, tables, curves to look into, all measures."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from support_exudyn.postprocessing.comparing import tables
 from support_exudyn.postprocessing.comparing.compare_figure import MOST, compare_figure
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
+from support_exudyn.postprocessing.comparing.measures import CurveMeasures
 from support_exudyn.postprocessing.comparing.notes import notes
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.units import readable
@@ -23,23 +24,7 @@ from user_forces.values.value import InputError
 
 TEMPLATE = "compare.html.j2"
 ENDING = ".html"
-MEASURES = {  # by name: head and definition
-    "rms": ("RMS difference", "root of the mean square of the difference over time"),
-    "rms_of_range": ("RMS / range", "the same over the largest less the least value of the reference"),
-    "largest": ("largest difference", "the difference that is largest in size, with its sign"),
-    "largest_of_range": ("largest / range", "its size over the range of the reference"),
-    "largest_time": ("at [s]", "when that is"),
-    "mean_difference": ("mean difference", "mean of the difference over time"),
-    "spread_reference": ("spread, reference", "standard deviation of the reference over time"),
-    "spread_other": ("spread, other", "that of the other"),
-    "spread_difference": ("spread of difference", "that of the difference"),
-    "peak_reference": ("peak, reference", "the value of the reference that is largest in size"),
-    "peak_other": ("peak, other", "that of the other"),
-    "r_squared": ("R²", "1 less mean square of the difference over the variance of the reference"),
-    "magnitude_error": ("Sprague-Geers M", "RMS of the other over that of the reference, less 1"),
-    "phase_error": ("Sprague-Geers P", "angle between both curves over pi: 0 of a multiple, 1 of a negative"),
-    "combined_error": ("Sprague-Geers C", "root of M² + P²"),
-}
+MEASURES = tuple(name for name in CurveMeasures._fields if name not in ("times", "left_out"))
 SHARES = {"rms_of_range", "largest_of_range", "magnitude_error", "phase_error", "combined_error"}
 PLAIN = {"r_squared", "largest_time"}
 
@@ -71,18 +56,11 @@ def write_page(compared: FilesCompared, path: Path) -> None:
         }
         for n, pair in enumerate(compared.pairs)
     ]
-    definitions = Sheet(
-        "Measures, before the parting if there is one",
-        ("measure", "definition"),
-        tuple(MEASURES.values()),
-        wide=True,
-    )
     names = ", ".join(pair.other.name for pair in compared.pairs)
     page = {
         "title": f"{names} compared with {compared.reference.name}",
         "verdict": tables.VERDICTS[compared.verdict],
         "files": files,
-        "definitions": ShownTable(definitions, "definitions"),
     }
     text = templates().get_template(TEMPLATE).render(page=page, scripts=Markup(pages.scripts))
     with whole_file(path) as temporary:
@@ -111,9 +89,8 @@ def _curves(compared: FilesCompared, live: Markup) -> ShownFigure:
 
 def _measures(pair: ComparedPair) -> Sheet:
     """A row a measure, a column a channel."""
-    rows = [
-        (head, *(_measure(one, name) for one in pair.channels.values())) for name, (head, _) in MEASURES.items()
-    ]
+    channels = pair.channels.values()
+    rows = [(name.replace("_", " "), *(_measure(one, name) for one in channels)) for name in MEASURES]
     return Sheet(f"{pair.other.name} less {pair.reference.name}", ("measure", *pair.channels), tuple(rows))
 
 

@@ -67,8 +67,9 @@ FINE = np.linspace(0.0, 1.0, 1001)
             1.1,
             0.2,
             "not decided",
-            "it: 1 N, where the reference is 1.1 N: it cannot be told whether they are close, for the numerical "
-            "error is 0.5 N; allowed: 0.22 N (20 % of the value of the reference); a higher accuracy may tell",
+            "it: 1 N, where the reference is 1.1 N: it cannot be told whether they are close, for the "
+            "numerical error is 0.5 N; allowed: 0.22 N (20 % of the value of the reference); a higher accuracy "
+            "may tell",
         ),
         (Estimate(9.0, 0.5, "N"), 1.1, 0.2, "not within", "they differ by 7.9 N"),
         # a share is of a curve's range
