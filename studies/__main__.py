@@ -1,19 +1,21 @@
-"""`python -m studies`: the paper's answer in a minute; other studies by name; and the report on them."""
+"""`python -m studies`: the studies of the paper on Exudyn; other studies by name; and the report on them."""
 
 import argparse
 import sys
 import time
 import traceback
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from studies.adams import run as adams
 from studies.benchmarking import benchmark
 from studies.catalogue import DEFAULT, STUDIES
 from studies.common.options import Options, add_options, read_options
-from studies.common.study import Study, output_folder, say_short
+from studies.common.study import Study, StudyOutcome, output_folder, say_short
+from studies.common.witness import compiling
 from studies.report import rebuild
 from studies.reporting.places import PAGE
 from support_exudyn.commands.command_line import Parser, answered, say, warn
@@ -89,22 +91,40 @@ def _chosen(given: argparse.Namespace) -> list[str]:
 def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
     """Run studies one after the other; one that fails does not keep the others from the report.
 
-    The report is written anew while the next study computes.
+    The report is written anew while the next study computes. The studies of the paper run first, and their
+    witnesses after them, which are compiled in the meantime.
     """
     began = time.perf_counter()
-    failed = []
+    failed: list[str] = []
     page = options.out / PAGE
-    with ThreadPoolExecutor(max_workers=1) as writer:
+    with ThreadPoolExecutor(max_workers=1) as writer, compiling():
         written: list[Future[int]] = []
+        waiting: dict[str, StudyOutcome] = {}
+
+        def judge() -> None:
+            """Let the witnesses of all studies that wait for them be computed."""
+            for name, found in waiting.items():
+                warn(f"witness of {name}; {_seconds(time.perf_counter() - began)} so far")
+                chosen = options.of_study(name, pool)
+                if _one(partial(_judge, STUDIES[name], chosen, found)):
+                    failed.append(f"witness of {name}")
+            if waiting:
+                written.append(writer.submit(_rewrite, options.out, ""))
+            waiting.clear()
+
         for n, name in enumerate(names):
+            if name not in DEFAULT:
+                judge()
             spent = _seconds(time.perf_counter() - began)
             left = _seconds(sum(STUDIES[one].seconds for one in names[n:]))
             warn(f"study {n + 1} of {len(names)}: {name}; {spent} so far, about {left} to go")
-            if _one(STUDIES[name], options.of_study(name, pool)):
+            chosen = options.of_study(name, pool)
+            if _one(partial(_begin, STUDIES[name], chosen, waiting)):
                 failed.append(name)
                 continue
             first = not written and n + 1 < len(names)
             written.append(writer.submit(_rewrite, options.out, f"{page} can be read now" if first else ""))
+        judge()
     if any(one.result() for one in written):
         failed.append("report")
     if failed:
@@ -122,13 +142,23 @@ def _rewrite(out: Path, told: str) -> int:
     return code
 
 
-def _one(study: Study, options: Options) -> int:
+def _begin(study: Study, options: Options, waiting: dict[str, StudyOutcome]) -> None:
+    """Run a study without its witness, which then waits."""
+    with output_folder(options.out):
+        chapter, found = study.begin(options)
+        say_short(chapter, options.out)
+    if found.witness is not None:
+        waiting[study.name] = found
+
+
+def _judge(study: Study, options: Options, found: StudyOutcome) -> None:
+    """Let the witness of a study be computed, and write the study again."""
+    with output_folder(options.out):
+        study.with_witness(options, found)
+
+
+def _one(work: Callable[[], None]) -> int:
     """Run a study; what goes wrong is said in a sentence. Returns the exit code; an interruption ends all."""
-
-    def work() -> None:
-        with output_folder(options.out):
-            say_short(study(options), options.out)
-
     try:
         code = answered(work)
     except Exception:  # a bug in one study; the others are still worth having

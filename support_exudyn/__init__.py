@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from support_exudyn.machines.planar_linkage import PlanarLinkage
     from support_exudyn.machines.slider_crank import SliderCrank, ravn_slider_crank
     from support_exudyn.machines.two_leg_shield import TwoLegShield
-    from support_exudyn.mechanics.contact_state import Onset
     from support_exudyn.mechanics.trajectory import Impulse
     from support_exudyn.model.actuators import (
         ActuatorModel,
@@ -111,6 +110,7 @@ if TYPE_CHECKING:
     from support_exudyn.simulation.result import Result
     from support_exudyn.simulation.simulate import simulate
     from user_forces.contact import JournalContact
+    from user_forces.contact_state import Onset
     from user_forces.friction.law import FrictionLaw
     from user_forces.journal import JournalBearing
     from user_forces.normal.law import NormalLaw
@@ -223,6 +223,7 @@ __all__ = [
 
 # imported when they are asked for, so that others need not wait: what a run is made of, and what it is read by
 _PLACES = {
+    "user_forces.contact_state": ("Onset",),
     ".files.machines": ("cylinders_and_rods", "load_machine", "load_support", "machine", "reference_support"),
     ".formulations.contract": ("Failure", "SimulationError"),
     ".machines.four_column_support": ("HydraulicSupport",),
@@ -230,7 +231,6 @@ _PLACES = {
     ".machines.planar_linkage": ("PlanarLinkage",),
     ".machines.slider_crank": ("SliderCrank", "ravn_slider_crank"),
     ".machines.two_leg_shield": ("TwoLegShield",),
-    ".mechanics.contact_state": ("Onset",),
     ".mechanics.trajectory": ("Impulse",),
     ".model.actuators": (
         "ActuatorModel",

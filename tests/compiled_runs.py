@@ -25,7 +25,7 @@ def simulate_compiled(
 
 def simulate_redundant(scenario: Scenario) -> Result:
     """Run a scenario with the engine's bodies and constraints."""
-    return simulate(replace(scenario, formulation="redundant"))
+    return simulate(replace(scenario, formulation="exudyn"))
 
 
 def same_channels(ours: Result, theirs: Result) -> dict[str, np.ndarray]:

@@ -75,7 +75,6 @@ EXAMPLES = {
     "scenario data": 120,
     "channels": 40,
     "runs": 60,
-    "simulate": 30,
     "machine text": 80,
     "machine tree": 120,
     "evidence text": 30,

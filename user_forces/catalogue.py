@@ -1,32 +1,32 @@
-"""Every law that lies in `normal` and `friction`, found in its file, and what tables say of it.
+"""The published laws, and what tables say of them.
 
-A law's name is that of its file. Its docstring has the paragraph "Source: ...", with the year in brackets.
+The docstring of a law has the paragraph "Source: ...", with the year in brackets.
 """
 
 import inspect
 import re
-from importlib import import_module
-from pkgutil import iter_modules
 from typing import Any
 
-import user_forces.friction
-import user_forces.normal
+from user_forces.friction import laws as friction_laws
+from user_forces.friction import lugre
+from user_forces.normal import cylinders, dashpots, pin_in_bore, power_laws
 from user_forces.values.value import Value, kinds_of
 
-ROOMS = (user_forces.normal, user_forces.friction)
 FIRST = ("Exact", "Johnson")  # of their kind: what the others are compared with
-
-MODULES = tuple(
-    import_module(found.name) for room in ROOMS for found in iter_modules(room.__path__, f"{room.__name__}.")
-)
+MODULES = (power_laws, dashpots, cylinders, pin_in_bore, friction_laws, lugre)
 
 
 def laws(kind: type[Value]) -> dict[str, Any]:
     """Classes of the published laws of a kind, such as `PowerLaw`, by name: the reference, then by year."""
-    names = {module.__name__: module.__name__.rpartition(".")[2] for module in MODULES}
-    found = [law for law in kinds_of(kind).values() if law.__module__ in names and source(law)]
-    found.sort(key=lambda law: (law.__name__ not in FIRST, year(law), law.__module__))
-    return {names[law.__module__]: law for law in found}
+    names = {module.__name__ for module in MODULES}
+    published = [law for law in kinds_of(kind).values() if law.__module__ in names and source(law)]
+    published.sort(key=lambda law: (law.__name__ not in FIRST, year(law), law.__name__))
+    return {name_of(law): law for law in published}
+
+
+def name_of(law: type[Value]) -> str:
+    """A law's name in figures and tables: `lankarani_nikravesh`, `esdu_78035`, `lugre`."""
+    return re.sub(r"(?<=[a-z])(?<!Mc)(?<!Lu)(?=[A-Z\d])", "_", law.__name__).lower().replace("__", "_")
 
 
 def source(law: type[Value]) -> str:
@@ -36,8 +36,8 @@ def source(law: type[Value]) -> str:
 
 def year(law: type[Value]) -> int:
     """The year in which a law was published; 9999 if its source has none in brackets."""
-    found = re.search(r"\((\d{4})\)", source(law))
-    return int(found[1]) if found else 9999
+    match = re.search(r"\((\d{4})\)", source(law))
+    return int(match[1]) if match else 9999
 
 
 def title(law: type[Value]) -> str:

@@ -28,8 +28,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from user_forces.expressions.roots import bracketed_root
 from user_forces.journal import JournalBearing
+from user_forces.roots import bracketed_root
 from user_forces.values.value import InputError
 
 LINE_CONTACT = math.radians(10.0)  # half angle up to which Hertz's form is within 2 % of Persson's

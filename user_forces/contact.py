@@ -1,24 +1,33 @@
-"""Geometry, normal law and friction law together: force of a bore on its journal, or of a wall on a corner."""
+"""Geometry, normal law and friction law together: force of a bore on its journal, or of a wall on a corner.
+
+The contact kernels are functions of numbers. The engine's user function, the compiled formulation, the static
+equilibrium and the records all call the same ones, so the force in a report is the force of the run.
+"""
 
 from __future__ import annotations
 
+import math
 from abc import ABC
+from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple
+from functools import cache, cached_property
+from typing import Any, NamedTuple
 
+import numpy as np
+import numpy.typing as npt
 from pydantic import model_validator
 
-from user_forces.expressions.scalar import is_number, maximum, where
 from user_forces.face import Face
-from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
-from user_forces.journal import SMALLEST as SMALLEST
+from user_forces.friction.laws import Frictionless
 from user_forces.journal import ContactGeometry, JournalBearing
+from user_forces.kernel import Formula, compiled_or_plain, kernel, numbers
 from user_forces.normal.law import NormalLaw
 from user_forces.slot import Slot
 from user_forces.values.value import Value, value
 
 SHALLOWEST = 1e-30  # depth [m] with which a law is evaluated where there is no contact
+GEOMETRY = 2  # constants of a geometry that come first, see `ContactGeometry.constants`
 
 
 class ContactForce(NamedTuple):
@@ -55,7 +64,19 @@ class SlipHistory(NamedTuple):
     step: float
 
 
+Array = npt.NDArray[np.float64]
 AT_REST = SlipHistory(0.0, 0.0, 0.0)
+Kernel = Callable[..., Any]
+
+
+class LawCounts(NamedTuple):
+    """How many constants the functions of a contact's laws take: force, elastic force, friction, state."""
+
+    force: int
+    elastic: int
+    friction: int
+    rate: int
+    advance: int
 
 
 class Contact(Value, ABC):
@@ -64,6 +85,46 @@ class Contact(Value, ABC):
     bearing: ContactGeometry
     normal: NormalLaw
     friction: FrictionLaw
+
+    @cached_property
+    def constants(self) -> tuple[float, ...]:
+        """Numbers of geometry and laws that `force_kernel` takes last."""
+        return (*self.bearing.constants, *self.law_constants)
+
+    @cached_property
+    def law_constants(self) -> tuple[float, ...]:
+        """Numbers of the laws that `law_kernel` takes last."""
+        return (self.normal.largest_depth, *(number for part in self._formulas for number in part.parameters))
+
+    @property
+    def _formulas(self) -> tuple[Formula, ...]:
+        """Force, elastic force, friction, and of a friction law with a state its rate and its advance."""
+        normal, friction = self.normal, self.friction
+        stateless = normal.force_formula, normal.elastic_formula, friction.force_formula
+        if not friction.has_state:
+            return stateless
+        return *stateless, friction.rate_formula, friction.advance_formula
+
+    @cached_property
+    def law_kernel(self) -> Kernel:
+        """Both laws as one function of numbers, see `law_kernel_of`."""
+        functions = [part.function for part in self._formulas]
+        counts = [len(part.parameters) for part in self._formulas]
+        if not self.friction.has_state:
+            return law_kernel_of(*functions, None, LawCounts(*counts, 0, 0))
+        return law_kernel_of(*functions[:4], LawCounts(*counts))
+
+    @cached_property
+    def force_kernel(self) -> Kernel:
+        """Kinematics and laws as one function of numbers, see `force_kernel_of`."""
+        advance = self.friction.advance_formula if self.friction.has_state else None
+        return force_kernel_of(
+            self.bearing.kinematics,
+            self.law_kernel,
+            advance.function if advance else None,
+            len(self.constants) - (len(advance.parameters) if advance else 0),
+            len(advance.parameters) if advance else 0,
+        )
 
     def force(
         self,
@@ -76,7 +137,7 @@ class Contact(Value, ABC):
         impact_velocity: float | None,
         history: SlipHistory = AT_REST,
     ) -> ContactForce:
-        """Force of the bore on the journal. Takes floats or expressions (`user_forces.expressions.scalar`).
+        """Force of the bore on the journal.
 
         Arguments:
             x, y: journal's centre minus bore's centre [m], in any axes; of a slot 0 and the distance from the
@@ -86,45 +147,37 @@ class Contact(Value, ABC):
                 and across: the plain difference from any point of the middle line, less along y what the
                 slot's turning moves the walls across at the place of the corner.
             bore_spin, journal_spin: angular velocities of both bodies [rad/s].
-            impact_velocity: of the present contact [m/s], see `NormalLaw`; None while the surfaces are apart,
-                and then there is no force whatever the depth.
+            impact_velocity: of the present contact [m/s], see `NormalLaw`; None while the surfaces are
+                separated, and then there is no force whatever the depth.
             history: for friction laws with a state, the step whose end this is.
 
         Returns:
-            ContactForce. The force acts at one point of space on both bodies, so linear and angular
+            ContactForce. The force acts at the same point of space on both bodies, so linear and angular
             momentum are conserved: on the journal `journal_arm` from its centre along n, which is
-            `journal_arm` plus the eccentricity from the bore's. From the middle every way leads outwards:
+            `journal_arm` plus the eccentricity from the bore's. From the middle every direction leads outwards:
             there the rate is the speed.
+
+        Raises LoadError beyond the depth for which the normal law is valid.
         """
-        bearing = self.bearing
-        eccentricity, nx, ny = bearing.outwards(x, y)
-        depth = bearing.depth(eccentricity)  # Eq. 3
-        bore_arm, journal_arm = bearing.contact_arms(depth)
-        slip = nx * vy - ny * vx + journal_spin * journal_arm - bore_spin * bore_arm
-        rate = nx * vx + ny * vy
-        if impact_velocity is None or (is_number(depth) and depth <= 0.0):
-            if is_number(eccentricity) and eccentricity == 0.0:
-                rate = bearing.speed_outwards(vx, vy)
-            return ContactForce(depth, rate, slip, 0.0, 0.0, 0.0, 0.0, journal_arm, False, 0.0)
-        asked = self.normal(maximum(depth, SHALLOWEST), rate, impact_velocity)
-        normal = where(depth > 0.0, maximum(asked, 0.0), 0.0)
-        deflection = 0.0
-        if self.friction.has_state:
-            mean_slip = 0.5 * (history.slip + slip)
-            deflection = self.friction.next_deflection(history.deflection, mean_slip, history.step)
-        friction = self.friction(slip, normal, deflection)
-        return ContactForce(
-            depth,
-            rate,
-            slip,
-            normal,
-            friction,
-            -normal * nx - friction * ny,
-            -normal * ny + friction * nx,
-            journal_arm,
-            asked < 0.0,
-            deflection,
-        )
+        closed, speed = impact_velocity is not None, impact_velocity or 0.0
+        motion = (x, y, vx, vy, bore_spin, journal_spin)
+        result = ContactForce(*self.force_kernel(*motion, closed, speed, *history, self.constants))
+        if closed:
+            self.normal.check(result.depth)
+        return result
+
+    def forces(self, rows: Array) -> tuple[ContactForce, Array]:
+        """Forces and stored energy [J] at many instants, (n,) each.
+
+        Arguments:
+            rows: arguments of `force_kernel` without its constants, shape (n, 11).
+        """
+        energy = self.normal.energy_formula
+        over = rows_kernel_of(self.force_kernel, energy.function, len(energy.parameters))
+        out = np.empty((len(rows), len(ContactForce._fields) + 1))
+        over(np.ascontiguousarray(rows), np.array(self.constants), np.array(energy.parameters), out)
+        columns: list[Any] = [*out.T]
+        return ContactForce(*columns[:-1]), columns[-1]
 
 
 @value
@@ -165,7 +218,7 @@ class SlotContact(Contact):
 
     Arguments:
         bearing: the slot's geometry.
-        normal: law for the normal force; one that goes by the radii of a bore does not fit.
+        normal: law for the normal force; one that depends on the radii of a bore does not fit.
         friction: law for the tangential force; none by default.
     """
 
@@ -185,7 +238,7 @@ class FaceContact(Contact):
 
     Arguments:
         bearing: the face.
-        normal: law for the normal force; one that goes by the radii of a bore does not fit.
+        normal: law for the normal force; one that depends on the radii of a bore does not fit.
     """
 
     bearing: Face
@@ -198,8 +251,114 @@ class FaceContact(Contact):
         return self
 
 
+@cache
+def law_kernel_of(
+    normal: Kernel, elastic: Kernel, friction: Kernel, rate_of: Kernel | None, counts: LawCounts
+) -> Kernel:
+    """Both laws of a contact as one function of numbers, the same for all parameters.
+
+        law(depth, rate, slip, speed, deflection, constants)
+
+    gives the normal force [N] that the normal law asks for (negative: tension; NaN beyond the largest depth),
+    its elastic part [N], the friction force [N], and the rate [m/s] of the deflection of a friction law with a
+    state. speed: impact velocity [m/s]. constants: largest depth, then the parameters.
+    """
+    of_force, of_elastic, of_friction, of_rate, _ = counts
+    at_elastic = 1 + of_force
+    at_friction = at_elastic + of_elastic
+    at_rate = at_friction + of_friction
+
+    if rate_of is None:
+
+        def law(
+            depth: float, rate: float, slip: float, speed: float, deflection: float, constants: Any
+        ) -> tuple[float, float, float, float]:
+            if depth > constants[0]:
+                return math.nan, math.nan, math.nan, math.nan
+            asked = normal(depth, rate, speed, *numbers(constants, 1, of_force))
+            held = elastic(depth, *numbers(constants, at_elastic, of_elastic))
+            pressed = 0.0 if asked < 0.0 else asked
+            return asked, held, friction(slip, pressed, *numbers(constants, at_friction, of_friction)), 0.0
+
+        return kernel(law)
+
+    def law_with_state(
+        depth: float, rate: float, slip: float, speed: float, deflection: float, constants: Any
+    ) -> tuple[float, float, float, float]:
+        if depth > constants[0]:
+            return math.nan, math.nan, math.nan, math.nan
+        asked = normal(depth, rate, speed, *numbers(constants, 1, of_force))
+        held = elastic(depth, *numbers(constants, at_elastic, of_elastic))
+        pressed = 0.0 if asked < 0.0 else asked
+        bends = rate_of(deflection, slip, *numbers(constants, at_rate, of_rate))
+        rubs = friction(slip, pressed, deflection, *numbers(constants, at_friction, of_friction))
+        return asked, held, rubs, bends
+
+    return kernel(law_with_state)
+
+
+@cache
+def force_kernel_of(
+    kinematics: Kernel, law: Kernel, advance: Kernel | None, at_advance: int, of_advance: int
+) -> Kernel:
+    """The force of a contact as one function of numbers, the same for all parameters.
+
+        force(x, y, vx, vy, bore_spin, journal_spin, closed, speed, deflection, slip, step, constants)
+
+    gives the numbers of `ContactForce`. closed: whether the surfaces are in contact; speed: of their impact
+    [m/s]; deflection [m], slip [m/s], step [s]: see `SlipHistory`. constants: of `Contact`.
+    """
+
+    def force(
+        x: float,
+        y: float,
+        vx: float,
+        vy: float,
+        bore_spin: float,
+        journal_spin: float,
+        closed: bool,
+        speed: float,
+        deflection: float,
+        slip_before: float,
+        step: float,
+        constants: Any,
+    ) -> tuple[float, float, float, float, float, float, float, float, bool, float]:
+        depth, rate, slip, nx, ny, arm = kinematics(
+            x, y, vx, vy, bore_spin, journal_spin, constants[0], constants[1]
+        )
+        if not closed or depth <= 0.0:
+            return depth, rate, slip, 0.0, 0.0, 0.0, 0.0, arm, False, 0.0
+        bent = 0.0
+        if advance is not None:
+            mean_slip = 0.5 * (slip_before + slip)
+            bent = advance(deflection, mean_slip, step, *numbers(constants, at_advance, of_advance))
+        asked, _, friction, _ = law(depth, rate, slip, speed, bent, constants[GEOMETRY:])
+        normal = 0.0 if asked < 0.0 else asked
+        fx, fy = -normal * nx - friction * ny, -normal * ny + friction * nx
+        return depth, rate, slip, normal, friction, fx, fy, arm, asked < 0.0, bent
+
+    return kernel(force)
+
+
+@cache
+def rows_kernel_of(force: Kernel, energy: Kernel, of_energy: int) -> Kernel:
+    """A force kernel and the stored energy [J] over many instants, as machine code if numba can compile it."""
+
+    def over(rows: Any, constants: Any, parameters: Any, out: Any) -> None:
+        for n in range(rows.shape[0]):
+            motion, memory = numbers(rows[n], 0, 6), numbers(rows[n], 7, 4)
+            result = force(*motion, rows[n, 6] > 0.5, *memory, constants)
+            depth, rate, slip, normal, friction, fx, fy, arm, clamped, deflection = result
+            out[n, 0], out[n, 1], out[n, 2], out[n, 3], out[n, 4] = depth, rate, slip, normal, friction
+            out[n, 5], out[n, 6], out[n, 7], out[n, 8], out[n, 9] = fx, fy, arm, clamped, deflection
+            out[n, 10] = energy(depth, *numbers(parameters, 0, of_energy)) if depth > 0.0 else 0.0
+
+    arrays = np.zeros((1, 1)), np.zeros(1), np.zeros(1), np.zeros((1, 1))
+    return compiled_or_plain(over, arrays)
+
+
 def _check_straight(law: NormalLaw) -> None:
-    """Raise ValueError if a law goes by the radii of a pin in its bore."""
+    """Raise ValueError if a law depends on the radii of a pin in its bore."""
     if hasattr(law, "bearing"):
         raise ValueError(
             f"normal = {type(law).__name__}: is of a pin in its bore; "

@@ -14,9 +14,34 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from user_forces.journal import ContactGeometry
+from user_forces.journal import ContactGeometry, Kinematics
+from user_forces.kernel import kernel
 from user_forces.values.units import Metres
 from user_forces.values.value import Positive, value
+
+
+@kernel
+def point_on_face(
+    x: float,
+    y: float,
+    vx: float,
+    vy: float,
+    bore_spin: float,
+    journal_spin: float,
+    radius: float,
+    clearance: float,
+) -> tuple[float, float, float, float, float, float]:
+    """Kinematics of a point that meets a face from one side.
+
+    Arguments:
+        x: has no effect. y: distance from the line in front of the face [m]; vx, vy: rates [m/s].
+        bore_spin, journal_spin: angular velocities of face and point [rad/s]. radius: has no effect.
+        clearance: distance of the face from the line [m].
+
+    Returns:
+        As `journal_in_bore`; the direction is always that across the face, and the contact point the point.
+    """
+    return y - clearance, vy, -vx - bore_spin * y, 0.0, 1.0, 0.0
 
 
 @value
@@ -45,16 +70,15 @@ class Face(ContactGeometry):
         """What is behind the face, with its size."""
         return f"the face of a block of {1e3 * self.size:.4g} mm"
 
-    def outwards(self, x: float, y: float) -> tuple[float, float, float]:
-        """The distance y [m] from the line, with its sign; the direction is always that across the face."""
-        del x
-        return y, 0.0, 1.0
-
     def contact_arms(self, depth: float) -> tuple[float, float]:
         """Distances [m] of the contact point from the line and from the point, across: it is the point."""
         return self.clearance + depth, 0.0
 
-    def speed_outwards(self, vx: float, vy: float) -> float:
-        """The speed across [m/s]."""
-        del vx
-        return vy
+    def placed(self, depth: float, rate: float, slip: float) -> tuple[float, ...]:
+        """A motion, as `kinematics` takes it first, with this depth [m], rate [m/s] and slip [m/s]."""
+        return 0.0, self.clearance + depth, -slip, rate, 0.0, 0.0
+
+    @property
+    def kinematics(self) -> Kinematics:
+        """See `point_on_face`."""
+        return point_on_face

@@ -13,16 +13,54 @@ r"""Geometry of a journal in a bore, in the plane.
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from typing import ClassVar
 
 from pydantic import model_validator
 
-from user_forces.expressions.scalar import hypot, maximum
+from user_forces.kernel import kernel
 from user_forces.values.units import Metres
 from user_forces.values.value import Positive, Value, value
 
-SMALLEST = 1e-300  # [m], only so that nothing is divided by zero
+Kinematics = Callable[..., tuple[float, float, float, float, float, float]]
+
+
+@kernel
+def journal_in_bore(
+    x: float,
+    y: float,
+    vx: float,
+    vy: float,
+    bore_spin: float,
+    journal_spin: float,
+    radius: float,
+    clearance: float,
+) -> tuple[float, float, float, float, float, float]:
+    """Kinematics of a journal in its bore.
+
+    Arguments:
+        x, y, vx, vy: journal's centre minus bore's [m] and its rate [m/s], in any axes.
+        bore_spin, journal_spin: angular velocities of both bodies [rad/s].
+        radius: R2 of the bore [m]. clearance: c [m].
+
+    Returns:
+        Depth |e| - c [m] (Eq. 3 of the paper), its rate [m/s], slip of the journal's surface on the bore's
+        [m/s] along t, the direction n (2) towards the wall, and the arm of the contact point from the journal's
+        centre [m]. The contact point lies midway in the overlap, so that it serves both bodies. From the middle
+        every direction leads outwards: there the rate is the speed.
+    """
+    eccentricity = math.sqrt(x * x + y * y)
+    depth = eccentricity - clearance
+    bore_arm = radius + 0.5 * depth
+    arm = bore_arm - eccentricity
+    if eccentricity == 0.0:
+        slip = journal_spin * arm - bore_spin * bore_arm
+        return depth, math.sqrt(vx * vx + vy * vy), slip, 0.0, 0.0, arm
+    nx, ny = x / eccentricity, y / eccentricity
+    slip = nx * vy - ny * vx + journal_spin * arm - bore_spin * bore_arm
+    return depth, nx * vx + ny * vy, slip, nx, ny, arm
 
 
 class ContactGeometry(Value, ABC):
@@ -36,11 +74,15 @@ class ContactGeometry(Value, ABC):
     is_slot: ClassVar[bool] = False
     is_one_sided: ClassVar[bool] = False
 
-    def outwards(self, x: float, y: float) -> tuple[float, float, float]:
-        """The eccentricity [m] of a journal at x, y [m], and the direction towards what it may meet there."""
-        eccentricity = hypot(x, y)
-        away = maximum(eccentricity, SMALLEST)
-        return eccentricity, x / away, y / away
+    @property
+    @abstractmethod
+    def kinematics(self) -> Kinematics:
+        """The kernel of the contact's kinematics; `constants` are what it takes last."""
+
+    @property
+    def constants(self) -> tuple[float, float]:
+        """Size of the bore or pin [m] and clearance [m], as `kinematics` takes them."""
+        return self.size, self.clearance
 
     def depth(self, eccentricity: float) -> float:
         """Depth |e| - c [m] for an eccentricity |e| [m] (Eq. 3 of the paper); negative: a gap."""
@@ -57,12 +99,12 @@ class ContactGeometry(Value, ABC):
         """What encloses the journal, with its size."""
 
     @abstractmethod
-    def contact_arms(self, depth: float) -> tuple[float, float]:
-        """Distances [m] of the contact point from the centres of bore and journal, both along n."""
+    def placed(self, depth: float, rate: float, slip: float) -> tuple[float, ...]:
+        """A motion, as `kinematics` takes it first, with this depth [m], rate [m/s] and slip [m/s]."""
 
     @abstractmethod
-    def speed_outwards(self, vx: float, vy: float) -> float:
-        """Speed [m/s] at which a journal that is in the middle leaves it, at a velocity vx, vy [m/s]."""
+    def contact_arms(self, depth: float) -> tuple[float, float]:
+        """Distances [m] of the contact point from the centres of bore and journal, both along n."""
 
 
 @value
@@ -101,9 +143,14 @@ class JournalBearing(ContactGeometry):
         """The bore, with its radius."""
         return f"a bore of {1e3 * self.bore_radius:.4g} mm radius"
 
-    def speed_outwards(self, vx: float, vy: float) -> float:
-        """The speed [m/s]: from the middle of a bore every way leads outwards."""
-        return hypot(vx, vy)
+    @property
+    def kinematics(self) -> Kinematics:
+        """See `journal_in_bore`."""
+        return journal_in_bore
+
+    def placed(self, depth: float, rate: float, slip: float) -> tuple[float, ...]:
+        """A motion, as `kinematics` takes it first, with this depth [m], rate [m/s] and slip [m/s]."""
+        return self.clearance + depth, 0.0, rate, slip, 0.0, 0.0
 
     def contact_arms(self, depth: float) -> tuple[float, float]:
         """Distances [m] of the contact point from the centres of bore and journal, both along n.

@@ -16,10 +16,38 @@ from typing import Annotated, ClassVar
 
 from pydantic import Field
 
-from user_forces.expressions.scalar import magnitude
-from user_forces.journal import ContactGeometry
+from user_forces.journal import ContactGeometry, Kinematics
+from user_forces.kernel import kernel
 from user_forces.values.units import Metres
 from user_forces.values.value import Positive, Real, value
+
+
+@kernel
+def corner_in_slot(
+    x: float,
+    y: float,
+    vx: float,
+    vy: float,
+    bore_spin: float,
+    journal_spin: float,
+    radius: float,
+    clearance: float,
+) -> tuple[float, float, float, float, float, float]:
+    """Kinematics of a corner, or of a round pin, between the walls of a slot.
+
+    Arguments:
+        x: has no effect. y: distance from the middle line [m], upwards positive.
+        vx, vy: rates along and across [m/s], vy less what the turning of the slot moves the walls there.
+        bore_spin, journal_spin: angular velocities of slot and corner [rad/s].
+        radius: of the pin [m], 0 of a corner. clearance: distance from the middle line at contact [m].
+
+    Returns:
+        As `journal_in_bore`; the contact point lies on the surface of corner or pin.
+    """
+    side = 1.0 if y >= 0.0 else -1.0
+    depth = side * y - clearance
+    bore_arm = clearance + depth + radius
+    return depth, side * vy, -side * vx + journal_spin * radius - bore_spin * bore_arm, 0.0, side, radius
 
 
 @value
@@ -54,7 +82,16 @@ class Slot(ContactGeometry):
         """
         return self.clearance + depth + self.radius, self.radius
 
-    def speed_outwards(self, vx: float, vy: float) -> float:
-        """The speed across [m/s]."""
-        del vx
-        return magnitude(vy)
+    @property
+    def constants(self) -> tuple[float, float]:
+        """Radius of the pin [m] and clearance [m]."""
+        return self.radius, self.clearance
+
+    def placed(self, depth: float, rate: float, slip: float) -> tuple[float, ...]:
+        """A motion, as `kinematics` takes it first, with this depth [m], rate [m/s] and slip [m/s]."""
+        return 0.0, self.clearance + depth, -slip, rate, 0.0, 0.0
+
+    @property
+    def kinematics(self) -> Kinematics:
+        """See `corner_in_slot`."""
+        return corner_in_slot

@@ -19,9 +19,8 @@ from dataclasses import dataclass
 
 from studies.adams.statements import Statements, functions, number
 from support_exudyn.model.pins import ClearancePin
-from user_forces.friction.ambrosio import Ambrosio
-from user_forces.friction.frictionless import Frictionless
-from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
+from user_forces.friction.laws import Ambrosio, Frictionless
+from user_forces.normal.power_laws import LankaraniNikravesh
 from user_forces.values.value import InputError
 
 FOLLOWING = 1e-5  # T [s]

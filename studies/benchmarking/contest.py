@@ -26,7 +26,7 @@ from studies.benchmarking.stopwatch import fastest
 from studies.slider_crank.run import REFERENCE
 from support_exudyn import Scenario, simulate
 from support_exudyn.formulations.registry import FORMULATIONS
-from support_exudyn.mechanics.contact_state import Onset
+from user_forces.contact_state import Onset
 
 SCENE = "slider-crank"
 TOLERANCES = tuple(tolerance(10.0**-n) for n in range(3, 9))
@@ -34,7 +34,7 @@ OURS = "ours, "
 # ours by formulation; one that does not exist here is left out
 FORMULATION_SETTINGS: Mapping[str, Sequence[Setting]] = {
     "compiled": TOLERANCES,
-    "redundant": tuple(
+    "exudyn": tuple(
         steps(step, each, 1.0) for step, each in ((1e-5, 64), (1e-5, 128), (5e-6, 256), (2e-6, 512))
     ),
 }

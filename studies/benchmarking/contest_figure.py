@@ -14,7 +14,7 @@ from support_exudyn.postprocessing.figures import style
 # by entrant: colour and marker; ours are blue and thick
 LOOKS: Mapping[str, tuple[str, str]] = {
     f"{OURS}compiled": ("#0072B2", "o"),
-    f"{OURS}redundant": ("#56B4E9", "s"),
+    f"{OURS}exudyn": ("#56B4E9", "s"),
     "scipy's LSODA": ("#009E73", "v"),
     "MuJoCo, law in a callback": ("#D55E00", "P"),
     "MuJoCo, limit of a tendon": ("#E69F00", "X"),

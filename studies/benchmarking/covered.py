@@ -96,7 +96,7 @@ class Reference(NamedTuple):
 
     def _floor(self, name: str) -> float:
         """What no step makes smaller: of the largest value that it is computed from."""
-        iterates = self.formulation == "redundant" and not name.endswith((".x.mean", ".y.mean"))
+        iterates = self.formulation == "exudyn" and not name.endswith((".x.mean", ".y.mean"))
         series = name.rpartition(".")[0] + "."
         values = [abs(self.numbers[one]) for one in self.numbers if "force" in name and one.startswith(series)]
         return (NEWTON if iterates else ROUNDING) * max([abs(self.numbers[name]), *values])
@@ -206,10 +206,10 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
         if known:
             sharp = True
             yield Reference(name, known[0], known[1], known[2], _falls(tolerances))
-    if sharp and all(run.scenario.formulation == "redundant" for run in runs):
+    if sharp and all(run.scenario.formulation == "exudyn" for run in runs):
         return
     if sharp:
-        witness = settings_for(replace(plain, formulation="redundant"), ACCURACIES["standard"])
+        witness = settings_for(replace(plain, formulation="exudyn"), ACCURACIES["standard"])
         factors, known = WITNESS, _numbers([witness.refined(factor) for factor in WITNESS])
     elif (finest := _finest(runs)) is not None:
         finest = replace(finest, record_period=period)
@@ -217,9 +217,7 @@ def references(scene: Fresh, runs: Sequence[Result]) -> Iterator[Reference]:
     else:
         return
     if known:
-        yield Reference(
-            "redundant", known[0], known[1], known[2], _falls([factor**-ORDER for factor in factors])
-        )
+        yield Reference("exudyn", known[0], known[1], known[2], _falls([factor**-ORDER for factor in factors]))
 
 
 def _finest(runs: Sequence[Result]) -> Scenario | None:

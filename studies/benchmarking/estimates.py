@@ -92,7 +92,7 @@ def asked_for(scene: BenchmarkScene) -> Iterator[Scenario]:
         yield replace(scene.scenario, accuracy=accuracy)
     if scene.is_short and scene.scenario.drive != Held():  # a drop bounces for half a minute of processor time
         for accuracy in PRESETS[:2]:
-            yield replace(scene.scenario, accuracy=accuracy, formulation="redundant")
+            yield replace(scene.scenario, accuracy=accuracy, formulation="exudyn")
 
 
 def check(name: str, scene: BenchmarkScene, scenario: Scenario, known: Truth) -> Check:

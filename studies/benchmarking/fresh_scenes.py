@@ -43,7 +43,7 @@ from support_exudyn import (
 from support_exudyn.mechanics.oil_column import static_loads
 from support_exudyn.scenario.scenario_data import Accuracy
 from user_forces.normal.hysteresis import REST_VELOCITY
-from user_forces.normal.power_law import PowerLaw
+from user_forces.normal.power_laws import PowerLaw
 
 T = TypeVar("T")
 LAWS: tuple[type[PowerLaw], ...] = (
@@ -220,7 +220,7 @@ def _columns(oil: OilColumn) -> dict[str, OilColumn]:
 def _rear_pin(random: np.random.Generator) -> Scenario:
     """A rear pin; a third of these scenes ask for the engine's formulation."""
     scene = _scene(random, reference_support(), {paper_machine.CLEARANCE_PIN: _pin(random)}, 0.4)
-    return replace(scene, formulation="redundant", start="concentric") if random.uniform() < 0.33 else scene
+    return replace(scene, formulation="exudyn", start="concentric") if random.uniform() < 0.33 else scene
 
 
 def _any_pin(random: np.random.Generator) -> Scenario:
@@ -239,7 +239,7 @@ def _on_oil(random: np.random.Generator) -> Scenario:
     """Columns of oil; a third of these scenes ask for the engine's formulation."""
     name = _some_pin(random, rear=0.6)
     scene = _scene(random, reference_support(), {name: _pin(random)}, 0.2, actuators=_columns(_oil(random)))
-    return replace(scene, formulation="redundant") if random.uniform() < 0.33 else scene
+    return replace(scene, formulation="exudyn") if random.uniform() < 0.33 else scene
 
 
 def _on_cylinders(random: np.random.Generator) -> Scenario:
@@ -279,7 +279,7 @@ def _on_legs(random: np.random.Generator) -> Scenario:
         scene = replace(base, pins=pins, actuators=columns, pump=shared)
     if random.uniform() < 0.4:
         scene = replace(scene, loads={"roof": _roof(random, scene.duration, sum(loads.values()))})
-    return replace(scene, formulation="redundant") if random.uniform() < 0.33 else scene
+    return replace(scene, formulation="exudyn") if random.uniform() < 0.33 else scene
 
 
 def _roof(random: np.random.Generator, duration: float, weight: float) -> Roof:
@@ -340,7 +340,7 @@ def _crank(random: np.random.Generator) -> Scenario:
         gravity=(0.0, -9.81 if random.uniform() < 0.5 else 0.0),
         solver=SolverSettings(most_steps=MOST_STEPS),
     )
-    return replace(scene, formulation="redundant") if random.uniform() < 0.33 else scene
+    return replace(scene, formulation="exudyn") if random.uniform() < 0.33 else scene
 
 
 def _in_space(random: np.random.Generator) -> Scenario:

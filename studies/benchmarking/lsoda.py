@@ -15,8 +15,8 @@ from scipy.integrate import solve_ivp
 
 from studies.benchmarking.peers.peer_run import contact_numbers, record_times
 from support_exudyn import Scenario, SliderCrank, Steady
-from support_exudyn.mechanics.contact_state import Onset
 from user_forces import Frictionless
+from user_forces.contact_state import Onset
 from user_forces.values.value import InputError
 
 PIN = "slider_pin"

@@ -2,7 +2,7 @@
 
 `python -m studies.benchmarking.references` makes them anew, in some minutes. Each is the finest run of one
 formulation; its own error is the distance from another run: one at ten times the tolerance, both by the
-compiled formulation, or for columns of oil the compiled against the redundant one.
+compiled formulation, or for columns of oil the compiled against the Exudyn one.
 """
 
 import json
@@ -126,7 +126,7 @@ def tight_runs(scene: BenchmarkScene) -> tuple[Scenario, Scenario]:
     if scene.scenario.compliant_actuators:
         tight = replace(scene.scenario, formulation="compiled", solver=SolverSettings(tolerance=1e-11))
         finest = SolverSettings(impact_steps=4096, backend="symbolic")
-        return tight, replace(scene.scenario, formulation="redundant", step=6.25e-5, solver=finest)
+        return tight, replace(scene.scenario, formulation="exudyn", step=6.25e-5, solver=finest)
     solvers = [SolverSettings(tolerance=tolerance) for tolerance in (TIGHTEST, 10.0 * TIGHTEST)]
     first, second = (replace(scene.scenario, formulation="compiled", solver=solver) for solver in solvers)
     return first, second

@@ -13,7 +13,7 @@ from support_exudyn.files.machines.linkage import LinkageFile
 from support_exudyn.files.toml.reading import read_value
 from support_exudyn.machines.machine_data import MachineData
 from user_forces import Hertz, LankaraniNikravesh
-from user_forces.normal.power_law import PowerLaw
+from user_forces.normal.power_laws import PowerLaw
 
 # [s]; a pressed elastic pin vibrates for ever, and steps that do not follow it damp that out: ones of 2 ms take
 # 93 J of it in 20 s, half of all that there is, these 5 J

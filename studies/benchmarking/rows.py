@@ -38,7 +38,7 @@ CONNECTORS: tuple[tuple[str, Evaluator, str], ...] = (
     ("symbolic", "symbolic", "1.1"),
     ("Python", "python", "1.6"),
 )
-BOTH = ("redundant", "compiled")
+BOTH = ("exudyn", "compiled")
 
 
 def _grows(what: str, large: str, small: str, asked: str, formulations: tuple[str, ...]) -> list[Row]:
@@ -50,13 +50,13 @@ def _grows(what: str, large: str, small: str, asked: str, formulations: tuple[st
 
 
 def _space(what: str, scene: str, plane: str) -> Row:
-    return Row(f"rise in space: {what}", OurWay(scene, "redundant"), OurWay(plane, "redundant"), "2.5", 9.0)
+    return Row(f"rise in space: {what}", OurWay(scene, "exudyn"), OurWay(plane, "exudyn"), "2.5", 9.0)
 
 
 ROWS: tuple[Row, ...] = (
     Row("rise to the goal, general equations", OurWay("rise", "compiled", TOLERANCES), IN_C, "15", 5.0),
-    Row("rise to the goal, rigid bodies", OurWay("rise", "redundant", COARSE), STOCK, "1/10", 20.0),
-    Row("the same on cylinders", OurWay("rise, cylinders", "redundant", (STEEL,)), STOCK, "1/10", 20.0),
+    Row("rise to the goal, rigid bodies", OurWay("rise", "exudyn", COARSE), STOCK, "1/10", 20.0),
+    Row("the same on cylinders", OurWay("rise, cylinders", "exudyn", (STEEL,)), STOCK, "1/10", 20.0),
     Row("rise on oil columns to the goal", OurWay("rise, oil", "compiled", TOLERANCES), "", "0.06 s", 5.0),
     _space("1.5 mm, no friction", "quick rise in space", "quick rise"),
     _space("1.5 mm, friction", "quick rise in space, friction", "quick rise, friction"),

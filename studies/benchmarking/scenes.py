@@ -22,7 +22,7 @@ class BenchmarkScene:
     label: for people. scenario: what is run. pin: the clearance pin. body: whose angular acceleration is looked
         at.
     point: whose path. after: from when on force and acceleration are averaged [s]. step: default of the
-    redundant formulation [s].
+    Exudyn formulation [s].
     """
 
     label: str

@@ -57,9 +57,9 @@ def ways(scene: BenchmarkScene) -> list[Way]:
     found = [*_error_controlled(scene)]
     steps = SHORT_LADDER if scene.is_short else LADDER
     growing = {"growth": 8.0, "backend": "symbolic"}
-    found += _steps(scene, "redundant, symbolic", "step", steps, backend="symbolic")
-    found += _steps(scene, "redundant, python", "step", steps[:1], backend="python")
-    found += _steps(scene, "redundant, growing steps", "growth 8, step", steps[:1], **growing)
+    found += _steps(scene, "exudyn, symbolic", "step", steps, backend="symbolic")
+    found += _steps(scene, "exudyn, python", "step", steps[:1], backend="python")
+    found += _steps(scene, "exudyn, growing steps", "growth 8, step", steps[:1], **growing)
     if _peers_cover(scene):
         found += _peers(scene, FIXED_STEPS)
     if scene.scenario.drive == Held():
@@ -92,17 +92,17 @@ def _error_controlled(scene: BenchmarkScene) -> Iterator[Way]:
 def _steps(
     scene: BenchmarkScene, family: str, label: str, shares: Sequence[float], **settings: object
 ) -> Iterator[Way]:
-    """The redundant formulation by several lengths of its steps."""
+    """The Exudyn formulation by several lengths of its steps."""
     for share in shares:
         yield redundant(scene, family, f"{label} x {share:g}", share, **settings)
 
 
 def redundant(scene: BenchmarkScene, family: str, label: str, share: float, **settings: object) -> Way:
-    """The redundant formulation at so many times the default step."""
+    """The Exudyn formulation at so many times the default step."""
     chosen = {"impact_steps": round(IMPACT_STEPS / share), "result_checks": RESULT_CHECKS, **settings}
     solver = SolverSettings(**chosen)  # type: ignore[arg-type]
     step = min(scene.step * share, scene.scenario.recorded_every)
-    scenario = replace(scene.scenario, formulation="redundant", step=step, solver=solver)
+    scenario = replace(scene.scenario, formulation="exudyn", step=step, solver=solver)
     label = label or f"step {step:g} s, {solver.impact_steps} an impact, growth {solver.growth:g}"
     return _way(family, label, scene, scenario)
 

@@ -15,10 +15,10 @@ from typing import NamedTuple
 
 from studies.benchmarking.peers.peer_run import contact_numbers
 from support_exudyn import CubicStep, HydraulicSupport, Scenario
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.plane_geometry import minus, parts_of, side
 from user_forces import Ambrosio, Frictionless, JournalContact
+from user_forces.contact_state import Onset
 from user_forces.values.value import InputError
 
 SOURCE = Path(__file__).with_name("yardstick.c")

@@ -28,9 +28,10 @@ from studies.common.numbers import (
 )
 from studies.common.options import Options
 from studies.common.paper_machine import CLEARANCE_MM, ideal_of
-from studies.common.runs import impacts, run_cases
+from studies.common.runs import impacts
 from studies.common.study import Study, StudyOutcome
 from studies.common.subject import paper_subject
+from studies.common.witness import Witness, run_on_exudyn
 from studies.common.words import TextTable
 from support_exudyn import Result, Scenario
 from support_exudyn.postprocessing.figures.machine import machine_drawing
@@ -177,10 +178,11 @@ def key_table(found: Found) -> TextTable:
 
 
 def full_table(numbers: Sequence[Number]) -> TextTable:
-    """All numbers, a row a name, a column a case."""
+    """All numbers of the four cases, a row a name, a column a case."""
     by_name: dict[str, dict[str, Number]] = {}
     for number in numbers:
-        by_name.setdefault(number.name, {})[number.case] = number
+        if number.case in (*CASES, f"{CLEARANCE_MM} mm"):
+            by_name.setdefault(number.name, {})[number.case] = number
     rows = tuple(_row(name, row) for name, row in by_name.items())
     return TextTable(("quantity", "unit", *CASES, "paper"), rows, left=2)
 
@@ -222,30 +224,37 @@ def tiles(found: Found) -> tuple[Tile, ...]:
 # --- the study ---
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """The four rises and those by other contacts, their numbers, figures and tables."""
-    cases, subject = scenarios(), paper_subject()
-    by_contact = contacts.scenarios(subject)
-    made = run_cases(cases | by_contact, chosen)
-    results = {name: made[name] for name in cases}
-    numbers = measure(results)
-    of_contacts = contacts.measure(subject, {name: made[name] for name in by_contact})
-    found = by_case([*numbers, *of_contacts])
-    words = {
-        "found": found, "goal": cases[DRY].goal, "run": sys.modules[__name__], "paper": paper_machine,
-        "contacts": contacts,
-    }  # fmt: skip
-    tables = {
+def tables(numbers: Sequence[Number]) -> dict[str, TextTable]:
+    """All tables, the key table first."""
+    found = by_case(numbers)
+    return {
         "key_numbers": key_table(found),
         "table": full_table(numbers),
-        "by_contact": contacts.contact_table(found, (subject.friction, 0.0)),
+        "by_contact": contacts.contact_table(found, (paper_machine.SLIDING_COEFFICIENT, 0.0)),
     }
+
+
+def work(chosen: Options) -> StudyOutcome:
+    """The four rises and those by another contact, their numbers, figures and tables."""
+    cases, subject = scenarios(), paper_subject()
+    by_contact = contacts.scenarios(subject)
+
+    def numbers_of(made: Mapping[str, Result]) -> list[Number]:
+        of_contacts = contacts.measure(subject, {name: made[name] for name in by_contact})
+        return [*measure({name: made[name] for name in cases}), *of_contacts]
+
+    made = run_on_exudyn(cases | by_contact, chosen)
+    results = {name: made[name] for name in cases}
+    numbers = numbers_of(made)
+    found = by_case(numbers)
+    words = {"found": found, "run": sys.modules[__name__], "paper": paper_machine, "contacts": contacts}
     drawings = figures(results)
     drawings["machine"] = machine_drawing(cases[DRY], marked=(paper_machine.CLEARANCE_PIN,))
+    witness = Witness(cases | by_contact, numbers_of, tables)
     return StudyOutcome(
-        [*numbers, *of_contacts], words, drawings, tables, results, live=LIVE, tiles=tiles(found)
+        numbers, words, drawings, tables(numbers), results, live=LIVE, tiles=tiles(found), witness=witness
     )
 
 
-study = Study("clearance_influence", __doc__, work, seconds=10.0)
+study = Study("clearance_influence", __doc__, work, seconds=12.0)
 main = study.main

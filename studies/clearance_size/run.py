@@ -4,7 +4,7 @@ Ideal pin, 0.5, 1.0, 1.5 and 2.0 mm, all with friction and all without: motion a
 of the canopy's tip, angles of the columns.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from studies.clearance_size.figures import figures, live
 from studies.clearance_size.measures import measure
@@ -12,11 +12,11 @@ from studies.common import paper_machine
 from studies.common.numbers import Found, Number, by_case, cell, printed, rounded
 from studies.common.options import Options
 from studies.common.paper_machine import SIZES_MM, case_name, ideal_name, ideal_of
-from studies.common.runs import run_cases
 from studies.common.study import Study, StudyOutcome
 from studies.common.subject import Subject
+from studies.common.witness import Witness, difference, run_on_exudyn, witnessed
 from studies.common.words import TextTable
-from support_exudyn import Scenario
+from support_exudyn import Result, Scenario
 
 
 def scenarios(subject: Subject) -> dict[str, Scenario]:
@@ -38,6 +38,11 @@ KEY = {  # of the key table: heading and scale
     "rms_angular_acceleration": ("of angular acceleration [deg/s²]", 1.0),
     "mean_tip_shift": ("tip shift [mm]", 1.0),
 }
+
+
+OF_FORCE = {
+    "mean_pin_force": "mean", "std_pin_force": "standard deviation", "rms_pin_force": "RMS fluctuation",
+}  # fmt: skip
 
 
 def key_table(found: Found, friction: float) -> TextTable:
@@ -65,10 +70,10 @@ def force_table(found: Found, frictions: Sequence[float]) -> TextTable:
     """Counterpart of Table 3."""
     rows = []
     for case in [case for mu in frictions for case in _cases(mu)]:
-        mean, spread, shaking = (found[f"{n}_pin_force", case] for n in ("mean", "std", "rms"))
-        rows.append((case, cell(mean), printed(mean), cell(spread), printed(spread), cell(shaking)))
-    header = ("case", "mean [N]", "paper", "standard deviation [N]", "paper", "RMS fluctuation [N]")
-    return TextTable(header, tuple(rows))
+        for name, title in OF_FORCE.items():
+            number = found[name, case]
+            rows.append((case, title, cell(number), witnessed(number), difference(number), printed(number)))
+    return TextTable(("case", "pin force", "Exudyn [N]", "witness", "difference", "paper"), tuple(rows), left=2)
 
 
 def number_table(found: Found, friction: float) -> TextTable:
@@ -94,26 +99,36 @@ def work(chosen: Options) -> StudyOutcome:
     """All rises, their numbers, figures and tables."""
     subject = chosen.subject
     frictions = (subject.friction, 0.0)
-    cases = scenarios(subject)
-    results = run_cases(cases, chosen)
-    numbers = measure(subject, results)
-    found = by_case(numbers)
     measures = {f"table_mu{friction:g}".replace(".", "p"): friction for friction in frictions}
-    tables = {
-        "by_clearance": key_table(found, subject.friction),
-        **({"table_2": stiffness_table(numbers)} if subject.is_paper else {}),
-        "table_3": force_table(found, frictions),
-        **{name: number_table(found, friction) for name, friction in measures.items()},
-    }
+
+    def numbers_of(results: Mapping[str, Result]) -> list[Number]:
+        return measure(subject, results)
+
+    def tables(numbers: Sequence[Number]) -> dict[str, TextTable]:
+        known = by_case(numbers)
+        return {
+            "by_clearance": key_table(known, subject.friction),
+            **({"table_2": stiffness_table(numbers)} if subject.is_paper else {}),
+            "table_3": force_table(known, frictions),
+            **{name: number_table(known, friction) for name, friction in measures.items()},
+        }
+
+    cases = scenarios(subject)
+    results = run_on_exudyn(cases, chosen)
+    numbers = numbers_of(results)
+    found = by_case(numbers)
     words = {
-        "found": found, "goal": subject.ideal().goal, "mu": subject.friction, "frictions": frictions,
+        "found": found, "mu": subject.friction, "frictions": frictions,
         "sizes": SIZES_MM, "case_name": case_name, "ideal_name": ideal_name, "ideal_of": ideal_of,
         "all_measures": measures, "has_tip": ("mean_tip_shift", ideal_name(0.0)) in found,
         "watched": subject.watched, "window": f"{subject.watched.window:g} s",
     }  # fmt: skip
     drawings = figures(subject, results, found)
-    return StudyOutcome(numbers, words, drawings, tables, results, live=live(drawings))
+    witness = Witness(cases, numbers_of, tables)
+    return StudyOutcome(
+        numbers, words, drawings, tables(numbers), results, live=live(drawings), witness=witness
+    )
 
 
-study = Study("clearance_size", __doc__, work, seconds=10.0, own_machine=True)
+study = Study("clearance_size", __doc__, work, seconds=14.0, own_machine=True)
 main = study.main

@@ -78,7 +78,8 @@ class Chapter:
     answer: one to three sentences. numbers: the three that matter, each "what: value". method: paragraphs.
     findings: bullet points, with the numbers of this very run. pictures, sheets: the key one first. tiles: for
     the first screen of the report. claims: of the study that judges them. machine: the name of the
-    user's machine that it is about; empty: the paper's. contact: of the user's pin, in a sentence.
+    user's machine that it is about; empty: the paper's. contact: of the user's pin, in a sentence. computed_by:
+    engine and method in a sentence, where the report's first screen is to name them.
     """
 
     __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
@@ -96,6 +97,7 @@ class Chapter:
     claims: tuple[JudgedClaim, ...] = ()
     machine: str = ""
     contact: str = ""
+    computed_by: str = ""
 
     def save(self, out: Path) -> Path:
         """Write DIR/chapter.json, whole or not at all."""

@@ -26,7 +26,8 @@ class Number:
     """A number that a study reports.
 
     name, case: what, and of which run. value, unit. numerical_error: as accuracies estimate it, of three runs,
-    see `simulation.estimate`; 0 for a closed form. paper: the printed value, None if there is none.
+    see `simulation.estimate`; 0 for a closed form. paper: the printed value, None if there is none. witness:
+    the value by the other formulation, see `studies.common.witness`; None if there is none.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Number:
     unit: str
     numerical_error: float
     paper: float | None = None
+    witness: float | None = None
 
 
 Measure = Callable[[Result], float]

@@ -13,7 +13,7 @@ from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
 MOST_WORKERS, MOST_MACHINES, MOST_RUNS = 1024, 100_000, 1_000_000
-KEPT = "kept"  # the folder of runs, beside those of the studies
+KEPT, WITNESSES = "kept", "witness"  # folders of runs, beside those of the studies
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,11 @@ class Options:
     runs: int | None = None
     subject: Subject = field(default_factory=paper_subject)
     thorough: bool = False
+
+    @property
+    def witnesses(self) -> Path | None:
+        """The folder of runs of witnesses, beside that of kept runs; None: none is kept."""
+        return None if self.kept is None else self.kept.with_name(WITNESSES)
 
     def of_study(self, name: str, workers: Workers) -> "Options":
         """These options for one of several studies, in a folder of its own."""
@@ -73,6 +78,6 @@ def read_options(given: argparse.Namespace) -> Options:
     import_modules(given.imports)
     subject = own_subject(given.machine, given.pin) if given.machine else paper_subject()
     if subject.is_slow:
-        only = "only the redundant formulation covers it: minutes where --list tells seconds"
+        only = "only the Exudyn formulation covers it: minutes where --list tells seconds"
         warn(f"--machine {given.machine}: {only}")
     return Options(given.out, given.workers, given.out / KEPT, given.machines, given.runs, subject)

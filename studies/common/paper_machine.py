@@ -188,15 +188,13 @@ def clearance_rise(
     step: float,
     impact_steps: int = 512,
     *,
-    symbolic: bool = False,
     law: type[Any] = Exact,
 ) -> Scenario:
     """The rise with clearance in the rear-link pin, its journal concentric at the start.
 
-    symbolic: let the engine evaluate the contact, a quarter faster, the same within rounding. law: see
-    `clearance_joint`.
+    law: see `clearance_joint`.
     """
-    settings = SolverSettings(impact_steps=impact_steps, backend="symbolic" if symbolic else "python")
+    settings = SolverSettings(impact_steps=impact_steps)
     pins = {CLEARANCE_PIN: clearance_joint(clearance_mm, sliding_coefficient, law=law)}
     return replace(ideal_rise(step), pins=pins, solver=settings)
 

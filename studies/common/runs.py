@@ -26,8 +26,10 @@ SHORT = {  # what of a case's name stands otherwise in the name of its file
 }  # fmt: skip
 
 
-def run_with_errors(cases: Mapping[str, Scenario], chosen: Options) -> dict[str, Result]:
+def run_with_errors(cases: Mapping[str, Scenario], chosen: Options, halved: int = 2) -> dict[str, Result]:
     """Run every case at its steps, at half and at a quarter of them, in parallel, under a progress bar.
+
+    halved: how often the steps are halved; once is enough for an error, twice tells how fast errors fall.
 
     Each result is that of the shortest steps, and the others are its `coarser` ones: every number of it has the
     error that accuracies estimate, `Result.estimate`. Where numbers do not settle that is large, and no reason
@@ -37,10 +39,12 @@ def run_with_errors(cases: Mapping[str, Scenario], chosen: Options) -> dict[str,
     """
     steps: dict[str, list[Scenario]] = {}
     for name, case in cases.items():
-        half = case.refined()
-        steps[name] = [case] if case.accuracy is not None else [case, half, half.refined()]
+        steps[name] = [case]
+        while case.accuracy is None and len(steps[name]) <= halved:
+            steps[name].append(steps[name][-1].refined())
     # the longest first, so that no process is left alone with a long run at the end
-    runs = {_at(name, n): at[n] for n in (2, 1, 0) for name, at in steps.items() if n < len(at)}
+    finest_first = range(halved, -1, -1)
+    runs = {_at(name, n): at[n] for n in finest_first for name, at in steps.items() if n < len(at)}
     good = run_cases(runs, chosen)
     return {name: with_coarser([good[_at(name, n)] for n in range(len(at))]) for name, at in steps.items()}
 

@@ -13,10 +13,12 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from rich.console import Console
 
+from studies.common import witness
 from studies.common.chapter import Chapter, JudgedClaim, Tile, without_references
 from studies.common.numbers import Number, write_summary
 from studies.common.options import Options, add_options, read_options
 from studies.common.runs import file_name, save_run
+from studies.common.witness import Witness
 from studies.common.words import TextTable, Words
 from support_exudyn import Result
 from support_exudyn.commands.command_line import Parser, answered, folder, say
@@ -40,7 +42,7 @@ class StudyOutcome:
     numbers: of summary.json. words: what the sentences of words.md.j2 are filled with, by name. figures,
     tables: by the name of their files. runs: by that of their case. counts: of its own, for the summary. live:
     which panels of a figure are time series that the report lets readers look into, by the figure's name.
-    tiles, claims: see `studies.common.chapter`.
+    tiles, claims: see `studies.common.chapter`. witness: of a study whose runs are those of Exudyn.
     """
 
     numbers: Sequence[Number]
@@ -52,6 +54,8 @@ class StudyOutcome:
     live: Mapping[str, LivePanels] = field(default_factory=dict)
     tiles: Sequence[Tile] = ()
     claims: Sequence[JudgedClaim] = ()
+    witness: Witness | None = None
+    wall_s: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -76,6 +80,11 @@ class Study:
 
     def __call__(self, chosen: Options) -> Chapter:
         """Compute, draw and write everything into the output folder. Returns what it says."""
+        chapter, found = self.begin(chosen)
+        return self.with_witness(chosen, found) or chapter
+
+    def begin(self, chosen: Options) -> tuple[Chapter, StudyOutcome]:
+        """Compute, draw and write everything but what the witness tells. Returns what it says and finds."""
         if not (self.own_machine or chosen.subject.is_paper):
             raise InputError(f"--machine: {self.name} is about the paper's machine alone; allowed: without it")
         started = time.perf_counter()
@@ -84,15 +93,33 @@ class Study:
         for case, run in found.runs.items():
             save_run(run, chosen.out, file_name(case))
         save_figures(chosen, found.figures, found.live)
-        words = {"subject": chosen.subject, **found.words}
-        chapter, sheets = Words(self.name).chapter(
-            words, found.tables, found.figures, found.tiles, found.claims
-        )
-        for name, table in found.tables.items():
+        found = replace(found, wall_s=time.perf_counter() - started)
+        return self._write(chosen, found), found
+
+    def with_witness(self, chosen: Options, found: StudyOutcome) -> Chapter | None:
+        """Compute the witness, and write words, tables and numbers again; None if there is no witness."""
+        if found.witness is None:
+            return None
+        started = time.perf_counter()
+        numbers = found.witness.compared(found.numbers, chosen)
+        wall_s = found.wall_s + time.perf_counter() - started
+        tables = found.witness.tables(numbers)
+        return self._write(chosen, replace(found, numbers=numbers, tables=tables, wall_s=wall_s))
+
+    def _write(self, chosen: Options, found: StudyOutcome) -> Chapter:
+        """Write chapter, tables and numbers."""
+        words, tables = {"subject": chosen.subject, **found.words}, dict(found.tables)
+        if found.witness is not None:
+            words |= {"setting": next(iter(found.runs.values())).scenario}
+            tables |= {witness.TABLE: witness.witness_table(found.numbers)}
+        chapter, sheets = Words(self.name).chapter(words, tables, found.figures, found.tiles, found.claims)
+        if found.witness is not None:
+            chapter, sheets = witness.told(chapter, sheets, found.numbers)
+        for name, table in tables.items():
             if table.in_file:
                 save_table(chosen.out / name, sheets[name], table.width)
         chapter.save(chosen.out)
-        write_summary(chosen.out, self.name, found.numbers, time.perf_counter() - started, found.counts)
+        write_summary(chosen.out, self.name, found.numbers, found.wall_s, found.counts)
         return chapter
 
     def main(self, argv: Sequence[str] | None = None) -> int:

@@ -63,7 +63,7 @@ class Subject:
 
     @property
     def is_slow(self) -> bool:
-        """Whether no formulation but the redundant one covers the motion with clearance in the pin."""
+        """Whether no formulation but the Exudyn one covers the motion with clearance in the pin."""
         share = paper_machine.SIZES_MM[0] / paper_machine.BORE_RADIUS
         size = share * self.bore_radius if self.given is None else 1e3 * self.given.contact.bearing.clearance
         return self.with_clearance(size, self.friction).accuracy != paper_machine.ACCURACY
@@ -136,10 +136,10 @@ def without_clearance(pin: ClearancePin) -> IdealPin:
 def to_accuracy(scenario: Scenario) -> Scenario:
     """The scenario by whatever formulation is cheapest, to an accuracy that leaves nothing open in print.
 
-    What the redundant formulation alone covers is computed to a thousandth: a millionth would take hours.
+    What the Exudyn formulation alone covers is computed to a thousandth: a millionth would take hours.
     """
     auto = replace(scenario, formulation="auto", solver=SolverSettings(), accuracy=paper_machine.ACCURACY)
-    return replace(auto, accuracy="standard") if cheapest(auto) == "redundant" else auto
+    return replace(auto, accuracy="standard") if cheapest(auto) == "exudyn" else auto
 
 
 def paper_subject() -> Subject:

@@ -23,7 +23,7 @@ ASKED = (0.05, *(n / 10 for n in range(1, 10)))  # e = 0.05, 0.1, 0.2 ... 0.9
 FEW = (0.1, 0.3, 0.5, 0.7, 0.9)  # for laws whose damping factor is another's
 SPEED = 0.2  # of free impacts [m/s]
 IMPACT_STEPS = 96  # of the coarsest of three runs of a free impact; fewer tell no error of a jump in force
-# of the first of three runs of a rise that the redundant formulation alone covers; the step is between impacts
+# of the first of three runs of a rise that the Exudyn formulation alone covers; the step is between impacts
 RISE_STEP, RISE_IMPACT_STEPS = 2e-3, 32  # [s]
 OWN_GOAL = 1e-2  # by which those of one's own machine are chosen
 LOOP_RESTITUTION = 0.5
@@ -139,7 +139,7 @@ class Joint:
     def runs(self) -> dict[str, Scenario]:
         """The motion under every law, by case.
 
-        To the accuracy of studies; at chosen steps where the redundant formulation alone covers a law. There an
+        To the accuracy of studies; at chosen steps where the Exudyn formulation alone covers a law. There an
         accuracy would never be met: such laws stick and slip without end.
         """
         return {name: self._run(normal, friction) for name, (normal, friction) in self.laws.items()}
@@ -166,14 +166,14 @@ class Joint:
         motion = self.subject.motion
         pin = replace(self.pin, contact=replace(self.pin.contact, normal=normal, friction=friction))
         case = to_accuracy(replace(motion, pins={**motion.pins, self.subject.pin: pin}))
-        return self._at_steps(case) if cheapest(case) == "redundant" else case
+        return self._at_steps(case) if cheapest(case) == "exudyn" else case
 
     def _at_steps(self, case: Scenario) -> Scenario:
         if not self.subject.is_paper:
             return settings_for(case, OWN_GOAL)
         # of Newton's iterations a looser tolerance spares one a step; it changes means and spreads by 1e-6
-        settings = SolverSettings(impact_steps=RISE_IMPACT_STEPS, newton_tolerance=1e-6, backend="symbolic")
-        return replace(case, accuracy=None, step=RISE_STEP, solver=settings, formulation="redundant")
+        settings = SolverSettings(impact_steps=RISE_IMPACT_STEPS, newton_tolerance=1e-6)
+        return replace(case, accuracy=None, step=RISE_STEP, solver=settings, formulation="exudyn")
 
 
 def damping_ratio(case: Scenario, pin: str) -> float:

@@ -34,7 +34,7 @@ def free_impact(law: NormalLaw, speed: float, impact_steps: int, records: int = 
         duration=flight + time,
         record_period=(flight + time) / records,
         gravity=(0.0, 0.0),
-        solver=SolverSettings(impact_steps=impact_steps, backend="symbolic"),
+        solver=SolverSettings(impact_steps=impact_steps),
     )
 
 

@@ -8,8 +8,7 @@ from studies.benchmarking.peers.stock import peak_acceleration
 from studies.common import paper_machine, rise
 from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.subject import Subject
-from support_exudyn import CubicStep, Scenario, SolverSettings, UniformSpeed
-from support_exudyn.formulations.registry import formulation
+from support_exudyn import CubicStep, Scenario, UniformSpeed
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.model.drives.coupled_drive import CoupledDrive
 from support_exudyn.model.drives.drive import Stroke
@@ -21,11 +20,7 @@ COLUMNS = ("rigid", "oil", "cylinder")
 AFTER = 0.05  # of the motion's time that is looked at after it: a sudden stop is part of it
 END = 5.4  # on cylinders, so that what rings after the valve has closed is seen [s]
 PERIOD = 1e-3  # between records: oil swings at 40 Hz, and records twice as far apart miss 2 % of a peak [s]
-NAIVE = "mode 1, stock recipe"  # velocities not made consistent
-NAIVE_STEPS = (1e-3, 5e-4, 2.5e-4)  # [s]
-# of the first of three runs, each finer than the one before: tolerance; or steps, of which each has half [s]
-FIRST = SolverSettings(tolerance=1e-5)
-STEP, COARSE = 1e-3, SolverSettings(impact_steps=16, backend="symbolic")
+NAIVE_STEPS = (1e-3, 5e-4, 2.5e-4)  # of a stock recipe, velocities not made consistent [s]
 
 
 def case_name(mode: str, pin: str, columns: str) -> str:
@@ -110,24 +105,13 @@ class ModePlan:
         else:
             base = replace(base, drives=dict(zip(self.leading, drives, strict=True)))
         if columns == "cylinder":
-            base = paper_machine.on_cylinders(replace(base, duration=END), paper_machine.INLETS[mode])
-            return _first(base)
+            return paper_machine.on_cylinders(replace(base, duration=END), paper_machine.INLETS[mode])
         if columns == "oil":
             if subject.is_paper:
                 base = replace(base, actuators=paper_machine.oil_columns())
-            return _first(base)
+            return base
         rigid = {name: one for name, one in base.actuators.items() if name not in self.actuators}
-        base = replace(base, actuators=rigid)
-        return base if formulation("compiled").covers(base) else _first(base)
-
-
-def _first(case: Scenario) -> Scenario:
-    """A case at the tolerance, or the steps, of the first of its three runs."""
-    case = replace(case, accuracy=None, step=STEP)
-    compiled = replace(case, formulation="compiled", solver=FIRST)
-    if formulation("compiled").covers(compiled):
-        return compiled
-    return replace(case, formulation="redundant", solver=COARSE if case.clearance_pins else SolverSettings())
+        return replace(base, actuators=rigid)
 
 
 def naive_peaks() -> dict[float, float]:

@@ -5,12 +5,12 @@ on rigid columns, which pass a jump of speed on as an impulse, on columns of oil
 limit, and on hydraulic cylinders, which no displacement drives but the oil that a valve lets in.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-from studies.common import runs
-from studies.common.numbers import Found, by_case
+from studies.common.numbers import Found, Number, by_case
 from studies.common.options import Options
 from studies.common.study import Study, StudyOutcome
+from studies.common.witness import Witness, run_on_exudyn
 from studies.common.words import TextTable
 from studies.drive_mode import assumed, cases, tables
 from studies.drive_mode.cases import MODES, ModePlan, case_name, naive_peaks
@@ -20,43 +20,42 @@ from support_exudyn import Result
 
 
 def work(chosen: Options) -> StudyOutcome:
-    """Both modes on all kinds of columns, and the peaks of the recipe that has no limit."""
+    """Both modes on all kinds of columns, the start by assumptions, and the recipe that has no limit."""
     plan = ModePlan(chosen.subject)
-    results = runs.run_with_errors(plan.scenarios, chosen)
     is_paper = plan.subject.is_paper
-    bands = assumed.bands(runs.run_cases(assumed.scenarios(plan), chosen)) if is_paper else {}
-    numbers = measure(plan, results)
-    found = by_case(numbers)
-    naive = tables.naive_said(naive_peaks()) if is_paper else None
-    cylinders = {"table_valves": tables.valve_table(found, plan)} if "cylinder" in plan.columns else {}
-    sheets = {
-        "drive_modes": tables.key_table(found, plan),
-        **({"assumed": assumed.band_table(bands)} if bands else {}),
-        "table_saving": tables.saving_table(found, plan),
-        **{f"table_{columns}": tables.mode_table(found, plan, columns) for columns in plan.columns},
-        **cylinders,
-        "step_halving": tables.halving_table(plan, results, naive),
-        "table_convergence": tables.convergence_table(plan, results),
-    }
+    starts = assumed.scenarios(plan) if is_paper else {}
+    cases = {**plan.scenarios, **starts}
+
+    def numbers_of(made: Mapping[str, Result]) -> list[Number]:
+        of_modes = measure(plan, {name: made[name] for name in plan.scenarios})
+        return [*of_modes, *assumed.measure({name: made[name] for name in starts})]
+
+    def sheets(numbers: Sequence[Number]) -> dict[str, TextTable]:
+        known = by_case(numbers)
+        return {
+            "drive_modes": tables.key_table(known, plan),
+            **({"assumed": assumed.band_table(known)} if starts else {}),
+            "table_saving": tables.saving_table(known, plan),
+            **{f"table_{columns}": tables.mode_table(known, plan, columns) for columns in plan.columns},
+            **({"table_valves": tables.valve_table(known, plan)} if "cylinder" in plan.columns else {}),
+        }
+
+    made = run_on_exudyn(cases, chosen)
+    results = {name: made[name] for name in plan.scenarios}
+    numbers = numbers_of(made)
     drawings = figures(plan, results)
-    live = {name: LIVE[name] for name in drawings}
     return StudyOutcome(
         numbers,
-        _words(plan, found, results, naive, sheets) | {"bands": bands},
+        _words(plan, by_case(numbers), tables.naive_said(naive_peaks()) if is_paper else None),
         drawings,
-        sheets,
+        sheets(numbers),
         results,
-        live=live,
+        live={name: LIVE[name] for name in drawings},
+        witness=Witness(cases, numbers_of, sheets),
     )
 
 
-def _words(
-    plan: ModePlan,
-    found: Found,
-    results: Mapping[str, Result],
-    naive: str | None,
-    sheets: Mapping[str, TextTable],
-) -> dict[str, object]:
+def _words(plan: ModePlan, found: Found, naive: str | None) -> dict[str, object]:
     ideal, with_clearance = plan.pins
 
     def value(name: str, mode: str, pin: str, columns: str) -> float:
@@ -66,7 +65,6 @@ def _words(
         work = value("work_of_pumps", mode, ideal, "cylinder")
         return 100.0 * value("loss_in_valves", mode, ideal, "cylinder") / work
 
-    rows = sheets["table_convergence"].rows
     return {
         "cases": cases,
         "plan": plan,
@@ -81,10 +79,9 @@ def _words(
         "impulses": [name for name, case in found if name.startswith("impulse") and case == _struck(plan)],
         "value": value,
         "heat": {mode: heat(mode) for mode in MODES} if "cylinder" in plan.columns else {},
-        "formulations": {run.scenario.formulation for run in results.values()},
         "naive": naive,
-        "limits": tables.limits(rows),
-        "velocity_converges": tables.velocity_converges(rows),
+        "assumed": assumed if plan.subject.is_paper else None,
+        "velocity_converges": plan.subject.is_paper and tables.velocity_converges(found),
     }
 
 
@@ -93,5 +90,5 @@ def _struck(plan: ModePlan) -> str:
     return case_name("mode 1", plan.pins[1], "rigid")
 
 
-study = Study("drive_mode", __doc__, work, seconds=35.0, own_machine=True)
+study = Study("drive_mode", __doc__, work, seconds=50.0, own_machine=True)
 main = study.main

@@ -1,22 +1,17 @@
-"""Tables of the drive modes, and what converges under step halving."""
+"""Tables of the drive modes."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
-from itertools import pairwise
 
 from studies.common.numbers import Found, Number, against, cell
-from studies.common.runs import halvings
 from studies.common.words import TextTable
-from studies.drive_mode.cases import MODES, NAIVE, PINS, ModePlan, case_name
-from studies.drive_mode.measures import ON_CYLINDERS, START, STOP, all_measures, measures_of
-from support_exudyn import Result
+from studies.drive_mode.cases import MODES, PINS, ModePlan, case_name
+from studies.drive_mode.measures import ON_CYLINDERS, START, STOP, all_measures
 
 SAVED = (START, STOP, "std_pin_force", "rms_pin_force", "largest_angular_acceleration")
 IMPULSE = "an impulse"
-CONVERGES = "converges"
-DIVERGES = "does not converge"
-VELOCITY = "RMS fluctuation angular velocity"  # as the table of step halving has it
-Rows = Sequence[Sequence[str]]  # of that table
+VELOCITY = "rms_angular_velocity"
+CONVERGED = 0.01  # error of a number that has a limit, as a share of it
 
 
 def key_table(found: Found, plan: ModePlan) -> TextTable:
@@ -71,32 +66,6 @@ def saving_table(found: Found, plan: ModePlan) -> TextTable:
     return TextTable(("quantity", *(f"{columns}, {pin}" for pin, columns in headings)), tuple(rows))
 
 
-def convergence_table(plan: ModePlan, results: Mapping[str, Result]) -> TextTable:
-    """Every number of every run."""
-    rows = []
-    for case, result in results.items():
-        for name, (unit, get) in measures_of(plan, result).items():
-            values = [get(run) for run in halvings(result)]
-            rows.append((case, name.replace("_", " "), unit, *(f"{v:.7g}" for v in values), verdict(values)))
-    header = ("case", "quantity", "unit", "run 1", "run 2", "run 3", "verdict")
-    return TextTable(header, tuple(rows), left=3, width=170, in_chapter=False)
-
-
-def halving_table(plan: ModePlan, results: Mapping[str, Result], naive: str | None) -> TextTable:
-    """How far the numbers of each case still move; and the peaks that are no numbers."""
-    rows = []
-    for case, result in results.items():
-        columns = [[get(run) for run in halvings(result)] for _, get in measures_of(plan, result).values()]
-        last = max(abs(values[-1] - values[-2]) / abs(values[-1]) for values in columns if values[-1] != 0.0)
-        good = sum(verdict(values) == CONVERGES for values in columns)
-        rows.append((case, f"{100.0 * last:.1g} %", f"{good} of {len(columns)}", ""))
-    if naive:
-        rows.append((NAIVE, "", "0 of 1", f"peak angular acceleration {naive}"))
-    return TextTable(
-        ("case", "largest last change", "converge", "remark"), tuple(rows), wide=True, in_file=False
-    )
-
-
 def naive_said(peaks: Mapping[float, float]) -> str:
     """Peaks of the stock recipe [deg/s^2] by its steps [s], in words."""
     values = ", ".join(f"{peak:.0f}" for peak in peaks.values())
@@ -104,20 +73,7 @@ def naive_said(peaks: Mapping[float, float]) -> str:
     return f"{values} deg/s² at {steps} ms"
 
 
-def verdict(values: Sequence[float]) -> str:
-    """Whether three values under step halving tend to a limit."""
-    before, last = (abs(b - a) for a, b in pairwise(values))
-    return CONVERGES if last <= 0.01 * abs(values[-1]) or last < 0.7 * before else DIVERGES
-
-
-def limits(rows: Rows) -> tuple[int, int, list[str]]:
-    """How many numbers converge, of how many, and which do not."""
-    diverging = sorted({f"{row[1]} in {row[0]}" for row in rows if row[-1] == DIVERGES})
-    return sum(row[-1] == CONVERGES for row in rows), len(rows), diverging
-
-
-def velocity_converges(rows: Rows) -> bool:
-    """Whether the paper's Fig. 13 b, for mode 1 on rigid columns, has a limit."""
-    cases = [case_name("mode 1", pin, "rigid") for pin in PINS]
-    judged = [row[-1] for row in rows if row[0] in cases and row[1] == VELOCITY]
-    return bool(judged) and all(one == CONVERGES for one in judged)
+def velocity_converges(found: Found) -> bool:
+    """Whether the paper's Fig. 13 b, for mode 1 on rigid columns, has a limit: its errors are small."""
+    numbers = [found[VELOCITY, case_name("mode 1", pin, "rigid")] for pin in PINS]
+    return all(one.numerical_error <= CONVERGED * one.value for one in numbers)

@@ -6,10 +6,10 @@ init own_law` writes such files.
 """
 
 from matplotlib import pyplot as plt
+from user_forces.expressions.scalar import magnitude, sign
 
 from support_exudyn import ClearancePin, CubicStep, FrictionLaw, Scenario, machine, simulate, value
 from user_forces import LankaraniNikravesh, PowerLaw
-from user_forces.expressions.scalar import magnitude, sign
 
 
 @value

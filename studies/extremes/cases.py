@@ -27,7 +27,7 @@ HYDRAULICS = "hydraulics"
 RECORDS = 500  # of a stroke
 PACE = 0.5
 STROKE = 0.05  # [m]
-FORMULATIONS: tuple[FormulationName, ...] = ("compiled", "redundant")
+FORMULATIONS: tuple[FormulationName, ...] = ("compiled", "exudyn")
 STARTS = ("concentric", "closed", "overlapping", "settled")
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 GRIDS = {STEP_STIFFNESS: 13, CLEARANCE_SPEED: 12, FRICTION_STEP: 13}  # lines and columns
@@ -160,8 +160,6 @@ def _with_solver(point: Point, i: int, random: np.random.Generator) -> Made:
     }
     if i % 5 == 0:
         settings |= {"integrator": "trapezoidal", "constraint_index": 2}
-    if i % 5 == 1:
-        settings["backend"] = "symbolic"
     if i % 5 == 2:
         settings["locate"] = False
     said: dict[str, float | str] = {name: str(value) for name, value in settings.items()}

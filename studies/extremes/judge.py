@@ -41,11 +41,11 @@ PULL = 9.81  # [m/s^2]
 LEAK = 1e-10  # share of a leg's oil that may be open
 ALONE = 1e-9  # [s] by which contacts of two pins are apart at least
 TOLERANCE = 1e-8  # of an independent formulation
-# steps of a run that only checks: one of the redundant formulation takes some 0.1 ms, of others a tenth of that
+# steps of a run that only checks: one of the Exudyn formulation takes some 0.1 ms, of others a tenth of that
 MOST_STEPS, MOST_OTHERS = 15_000, 100_000
 TELLING = 0.05  # a run that is less certain does not check anything
 CHECKING = 3.0  # times the estimated error of a run that only checks: an estimate covers 97 % of errors
-# of a check by the redundant formulation: steps of an impact, fewest and most steps of the grid
+# of a check by the Exudyn formulation: steps of an impact, fewest and most steps of the grid
 IMPACT_STEPS, FEWEST, LONGEST = 64, 200, 2_500
 FOLLOWED = 2.0  # times of a vibration of a loaded contact (one over its angular frequency) that a step may be
 # spectral radii of a check: the larger, the less its steps damp, and the more rounding stays. The first that
@@ -281,7 +281,7 @@ def independent(scenario: Scenario) -> Result | None:
 
 
 def _by_steps(scenario: Scenario) -> list[Scenario]:
-    """The scene by the redundant formulation, none if it would take too many steps.
+    """The scene by the Exudyn formulation, none if it would take too many steps.
 
     A step that does not follow the vibration of the loaded contact damps it out, as would its halves: they
     agree on what is wrong.
@@ -290,7 +290,7 @@ def _by_steps(scenario: Scenario) -> list[Scenario]:
     longest = min(scenario.recorded_every, scenario.duration / FEWEST, LARGEST_STEP, longest)
     for radius in RADII:
         steps = SolverSettings(impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS, spectral_radius=radius)
-        other = replace(scenario, formulation="redundant", solver=steps)
+        other = replace(scenario, formulation="exudyn", solver=steps)
         other = replace(other, step=min(longest, ringing_step(other)))
         if other.duration / other.step <= LONGEST:
             return [other]

@@ -28,11 +28,11 @@ from support_exudyn import (
 )
 from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.formulations.registry import formulation
-from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.scenario.recorded_channels import Channel, channels
 from support_exudyn.simulation.result_checks import energy_open, joints_apart, result_checks, turned_over
 from support_exudyn.simulation.single_run import paused_collector
+from user_forces.contact_state import PinMemory
 
 Series = npt.NDArray[np.float64]
 STROKE, PERIOD = 0.1, 4.0  # [m], [s]
@@ -107,13 +107,12 @@ def _support(duration: float, sliding_coefficient: float | None = None, drive: D
         pins=with_clearance,
         drive=drive or Reciprocating(stroke=STROKE, period=PERIOD),
         duration=duration,
-        formulation="redundant",
+        formulation="exudyn",
         step=STEP,
         record_period=RECORD_PERIOD,
         solver=SolverSettings(
             impact_steps=IMPACT_STEPS,
             growth=GROWTH if drive is None else AT_REST,
-            backend="symbolic",
             most_steps=MOST_STEPS,
         ),
     )
@@ -134,13 +133,11 @@ def _crank(duration: float) -> Scenario:
         slider_crank.scenarios()[slider_crank.DRY],
         drive=Steady(rate=CRANK_SPEED),
         duration=duration,
-        formulation="redundant",
+        formulation="exudyn",
         step=STEP,
         record_period=RECORD_PERIOD,
         gravity=(0.0, -9.81),
-        solver=SolverSettings(
-            impact_steps=IMPACT_STEPS, growth=GROWTH, backend="symbolic", most_steps=MOST_STEPS
-        ),
+        solver=SolverSettings(impact_steps=IMPACT_STEPS, growth=GROWTH, most_steps=MOST_STEPS),
     )
 
 

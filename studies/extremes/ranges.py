@@ -24,7 +24,7 @@ from user_forces import (
     PinInBore,
     effective_modulus,
 )
-from user_forces.normal.power_law import PowerLaw
+from user_forces.normal.power_laws import PowerLaw
 
 POWER_LAWS: tuple[type[PowerLaw], ...] = (LankaraniNikravesh, Exact, HuntCrossley, Gonthier, Flores)
 LAWS = (*(law.__name__ for law in POWER_LAWS), PinInBore.__name__)

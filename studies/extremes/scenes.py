@@ -63,7 +63,6 @@ class OtherSettings(TypedDict, total=False):
     growth: float
     integrator: Literal["generalised_alpha", "trapezoidal"]
     constraint_index: Literal[2, 3]
-    backend: Literal["auto", "python", "symbolic", "compiled"]
     locate: bool
 
 
@@ -145,7 +144,7 @@ def boxed(point: Point, accuracy: Accuracy, drive: Drive) -> Scenario:
 def limited(scene: Scenario) -> Scenario:
     """A scene to an accuracy, with as many steps as its formulation may take in a minute or so."""
     assert scene.goal is not None
-    steps = MOST_STEPS if settings_for(scene, scene.goal).formulation == "redundant" else MOST_EXPLICIT
+    steps = MOST_STEPS if settings_for(scene, scene.goal).formulation == "exudyn" else MOST_EXPLICIT
     return replace(scene, solver=replace(scene.solver, most_steps=steps))
 
 

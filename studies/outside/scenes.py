@@ -48,7 +48,7 @@ def loose_crank_rocker() -> Scenario:
         duration=TURN,
         step=3e-6,  # by which flights and impacts, of 2560 steps, err alike
         record_period=TURN / 400,
-        formulation="redundant",
+        formulation="exudyn",
         solver=replace(TRAPEZOIDAL, impact_steps=2560),
     )
 
@@ -80,7 +80,7 @@ def three_loose_pins() -> Scenario:
         duration=1.0,
         step=2e-4,
         record_period=1e-2,
-        formulation="redundant",
+        formulation="exudyn",
         solver=SolverSettings(impact_steps=32),
     )
 
@@ -103,7 +103,7 @@ def guided(stiffness: float, duration: float, step: float, friction: FrictionLaw
         duration=duration,
         step=step,
         record_period=1e-3,
-        formulation="redundant",
+        formulation="exudyn",
         solver=SolverSettings(impact_steps=128),
     )
 

@@ -119,6 +119,11 @@ class Arrangement:
         return [KeyNumber(one.name, one.with_clearance, one.ideal, one.change) for one in tiles]
 
     @property
+    def computed_by(self) -> str:
+        """Engine and method of the leading study."""
+        return self.leading.chapter.computed_by if self.leading is not None else ""
+
+    @property
     def sentences(self) -> list[Markup]:
         """What clearance does, from the leading study; how sure that is, from the claims; else from others."""
         chapters = [one.chapter for one in self.on_page]

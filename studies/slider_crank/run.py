@@ -70,7 +70,7 @@ def scenarios() -> dict[str, Scenario]:
         step=2e-6,
         record_period=REVOLUTION / 3600,
         gravity=(0.0, 0.0),
-        solver=SolverSettings(impact_steps=128, backend="symbolic"),
+        solver=SolverSettings(impact_steps=128),
     )
     stiffness = internal_contact_stiffness(BEARING, STEEL, STEEL)
     normal = LankaraniNikravesh(stiffness=stiffness, restitution=0.9, rest_velocity=1e-3)

@@ -24,9 +24,9 @@ HARDLY = 0.7  # decades
 SMALLEST = 1e-11  # errors below are those of the reference
 # by family: colour, which none of `style` is that means something else, and marker
 LOOKS = {
-    "redundant, python": ("#0072B2", "o"),
-    "redundant, symbolic": ("#332288", "s"),
-    "redundant, growing steps": ("#004466", "^"),
+    "exudyn, python": ("#0072B2", "o"),
+    "exudyn, symbolic": ("#332288", "s"),
+    "exudyn, growing steps": ("#004466", "^"),
     "compiled": ("#997700", "v"),
     "trapezoidal, index 2": ("#CC79A7", "<"),
     "nothing located": ("#888888", "x"),

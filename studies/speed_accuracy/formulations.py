@@ -10,25 +10,25 @@ from studies.common.words import TextTable
 from support_exudyn import Result, SolverSettings
 
 SIZE_MM = 0.5
-STEP, IMPACT_STEPS = 1e-3, 128  # of the longest of the redundant formulation's runs [s]
+STEP, IMPACT_STEPS = 1e-3, 128  # of the longest of the Exudyn formulation's runs [s]
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A number of a case by the cheapest formulation and by the redundant one."""
+    """A number of a case by the cheapest formulation and by the Exudyn one."""
 
     chosen: Number
-    redundant: Number
+    exudyn: Number
 
     @property
     def off(self) -> float:
         """How far apart both are, in the number's unit."""
-        return self.redundant.value - self.chosen.value
+        return self.exudyn.value - self.chosen.value
 
     @property
     def error(self) -> float:
         """Both errors together, in the number's unit."""
-        return self.redundant.numerical_error + self.chosen.numerical_error
+        return self.exudyn.numerical_error + self.chosen.numerical_error
 
 
 def compared(options: Options) -> list[Compared]:
@@ -40,10 +40,10 @@ def compared(options: Options) -> list[Compared]:
     }
     solver = SolverSettings(impact_steps=IMPACT_STEPS)
     engine = {
-        name: replace(case, accuracy=None, formulation="redundant", step=STEP, solver=solver)
+        name: replace(case, accuracy=None, formulation="exudyn", step=STEP, solver=solver)
         for name, case in cases.items()
     }
-    chosen, redundant = run_cases(cases, options), run_with_errors(engine, options)
+    chosen, exudyn = run_cases(cases, options), run_with_errors(engine, options)
     watched = subject.watched
 
     measures: dict[str, Callable[[Result], float]] = {
@@ -52,7 +52,7 @@ def compared(options: Options) -> list[Compared]:
         "RMS fluctuation": lambda run: watched.rms_fluctuation(run, run[watched.force]),
     }
     return [
-        Compared(*(measured(what, name, "N", runs[name], function) for runs in (chosen, redundant)))
+        Compared(*(measured(what, name, "N", runs[name], function) for runs in (chosen, exudyn)))
         for name in cases
         for what, function in measures.items()
     ]
@@ -68,7 +68,7 @@ def numbers(found: Sequence[Compared]) -> list[Number]:
     return [
         replace(one, name=f"{one.name}, {formulation}")
         for both in found
-        for formulation, one in (("cheapest formulation", both.chosen), ("redundant", both.redundant))
+        for formulation, one in (("cheapest formulation", both.chosen), ("exudyn", both.exudyn))
     ]
 
 
@@ -87,7 +87,7 @@ def table(found: Sequence[Compared]) -> TextTable:
             one.chosen.case,
             one.chosen.name,
             cell(one.chosen),
-            cell(one.redundant),
+            cell(one.exudyn),
             f"{one.off:.2g}",
             f"{one.error:.2g}",
         )

@@ -143,7 +143,7 @@ def numbers(found: Sequence[WayRun], checked: Sequence[Check], against: Mapping[
 def fastest_table(looked_at: Scenes, found: Sequence[WayRun]) -> TextTable:
     """Of each scene the time of the fastest setting that meets the goal, by the way."""
     tried_at_all = {row.family for row in found}
-    shown = [way for way in ("compiled", "redundant, symbolic", STOCK, BUILT_IN) if way in tried_at_all]
+    shown = [way for way in ("compiled", "exudyn, symbolic", STOCK, BUILT_IN) if way in tried_at_all]
     rows = []
     for name in looked_at:
         best = _best(name, found)

@@ -159,7 +159,7 @@ class PinPlan:
                 f"motion from {times}, a record every {period:g} s: allowed: longer than {least:g} s, to tell "
                 "fluctuations from the trend, or more records"
             )
-        motion = replace(self.motion, formulation="redundant")
+        motion = replace(self.motion, formulation="exudyn")
         start = motion.start if motion.unloaded.cranks else "settled"
 
         def clearance(pins: Sequence[str], friction: float, clearance_mm: float) -> Scenario:

@@ -15,10 +15,10 @@ import numpy as np
 from llvmlite import ir
 from numba.extending import intrinsic
 
-from support_exudyn.formulations import contact_events
 from support_exudyn.model.hydraulics import oil
+from support_exudyn.model.loads.load import ActingLoad
 from user_forces import contact
-from user_forces.compilation.flat import NAMES
+from user_forces.kernel import copied, numbers, prepare, reason
 
 try:
     import fcntl as _fcntl
@@ -28,8 +28,9 @@ except ImportError:  # Windows
 fcntl: Any = _fcntl
 SECONDS = {"compiled": 17}  # that compiling takes on a quiet machine of 2020
 COMPILED = ("compiled", "hydraulics", "statistics")  # folders with compiled functions
-CONSTANTS_OF = (contact_events, contact, oil)  # modules of which compiled functions use constants
+CONSTANTS_OF = (oil,)  # modules of which compiled functions use constants
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
+prepare()  # kernels are known to numba from now on
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
@@ -123,7 +124,8 @@ def source_files() -> list[Path]:
     """The files that compiled code comes from."""
     here = Path(__file__).parent
     files = sorted(file for folder in COMPILED for file in (here / folder).rglob("*.py"))
-    return [*files, Path(__file__), *(Path(str(module.__file__)) for module in CONSTANTS_OF)]
+    kernels = sorted(Path(str(contact.__file__)).parent.glob("*.py"))
+    return [*files, *kernels, Path(__file__), *(Path(str(module.__file__)) for module in CONSTANTS_OF)]
 
 
 def _source_stamp() -> tuple[str, int]:
@@ -208,23 +210,121 @@ def _tell(module: str) -> None:
 
 
 NUMBER = numba.types.float64
+FIRST_COURSE = 3  # where the values of a load's courses stand in out
 LAW = NUMBER(*5 * (NUMBER,), *2 * (numba.types.CPointer(NUMBER),))
 
 
-@cache
-def compiled_law(source: str) -> Any:
-    """Machine code of a function `law`, see `law_source`; its `address` is what `call_law` takes.
+def address_of(law: Callable[..., float]) -> int:
+    """Address of the machine code of a function, which is what `call_law` takes.
 
-    It is kept on disk by a name that comes from its source. That takes half a second at its first use.
+    Arguments:
+        law: of five numbers and of two pointers, constants and out, with kernels in its closure.
+
+    Machine code is kept on disk by a name that comes from the code of all kernels; without that it takes half a
+    second. Raises UncompiledLawError if numba cannot compile the function.
     """
-    space: dict[str, Any] = {**NAMES, "__name__": __name__}
-    exec(compile(source, __file__, "exec"), space)
-    law = space["law"]
-    law.__qualname__ = law.__name__ = f"law_{hashlib.sha256(source.encode()).hexdigest()[:20]}"
+    return int(_machine_code(law).address)
+
+
+class UncompiledLawError(TypeError):
+    """A law or load that numba cannot compile."""
+
+
+@cache
+def _machine_code(law: Callable[..., float]) -> Any:
+    same = copied(law)
     try:
-        return numba.cfunc(LAW, cache=True, error_model="numpy")(law)
-    except RuntimeError:  # no place to keep it
-        return numba.cfunc(LAW, error_model="numpy")(law)
+        try:
+            return numba.cfunc(LAW, cache=True, error_model="numpy")(same)
+        except RuntimeError:  # there is no folder in which files may be written
+            return numba.cfunc(LAW, error_model="numpy")(same)
+    except numba.core.errors.NumbaError as error:
+        raise UncompiledLawError(f"numba cannot compile it: {reason(error)}") from error
+
+
+@cache
+def contact_law(law: Callable[..., Any], count: int) -> Callable[..., float]:
+    """The laws of a contact for `call_law`, from `Contact.law_kernel`, whose constants are so many.
+
+    It gives the normal force [N] that the normal law asks for, and writes the friction force [N], the elastic
+    force [N] and the rate of the friction law's state [m/s] into out.
+    """
+
+    def contact(
+        depth: float, rate: float, slip: float, speed: float, deflection: float, constants: Any, out: Any
+    ) -> float:
+        results = numba.carray(out, 3)
+        asked, elastic, friction, bends = law(
+            depth, rate, slip, speed, deflection, numba.carray(constants, count)
+        )
+        results[0], results[1], results[2] = friction, elastic, bends
+        return asked
+
+    return contact
+
+
+@cache
+def joint_friction(
+    force: Callable[..., float], of_force: int, rate: Callable[..., float] | None, of_rate: int
+) -> Callable[..., float]:
+    """A friction law for `call_law`, `depth` being the normal force [N], from its functions of numbers.
+
+    It gives the friction force [N], and writes the rate of a law's state [m/s] into out.
+    """
+    if rate is None:
+
+        def friction(
+            normal: float, _: float, slip: float, __: float, deflection: float, constants: Any, out: Any
+        ) -> float:
+            return force(slip, normal, *numbers(numba.carray(constants, of_force), 0, of_force))
+
+        return friction
+
+    def friction_with_state(
+        normal: float, _: float, slip: float, __: float, deflection: float, constants: Any, out: Any
+    ) -> float:
+        given = numba.carray(constants, of_force + of_rate)
+        results = numba.carray(out, 1)
+        results[0] = rate(deflection, slip, *numbers(given, of_force, of_rate))
+        return force(slip, normal, deflection, *numbers(given, 0, of_force))
+
+    return friction_with_state
+
+
+def load_law(load: ActingLoad) -> tuple[Callable[..., float], tuple[float, ...]]:
+    """The action of a load for `call_law`, and its constants."""
+    action, own = load.formula
+    return _load_law(action, load.FORCES, len(load.MOTION._fields), len(load.courses), len(own)), own
+
+
+@cache
+def _load_law(
+    action: Callable[..., tuple[float, ...]], forces: int, motion: int, courses: int, count: int
+) -> Callable[..., float]:
+    """A load as a function that gives the force forward [N], the moment [N m], or F1 of a stretch [N].
+
+    Into out it writes the power of what moves the load and the loss [W], and then the force up or F2 [N].
+
+    Arguments:
+        forces: how many of them the action gives.
+        motion: how many numbers it follows besides the values of its courses.
+        courses: how many there are; their values stand in out from FIRST_COURSE on.
+        count: of its parameters.
+    """
+
+    def load(
+        time: float, first: float, second: float, third: float, fourth: float, constants: Any, out: Any
+    ) -> float:
+        results = numba.carray(out, FIRST_COURSE + courses)
+        found: tuple[float, ...] = action(
+            *(time, first, second, third, fourth, 0.0, 0.0)[:motion],
+            *numbers(results, FIRST_COURSE, courses),
+            *numbers(numba.carray(constants, count), 0, count),
+        )
+        results[0], results[1], results[2] = found[forces + 1], found[forces + 2], found[1]
+        return found[0]
+
+    return load
 
 
 @intrinsic  # type: ignore[untyped-decorator]
@@ -241,7 +341,7 @@ def call_law(
 ) -> Any:
     """What the law at an address gives, which is a whole number in a float; for compiled functions.
 
-    The other arguments are those of `law_source`, constants and out contiguous arrays of floats.
+    The other arguments are those of `contact_law`, constants and out contiguous arrays of floats.
     """
 
     def build(target: Any, builder: Any, signature: Any, values: Any) -> Any:

@@ -11,10 +11,10 @@ from typing import Literal, Protocol, cast
 from support_exudyn.formulations.contract import Progress
 from support_exudyn.formulations.interruption import put_off
 from support_exudyn.mechanics.trajectory import Outcome
-from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scenario.scenario import EARLIER_NAMES, Scenario
 from user_forces.values.value import InputError
 
-FormulationName = Literal["redundant", "compiled"]
+FormulationName = Literal["exudyn", "compiled"]
 
 
 class Program(Protocol):
@@ -70,7 +70,7 @@ HERE = __name__.rpartition(".")[0]
 FORMULATIONS = {
     one.name: one
     for one in (
-        Formulation("redundant", f"{HERE}.redundant.run", cost=2, safety=3.0),
+        Formulation("exudyn", f"{HERE}.redundant.run", cost=2, safety=3.0),
         Formulation("compiled", f"{HERE}.compiled", cost=1, safety=2.5),
     )
 }
@@ -78,5 +78,6 @@ CHEAPEST_FIRST = sorted(FORMULATIONS.values(), key=lambda one: one.cost)
 
 
 def formulation(name: str) -> Formulation:
-    """The formulation of this name; "auto" is the redundant one, which runs nearly every scene."""
-    return FORMULATIONS["redundant" if name == "auto" else cast(FormulationName, name)]
+    """The formulation of this name, also an earlier one; "auto" is Exudyn, which runs nearly every scene."""
+    known = "exudyn" if name == "auto" else EARLIER_NAMES.get(name, name)
+    return FORMULATIONS[cast(FormulationName, known)]

@@ -25,7 +25,7 @@ from support_exudyn.model.linkage import (
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.plane_geometry import circle_intersection, direction, distance, moved, side
 from support_exudyn.model.to_space import Width
-from user_forces.expressions.roots import bracketed_root
+from user_forces.roots import bracketed_root
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, Positive, Vector2, value
 

@@ -1,7 +1,8 @@
 """What loads do to a linkage in motion: their forces and moments at the records, and on the coordinates."""
 
-from collections.abc import Mapping
-from functools import singledispatch
+from collections.abc import Callable, Mapping
+from functools import cache, singledispatch
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +13,45 @@ from support_exudyn.mechanics.trajectory import LoadSeries, Series
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
 from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
 from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
+from user_forces.kernel import compiled_or_plain, numbers
+
+MANY = 1000  # records from which on a compiled loop is faster, though it may have to be compiled
+
+
+def actions(load: ActingLoad, motion: Matrix) -> tuple[Matrix, Series, dict[str, Series]]:
+    """What a load does at the records: its forces (n, k), stored energy (n,) [J], and its channels by name.
+
+    motion: the time [s] and what the load follows, (n, m), in the order of `load.MOTION`.
+    """
+    rows, forces = motion.tolist(), load.FORCES
+    width = forces + 3 + len(load.channels)
+    if load.own_methods or len(rows) < MANY:
+        found = np.array([load.acts(load.MOTION(*row)) for row in rows]).reshape(-1, width)
+    else:
+        action, own = load.formula
+        values = [[course(row[0]) for row in rows] for course in load.courses]
+        known = np.column_stack([motion, *values])
+        found = _loop(action, known.shape[1], len(own), width)(known, np.array(own))
+    observed = zip(load.channels, found[:, forces + 3 :].T, strict=True)
+    return found[:, :forces], found[:, forces], dict(observed)
+
+
+@cache
+def _loop(
+    action: Callable[..., tuple[float, ...]], known: int, count: int, width: int
+) -> Callable[[Matrix, Matrix], Matrix]:
+    """An action as a function of arrays: so many numbers a record and so many parameters."""
+
+    def loop(rows: Any, parameters: Any) -> Matrix:
+        found = np.empty((len(rows), width))
+        own = numbers(parameters, 0, count)
+        for n in range(len(rows)):
+            values = action(*numbers(rows[n], 0, known), *own)
+            for k in range(width):
+                found[n, k] = values[k]
+        return found
+
+    return compiled_or_plain(loop, (np.empty((1, known)), np.empty(count)))
 
 
 @singledispatch
@@ -24,16 +64,9 @@ def load_series(load: ActingLoad, name: str, motion: BodyMotion, time: Series) -
 def _of_force(load: Load, name: str, motion: BodyMotion, time: Series) -> LoadSeries:
     point, origin = motion.point(load.body, load.point), motion.point(load.against(name), load.origin)
     way, velocity = point.position - origin.position, point.velocity - origin.velocity
-    found = [
-        LoadedPoint(*row) for row in zip(time.tolist(), *way.T.tolist(), *velocity.T.tolist(), strict=True)
-    ]
-    observed = [load.observed(at) for at in found]
-    return LoadSeries(
-        np.array([load.force(at) for at in found]).reshape(-1, 2),
-        np.zeros(len(found)),
-        np.array([load.stored(at) for at in found]),
-        {name: np.array([values[name] for values in observed]) for name in load.channels},
-    )
+    level = np.zeros((len(time), 2))
+    forces, stored, observed = actions(load, np.column_stack([time, way, velocity, level]))
+    return LoadSeries(forces[:, :2], level[:, 0], stored, observed)
 
 
 @load_series.register
@@ -41,14 +74,8 @@ def _of_moment(load: MomentLoad, name: str, motion: BodyMotion, time: Series) ->
     del name
     turn, spin = motion.turn(load.body), motion.spin(load.body)
     turn, spin = turn - motion.turn(load.other), spin - motion.spin(load.other)
-    found = [TurnedBody(*row) for row in zip(time.tolist(), turn.tolist(), spin.tolist(), strict=True)]
-    observed = [load.observed(at) for at in found]
-    return LoadSeries(
-        np.zeros((len(found), 2)),
-        np.array([load.moment(at) for at in found]),
-        np.array([load.stored(at) for at in found]),
-        {name: np.array([values[name] for values in observed]) for name in load.channels},
-    )
+    moments, stored, observed = actions(load, np.column_stack([time, turn, spin]))
+    return LoadSeries(np.zeros((len(time), 2)), moments[:, 0], stored, observed)
 
 
 @load_series.register
@@ -57,16 +84,10 @@ def _of_stretch(load: StretchLoad, name: str, motion: BodyMotion, time: Series) 
     ends = [motion.point(load.body, point) for point in load.points]
     ways = [end.position[:, 1] - point[1] for end, point in zip(ends, load.points, strict=True)]
     rates = [end.velocity[:, 1] for end in ends]
-    found = [LoadedStretch(*row) for row in np.column_stack([time, *ways, *rates]).tolist()]
-    observed = [load.observed(at) for at in found]
-    forces = np.array([load.forces(at) for at in found]).reshape(-1, 2)
+    forces, stored, observed = actions(load, np.column_stack([time, *ways, *rates]))
     arm = ends[1].position[:, 0] - ends[0].position[:, 0]
-    return LoadSeries(
-        np.column_stack([np.zeros(len(found)), forces.sum(axis=1)]),
-        arm * forces[:, 1],
-        np.array([load.stored(at) for at in found]),
-        {name: np.array([values[name] for values in observed]) for name in load.channels},
-    )
+    upward = np.column_stack([np.zeros(len(time)), forces.sum(axis=1)])
+    return LoadSeries(upward, arm * forces[:, 1], stored, observed)
 
 
 def add_load(forces: Series, motion: BodyMotion, name: str, load: ActingLoad, series: LoadSeries) -> None:

@@ -15,7 +15,6 @@ import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.contact_history import RelativeMotion, acting, contact_series, series
-from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.joint_forces import PinForce
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
@@ -24,6 +23,7 @@ from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, Slide
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.model.plane_geometry import plus, rotated
 from user_forces.contact import Contact
+from user_forces.contact_state import PinMemory
 from user_forces.values.value import Vector2
 
 

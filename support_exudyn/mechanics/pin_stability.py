@@ -32,9 +32,8 @@ import numpy as np
 import numpy.typing as npt
 
 from user_forces.contact import ContactForce, JournalContact
-from user_forces.friction.ambrosio import Ambrosio
-from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw, TwoCoefficients
+from user_forces.friction.laws import Ambrosio, Frictionless
 from user_forces.normal.law import LoadError
 
 Matrix = npt.NDArray[np.float64]

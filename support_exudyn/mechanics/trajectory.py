@@ -7,8 +7,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.time_statistics import TimeStatistics
+from user_forces.contact_state import Onset
 
 Series = npt.NDArray[np.float64]
 
@@ -195,7 +195,7 @@ class Outcome:
     """A finished run of a formulation.
 
     trajectory: at the records. onsets: for each clearance pin the beginnings of contact. largest_force: for
-    each clearance pin the largest force [N] at any time. largest_force_time: when that is [s]; in the redundant
+    each clearance pin the largest force [N] at any time. largest_force_time: when that is [s]; in the Exudyn
     formulation the end of the step that has it. impulses: where the speed of rigid actuators or cranks jumped.
     counts: what the solver did. oil_events: what happened in each hydraulic leg with elements. statistics: of
     all channels that the scenario asks for, from every step.

@@ -23,11 +23,11 @@ from pydantic import model_validator
 from support_exudyn.model.pins import Refusal
 from support_exudyn.model.simple_laws import fields_of, friction_of, law_with
 from user_forces.contact import FaceContact, SlotContact
-from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
+from user_forces.friction.laws import Frictionless
 from user_forces.materials import STEEL, STEEL_35CRMO, Material, plane_contact_stiffness
-from user_forces.normal.exact import Exact
 from user_forces.normal.law import NormalLaw
+from user_forces.normal.power_laws import Exact
 from user_forces.slot import Slot
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, NonNegative, Positive, Value, Vector2, short, value

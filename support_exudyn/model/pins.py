@@ -25,9 +25,9 @@ from user_forces.materials import (
     external_contact_stiffness,
     internal_contact_stiffness,
 )
-from user_forces.normal.exact import Exact
 from user_forces.normal.law import NormalLaw
 from user_forces.normal.pin_in_bore import PinInBore, lends_damping
+from user_forces.normal.power_laws import Exact
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, Positive, Value, Vector2, short, value
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from user_forces.friction.ambrosio import Ambrosio
-from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
+from user_forces.friction.laws import Ambrosio, Frictionless
 from user_forces.normal.law import NormalLaw
 from user_forces.values.value import InputError, short
 

@@ -4,8 +4,8 @@ from support_exudyn.files.own_modules import NotImported
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.slow_slip import FULL
 from user_forces.catalogue import title
-from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
+from user_forces.friction.laws import Frictionless
 from user_forces.normal.law import NormalLaw
 
 

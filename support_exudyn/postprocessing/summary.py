@@ -19,7 +19,7 @@ from support_exudyn.simulation.impulses import impulses_of
 from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from support_exudyn.simulation.reported_numbers import FORCE, measures
 from support_exudyn.simulation.result import Result
-from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError, Value
 
 Row = tuple[str, ...]
@@ -129,10 +129,10 @@ def _formulation(result: Result) -> str:
     ran = formulation(result.scenario.formulation).name
     if asked != "auto":
         return ran
-    if result.goal is None and ran == "redundant":
+    if result.goal is None and ran == "exudyn":
         return f"{ran} (auto: without an accuracy that is the one wherever it covers the scene)"
     if result.goal is None:
-        return f"{ran} (auto: {_why_not(FORMULATIONS['redundant'], result)})"
+        return f"{ran} (auto: {_why_not(FORMULATIONS['exudyn'], result)})"
     cheaper = [one for one in CHEAPEST_FIRST if one.cost < FORMULATIONS[ran].cost]
     if not cheaper:
         return f"{ran} (auto: the cheapest, and it covers this scene)"

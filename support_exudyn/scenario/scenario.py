@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 from pydantic import field_validator, model_validator
 
@@ -13,6 +15,7 @@ from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMAL
 from support_exudyn.scenario.validation import check
 from user_forces.values.value import InputError, short, value
 
+EARLIER_NAMES = {"redundant": "exudyn"}  # of formulations, still accepted
 MOST_REFINED = 1e6  # by what factor a run can be refined
 
 
@@ -34,6 +37,18 @@ class Scenario(ScenarioData):
             f"allowed: {', '.join(map(repr, ACCURACIES))}, None, or a relative error from {SMALLEST_GOAL} to "
             f"{LARGEST_GOAL}"
         )
+
+    @field_validator("formulation", mode="before")
+    @classmethod
+    def _by_its_present_name(cls, asked: object) -> object:
+        return EARLIER_NAMES.get(asked, asked) if isinstance(asked, str) else asked
+
+    @classmethod
+    def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Data and files of earlier versions call the Exudyn formulation "redundant"."""
+        named = given.get("formulation")
+        known = isinstance(named, str) and named in EARLIER_NAMES
+        return {**given, "formulation": EARLIER_NAMES[str(named)]} if known else given
 
     @model_validator(mode="after")
     def _fits_the_machine(self) -> Scenario:

@@ -83,11 +83,11 @@ class ScenarioData(Value, ABC):
             (1e-3), "reference" (1e-5). `step` and `solver` are then chosen by the program, as is the
             formulation if it is "auto"; it estimates its errors and refines until they are as asked.
             None: the settings stand as they are.
-        formulation: "redundant": the engine's rigid bodies with constraints, generalised alpha; runs every
+        formulation: "exudyn": the engine's rigid bodies with constraints, generalised alpha; runs every
             scene. "compiled": the same without the engine, by an explicit method with error control; in the
-            plane, for laws and loads that are written as formulas. "auto": redundant; with an accuracy the
+            plane, for laws and loads that are written as formulas. "auto": exudyn; with an accuracy the
             cheapest that covers the scene.
-        step: largest time step [s], > 0, of the redundant formulation. Steps are equal parts of the time
+        step: largest time step [s], > 0, of the Exudyn formulation. Steps are equal parts of the time
             between two records; they are cut at impacts.
         record_period: time between records [s], > 0. Records are for curves; means, deviations and extremes are
             taken from every step. None: as the machine moves, see `record_period.default_period`.
@@ -113,7 +113,7 @@ class ScenarioData(Value, ABC):
     start: Literal["concentric", "settled"] = "concentric"
     gravity: MetresPerSecondSquared[Vector2] = (0.0, -9.81)
     accuracy: Accuracy | None = None
-    formulation: Literal["auto", "redundant", "compiled"] = "auto"
+    formulation: Literal["auto", "exudyn", "compiled"] = "auto"
     step: Seconds[Annotated[Real, Field(gt=0, le=LARGEST_STEP)]] = 5e-4
     record_period: Seconds[Positive] | None = None
     channels: tuple[str, ...] = ALL_CHANNELS

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Annotated, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
@@ -13,13 +15,13 @@ ERROR_CONTROLLED = ("compiled",)  # formulations that choose their steps by a to
 SMALLEST_TOLERANCE = 1e-13  # rounding
 MOST_IMPACT_STEPS = 10000
 MOST_SECTIONS = 64
-MOST_STEPS = 5_000_000  # some minutes of the redundant formulation
+MOST_STEPS = 5_000_000  # some minutes of the Exudyn formulation
 REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
 
 
 @value
 class SolverSettings(Value):
-    """Settings of the time integration; all but `tolerance` and `backend` are of the redundant formulation.
+    """Settings of the time integration; all but `tolerance` are of the Exudyn formulation.
 
     Arguments:
         integrator: "generalised_alpha", or "trapezoidal", the engine's rule of that name, which has no
@@ -50,9 +52,6 @@ class SolverSettings(Value):
         tolerance: of the compiled formulation, from 1e-13 to 1e-2: the error of a step, as a share of the
             smallest clearance for places, and of the speed of a fall through half of it for velocities; the
             root mean square over all of them. 1e-5 is enough for most.
-        backend: what evaluates the force of clearance pins. "python": a Python function. "symbolic": the same
-            law as an expression of the engine, both redundant. "compiled": the law compiled by numba. "auto":
-            compiled in the compiled formulation, else Python.
         sections: in how many places along its axis the contact of a clearance pin is evaluated in space, 2 to
             64, the edges among them. Where a pin is not tilted any number gives the same; a tilted one on oil
             actuators driven unequally by 2 % is right to 2 % with 5 and to 4e-4 with 9.
@@ -63,6 +62,8 @@ class SolverSettings(Value):
             some. It looks at everything, whatever is recorded.
     """
 
+    _removed: ClassVar[Mapping[str, str]] = {"backend": "laws are compiled functions in both formulations"}
+
     integrator: Literal["generalised_alpha", "trapezoidal"] = "generalised_alpha"
     constraint_index: Literal[2, 3] = 3
     spectral_radius: Fraction = 0.5
@@ -72,10 +73,19 @@ class SolverSettings(Value):
     locate: Annotated[bool, Field(strict=True)] = True
     growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
     tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7
-    backend: Literal["auto", "python", "symbolic", "compiled"] = "auto"
     sections: Annotated[Whole, Field(ge=2, le=MOST_SECTIONS)] = 5
     most_steps: Annotated[Whole, Field(ge=1, le=10**12)] = MOST_STEPS
     result_checks: Annotated[bool, Field(strict=True)] = True
+
+    @classmethod
+    def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
+        if "backend" in given:
+            warnings.warn(
+                f"solver.backend = {given['backend']!r} has no effect any more: laws are compiled functions in "
+                "both formulations",
+                stacklevel=2,
+            )
+        return {key: item for key, item in given.items() if key != "backend"}
 
     @model_validator(mode="after")
     def _fit_each_other(self) -> SolverSettings:

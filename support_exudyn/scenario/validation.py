@@ -95,7 +95,7 @@ def _check_space(scenario: ScenarioData) -> None:
         raise ValueError(f"dimensions = 3: {error}") from None
     if scenario.chooses_steps:
         raise ValueError(
-            f"formulation = {scenario.formulation!r}: is planar; allowed in space: 'auto', 'redundant'"
+            f"formulation = {scenario.formulation!r}: is planar; allowed in space: 'auto', 'exudyn'"
         )
     for name, pin in scenario.pins.items():
         if refused := pin.refused_in_space():

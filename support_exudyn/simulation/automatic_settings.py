@@ -11,7 +11,7 @@ from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, MOST_IMPAC
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.contact_ringing import ringing_step
 
-# Errors of the redundant formulation are of second order in its steps. At these shares of a scene's times, and
+# Errors of the Exudyn formulation are of second order in its steps. At these shares of a scene's times, and
 # with so many steps an impact, statistics of the reference support are right to 1e-4
 # (`studies/speed_accuracy/run.py`).
 GOAL_OF_SHARES = 1e-4
@@ -34,10 +34,7 @@ def settings_for(scenario: Scenario, goal: float) -> Scenario:
     plain = replace(scenario, accuracy=None, record_period=scenario.recorded_every)
     name = scenario.formulation
     if name == "auto":
-        # a Python function of the contact is what the redundant formulation may call; it decides of no other
-        free = replace(plain, solver=replace(plain.solver, backend="auto"))
-        name = cheapest(free if plain.solver.backend == "python" else plain)
-        plain = free if name in ERROR_CONTROLLED else plain
+        name = cheapest(plain)
     formulation(name).check(plain)
     finer = math.sqrt(GOAL_OF_SHARES / goal)
     times = timescales(plain)
@@ -63,11 +60,11 @@ def covered(scenario: Scenario) -> Scenario:
 
 
 def cheapest(scenario: Scenario) -> FormulationName:
-    """The first formulation that covers a scenario; redundant covers every one whose settings fit it.
+    """The first formulation that covers a scenario; `exudyn` covers every one whose settings fit it.
 
     Explicit methods have to follow friction's ramp, however steep it is: not where that takes too many steps.
     """
-    found: FormulationName = next((one.name for one in CHEAPEST_FIRST if one.covers(scenario)), "redundant")
+    found: FormulationName = next((one.name for one in CHEAPEST_FIRST if one.covers(scenario)), "exudyn")
     if found in ERROR_CONTROLLED and scenario.duration > MOST_FRICTION_TIMES * timescales(scenario).rubbing:
-        return "redundant"
+        return "exudyn"
     return found

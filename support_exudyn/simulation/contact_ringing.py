@@ -24,8 +24,8 @@ import numpy as np
 
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.timescales import LoadedContact, loaded_contacts
-from user_forces.expressions.roots import bracketed_root
 from user_forces.normal.law import LoadError
+from user_forces.roots import bracketed_root
 
 RUNS = 3  # each with half the steps of the one before, from which errors are told
 KEPT = 0.5  # D of the last of them; that before has eight times as much, so that the two differ

@@ -7,8 +7,8 @@ size of the motion itself. What comes later is no result of any run; its means a
 import math
 from collections.abc import Iterable, Sequence
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.simulation.recorded_run import RecordedRun
+from user_forces.contact_state import Onset
 
 APART = (
     0.1  # share of the time since the impact before, or of the initial impact velocity, by which impacts differ

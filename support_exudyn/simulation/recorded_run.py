@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.time_statistics import TimeStatistics, TimeWindow, statistics_of_records
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Series
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.provenance import WARNINGS
+from user_forces.contact_state import Onset
 from user_forces.values.names import Named, UnknownNameError, no_attribute
 from user_forces.values.value import InputError, short
 
@@ -28,7 +28,7 @@ class RecordedRun:
     scenario: what was run. channels: quantities over time by name, see `result["tip.x"]`.
     onsets: for each clearance pin the beginnings of contact. largest_force: for each clearance pin the
     largest force [N] at any time, also inside steps. largest_force_time: when it is [s]; in the
-    redundant formulation the end of the step that has it.
+    Exudyn formulation the end of the step that has it.
     impulses: where the speed of
     rigid actuators or cranks jumped. counts: what the solver did.
     oil_events: for each hydraulic leg with elements, when valves opened and closed, cavities grew and were

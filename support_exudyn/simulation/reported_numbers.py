@@ -10,11 +10,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.time_statistics import GREATEST, LEAST, TimeWindow
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation import impulses
 from support_exudyn.simulation.recorded_run import RecordedRun
+from user_forces.contact_state import Onset
 from user_forces.values.value import InputError, short
 
 Series = npt.NDArray[np.float64]

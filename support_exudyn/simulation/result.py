@@ -20,7 +20,6 @@ from support_exudyn.files.hdf5 import Inside, Series, check_checksum, checksum_b
 from support_exudyn.files.own_modules import modules_of, refusals, without_modules
 from support_exudyn.files.series.own_runs import RUN, format_of
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.time_statistics import COLUMNS as COLUMNS_OF_STATISTICS
 from support_exudyn.mechanics.time_statistics import TimeStatistics
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent
@@ -32,6 +31,7 @@ from support_exudyn.simulation.estimate import Estimate, error, errors, fall, wo
 from support_exudyn.simulation.horizon import horizon
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import measures
+from user_forces.contact_state import Onset
 from user_forces.values.names import Named
 from user_forces.values.value import InputError, Value, cleaned
 

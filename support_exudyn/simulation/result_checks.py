@@ -12,7 +12,6 @@ from support_exudyn.formulations import change_points
 from support_exudyn.formulations.contract import Failure
 from support_exudyn.formulations.limits import DEEPEST, ENDS, SOFT, too_deep
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.contact_history import of_depth
 from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
@@ -214,12 +213,13 @@ def joints_apart(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None
             x, y = _apart(motion, (actuator.head, actuator.head_point), (actuator.foot, actuator.foot_point))
             drive = scenario.drive_of(name)
             if id(drive) not in extensions:
-                extensions[id(drive)] = of_depth(drive.extension, time)
+                extensions[id(drive)] = np.array([drive.extension(t) for t in time.tolist()])
             wanted = actuator.start_length + extensions[id(drive)]
             gaps = np.maximum(gaps, (np.sqrt(x * x + y * y) - wanted) ** 2)
     size = scenario.held.size
     for name, crank in linkage.cranks.items():
-        turned = motion.turn(crank.body) - of_depth(scenario.drive_of(name).extension, time)
+        drive = scenario.drive_of(name)
+        turned = motion.turn(crank.body) - np.array([drive.extension(t) for t in time.tolist()])
         gaps = np.maximum(gaps, (size * turned) ** 2)
     for slide in scenario.guided_linkage.slides.values():
         x, y = _apart(motion, (slide.body, slide.point), (slide.against, slide.point))

@@ -13,8 +13,8 @@ from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.joint_slip import joint_slips
 from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
+from user_forces.friction.laws import Frictionless
 
 FULL, NONE = 0.99, 0.01  # shares of the largest coefficient between which friction counts as partial
 MOST = 0.5  # share of the loaded time from which on that is reported

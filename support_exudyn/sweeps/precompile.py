@@ -8,7 +8,7 @@ from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
 from user_forces.journal import JournalBearing
-from user_forces.normal.hertz import Hertz
+from user_forces.normal.power_laws import Hertz
 
 
 def precompile() -> None:

@@ -55,13 +55,6 @@ def test_a_file_of_ones_own_gets_its_figure_beside_it(
     assert all(Path(figure).exists() for figure in told["figures"])
 
 
-@pytest.mark.usefixtures("_words_alone")
-def test_warnings_are_no_failure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = written(tmp_path, "canopy = 5200", "canopy = 52000")
-    assert main(["check", str(path)]) == 0
-    assert "warnings (1)\n  - parts.canopy[0]: 5.2e+04 kg is more" in capsys.readouterr().out
-
-
 def test_a_machine_that_cannot_be_built_is_told_in_a_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -77,13 +70,6 @@ def test_a_machine_that_cannot_be_built_is_told_in_a_line(
 def test_what_is_not_there_is_told(asked: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", asked, "--out", str(tmp_path)]) == 1
     assert capsys.readouterr().err.startswith("error: ")
-
-
-def test_a_stroke_that_is_no_number_is_a_wrong_command_line(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as ended:
-        main(["check", "reference", "--stroke-mm", "far"])
-    assert ended.value.code == 2
-    assert "allowed: a number" in capsys.readouterr().err
 
 
 # dead centre of the starter with a crank of 220 mm: where it and the ground make coupler and rocker straight
@@ -130,16 +116,6 @@ def test_pins_of_a_linkage_are_told_over_its_stroke(tmp_path: Path, capsys: pyte
     assert data["pin_stability"] == []
 
 
-@pytest.mark.usefixtures("_words_alone")
-def test_a_scenario_of_a_known_machine_is_checked_as_that(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "turn.toml"
-    path.write_text('machine = "slider_crank"\nduration_s = 1\n', encoding="utf-8")
-    assert main(["check", str(path), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["kind"] == "slider_crank"
-
-
 SCENARIO = """
 machine = "reference"
 duration_s = 5
@@ -165,18 +141,6 @@ def test_a_scenario_is_told_which_pins_shake(tmp_path: Path, capsys: pytest.Capt
     assert "if it had such play" in told["front_base"]
     assert "if it had such play" not in told["rear_base"]
     assert told["rear_base"].split()[-1].startswith("0.02")
-
-
-@pytest.mark.usefixtures("_words_alone")
-def test_a_scenario_in_space_is_told_why_nothing_is_said_of_shaking(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "rise.toml"
-    path.write_text(f"dimensions = 3\n{SCENARIO}", "utf-8")
-    assert main(["check", str(path)]) == 0
-    assert (
-        "whether its pins shake: nothing is told; allowed: a scenario in the plane" in capsys.readouterr().out
-    )
 
 
 @pytest.mark.usefixtures("_words_alone")
@@ -211,16 +175,3 @@ def test_a_scenario_with_errors_is_told_its_machine_alone(
     assert "degrees of freedom: " in said
     assert "nothing is told of its pins, the scenario has errors: " in said
     assert "pins.rear_base.friction" in said
-
-
-@pytest.mark.slow
-@pytest.mark.usefixtures("_words_alone")
-def test_a_machine_alone_is_told_with_what_is_assumed(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = written(tmp_path)
-    assert main(["check", str(path), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)["pin_stability"]
-    assert not any(one["assumed"] for one in told)
-    assert main(["check", "slider_crank", "--out", str(tmp_path), "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["pin_stability"] == []  # nobody knows how fast it turns

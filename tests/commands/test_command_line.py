@@ -54,20 +54,10 @@ def test_the_installed_command_is_the_module() -> None:
     assert answers[0].stderr.startswith("error: no.h5")
 
 
-def test_a_wrong_command_line_is_told_with_the_name_it_was_called_by(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    with pytest.raises(SystemExit) as end:
-        main(["shaw"])
-    assert end.value.code == 2
-    assert "'shaw': no such command; did you mean show or schema?" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("words", "message"),
     [
         (["show", "run.h5", "--untl", "3"], "'--untl': no such option; did you mean --until"),
-        (["scenario", "run.h5", "other.h5"], "'other.h5': is one name too many"),
         (["render", "run.h5", "--movie", "git"], "--movie 'git': no such movie; did you mean gif"),
     ],
 )

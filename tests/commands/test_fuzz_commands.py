@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import importlib
 import io
@@ -22,63 +23,17 @@ from studies.common.options import Options, add_options, read_options
 from studies.common.study import Study
 from studies.scene_detail import run as scene_detail
 from support_exudyn.commands.command_line import Parser
+from support_exudyn.commands.parser import NAMES
+from support_exudyn.commands.parser import parser as program_parser
 from tests import strategies as some
 from user_forces import InputError
 
-words = (
-    st.sampled_from(
-        (
-            *(
-                "--out",
-                "--quick",
-                "--list",
-                "--all",
-                "--machine",
-                "--pin",
-                "--runs",
-                "--workers",
-                "--machines",
-                "--commit-evidence",
-                "--help",
-                "-h",
-                "--",
-                "-",
-                "--o",
-            ),
-            *(
-                "--w",
-                "--=",
-                "--out=",
-                "--workers=2",
-                "--workers=1e3",
-                "--machines=-1",
-                "--machines=٣",
-                "--runs=-1",
-                "--machine=/dev/null",
-                "contact_laws",
-                "1",
-                "0",
-            ),
-            *(
-                "-1",
-                "1e999",
-                "1" * 5000,
-                "nan",
-                " ",
-                "",
-                "\x00",
-                "\ud800",
-                "é",
-                "%s",
-                "{0}",
-                "%(prog)s",
-                "a\nb",
-            ),
-        )
-    )
-    | st.text(max_size=6)
-    | st.integers().map(str)
-)
+OPTIONS = "--out --quick --list --all --machine --pin --runs --workers --machines --help -h"
+VALUES = "-- - --o --w --= --out= --workers=2 --workers=1e3 --machines=-1 --machines=٣ --runs=-1"
+PLAIN = "--machine=/dev/null --commit-evidence contact_laws 0 -1 1e999 nan é %s {0} %(prog)s"
+ODD = ("1" * 5000, " ", "", "\x00", "\ud800", "a\nb")
+texts = st.text(max_size=6) | st.integers().map(str)
+words = st.sampled_from((*OPTIONS.split(), *VALUES.split(), *PLAIN.split(), *ODD)) | texts
 command_lines = st.lists(words, max_size=5)
 
 
@@ -92,10 +47,10 @@ def outcome(call: Callable[[], Any]) -> tuple[Any, int | None, str]:
             return None, int(stop.code or 0), said.getvalue()
 
 
-def is_usage_and_a_line(said: str) -> None:
+def is_usage_and_a_line(said: str, program: str = "studies") -> None:
     """A usage, folded or not, and what is wrong in a line of bounded length."""
     usage, found, wrong = said.rpartition("error: ")
-    assert usage.startswith("usage: python -m studies")
+    assert usage.startswith(f"usage: python -m {program}")
     assert found
     assert 0 < len(wrong.strip()) < 1000
     assert "\n" not in wrong.strip()
@@ -182,11 +137,6 @@ def test_every_study_takes_its_command_line_or_refuses_it(noted: list[Options]) 
     assert ran  # the words are not all refused
 
 
-def test_names_run_those_studies_in_folders_of_their_own(noted: list[Options]) -> None:
-    assert all_studies.main(["--runs", "7", "extremes", "--out", "here", "which_pin"]) == 0
-    assert [(chosen.out.name, chosen.runs) for chosen in noted] == [("extremes", 7), ("which_pin", 7)]
-
-
 @pytest.mark.parametrize("out", ["\x00", "a\x00b", "\ud800", "x" * 300, "/dev/null/x", "/proc/nothing"])
 def test_a_folder_that_cannot_be_is_refused_in_a_sentence(
     out: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -202,17 +152,22 @@ def test_a_folder_that_cannot_be_is_refused_in_a_sentence(
     return None
 
 
-def test_an_input_that_a_study_refuses_is_a_sentence(tmp_path: Path) -> None:
-    def work(_: Options) -> Any:
-        raise InputError("Scenario.step = 0.0: allowed: > 0")
+# --- the program's own commands ---
 
-    refusing = Study("refusing", "What is asked.", work)
-    given_back, _, said = outcome(lambda: refusing.main(["--out", str(tmp_path / "out")]))
-    assert given_back == 1
-    assert "error: Scenario.step = 0.0: allowed: > 0" in said
+SHOWN = "--all --from --after --until --difference --tornado --histogram --orbit --poincare --spectrum --pin"
+DRAWN = (
+    "--phase --out --show --to --every --frames-per-second --speed --movie --size --still --solution --to=csv"
+)
+own = st.sampled_from((*SHOWN.split(), *DRAWN.split(), "xdmf", "gif", "1280x720", "1x", "0.5", "-1", "tip.x"))
 
 
-def test_a_number_of_thousands_of_digits_is_refused_in_a_line() -> None:
-    chosen, code, said = outcome(lambda: options(["--workers", "1" * 5000]))
-    assert (chosen, code) == (None, 2)
-    is_usage_and_a_line(said)
+@given(command=st.sampled_from(list(NAMES)) | words, rest=st.lists(own | words, max_size=6))
+@some.tried("options")
+def test_words_of_the_programs_commands_are_taken_or_refused(command: str, rest: list[str]) -> None:
+    found, code, said = outcome(lambda: program_parser().parse_args([command, *rest]))
+    assert code in (None, 0, 2)
+    if code == 2:
+        is_usage_and_a_line(said, "support_exudyn")
+    elif code is None:
+        assert isinstance(found, argparse.Namespace)
+        assert found.command in NAMES

@@ -18,7 +18,6 @@ from support_exudyn.files.scenarios.scenario_file import read_scenario
 from support_exudyn.sweeps import read_sweep
 from tests.pages import README, ROOT, Listing, links, listings, named, pages
 
-LONGEST = 160  # lines of the README
 SHOWN = [one for page in pages() for one in listings(page)]
 A_RISE = next(listings(ROOT / "support_exudyn" / "scenario" / "in_python.md"))
 PROGRAM = re.compile(r"^(?:support-exudyn|python -m support_exudyn)\s+")
@@ -30,10 +29,6 @@ def of_kind(kind: str) -> list[Listing]:
 
 def told(one: Listing) -> str:
     return f"{named(one.page)}:{one.number}"
-
-
-def test_the_readme_is_short() -> None:
-    assert len(README.read_text(encoding="utf-8").splitlines()) <= LONGEST
 
 
 @pytest.mark.parametrize("page", pages(), ids=named)
@@ -90,12 +85,6 @@ def test_what_extends_the_package_runs(one: Listing, tmp_path: Path) -> None:
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     check_printed(one, done.stdout.splitlines())
-
-
-def test_every_page_on_extending_has_a_listing() -> None:
-    pages_on = {page.name for page in pages() if page.parent.name == "extending"} - {"README.md"}
-    assert pages_on == {f"{one}.md" for one in ("law", "pin", "machine", "load", "study", "formulation")}
-    assert {one.page.name for one in of_kind("python") if extends(one)} == pages_on
 
 
 def command_lines() -> list[tuple[str, str]]:

@@ -10,7 +10,7 @@ import pytest
 from pyarrow import parquet
 
 from support_exudyn.__main__ import main
-from support_exudyn.commands.runs import files_of_curves, named_curves
+from support_exudyn.commands.runs import files_of_curves
 from support_exudyn.postprocessing.export.tables import to_hdf5
 from tests import synthetic
 from tests.cases.run_cases import loose_support
@@ -44,11 +44,6 @@ def test_any_readable_file_is_drawn_beside_a_run(
     said = capsys.readouterr().out
     assert "run_and_measured.parquet_and_measured.csv_overview.png" in said
     assert len(list((tmp_path / "figures").glob("*.png"))) == 1
-
-
-def test_a_file_that_is_called_as_the_run_has_its_ending(run: Path, tmp_path: Path) -> None:
-    paths = [tmp_path / "run.csv", tmp_path / "a" / "run.csv", tmp_path / "other.csv"]
-    assert list(named_curves(paths, ["run"])) == ["run.csv", str(paths[1]), "other"]
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import subprocess
 import sys
@@ -45,7 +44,7 @@ ROOF = Roof(
 )
 RUBBING = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
 SCENARIOS = {
-    "redundant": BASE,
+    "exudyn": BASE,
     "compiled": replace(BASE, machine=reference_support(), formulation="compiled", actuators=oil_columns()),
     "space": replace(BASE, dimensions=3, duration=0.02, record_period=0.005),
     "accuracy": replace(BASE, accuracy="draft", channels=("tip.*",)),
@@ -123,27 +122,6 @@ def test_a_run_tells_what_came_out_and_where_it_is(tmp_path: Path, capsys: pytes
     assert ends == pytest.approx({"front_column": 0.16, "rear_column": 0.15}, abs=1.5e-3)
 
 
-def test_for_scripts_and_to_an_accuracy(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "a.toml").write_text('machine = "reference"\nduration_s = 0.05\nrecord_period_s = 0.005\n')
-    out = tmp_path / "new" / "b.h5"
-    arguments = ["--out", str(out), "--accuracy", "draft", "--json"]
-    assert main(["run", str(tmp_path / "a.toml"), *arguments]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["run"] == str(out)
-    assert told["accuracy"] == {"asked": 0.01, "met": True}
-    result = Result.load(out)
-    mean = told["numbers"]["pin.rear_base.force.mean"]
-    assert mean["value"] == result.window("pin.rear_base.force").mean
-    assert (mean["unit"], mean["error"] >= 0.0) == ("N", True)
-
-
-def test_a_scenario_is_printed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    simulate(replace(BASE, pins={}, duration=0.01)).save(tmp_path / "a.h5")
-    assert main(["scenario", str(tmp_path / "a.h5")]) == 0
-    (tmp_path / "b.toml").write_text(capsys.readouterr().out, encoding="utf-8")
-    assert read_scenario(tmp_path / "b.toml") == replace(BASE, pins={}, duration=0.01)
-
-
 def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     assert main(arguments) == 1
     told = capsys.readouterr()
@@ -163,18 +141,10 @@ def test_what_cannot_be_run_is_said_in_a_line(tmp_path: Path, capsys: pytest.Cap
     assert [one.name for one in sorted(tmp_path.iterdir())] == ["a.toml", "folder"]
 
 
-def test_errors_that_nobody_can_know_end_with_1(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = tmp_path / "a.toml"
-    path.write_text(
-        'machine = "reference"\nduration_s = 1\nformulation = "compiled"\nsolver.backend = "symbolic"\n'
-    )
-    assert "solver.backend = 'symbolic': not covered by formulation" in refused(["run", str(path)], capsys)
-
-
 OWN = '''
 from support_exudyn import ImpactStand
 from user_forces import NormalLaw
-from user_forces.normal.hertz import Hertz
+from user_forces.normal.power_laws import Hertz
 from user_forces.values.value import value
 
 @value
@@ -227,24 +197,3 @@ def test_laws_of_ones_own(
     assert "peak pressure" in told.stdout
     before = shown.stdout.partition("\n\nclearance pins")[0].partition("\n\nfirst impacts")[0]
     assert told.stdout.startswith(before)  # the same numbers
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (None, "--import 'mine': no such module"),
-        ("import no_such_thing", "--import 'mine': No module named 'no_such_thing'"),
-        ("1 / 0", "--import 'mine': ZeroDivisionError"),
-    ],
-)
-def test_modules_that_cannot_be_imported(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    text: str | None,
-    said: str,
-) -> None:
-    monkeypatch.syspath_prepend(tmp_path)
-    if text is not None:
-        (tmp_path / "mine.py").write_text(text)
-    assert said in refused(["--import", "mine", "run", "a.toml"], capsys)

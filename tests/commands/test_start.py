@@ -60,12 +60,6 @@ def test_the_command_line_itself_imports_no_library_and_no_command(words: list[s
     assert commands & NAMES.keys() == set()
 
 
-def test_help_of_a_command_imports_that_command_alone() -> None:
-    packages, commands = imported_by("show", "--help")
-    assert packages & HEAVY <= {"scipy"}
-    assert commands & NAMES.keys() == {"show"}
-
-
 @pytest.mark.parametrize("more", [[], ["--json"], ["*.force"]], ids=" ".join)
 def test_a_run_is_shown_without_engine_compiler_and_figures(run: Path, more: list[str]) -> None:
     packages, commands = imported_by("show", str(run), *more)

@@ -168,11 +168,3 @@ def test_the_sweep_is_a_straight_line(folder: Path) -> None:
     peaks = [float(row["pin.rear_base.largest_force_N"]) for row in table]
     assert peaks[0] < 26e3
     assert all(36e3 < peak < 41e3 for peak in peaks[1:])
-
-
-@pytest.mark.slow  # the runs of the page take half a minute
-def test_pictures_and_figures_are_there(folder: Path) -> None:
-    written = {path.relative_to(folder).as_posix() for path in folder.rglob("*.png")}
-    assert {"machine_check.png", "clearance_1s.png"} <= written
-    assert any(name.startswith("sizes_sweep/figures/") for name in written)
-    assert any(name.startswith("clearance_figures/") for name in written)

@@ -1,13 +1,14 @@
+"""Files are written whole or not at all, and what a killed process leaves behind is removed."""
+
 from __future__ import annotations
 
 import os
-import sys
 import threading
 from pathlib import Path
 
 import pytest
 
-from support_exudyn.files.temporary import OWNER, PREFIX, remove_leftovers
+from support_exudyn.files.temporary import OWNER, PREFIX, remove_leftovers, workshop
 from support_exudyn.files.whole_file import whole_file
 from tests.hostile import left_behind, posix_only, with_own_files
 
@@ -16,25 +17,11 @@ def names(folder: Path) -> list[str]:
     return sorted(item.name for item in folder.iterdir())
 
 
-def test_what_was_written_is_there_afterwards(tmp_path: Path) -> None:
-    with whole_file(tmp_path / "run.json") as temporary:
-        temporary.write_text("new")
-    assert (tmp_path / "run.json").read_text() == "new"
-    assert names(tmp_path) == ["run.json"]
-
-
 def test_an_old_file_is_replaced(tmp_path: Path) -> None:
     (tmp_path / "run.json").write_text("old")
     with whole_file(tmp_path / "run.json") as temporary:
         temporary.write_text("new")
     assert (tmp_path / "run.json").read_text() == "new"
-
-
-def test_the_old_file_stays_until_the_new_one_is_whole(tmp_path: Path) -> None:
-    (tmp_path / "run.json").write_text("old")
-    with whole_file(tmp_path / "run.json") as temporary:
-        temporary.write_text("half")
-        assert (tmp_path / "run.json").read_text() == "old"
 
 
 @pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt, SystemExit])
@@ -45,32 +32,6 @@ def test_an_error_leaves_the_old_file_and_nothing_else(tmp_path: Path, error: ty
         raise error
     assert (tmp_path / "run.json").read_text() == "old"
     assert names(tmp_path) == ["run.json"]
-
-
-def test_an_error_makes_no_file_where_there_was_none(tmp_path: Path) -> None:
-    with pytest.raises(RuntimeError), whole_file(tmp_path / "run.json") as temporary:  # noqa: PT012
-        temporary.write_text("half")
-        raise RuntimeError
-    assert names(tmp_path) == []
-
-
-def test_missing_folders_are_made(tmp_path: Path) -> None:
-    with whole_file(tmp_path / "a" / "b" / "run.json") as temporary:
-        temporary.write_text("new")
-    assert (tmp_path / "a" / "b" / "run.json").read_text() == "new"
-
-
-def test_a_path_may_be_a_string(tmp_path: Path) -> None:
-    with whole_file(str(tmp_path / "run.json")) as temporary:
-        temporary.write_text("new")
-    assert names(tmp_path) == ["run.json"]
-
-
-def test_temporary_file_has_the_same_ending(tmp_path: Path) -> None:
-    # writers of pictures choose the format by it
-    with whole_file(tmp_path / "figure.png") as temporary:
-        assert temporary.suffix == ".png"
-        assert temporary.parent.parent == tmp_path
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no file modes on Windows")
@@ -140,24 +101,22 @@ def test_a_link_with_the_name_of_a_leftover_leads_nowhere(tmp_path: Path) -> Non
     assert inside.exists()
 
 
-def test_what_is_being_written_is_no_leftover(tmp_path: Path) -> None:
-    with whole_file(tmp_path / "a-run.json") as temporary:
-        remove_leftovers(tmp_path)  # its process is this one
-        assert temporary.exists()
-    assert names(tmp_path) == ["a-run.json"]
+def leave_half_done(path: Path, within: Path) -> None:
+    """Fail in the middle of writing."""
+    with whole_file(path, within, lasting=False) as temporary:
+        temporary.write_text("half", encoding="utf-8")
+        raise LookupError
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="forks")
-def test_what_a_process_left_behind_that_nobody_has_waited_for_is_removed(tmp_path: Path) -> None:
-    ended = os.fork()
-    if not ended:
-        held = whole_file(tmp_path / "row.json")
-        held.__enter__()
-        os._exit(0)
-    try:
-        os.waitid(os.P_PID, ended, os.WEXITED | os.WNOWAIT)  # it has ended, and stays in the list of processes
-        assert len(names(tmp_path)) == 1
-        remove_leftovers(tmp_path)
-        assert names(tmp_path) == []
-    finally:
-        os.waitpid(ended, 0)
+def test_files_are_written_one_after_the_other_also_after_one_that_was_not_finished(tmp_path: Path) -> None:
+    with workshop(tmp_path) as within:
+        for name in "ab":
+            with whole_file(tmp_path / "runs" / f"{name}.txt", within) as temporary:
+                assert temporary.parent == within
+                temporary.write_text(name, encoding="utf-8")
+            with pytest.raises(LookupError):
+                leave_half_done(tmp_path / "c.txt", within)
+    texts = {path.name: path.read_text(encoding="utf-8") for path in (tmp_path / "runs").iterdir()}
+    assert texts == {"a.txt": "a", "b.txt": "b"}
+    assert not (tmp_path / "c.txt").exists()
+    assert not list(tmp_path.rglob(f"{PREFIX}*"))

@@ -19,10 +19,9 @@ from pyarrow import parquet
 from support_exudyn import Held, Result, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.files.hdf5 import BLOCK, with_checksum
-from support_exudyn.postprocessing.export.solution_file import read_solution
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.simulation.result import FORMAT
-from support_exudyn.sweeps import read_sweep, read_table
+from support_exudyn.sweeps import read_table
 from support_exudyn.sweeps.table import OWN
 from tests.cases.run_cases import loose_support
 from tests.cases.sweep_cases import speeds, write_sweep
@@ -61,19 +60,6 @@ def soft_link(file: h5py.File, secret: Path) -> None:
     file[NAME] = h5py.SoftLink("/elsewhere")
 
 
-def other_file(file: h5py.File, secret: Path) -> None:
-    with h5py.File(secret.with_suffix(".h5"), "w") as other:
-        other["x"] = np.zeros(file[NAME].shape)
-        other["x"].attrs.update({"unit": "m", "meaning": ""})
-    del file[NAME]
-    file[NAME] = h5py.ExternalLink(str(secret.with_suffix(".h5")), "x")
-
-
-def other_group(file: h5py.File, secret: Path) -> None:
-    del file["onsets"]
-    file["onsets"] = h5py.SoftLink("/channels")
-
-
 def virtual(file: h5py.File, secret: Path) -> None:
     shape = file[NAME].shape
     del file[NAME]
@@ -87,11 +73,6 @@ def sparse(file: h5py.File, secret: Path) -> None:
     file.create_dataset(NAME, (10**15,), "f8").attrs.update({"unit": "m", "meaning": ""})
 
 
-def in_pieces(file: h5py.File, secret: Path) -> None:
-    del file[NAME]
-    file.create_dataset(NAME, (10**9,), "f8", chunks=(10**6,)).attrs.update({"unit": "m", "meaning": ""})
-
-
 def bomb(file: h5py.File, secret: Path) -> None:
     del file[NAME]
     data = file.create_dataset(NAME, data=np.zeros(10**6), compression="gzip")
@@ -102,30 +83,13 @@ def circle(file: h5py.File, secret: Path) -> None:
     file["coarser"] = file["/"]
 
 
-def again_and_again(file: h5py.File, secret: Path) -> None:
-    data = file.create_dataset("channels/x", data=np.zeros(10**5))
-    data.attrs.update({"unit": "m", "meaning": ""})
-    for n in range(100):
-        file[f"channels/x{n}"] = data
-
-
-def texts(file: h5py.File, secret: Path) -> None:
-    del file[NAME]
-    file[NAME] = ["many"] * 3
-
-
 TRICKS = {
     external: "kept in another file",
     soft_link: "a link that leads elsewhere",
-    other_file: "a link that leads elsewhere",
-    other_group: "a link that leads elsewhere",
     virtual: "kept in another file",
     sparse: "not all are there",
-    in_pieces: "compressed, in pieces",
     bomb: "compressed, in pieces",
     circle: "(more than the file has|recursion)",  # of small files the depth is reached first
-    again_and_again: "more than the file has",
-    texts: "no numbers",
 }
 
 
@@ -226,23 +190,6 @@ def test_what_has_no_end_is_refused_wherever_it_is_read(
     assert "no regular file" in error or "has more than" in error
 
 
-@posix_only
-def test_a_solution_file_without_an_end_is_refused(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "pipe.sol")
-    for path in (tmp_path / "pipe.sol", Path("/dev/zero")):
-        with pytest.raises(InputError, match="no regular file"):
-            read_solution(path)
-
-
-def test_a_table_of_points_with_too_many_items_is_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("support_exudyn.files.scenarios.drive_table.MOST_ITEMS", 100)
-    (tmp_path / "a.csv").write_text(f"time_s,a_mm\n{'0,' * 200}\n", encoding="utf-8")
-    path = scenario(tmp_path, '[drive]\ntable = "a.csv"')
-    assert main(["run", str(path)]) == 1
-
-
 # --- files that others name ---
 
 
@@ -259,16 +206,6 @@ def test_lines_of_a_file_that_another_names_are_not_repeated(
     error = capsys.readouterr().err
     assert "foreign.toml: line 1: " in error
     assert "hunter2" not in error
-
-
-def test_lines_of_a_machine_whose_fields_vary_are_not_repeated(tmp_path: Path) -> None:
-    (tmp_path / "foreign.toml").write_text(SECRET, encoding="utf-8")
-    scenario(tmp_path, machine="foreign.toml")
-    path = tmp_path / "sweep.toml"
-    path.write_text('scenario = "run.toml"\n[vary]\n"machine.name" = ["a"]\n', encoding="utf-8")
-    with pytest.raises(InputError, match=r"foreign\.toml: line 1: is no TOML") as caught:
-        read_sweep(path)
-    assert "hunter2" not in str(caught.value)
 
 
 # --- tables of sweeps ---
@@ -319,25 +256,3 @@ def test_the_chart_of_a_damaged_table_is_a_line(
     assert f"error: {path}: not a table of a sweep, or damaged (" in error
     assert error.count("\n") == 1
     assert error[:-1].isprintable()
-
-
-def test_the_chart_of_a_table_with_changed_bytes_is_a_line_or_a_chart(store: Path, tmp_path: Path) -> None:
-    whole = (store / "table.parquet").read_bytes()
-    chance = np.random.default_rng(1)
-    path = tmp_path / "table.parquet"
-    for place in chance.integers(4, len(whole), 60):
-        data = bytearray(whole)
-        data[place] ^= 1 << int(chance.integers(8))
-        path.write_bytes(bytes(data) if place % 2 else bytes(data[:place]))
-        try:
-            read_table(path).to_pydict()
-        except InputError as error:
-            assert str(path) in str(error)  # noqa: PT017
-
-
-def test_a_table_of_more_rows_than_any_sweep_is_not_read(tmp_path: Path) -> None:
-    path = tmp_path / "table.parquet"
-    zeros = pa.array(np.zeros(2_000_000, dtype=np.int8))
-    parquet.write_table(pa.table({"wall_time_s": zeros}), path)
-    with pytest.raises(InputError, match="2000000 rows of 1 columns are more than there is room for"):
-        read_table(path)

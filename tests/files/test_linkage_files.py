@@ -12,13 +12,11 @@ import pytest
 
 from support_exudyn import (
     CubicStep,
-    Linkage,
     Machine,
     PlanarLinkage,
     Scenario,
     Steady,
     load_machine,
-    machine,
     ravn_slider_crank,
     read_scenario,
     simulate,
@@ -157,12 +155,6 @@ def test_lengths_are_exact_where_the_drawing_is_rough(tmp_path: Path) -> None:
     assert linkage.points["tip"].point == pytest.approx(linkage.pins["B"].first_point, abs=1e-13)
 
 
-def test_the_drawing_says_which_way_it_is_put_together(tmp_path: Path) -> None:
-    above = built(tmp_path, CRANK_ROCKER).linkage()
-    below = built(tmp_path, CRANK_ROCKER.replace("B = [365, 300]", "B = [365, -300]")).linkage()
-    assert below.bodies["coupler"].angle == pytest.approx(-above.bodies["coupler"].angle, abs=1e-13)
-
-
 def test_a_body_with_points_of_its_own_lies_by_the_drawing(tmp_path: Path) -> None:
     text = CRANK_ROCKER.replace('[bodies.rocker]\nbar = ["C", "B"]\nlength_mm = 300\nmass_kg = 2.5\n', TERNARY)
     text = text.replace('"rocker"', '"ternary"').replace("B = 10\n", "").replace("B = 30\n", "")
@@ -222,13 +214,6 @@ def test_every_shipped_machine_can_be_written_as_a_linkage(name: str, tmp_path: 
         np.testing.assert_allclose(other, one, atol=1e-7 * np.abs(one).max() + 1e-9)
 
 
-def test_a_scenario_holds_the_whole_linkage(tmp_path: Path) -> None:
-    scenario = Scenario(machine=built(tmp_path, CRANK_ROCKER), drive=Steady(rate=60.0), duration=0.01)
-    path = tmp_path / "whole.toml"
-    path.write_text(scenario_text(scenario), encoding="utf-8")
-    assert read_scenario(path) == scenario
-
-
 def test_pins_know_their_bores_and_lengths(tmp_path: Path) -> None:
     (tmp_path / "machine.toml").write_text(CRANK_ROCKER, encoding="utf-8")
     text = 'machine = "machine.toml"\nduration_s = 0.01\n[drive]\ntype = "Steady"\nrate_rad_per_s = 60\n'
@@ -245,26 +230,15 @@ def test_pins_know_their_bores_and_lengths(tmp_path: Path) -> None:
     ("old", "new", "said"),
     [
         ('bar = ["O", "A"]', 'bar = ["O", "Q"]', "bodies.crank.bar = 'Q': drawing_mm has no such point"),
-        ('bar = ["O", "A"]', 'bar = ["O", "O"]', "bodies.crank.bar = ['O', 'O']: allowed: two points at diff"),
         ('bar = ["O", "A"]\nlength_mm = 100\n', "", "bodies.crank.centre_mm: missing"),
         ('bar = ["O", "A"]\n', "", "bodies.crank.length_mm: is of a bar"),
-        ("mass_kg = 3", "", "bodies.coupler.mass_kg: missing"),
         ("mass_kg = 3", "mass_kg = 3\ncentre_mm = [200, 0]", "bodies.coupler.inertia_kg_m2: missing"),
         ('O = ["ground", "crank"]', 'O = ["floor", "crank"]', "pins.O = 'floor': there is no such body"),
         ('O = ["ground", "crank"]', 'O = ["crank", "crank"]', "two different bodies"),
         ('at = "B"', 'at = "C"', "pins.B.at = 'C': bodies.coupler, which has a frame of its own, has no such"),
-        (
-            'motor = "crank"',
-            'motor = "crank"\nother = "rocker"',
-            "cranks.motor, cranks.other: one drive too many",
-        ),
-        ('motor = "crank"', 'motor = "ground"', "cranks.motor = 'ground': no moving body"),
+        ('motor = "crank"', 'motor = "crank"\nother = "rocker"', "cranks.motor, cranks.other: one drive too"),
         ('tip = ["coupler", "B"]', 'tip = ["coupler", "C"]', "traced_points.tip = 'C'"),
-        (
-            'tip = ["coupler", "B"]',
-            'crank = ["coupler", "B"]',
-            "traced_points.crank: bodies.crank has this name",
-        ),
+        ('tip = ["coupler", "B"]', 'crank = ["coupler", "B"]', "traced_points.crank: bodies.crank has this"),
         ("{ crank = 0 }", "{ krank = 0 }", "start.angle_deg.krank: there is no such body"),
         ("B = 10", "Z = 10", "bore_radius_mm.Z: there is no such pin"),
         ("length_mm = 400", "length_mm = 40", "does not close"),
@@ -285,24 +259,10 @@ def test_files_that_do_not_fit_are_refused_by_key(tmp_path: Path, old: str, new:
         ('body = "slider"', 'body = "slider"\non = "slider"', "guides.guide.on = 'slider': is what slides"),
         ('through = "A"', 'through = "Z"', "guides.guide.through = 'Z': drawing_mm has no such point"),
         ('through = "A"', 'through = "A"\nalong = ["A", "C"]', "guides.guide.along and guides.guide.through"),
-        ('through = "A"', 'along = ["A", "A"]', "guides.guide.along = ['A', 'A']: allowed: two points"),
-        ("block_mm = [40, 20]", "block_mm = [40, 0]", "guides.guide.block_mm[1] = 0: allowed: > 0"),
     ],
 )
 def test_guides_that_do_not_fit_are_refused_by_key(tmp_path: Path, old: str, new: str, said: str) -> None:
     assert said in refusal(tmp_path, old, new, ON_A_GUIDE)
-
-
-def test_linkages_without_bodies_are_refused(tmp_path: Path) -> None:
-    (tmp_path / "machine.toml").write_text('kind = "linkage"\n[bodies]\n[drawing_mm]\n', encoding="utf-8")
-    with pytest.raises(InputError, match="bodies: there are none"):
-        machine(tmp_path / "machine.toml")
-
-
-def test_a_linkage_is_a_value(tmp_path: Path) -> None:
-    one = built(tmp_path, CRANK_ROCKER)
-    assert PlanarLinkage.from_data(one.to_data()) == one
-    assert isinstance(one.drawing, Linkage)
 
 
 GEARED = """
@@ -431,10 +391,3 @@ def test_a_strut_is_no_drive(tmp_path: Path) -> None:
     assert "- 1 struts = 0" in found.said()
     said = refusal(tmp_path, "[start]", strut + "\n[start]")
     assert said.startswith("cranks.motor: one drive too many, 1 driven parts fight over 0 degrees of freedom")
-
-
-def test_cranks_stand_as_drawn_if_nothing_is_said(tmp_path: Path) -> None:
-    text = CRANK_ROCKER.replace("[start]\nangle_deg = { crank = 0 }\n", "").replace(
-        "A = [100, 0]", "A = [60, 60]"
-    )
-    assert built(tmp_path, text).linkage().bodies["crank"].angle == math.radians(45)

@@ -13,7 +13,7 @@ from user_forces.values.value import InputError
 LAWS = """
 from user_forces import FrictionLaw, value
 from user_forces.expressions.scalar import tanh
-from user_forces.normal.power_law import ElasticPower
+from user_forces.normal.power_laws import ElasticPower
 from user_forces.normal.law import NormalLaw
 from user_forces.values.value import NonNegative, Positive
 
@@ -89,15 +89,11 @@ def test_a_law_of_its_own_in_full(tmp_path: Path) -> None:
     [
         ('law = "no_laws.py:A"', "law = 'no_laws.py:A': allowed: a file that is there"),
         ('law = "no_such_laws:A"', "is a class of no_such_laws, which is not imported"),
-        ('friction_law = "own_laws_bad.py:BadFricton"', "did you mean 'BadFriction'"),
         ('friction_law = "own_laws_bad.py:BadPlain"', "made with @value"),
         ('law = "own_laws_bad.py:BadFriction"', "law = 'BadFriction': .*allowed: BadNormal"),
-        ('law = "Lankarani"', "did you mean LankaraniNikravesh"),
         ('law = "Johnson"', "law takes laws of stiffness and restitution only, and Johnson has .*ClearancePin"),
-        ('law = "NoRig"', '[.]py:CLASS", with --import FILE'),
         ('friction_law = "Stribeck"', "takes laws of one coefficient only.*friction = {"),
         ('law = "own_laws_bad.py:BadRig"', r"BadRig has fields of its own: .*\[pins.NAME.contact\] normal = {"),
-        ('friction_law = "Ambrosia"', "did you mean Ambrosio[?] allowed: (?!.*Stribeck).*Ambrosio, "),
         ('friction_law = "Frictionless"\nfriction = 0.1', "Frictionless has no coefficient"),
         ('friction_law = "Ambrosio"\nfriction = {type = "Ambrosio", sliding_coefficient = 0.1}', "are two"),
     ],

@@ -12,20 +12,17 @@ from pathlib import Path
 import pytest
 from scipy.io import savemat
 
-from support_exudyn import ClearancePin, Result, read_scenario, simulate, trusted
+from support_exudyn import Result, read_scenario, simulate, trusted
 from support_exudyn.__main__ import main
 from support_exudyn.files.own_modules import modules_of
 from support_exudyn.files.scenarios.scenario_file import read_machine_in
 from support_exudyn.files.series.apart import read_apart
 from support_exudyn.sweeps import read_sweep
-from support_exudyn.sweeps.key import key
-from support_exudyn.sweeps.own_sources import _source
-from tests.cases.run_cases import loose_support
-from user_forces import InputError, PinInBore
+from user_forces import InputError
 from user_forces.values.value import Value, kinds_of
 
 LAW = """
-from user_forces.normal.hertz import Hertz
+from user_forces.normal.power_laws import Hertz
 from user_forces.values.value import value
 
 @value
@@ -34,15 +31,6 @@ class {name}(Hertz):
 """
 
 
-LENT = """
-from user_forces import PowerLaw
-from user_forces.values.value import value
-
-@value
-class LentByMe(PowerLaw):
-    def factor(self, restitution):
-        return 1.0 - restitution
-"""
 RAN = "ran.txt"  # which the foreign module writes when it is imported
 FOREIGN = """
 from pathlib import Path
@@ -177,32 +165,6 @@ def test_workers_import_the_modules_that_a_sweep_was_trusted_with(foreign: Path)
     forget("zlaw")  # as in another process, which looks for modules in the same folders
     scenario = pickle.loads(sent)({"pins.pin.clearance_mm": 2})
     assert type(scenario.pins["pin"].contact.normal).__name__ == "ForeignLaw"
-
-
-def test_a_law_that_lends_its_damping_to_a_pin_along_its_length_is_noted_and_sent(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sys, "path", [*sys.path])
-    path = tmp_path / "lending_laws.py"
-    path.write_text(LENT)
-    place = {"LentByMe": {"module": "lending_laws", "path": str(path)}}
-    trusted(path)
-    law = sys.modules["lending_laws"].LentByMe
-    pin = ClearancePin.simple(clearance=1e-3, bore_radius=0.05, length=0.1, restitution=0.7, law=law)
-    assert isinstance(pin.contact.normal, PinInBore)
-    assert pin.contact.normal.damping_factor == pytest.approx(0.3)
-    assert modules_of(pin.to_data()) == place
-    assert b"lending_laws" in pickle.dumps(pin)  # by which another process knows what to import
-    scenario = replace(loose_support(1.5, 0.25), pins={"rear_base": pin})
-    before = key(scenario)
-    path.write_text(LENT.replace("1.0", "1.1"))
-    _source.cache_clear()
-    assert key(scenario) != before
-    _source.cache_clear()
-
-
-def test_a_run_without_classes_of_ones_own_notes_nothing() -> None:
-    assert modules_of(loose_support(1.5, 0.25).to_data()) == {}
 
 
 @pytest.mark.parametrize(

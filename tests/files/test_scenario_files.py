@@ -22,26 +22,22 @@ from support_exudyn import (
     reference_support,
 )
 from support_exudyn.files import (
-    load_toml,
     parsed,
     read_drives,
     read_scenario,
     read_scenario_file,
     save_scenario,
-    scenario_file_of,
     scenario_of,
     scenario_text,
 )
 from support_exudyn.files.machines.read import read_machine
 from tests import strategies as some
-from tests.machine_files import OURS
 from user_forces import (
     STEEL,
     CubicCoulomb,
     Flores,
     Hertz,
     InputError,
-    Material,
     internal_contact_stiffness,
 )
 
@@ -99,10 +95,6 @@ def test_a_law_that_needs_a_restitution_only() -> None:
     assert found == Flores(stiffness=1e10, restitution=0.5)
 
 
-def test_a_law_without_restitution() -> None:
-    assert normal('law = "Hertz"\nstiffness_N_per_m_to_n = 1e10') == Hertz(stiffness=1e10)
-
-
 def test_stiffness_of_materials_inside() -> None:
     found = normal(
         'law = "Hertz"\nstiffness = "internal"\nbore_material = "steel"\n'
@@ -139,14 +131,6 @@ def test_an_ideal_pin() -> None:
     text += '[pins.rear_base.friction]\ntype = "CubicCoulomb"\nsliding_coefficient = 0.1'
     rubbing = IdealPin(friction=CubicCoulomb(sliding_coefficient=0.1), radius=0.06)
     assert scenario(text).pins == {"rear_base": rubbing}
-
-
-def test_long_and_short_forms_stand_side_by_side() -> None:
-    text = (
-        scenario_text(clearance_rise(1.5, 0.25, 5e-4))
-        + "\n[pins.front_base]\nclearance_mm = 1\nbore_radius_mm = 60"
-    )
-    assert set(scenario(text).clearance_pins) == {"rear_base", "front_base"}
 
 
 @pytest.mark.parametrize(("mode", "kind"), [(1, UniformSpeed), (2, CubicStep)])
@@ -193,30 +177,6 @@ def test_actuators_of_two_bodies_take_their_masses_from_the_machine() -> None:
     assert found.actuators == {"front_column": expected}
 
 
-def test_a_machine_of_its_own_file(tmp_path: Path) -> None:
-    text = (resources.files("support_exudyn.files.machines") / "reference.toml").read_text("utf-8")
-    (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
-    assert scenario('machine = "mine.toml"\nduration_s = 1', tmp_path).machine == reference_support()
-
-
-def test_a_load() -> None:
-    text = '[loads.roof]\ntype = "Roof"\nbody = "canopy"\npoint_mm = [0, 0]\nstiffness_kN_per_mm = 10\n'
-    found = scenario(TOP + text + "descent = {mode = 2, stroke_mm = 5, start_s = 0, end_s = 1}").loads["roof"]
-    assert found.descent == CubicStep(stroke=0.005, start=0.0, end=1.0)  # type: ignore[attr-defined]
-
-
-def test_what_people_say_of_it() -> None:
-    file = scenario_file_of(parsed('name = "a"\nerrors = true\n' + TOP, "a"), "a", Path())
-    assert (file.name, file.description, file.errors) == ("a", "", True)
-
-
-def test_programs_may_put_numbers_of_their_own() -> None:
-    table = load_toml(resources.files("support_exudyn.files.examples") / "rise.toml")  # type: ignore[arg-type]
-    table["pins"]["rear_base"]["clearance_mm"] = 0.1 + 0.2
-    found = scenario_of(table, "a", Path()).clearance_pins["rear_base"]
-    assert found.contact.bearing.clearance == float("0.30000000000000004e-3")
-
-
 # --- in full ---
 
 
@@ -228,14 +188,6 @@ def test_scenarios_are_read_as_they_were_written(data: st.DataObject) -> None:
     assert found == written
     for name in ("pins", "actuators", "parts", "drives", "loads"):  # the order of forces in a sum
         assert list(getattr(found, name)) == list(getattr(written, name))
-
-
-@pytest.mark.parametrize("seed", [one for one in some.seeds() if isinstance(one, Scenario)])
-def test_machines_keep_their_order(seed: Scenario) -> None:
-    found = scenario(scenario_text(seed))
-    assert found == seed
-    if hasattr(seed.machine, "parts"):
-        assert list(found.machine.parts) == list(seed.machine.parts)  # type: ignore[attr-defined]
 
 
 def test_files_are_written_whole(tmp_path: Path) -> None:
@@ -256,108 +208,44 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
             "a.toml: drive.mode = 2: allowed: none of cranks",
         ),
         ("", "a.toml: machine: missing; allowed: a path that ends in .toml"),
-        ('machine = "reference"', "a.toml: duration_s: missing; it has no default"),
         ("machine = 3\nduration_s = 1", "a.toml: machine = 3: allowed: a path that ends in .toml"),
-        (
-            'machine = "no.toml"\nduration_s = 1',
-            "a.toml: machine = 'no.toml': allowed: a file that can be read (No such file or directory)",
-        ),
-        ('machine = "a\\u0000.toml"\nduration_s = 1', "a.toml: machine = 'a\\x00.toml': allowed: "),
-        (
-            'duration_s = 1\n[machine]\ntype = "Sup"',
-            "a.toml: machine.type = 'Sup': allowed: HydraulicSupport, ",
-        ),
+        ('machine = "no.toml"\nduration_s = 1', "a.toml: machine = 'no.toml'"),
+        ('duration_s = 1\n[machine]\ntype = "Sup"', "a.toml: machine.type = 'Sup'"),
         ('nme = "a"\n' + TOP, "a.toml: nme: unknown key; did you mean name? allowed: name, description, "),
         ("name = 3\n" + TOP, "a.toml: name = 3: allowed: a text"),
-        ("errors = 1\n" + TOP, "a.toml: errors = 1: allowed: true, false"),
-        ('type = "Held"\n' + TOP, "a.toml: type = 'Held': allowed: \"Scenario\""),
         (TOP + "accuracy = 1", "a.toml: accuracy = 1.0: allowed: 'draft', "),
         (TOP + 'accuracy = "best"', "a.toml: accuracy = 'best': allowed: 'draft', 'standard', 'reference', or"),
         (TOP + "dimensions = 4", "a.toml: dimensions = 4: allowed: 2, 3"),
         (TOP + "step_ms = 500", "a.toml: step_ms = 500: allowed: > 0 and <= 100"),
         (TOP + "record_period_s = 6", "a.toml: record_period = 6.0 s: allowed: at most the duration, 5.0 s"),
-        (TOP + "solver = 3", "a.toml: solver = 3: allowed: a table"),
         (TOP + "solver.impact_steps = 1", "a.toml: solver.impact_steps = 1: allowed: a whole number >= 16"),
-        (
-            TOP + WITH_CLEARANCE.replace("rear_base", "rear"),
-            "a.toml: pins.rear: the machine has no such pin; allowed: rear_base, ",
-        ),
-        (
-            TOP + "[actuators.front]\ntype = 'RigidActuator'",
-            "a.toml: actuators.front: the machine has no such actuator; allowed: front_column, rear_column",
-        ),
-        (
-            TOP + "[columns.front_column]\ntype = 'RigidActuator'",
-            "a.toml: columns: unknown key; allowed: name, description, errors, machine, pins, guides, ",
-        ),
-        (TOP + "[drives.x]\nmode = 1", "a.toml: drives.x: the machine has no such driven part; allowed: "),
+        (TOP + WITH_CLEARANCE.replace("rear_base", "rear"), "a.toml: pins.rear: the machine has no such pin"),
         (TOP + WITH_CLEARANCE.replace("1.5", "-1"), "a.toml: pins.rear_base.clearance_mm = -1: allowed: >= 0"),
-        (
-            TOP + WITH_CLEARANCE.replace("1.5", "70"),
-            "a.toml: pins.rear_base: clearance_mm = 70: leaves no journal in a bore of bore_radius_mm = 65.5",
-        ),
+        (TOP + WITH_CLEARANCE.replace("1.5", "70"), "a.toml: pins.rear_base: clearance_mm = 70"),
         (TOP + "[pins.rear_base]\nfriction = 0.1", "a.toml: pins.rear_base.clearance_mm: missing; it has no"),
-        (
-            TOP + WITH_CLEARANCE + "law = 'Hertzz'",
-            "a.toml: pins.rear_base.law = 'Hertzz': did you mean Hertz? allowed: CarvalhoMartins, ",
-        ),
-        (
-            TOP + WITH_CLEARANCE + "law = 'Hertz'\nrestitution = 0.9",
-            "a.toml: pins.rear_base: restitution: the law Hertz has none",
-        ),
+        (TOP + WITH_CLEARANCE + "law = 'Hertzz'", "a.toml: pins.rear_base.law = 'Hertzz': did you mean Hertz?"),
+        (TOP + WITH_CLEARANCE + "law = 'Hertz'\nrestitution = 0.9", "a.toml: pins.rear_base: restitution"),
         (
             TOP + WITH_CLEARANCE + "stiffness_N_per_m_to_n = 1e10\nbore_material = 'steel'",
             "a.toml: pins.rear_base: bore_material: would be left unused",
         ),
-        (
-            TOP + WITH_CLEARANCE + "bore_material = 'wood'",
-            "a.toml: pins.rear_base.bore_material = 'wood': allowed: 'steel', ",
-        ),
-        (
-            TOP + WITH_CLEARANCE + "stiffness = 1e10",
-            "a.toml: pins.rear_base.stiffness: a number needs its unit in the key",
-        ),
-        (
-            TOP + WITH_CLEARANCE + "friction = 'wet'",
-            "a.toml: pins.rear_base.friction = 'wet': allowed: >= 0 and <= 5, or a table",
-        ),
-        (TOP + "[pins.rear_base]\nideal = false", "a.toml: pins.rear_base.ideal = false: allowed: true"),
+        (TOP + WITH_CLEARANCE + "stiffness = 1e10", "a.toml: pins.rear_base.stiffness: a number needs"),
+        (TOP + WITH_CLEARANCE + "friction = 'wet'", "a.toml: pins.rear_base.friction = 'wet'"),
         (TOP + "pins = 3", "a.toml: pins = 3: allowed: a table of names, each a table of type "),
-        (TOP + "pins.rear_base = 1.5", "a.toml: pins.rear_base = 1.5: allowed: a table of type "),
         (TOP + "[drive]\nmode = 3", "a.toml: drive.mode = 3: allowed: 1, 2"),
         (TOP + "[drive]\nmode = 1\nend_s = 1", "a.toml: drive: end = 1.0 s: allowed: > start = 3.0 s"),
         (TOP + "[drive]\nstroke_mm = 3", "a.toml: drive: says no mode, table or type; allowed: mode = 1 or 2"),
-        (
-            TOP + "drive.mode = 2\ndrive.stroke_mm = 5000",
-            "a.toml: drive: column extension = 5000 mm: the columns cannot close the linkage there; allowed: ",
-        ),
-        (
-            TOP + "drives.rear_column = {mode = 2, stroke_mm = 900}",
-            "a.toml: drives.rear_column: rear_column cannot follow beyond 4.397 s (front_column extended by ",
-        ),
-        (
-            'machine = "two_leg_shield"\nduration_s = 5\ndrives.leg = {mode = 2, stroke_mm = 3000}',
-            "a.toml: drives.leg: column extension = 3000 mm: the columns cannot close",
-        ),
-        (
-            TOP + WITH_CLEARANCE.replace("1.5", '"1.5"'),
-            "a.toml: pins.rear_base.clearance_mm = '1.5': allowed: a number >= 0",
-        ),
+        (TOP + "drive.mode = 2\ndrive.stroke_mm = 5000", "a.toml: drive: column extension = 5000 mm"),
+        (TOP + "drives.rear_column = {mode = 2, stroke_mm = 900}", "a.toml: drives.rear_column: "),
+        (TOP + WITH_CLEARANCE.replace("1.5", '"1.5"'), "a.toml: pins.rear_base.clearance_mm = '1.5'"),
         (TOP + "drive.table = 'no.csv'", "a.toml: drive.table = 'no.csv': allowed: a file that can be read"),
-        (TOP + "drives.table = 'no.csv'", "a.toml: drives.table = 'no.csv': allowed: a file that can be read"),
-        (TOP + "drive.table = 'a\\\\u0000'", "a.toml: drive.table = 'a"),
-        (TOP + "drives.table = 3", "a.toml: drives.table = 3: allowed: a table of type "),
         (TOP + "channels = ['tip.z']", "a.toml: channels = 'tip.z'"),
         (
             TOP + "[actuators.front_column]\ntype = 'CylinderAndRod'\nrod_mass = 3",
             "a.toml: actuators.front_column.rod_mass: is written with its unit; "
             "allowed: rod_mass_kg, rod_mass_t",
         ),
-        (TOP + "duration_min = 1", "a.toml: duration_min: has another unit; allowed: duration_s, duration_ms"),
-        (
-            "kind = 'two_leg_shield'\nstroke_mm = 3\n[masses_kg]\ncanopy = 3",
-            "a.toml: is the file of a machine; allowed: a scenario, which names it",
-        ),
+        ("kind = 'two_leg_shield'\nstroke_mm = 3\n[masses_kg]\ncanopy = 3", "a.toml: is the file"),
     ],
 )
 def test_mistakes_are_said_with_file_key_value_and_range(tmp_path: Path, text: str, said: str) -> None:
@@ -373,13 +261,6 @@ def test_a_bore_that_nobody_gives_is_asked_for(tmp_path: Path) -> None:
     (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
     said = refusal('machine = "mine.toml"\nduration_s = 1\n[pins.front_base]\nclearance_mm = 1', tmp_path)
     assert said.startswith("a.toml: pins.front_base: bore_radius_mm: missing, and the machine's file says none")
-
-
-def test_a_misspelt_pin_is_told_those_that_have_bores() -> None:
-    said = refusal(TOP + "[pins.rear_pin]\nclearance_mm = 1")
-    assert said.startswith("a.toml: pins.rear_pin: bore_radius_mm: missing")
-    assert "it says those of " in said
-    assert "rear_base" in said.partition("it says those of ")[2]
 
 
 def test_a_column_of_the_file_and_a_drive_of_the_table_are_one_too_many(tmp_path: Path) -> None:
@@ -409,9 +290,7 @@ def test_all_mistakes_are_told_at_once() -> None:
         (b"[a.b]\n[a.b]\n", r"line 2: '\[a\.b\]': the table a\.b has been begun before; allowed: once"),
         (b"a = 1,5 # mm\n", r"line 1: 'a = 1,5 # mm': .*; allowed: decimals after a point, as in 1\.5"),
         (b'kind = "slider_crank"\n', r"is the file of a machine; allowed: a scenario"),
-        (b'scenario = "b.toml"\n', r"is the file of a sweep; allowed: a scenario"),
         (b"[instruments]\n", r"is a file of instruments; allowed: a scenario; or `measure RUN` with it"),
-        (b"[files.a]\n", r"is the file of a comparison; allowed: a scenario"),
         (b"a = " + b"[" * 5000, "is nested too deep"),
     ],
 )
@@ -420,18 +299,6 @@ def test_what_is_no_toml_is_said_with_its_line(tmp_path: Path, data: bytes, said
     with pytest.raises(InputError, match=said) as caught:
         read_scenario(tmp_path / "a.toml")
     assert str(caught.value).startswith(f"{tmp_path}/a.toml: ")
-
-
-def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match=r"no\.toml"):
-        read_scenario(tmp_path / "no.toml")
-
-
-def test_a_machine_of_nearly_the_same_name_is_told(tmp_path: Path) -> None:
-    (tmp_path / "shield.toml").write_text("")
-    assert "did you mean 'shield.toml'" in refusal('machine = "sheild.toml"\nduration_s = 1', tmp_path)
-    said = refusal('machine = "shield"\nduration_s = 1', tmp_path)
-    assert said == "a.toml: machine = 'shield': there is none of this name; did you mean 'shield.toml'?"
 
 
 @pytest.mark.parametrize(
@@ -443,10 +310,7 @@ def test_a_machine_of_nearly_the_same_name_is_told(tmp_path: Path) -> None:
             'machine = "slider_crank"\nduration_s = 1\ndrive = {table = "a.csv", column = "other"}',
             "cranks turn",
         ),
-        (
-            'machine = "slider_crank"\nduration_s = 1\n[drives]\ntable = "b.csv"',
-            "cranks turn; allowed: names that",
-        ),
+        ('machine = "slider_crank"\nduration_s = 1\n[drives]\ntable = "b.csv"', "cranks turn"),
     ],
 )
 def test_angles_drive_cranks_and_lengths_actuators(tmp_path: Path, text: str, said: str) -> None:
@@ -466,72 +330,3 @@ def test_angles_of_a_crank_are_taken(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("time_s,crank_deg,other_mm\n0,0,0\n1,180,10\n")
     text = 'machine = "slider_crank"\nduration_s = 1\ndrive = {table = "a.csv", column = "crank"}'
     assert scenario(text, tmp_path).drive.extension(1.0) == 3.141592653589793
-
-
-def test_what_was_assumed_of_the_machine_is_handed_on(tmp_path: Path) -> None:
-    (tmp_path / "ours.toml").write_text(OURS, encoding="utf-8")
-    found = scenario_file_of(parsed('machine = "ours.toml"\nduration_s = 1', "a.toml"), "a.toml", tmp_path)
-    assert found.assumed == read_machine("ours.toml", tmp_path).assumed != ()
-
-
-def test_a_stroke_of_no_time_is_refused() -> None:
-    said = refusal(TOP + "[drive]\nmode = 2\nstart_s = 3\nend_s = 3")
-    assert said.startswith("a.toml: drive: end = 3.0 s: allowed: > start = 3.0 s")
-
-
-def test_a_misspelt_key_is_not_called_missing_too() -> None:
-    said = refusal('machine = "reference"\ndurations_s = 5')
-    assert said.startswith("a.toml: durations_s: unknown key; did you mean duration_s")
-    assert len(said.splitlines()) == 1
-
-
-def test_long_refusals_and_long_values_are_cut() -> None:
-    many = "".join(f"x{n} = 1\n" for n in range(31))
-    lines = refusal(TOP + many).splitlines()
-    assert len(lines) == 31
-    assert lines[-1] == "a.toml: and 1 more"
-    told = refusal(TOP + f"solver = [{', '.join(['123456'] * 60)}]").partition(": allowed")[0]
-    assert len(told) == len("a.toml: solver = ") + 80
-
-
-@pytest.mark.parametrize("given", ["true", "1.0", "[1, 2, 3]", "[1]"])
-def test_kinds_of_values_are_told_apart(given: str) -> None:
-    """true is 1 for Python, and a list of three holds one of two."""
-    if given.startswith("["):
-        assert "gravity_m_per_s2" in refusal(TOP + f"gravity_m_per_s2 = {given}")
-    else:
-        assert refusal(TOP + f"[drive]\nmode = {given}").startswith(
-            f"a.toml: drive.mode = {given}: allowed: 1, 2"
-        )
-
-
-def test_numbers_too_small_to_be_told_from_nothing_are_nothing() -> None:
-    found = scenario(TOP + "gravity_m_per_s2 = [1e-999999, -9.81]")
-    assert found.gravity == (0.0, -9.81)
-
-
-def test_drives_of_a_table_may_be_joined_by_lines(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_text("time_s,front_column_mm,rear_column_mm\n0,0,0\n5,100,101\n")
-    text = TOP + "[drives]\ntable = 'a.csv'\nbetween = 'linear'"
-    found = scenario(text, tmp_path)
-    assert found.drives == read_drives(tmp_path / "a.csv", "linear")
-
-
-def test_the_bore_of_a_pin_is_its_own(tmp_path: Path) -> None:
-    bores = "[bore_radius_mm]\nrear_base = 65\nfront_base = 55\n[masses_kg]"
-    (tmp_path / "ours.toml").write_text(OURS.replace("[masses_kg]", bores), encoding="utf-8")
-    found = scenario('machine = "ours.toml"\nduration_s = 1\n[pins.front_base]\nclearance_mm = 1', tmp_path)
-    assert found.clearance_pins["front_base"].contact.bearing.bore_radius == 0.055
-
-
-def test_materials_of_bore_and_journal_are_their_own() -> None:
-    soft = '{name = "soft", elastic_modulus_GPa = 100, poisson_ratio = 0.3, density_kg_per_m3 = 7800}'
-    found = normal(f'law = "Hertz"\nstiffness = "internal"\njournal_material = {soft}')
-    material = Material(name="soft", elastic_modulus=1e11, poisson_ratio=0.3, density=7800.0)
-    assert found == Hertz(stiffness=internal_contact_stiffness(bearing(1.5), STEEL, material))
-
-
-def test_a_scenarios_bore_goes_before_that_of_the_machines_file() -> None:
-    text = TOP + "[pins.rear_base]\nclearance_mm = 1\nbore_radius_mm = 44"
-    assert "rear_base" in read_machine("reference").bore_radii
-    assert scenario(text).clearance_pins["rear_base"].contact.bearing.bore_radius == 0.044

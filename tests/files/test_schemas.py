@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import json
 from decimal import Decimal
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from jsonschema import Draft7Validator, Draft202012Validator
 
 from support_exudyn import Scenario
@@ -42,10 +39,6 @@ def faults(text: str) -> list[str]:
     return [error.message for error in VALIDATOR.iter_errors(plain(parsed(text, "a")))]
 
 
-def test_it_is_a_schema() -> None:
-    Draft202012Validator.check_schema(scenario_schema())
-
-
 @pytest.mark.parametrize("path", sorted(FOLDER.glob("*.toml")), ids=lambda path: path.name)
 def test_examples_are_taken(path: Path) -> None:
     assert not list(VALIDATOR.iter_errors(plain(load_toml(path))))
@@ -54,12 +47,6 @@ def test_examples_are_taken(path: Path) -> None:
 @pytest.mark.parametrize("seed", [one for one in some.seeds() if isinstance(one, Scenario)])
 def test_scenarios_in_full_are_taken(seed: Scenario) -> None:
     assert faults(scenario_text(seed, name="a", errors=True)) == []
-
-
-@given(st.data())
-@some.tried("files of scenarios")
-def test_written_scenarios_are_taken(data: st.DataObject) -> None:
-    assert faults(scenario_text(data.draw(some.values(Scenario)))) == []
 
 
 @pytest.mark.parametrize(
@@ -129,20 +116,6 @@ def test_what_the_reader_refuses_is_refused(text: str) -> None:
     assert not Draft7Validator(scenario_schema()).is_valid(plain(parsed(text, "a")))
 
 
-def test_it_says_what_fields_are() -> None:
-    schema = scenario_schema()
-    step = schema["properties"]["step_ms"]
-    number, table = step["anyOf"]
-    assert (number["exclusiveMinimum"], number["maximum"], step["default"]) == (0, 100, 0.5)
-    assert table["allOf"][1]["properties"]["from"] == {"exclusiveMinimum": 0, "maximum": 100}
-    assert step["description"].startswith("largest time step [ms], > 0")
-    assert schema["properties"]["step_s"]["description"].startswith("largest time step [s], > 0")
-    assert schema["properties"]["duration_ms"]["description"].startswith("end time [ms], > 0")
-    assert schema["$defs"]["JournalBearing"]["properties"]["clearance_mm"]["description"].count("[mm")
-    stroke = schema["$defs"]["UniformSpeed"]["properties"]["stroke_mm"]
-    assert stroke["description"].startswith("[mm; numbers in this text are in m], 0.5 by default")
-
-
 def test_every_field_of_every_class_is_described() -> None:
     bare = [
         f"{name}.{key}"
@@ -160,11 +133,6 @@ def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert main(["schema", "scenario"]) == 0
     said = capsys.readouterr().out.partition("\n")[2]
     assert json.loads((tmp_path / "a.json").read_text("utf-8")) == json.loads(said) == scenario_schema()
-
-
-def test_examples_come_with_the_package() -> None:
-    names = {one.name for one in resources.files("support_exudyn.files.examples").iterdir()}
-    assert {"rise.toml", "columns_apart.toml", "columns_apart.csv"} <= names
 
 
 def test_the_command_lists_keys_in_words(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Scenario, machine, simulate
-from support_exudyn.documentation.shipped_machines import machines_page
-from support_exudyn.files.machines import SHIPPED
 from support_exudyn.machines.planar_linkage import PlanarLinkage
 
 A1, A2, A3, A4, A5, A6 = 674.0, 1360.0, 382.0, 1310.0, 1427.70, 1809.68  # mm, of Velenje's support
@@ -53,10 +50,3 @@ def test_the_press_is_slowest_where_it_presses() -> None:
     pins = found.linkage().pins
     assert math.dist(pins["T"].first_point, pins["K"].first_point) == pytest.approx(0.4, abs=1e-12)
     assert math.dist(pins["R"].first_point, pins["knee"].first_point) == pytest.approx(0.45, abs=1e-12)
-
-
-def test_the_page_of_machines_has_all_of_them(tmp_path: Path) -> None:
-    page = machines_page(tmp_path / "pictures")
-    for name in SHIPPED:
-        assert f"## {name}\n" in page
-        assert (tmp_path / "pictures" / f"machine_{name}.png").stat().st_size > 5000

@@ -16,13 +16,10 @@ from support_exudyn import (
 )
 from user_forces import (
     Anagnostopoulos,
-    Flores,
     Hertz,
     InputError,
     JournalBearing,
-    Threlfall,
     external_contact_stiffness,
-    internal_contact_stiffness,
 )
 from user_forces.materials import STEEL, STEEL_35CRMO
 
@@ -70,21 +67,6 @@ def test_a_simple_pin_has_usual_values() -> None:
     assert pin.contact.normal.to_data()["restitution"] == 0.9
     assert pin.contact.normal.elastic_force(1e-5) == pytest.approx(stiffness * 1e-5**1.5)
     assert pin.contact.friction(0.1, 1e3) == 0.0
-
-
-def test_a_simple_pin_takes_law_friction_and_stiffness() -> None:
-    friction = Threlfall(sliding_coefficient=0.1)
-    pin = ClearancePin.simple(
-        clearance=1e-3,
-        bore_radius=0.06,
-        law=Flores,
-        friction=friction,
-        stiffness="internal",
-        rest_velocity=1e-3,
-    )
-    stiffness = internal_contact_stiffness(pin.contact.bearing, STEEL, STEEL_35CRMO)
-    assert pin.contact.normal == Flores(stiffness=stiffness, restitution=0.9, rest_velocity=1e-3)
-    assert pin.contact.friction == friction
 
 
 def test_what_a_simple_pin_would_not_use_is_refused() -> None:

@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from support_exudyn import (
+    ClosedInlet,
     Held,
     Inlet,
+    Linkage,
     OilColumn,
     RampedOpening,
-    Result,
     Roof,
     Scenario,
     SimulationError,
     SuddenOpening,
-    UniformSpeed,
     simulate,
 )
-from tests.cases.cylinder_cases import CYLINDER, Ram, lift, on_cylinders, opened
-from tests.cases.run_cases import FORCE, loose_support, support
+from tests.cases.cylinder_cases import CYLINDER, GRAVITY, MASS, Ram, lift, on_cylinders, opened
+from tests.cases.run_cases import FORCE, loose_support
+from user_forces import value
 
 
 def test_a_machine_with_closed_valves_stays_where_it_is() -> None:
@@ -57,15 +59,8 @@ def test_one_closed_chamber_is_a_column_of_oil() -> None:
         assert np.abs(one - other).max() < 0.01 * swing
 
 
-@pytest.mark.parametrize(
-    "inlet",
-    [
-        pytest.param(SuddenOpening(start=0.1, end=0.3, extent=0.5), marks=pytest.mark.slow),
-        RampedOpening(start=0.1, end=0.3, ramp=0.1),
-    ],
-)
-def test_energy_adds_up_with_loose_pins_and_valves(inlet: Inlet) -> None:
-    scenario = on_cylinders(True, inlet, duration=0.35)
+def test_energy_adds_up_with_loose_pins_and_valves() -> None:
+    scenario = on_cylinders(True, RampedOpening(start=0.1, end=0.3, ramp=0.1), duration=0.35)
     scenario = replace(scenario, solver=replace(scenario.solver, impact_steps=64))
     coarse, fine = (simulate(scenario.refined(n)) for n in (1, 2))
     # the valves turn 100 kJ into heat; impacts and pressures follow to second order
@@ -89,28 +84,68 @@ def test_a_ram_is_set_against_a_roof_with_the_pressure_of_the_pump() -> None:
     assert result.energy_error < 1e-4 * result["energy.work"][-1]
 
 
-def test_cylinders_stand_beside_rigid_actuators_whose_speed_jumps() -> None:
-    actuators = {"front_column": opened(SuddenOpening(start=0.1, end=0.3, extent=0.5))}
-    scenario = support(actuators=actuators, drive=UniformSpeed(start=0.1, end=2.1), duration=0.2)
-    coarse, fine = (simulate(replace(scenario, step=step)) for step in (5e-4, 2.5e-4))
-    assert list(fine.impulses[0].actuators) == ["rear_column"]
-    assert fine.energy_error < 0.4 * coarse.energy_error  # 0.25 for second order
-    assert fine.energy_error < 1e-4 * fine["energy.work"][-1]
-
-
 def test_a_piston_at_the_end_of_its_cylinder_stops_the_run() -> None:
     cylinder = opened(SuddenOpening(start=0.0, end=0.4), rod_side_length=0.05)
     with pytest.raises(SimulationError, match=r"jack is extended by 0\.05.*allowed: -0\.5 to 0\.05 m"):
         lift(cylinder, duration=0.5)
 
 
-def test_errors_are_known_and_files_keep_cylinders(tmp_path: object) -> None:
-    scenario = on_cylinders(False, SuddenOpening(start=0.01, end=0.1, extent=0.5), duration=0.05)
-    result = simulate(scenario, errors=True)
-    assert result.coarser is not None
-    again = Result.load(result.save(f"{tmp_path}/cylinders.h5"))
-    assert again.scenario == result.scenario
-    np.testing.assert_array_equal(again["rear_column.pressure"], result["rear_column.pressure"])
-    asked = replace(result.scenario, channels=("rear_column.pressure", "energy.balance"))
-    np.testing.assert_array_equal(simulate(asked)["rear_column.pressure"], result["rear_column.pressure"])
-    assert simulate(replace(scenario, accuracy=1e-2)).scenario.formulation == "compiled"
+@value
+class ThrownRam(Ram):
+    """The ram, already on its way up at the start."""
+
+    speed: float
+
+    def linkage(self) -> Linkage:
+        still = super().linkage()
+        ram = replace(still.bodies["ram"], velocity=(0.0, self.speed))
+        return replace(still, bodies={"ram": ram})
+
+
+def test_closed_oil_of_an_actuator_that_moves_at_the_start_follows_its_length() -> None:
+    cylinder = opened(ClosedInlet())
+    before = np.array(cylinder.volumes(0.0))
+    pressures = np.array([(MASS * GRAVITY + 0.5e6 * 0.03) / 0.098, 0.5e6])
+
+    def error(step: float) -> float:
+        run = simulate(
+            Scenario(
+                machine=ThrownRam(speed=0.05), actuators={"jack": cylinder}, drive=Held(), duration=0.02,
+                step=step, record_period=1e-3,
+            )
+        )  # fmt: skip
+        now = np.array([cylinder.volumes(float(e)) for e in run["jack.length"] - 1.6])
+        wanted = pressures + 1.5e9 * np.log(before / now)
+        found = np.column_stack([run["jack.pressure"], run["jack.rod_pressure"]])
+        return float(np.abs(found - wanted).max())
+
+    coarse, fine = error(2e-4), error(1e-4)
+    # 4 for second order; a first step that knew no rate of the pressures would leave 7 kPa, and 2
+    assert 3.0 < coarse / fine < 5.5
+
+
+@value
+class Swelling(Inlet):
+    """A valve that opens along a sine and has no break at all."""
+
+    frequency: float
+
+    def opening(self, t: float) -> float:
+        return 0.5 * math.sin(2.0 * math.pi * self.frequency * t)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return ()
+
+    @property
+    def shortest_time(self) -> float:
+        return 1.0 / self.frequency
+
+
+def test_a_valve_without_breaks_is_followed() -> None:
+    result = lift(opened(Swelling(frequency=1.0), damping=1e5), duration=0.5)
+    moved = result["jack.length"] - result["jack.length"][0]
+    # no oil is lost: what has flowed in stands under the piston, but for its compression of 1e-3
+    flowed = np.trapezoid(result["jack.flow"], result.time)
+    assert moved[-1] == pytest.approx(flowed / 0.098, rel=0.01)
+    assert moved[-1] > 0.05

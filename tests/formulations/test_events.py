@@ -187,32 +187,37 @@ def cut(
     return found_in_general(at, start, h)
 
 
+SOME = (0.3, 0.5, 0.7)
 DEEP = Polynomial([5e-4, -1e-3])  # on its way out, still closed after a tenth of a second
 PARTS_EARLY = Polynomial([5e-5, -1e-3])  # parts at 0.05 s
 
 
-def test_a_cut_is_found_between_the_ends_of_its_step() -> None:
-    assert cut(lambda t: 0.1 - t, DEEP) == ("cut", 0.0, 0.125)
-    assert cut(lambda t: t - 0.1, DEEP) == ("cut", 0.0, 0.125)
-    assert cut(lambda t: 0.2 - t, DEEP) == (NOTHING, 0.125, 0.125)
+CUTS: dict[str, tuple[Callable[[float], float], str]] = {
+    "tension begins": (lambda t: 0.1 - t, "cut"),
+    "tension ends": (lambda t: t - 0.1, "cut"),
+    "tension begins later": (lambda t: 0.2 - t, NOTHING),
+    **{
+        f"tension within the step at {m}": (lambda t, m=m: 0.4 * ((8.0 * t - m) ** 2 - 0.035), UNCLEAR)
+        for m in SOME
+    },
+    **{
+        f"none within the step at {m}": (lambda t, m=m: -0.4 * ((8.0 * t - m) ** 2 - 0.035), UNCLEAR)
+        for m in SOME
+    },
+    "nearly tension": (lambda t: 0.4 * ((8.0 * t - 0.5) ** 2 + 0.04), NOTHING),
+    "far from a cut nothing is looked at": (lambda t: 0.6 if t in (0.0, 0.125) else -1.0, NOTHING),
+    # where a cut is met a step begins on neither side
+    "just met from below": (lambda t: -1e-12 + t, NOTHING),
+    "just met from above": (lambda t: 1e-12 - t, NOTHING),
+}
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize("middle", [0.3, 0.5, 0.7])
-def test_two_cuts_within_a_step_are_seen(middle: float, sign: float) -> None:
-    found = cut(lambda t: sign * 0.4 * ((8.0 * t - middle) ** 2 - 0.035), DEEP)
-    assert found[0] == UNCLEAR
-
-
-def test_what_stays_on_one_side_of_a_cut_is_left_alone() -> None:
-    assert cut(lambda t: 0.4 * ((8.0 * t - 0.5) ** 2 + 0.04), DEEP)[0] == NOTHING
-    # far from a cut nothing is looked at
-    assert cut(lambda t: 0.6 if t in (0.0, 0.125) else -1.0, DEEP)[0] == NOTHING
-
-
-def test_where_a_cut_is_met_a_step_begins_on_neither_side() -> None:
-    assert cut(lambda t: -1e-12 + t, DEEP)[0] == NOTHING
-    assert cut(lambda t: 1e-12 - t, DEEP)[0] == NOTHING
+@pytest.mark.parametrize("case", CUTS)
+def test_cuts_within_a_step_are_seen(case: str) -> None:
+    push, what = CUTS[case]
+    found, low, high = cut(push, DEEP)
+    assert found == what
+    assert (low, high) == ((0.0, 0.125) if what == "cut" else (low, high))
 
 
 def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones() -> None:
@@ -239,20 +244,16 @@ def test_what_is_over_within_a_step_is_seen(middle: float) -> None:
     assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (IMPACT, True)
 
 
-@pytest.mark.parametrize("bend", [0.03, -0.03])
-def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(bend: float) -> None:
-    # s^2 + bend s^4 has the same values and slopes at -1 and 1 as a parabola that is lower by `bend` at 0
-    s = Polynomial([-1.0, 16.0])
-    close = DEPTH * (s**2 + bend * s**4 + 0.5 * bend)
-    assert find(Course(close, closed=True), 0.0, 0.125)[0] == UNCLEAR
-
-
-@pytest.mark.parametrize("bend", [0.02, -0.02])
-def test_a_top_that_a_cubic_cannot_tell_is_looked_at_more_closely(bend: float) -> None:
-    # they look at quarters of a step, of which this is the first
-    s = Polynomial([-1.0, 64.0])
-    near = -0.1 * DEPTH * (s**2 + bend * s**4 + 0.5 * bend)
-    assert find(Course(near, closed=False), 0.0, 0.125)[0] == UNCLEAR
+@pytest.mark.parametrize(
+    ("closed", "size", "bend"),
+    [(True, 1.0, 0.03), (True, 1.0, -0.03), (False, -0.1, 0.02), (False, -0.1, -0.02)],
+)
+def test_what_a_cubic_cannot_tell_is_looked_at_more_closely(closed: bool, size: float, bend: float) -> None:
+    # s^2 + bend s^4 has the same values and slopes at -1 and 1 as a parabola that is lower by `bend` at 0; of a
+    # flight the first quarter of the step is looked at
+    s = Polynomial([-1.0, 16.0 if closed else 64.0])
+    close = size * DEPTH * (s**2 + bend * s**4 + 0.5 * bend)
+    assert find(Course(close, closed=closed), 0.0, 0.125)[0] == UNCLEAR
 
 
 @pytest.mark.parametrize("rate", [-3e-18, 3e-18, -1e-10])
@@ -288,18 +289,13 @@ def test_what_has_just_been_met_is_not_met_again() -> None:
     assert find(Course(Polynomial([rounding, -1e-3, 1e-4]), closed=False), 0.0, 0.1)[0] == NOTHING
 
 
-@pytest.mark.parametrize("beyond", [1e-4, -1e-4])
-def test_grazes_are_told_from_touches(beyond: float) -> None:
+@pytest.mark.parametrize("happens", [True, False])
+def test_what_nearly_happens_is_told_from_what_does(happens: bool) -> None:
+    t = Polynomial([-0.47, 1.0])
     # a flight whose top passes the wall by a ten-thousandth of its height, or stays below by as much
     for width in (0.25, 0.4):
-        t = Polynomial([-0.47, 1.0])
-        flight = Course(DEPTH * (beyond - (t / width) ** 2 - 0.05 * (t / width) ** 4), closed=False)
-        what, _ = flight.first()
-        assert driven(flight)[0][0] == (what if beyond > 0.0 else NOTHING)
-
-
-@pytest.mark.parametrize("left", [1e-3, -1e-3])
-def test_contacts_that_nearly_part_are_told_from_those_that_do(left: float) -> None:
-    t = Polynomial([-0.47, 1.0])
-    course = Course(DEPTH * (left + (t / 0.3) ** 2 + 0.3 * (t / 0.3) ** 3), closed=True)
-    assert driven(course)[0][0] == (NOTHING if left > 0.0 else SEPARATION)
+        top = (1e-4 if happens else -1e-4) - (t / width) ** 2 - 0.05 * (t / width) ** 4
+        assert driven(Course(DEPTH * top, closed=False))[0][0] == (IMPACT if happens else NOTHING)
+    # a contact that parts by a thousandth of its depth, or nearly
+    bottom = (-1e-3 if happens else 1e-3) + (t / 0.3) ** 2 + 0.3 * (t / 0.3) ** 3
+    assert driven(Course(DEPTH * bottom, closed=True))[0][0] == (SEPARATION if happens else NOTHING)

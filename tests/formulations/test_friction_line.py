@@ -7,14 +7,12 @@ import math
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from support_exudyn.formulations.redundant.clearance.steep_friction import TRIES, FrictionLine
+
 from tests.often import often
 from user_forces import Ambrosio
-from user_forces.friction.brown_mcphee import BrownMcPhee
-from user_forces.friction.cubic_coulomb import CubicCoulomb
 from user_forces.friction.law import FrictionLaw
-from user_forces.friction.threlfall import Threlfall
+from user_forces.friction.laws import BrownMcPhee, CubicCoulomb, Threlfall
 
 LAWS = [
     Ambrosio(sliding_coefficient=0.3, static_speed=1e-7, dynamic_speed=1.1e-7),

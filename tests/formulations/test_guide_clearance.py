@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -12,7 +13,6 @@ from hypothesis import strategies as st
 
 from support_exudyn import (
     Body,
-    ClearancePin,
     Crank,
     Held,
     IdealPin,
@@ -31,6 +31,7 @@ from tests.cases.guide_cases import (
     BLOCK,
     GAP,
     FreePair,
+    Touch,
     pair_by_scipy,
     slider_crank,
     slider_crank_by_scipy,
@@ -63,8 +64,6 @@ UPPER = (
     (0.0079987471790, 0.06527503),
     (0.0090357056840, 0.01145388),
 )
-LOWER = ((0.0258588360260, 0.63788436), (0.0286550274385, 0.26690479))
-AT_50_MS = (4.79891979268, 0.525210655144, 68.5442227620, -3.4332093646)  # angles and rates of crank and rod
 # with Newton's impacts in place of contacts: second impact, rates of crank and rod at 0.02 s
 NEWTON = (0.0056077978681, 71.7997054198, 1.43263683831)
 
@@ -73,7 +72,7 @@ def pair(machine: FreePair, guide: ClearanceGuide, duration: float, **others: ob
     """A block or a pin and its carrier."""
     known = {
         "gravity": GRAVITY, "step": 2e-5, "solver": SolverSettings(impact_steps=128), "record_period": 1e-3,
-        "formulation": "redundant",
+        "formulation": "exudyn",
     }  # fmt: skip
     return Scenario(machine=machine, guides={"guide": guide}, duration=duration, **(known | others))
 
@@ -102,26 +101,23 @@ def test_a_slider_between_walls_impacts_as_computed_otherwise() -> None:
     assert np.abs(result["guide.guide.tilt"]).max() < 1e-12
 
 
-@pytest.mark.slow
-def test_a_slider_between_walls_moves_as_computed_otherwise() -> None:
-    result = simulate(slider_crank(1e9, 0.05, step=2e-6, impact_steps=512))
-    for wall, impacts in (("upper", UPPER), ("lower", LOWER)):
-        found = [(one.time, one.speed) for one in result.onsets[f"guide.{wall}_left"]]
-        np.testing.assert_allclose(found[: len(impacts)], impacts, rtol=1e-5, atol=1e-7)
-    names = ("crank.angle", "rod.angle", "crank.angular_velocity", "rod.angular_velocity")
-    np.testing.assert_allclose([result[name][-1] for name in names], AT_50_MS, rtol=0.0, atol=2e-5)
-
-
-@pytest.mark.slow
-def test_friction_between_slider_and_walls_is_as_computed_otherwise() -> None:
-    rubbing = Ambrosio(sliding_coefficient=0.01)
-    result = simulate(slider_crank(1e9, 0.01, rubbing, step=2e-6, impact_steps=512))
-    other = slider_crank_by_scipy(1e9, rubbing)
+@pytest.mark.parametrize(
+    ("sliding", "formulation"),
+    [(0.0, "compiled"), (0.01, "compiled"), pytest.param(0.01, "exudyn", marks=pytest.mark.slow)],
+)
+def test_a_slider_between_walls_moves_as_by_scipy(sliding: float, formulation: str) -> None:
+    friction = Ambrosio(sliding_coefficient=sliding) if sliding else Frictionless()
+    other = slider_crank_by_scipy(1e9, friction if isinstance(friction, Ambrosio) else None)
     state = other.run((0.0, 0.0, 0.0), (150.0, -75.0, 0.0), 0.01)
-    check_onsets(result, other.touches, 5e-8)
+    scene = slider_crank(1e9, 0.01, friction, step=2e-6, impact_steps=512)
+    # the block's tilt hangs on how corners hit one after the other
+    solver = replace(scene.solver, tolerance=1e-11)
+    result = simulate(replace(scene, formulation=formulation, solver=solver))
+    onsets, share, rest = (1e-9, 1e-7, 1e-7) if formulation == "compiled" else (5e-8, 1e-6, 2e-6)
+    check_onsets(result, other.touches, onsets)
     bodies = ("crank", "rod", "slider")
     found = [result[f"{n}.{what}"][-1] for what in ("angle", "angular_velocity") for n in bodies]
-    np.testing.assert_allclose(found, state, rtol=1e-6, atol=2e-6)
+    np.testing.assert_allclose(found, state, rtol=share, atol=rest)
 
 
 def check_onsets(result: Result, touches: list[tuple[str, float, float]], within: float) -> None:
@@ -135,40 +131,33 @@ def check_onsets(result: Result, touches: list[tuple[str, float, float]], within
         )
 
 
+@cache
+def by_scipy(machine: FreePair, guide: ClearanceGuide) -> tuple[np.ndarray, list[Touch]]:
+    """The state after 4.5 ms of a block or a pin and its carrier, and the impacts until then."""
+    other = pair_by_scipy(machine, guide, GRAVITY)
+    return other.run(*start_of(machine.linkage()), 0.0045, rtol=1e-9), other.touches
+
+
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 @pytest.mark.parametrize(
-    ("machine", "guide", "backend"),
+    ("machine", "guide"),
     [
-        (FreePair(), IN_BLOCK, "python"),
-        (FreePair(), IN_BLOCK, "symbolic"),
-        (FreePair(turns=True), AS_PIN, "python"),
-        (FreePair(grounded=True), IN_BLOCK, "symbolic"),
+        (FreePair(), IN_BLOCK),
+        (FreePair(turns=True), AS_PIN),
+        (FreePair(grounded=True), IN_BLOCK),
     ],
+    ids=["block", "pin", "on the ground"],
 )
 def test_a_slot_that_moves_and_turns_with_friction(
-    machine: FreePair, guide: ClearanceGuide, backend: str
+    machine: FreePair, guide: ClearanceGuide, formulation: str
 ) -> None:
-    duration = 0.0045
-    solver = SolverSettings(impact_steps=128, backend=backend)
-    result = simulate(pair(machine, guide, duration, solver=solver))
-    other = pair_by_scipy(machine, guide, GRAVITY)
-    state = other.run(*start_of(machine.linkage()), duration, rtol=1e-9)
+    solver = SolverSettings(impact_steps=128, tolerance=1e-10)
+    result = simulate(pair(machine, guide, 0.0045, formulation=formulation, solver=solver))
+    state, touches = by_scipy(machine, guide)
     assert sum(map(len, result.onsets.values())) >= 2
-    check_onsets(result, other.touches, 3e-7)
-    np.testing.assert_allclose(end(result), state, rtol=1e-3, atol=1e-4)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("guide", [IN_BLOCK, AS_PIN], ids=["block", "pin"])
-@pytest.mark.parametrize("grounded", [False, True])
-@pytest.mark.parametrize("backend", ["python", "symbolic"])
-def test_a_slot_that_moves_and_turns_for_longer(guide: ClearanceGuide, grounded: bool, backend: str) -> None:
-    machine = FreePair(grounded=grounded, turns=guide.pin_radius is not None)
-    solver = SolverSettings(impact_steps=512, backend=backend)
-    result = simulate(pair(machine, guide, 0.015, step=5e-6, solver=solver))
-    other = pair_by_scipy(machine, guide, GRAVITY)
-    state = other.run(*start_of(machine.linkage()), 0.015)
-    check_onsets(result, other.touches, 1e-7)
-    np.testing.assert_allclose(end(result), state, rtol=1e-4, atol=2e-6)
+    onsets, share, rest = (1e-8, 1e-6, 1e-7) if formulation == "compiled" else (3e-7, 1e-3, 1e-4)
+    check_onsets(result, touches, onsets)
+    np.testing.assert_allclose(end(result), state, rtol=share, atol=rest)
 
 
 @pytest.mark.slow
@@ -188,30 +177,13 @@ def test_contacts_tend_to_impacts_of_newton_as_they_become_stiffer() -> None:
     assert (order[:, 1:] > 0.35).all()
 
 
-@pytest.mark.slow
-def test_an_accuracy_is_met() -> None:
-    rubbing = Ambrosio(sliding_coefficient=0.05)
-    result = simulate(replace(slider_crank(1e8, 0.02, rubbing), accuracy="draft", formulation="auto"))
-    assert result.met
-    finer = simulate(slider_crank(1e8, 0.02, rubbing, step=2e-6, impact_steps=512))
-    found = result.numbers()
-    wanted = {
-        "pin.slider_pin.force.mean": finer.window("pin.slider_pin.force").mean,
-        "guide.guide.upper_left.onset_2.time": finer.onsets["guide.upper_left"][1].time,
-        "guide.guide.upper_right.largest_force": finer.largest_force["guide.upper_right"],
-    }
-    for name, right in wanted.items():
-        assert found[name].value == pytest.approx(right, abs=4.0 * found[name].error)
-
-
 # --- what is conserved ---
 
 
-@pytest.mark.parametrize("backend", ["python", "symbolic"])
 @pytest.mark.parametrize("guide", [IN_BLOCK, AS_PIN], ids=["block", "pin"])
-def test_momentum_is_conserved_in_a_long_slot_that_turns(guide: ClearanceGuide, backend: str) -> None:
+def test_momentum_is_conserved_in_a_long_slot_that_turns(guide: ClearanceGuide) -> None:
     machine = FreePair(along=2.0, carrier_spin=8.0, velocity=(-3.0, 15.0), turns=guide.pin_radius is not None)
-    solver = SolverSettings(impact_steps=64, backend=backend)
+    solver = SolverSettings(impact_steps=64)
     result = simulate(pair(machine, guide, 0.02, gravity=(0.0, 0.0), solver=solver))
     bodies = machine.linkage().bodies
     px, py, turning = 0.0, 0.0, 0.0
@@ -281,29 +253,6 @@ def test_an_impact_delivers_the_restitution_of_its_law(law: NormalLaw, part: str
     )
 
 
-# --- with clearance pins ---
-
-
-def loose_everywhere(backend: str, gaps: tuple[float, float]) -> Scenario:
-    """The slider-crank with clearance in the guide and in two pins."""
-    scene = slider_crank(1e8, 0.012, RUBBING, step=2e-5, impact_steps=96, backend=backend)
-    pin = ClearancePin.simple(clearance=2e-4, bore_radius=0.01, stiffness=1e8, restitution=0.6, friction=0.1)
-    guides = {"guide": replace(scene.guides["guide"], gaps=gaps)}
-    return replace(scene, guides=guides, pins={"slider_pin": pin, "crank_pin": pin})
-
-
-def test_corners_and_pins_strike_in_one_run() -> None:
-    one, other = (simulate(loose_everywhere(backend, (GAP, GAP))) for backend in ("python", "symbolic"))
-    kinds = {name.partition(".")[0] for name, onsets in one.onsets.items() if onsets}
-    assert kinds == {"guide", "slider_pin", "crank_pin"}
-    for name, onsets in one.onsets.items():
-        np.testing.assert_allclose(
-            [a.time for a in onsets[:2]], [b.time for b in other.onsets[name][:2]], atol=1e-8
-        )
-    assert np.abs(one["energy.balance"]).max() < 1e-3 * one["energy.kinetic"][0]
-    assert one["energy.friction_loss"][-1] > 0.0
-
-
 # --- seen from elsewhere ---
 
 
@@ -320,9 +269,7 @@ def seen_back(result: Result, move: Move) -> dict[str, np.ndarray]:
 
 def swapped(name: str) -> str:
     """A corner, seen in a mirror along the guide."""
-    return (
-        name.translate(str.maketrans({})).replace("upper", "?").replace("lower", "upper").replace("?", "lower")
-    )
+    return name.replace("upper", "?").replace("lower", "upper").replace("?", "lower")
 
 
 @scenes(6)
@@ -339,18 +286,15 @@ def swapped(name: str) -> str:
     gaps=st.sampled_from(((1e-3, 1e-5), (2e-4, 1e-3), (1e-3, 1e-3))),
     friction=st.sampled_from((Frictionless(), RUBBING)),
     move=st.sampled_from((UPSIDE_DOWN, turn(137.0), Move(shift=(3.0, -2.0)), turn(-60.0))),
-    backend=st.sampled_from(("python", "symbolic")),
 )
 def test_a_scene_elsewhere_in_a_mirror_or_turned_moves_as_it_did(
     machine: FreePair,
     gaps: tuple[float, float],
     friction: Ambrosio | Frictionless,
     move: Move,
-    backend: str,
 ) -> None:
     guide = ClearanceGuide(gaps=gaps, normal=KEPT, friction=friction, block=BLOCK)
-    solver = SolverSettings(impact_steps=32, backend=backend)
-    one = pair(machine, guide, 0.005, solver=solver)
+    one = pair(machine, guide, 0.005, solver=SolverSettings(impact_steps=32))
     there = Moved(inner=machine, along=move.along, flipped=move.flipped, shift=move.shift, about=move.about)
     other = replace(
         one,

@@ -5,7 +5,9 @@ import math
 
 import pytest
 
-from support_exudyn.formulations.impact_steps import (
+from tests.analytic import contact_time, greatest_depth
+from user_forces import Exact, KelvinVoigt
+from user_forces.impact_steps import (
     DURATIONS,
     HALVINGS,
     LIVELY,
@@ -14,8 +16,6 @@ from support_exudyn.formulations.impact_steps import (
     STEPS_APART,
     ImpactSteps,
 )
-from tests.analytic import contact_time, greatest_depth
-from user_forces import Exact, KelvinVoigt
 
 LAW = Exact(stiffness=1e8, restitution=0.5)
 NUMBER, MASS, SPEED = 100, 3.0, 0.2

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
@@ -29,11 +28,10 @@ from support_exudyn import (
     Steady,
     simulate,
 )
-from support_exudyn.files.scenarios.simple_scenario import simple_scenario
 from support_exudyn.model.linkage import pinned
 from tests.formulations.test_slots_and_gears import SPEED as YOKE_SPEED
 from tests.formulations.test_slots_and_gears import ScotchYoke
-from user_forces import Ambrosio, CubicCoulomb, FrictionLaw, InputError, LuGre, value
+from user_forces import Ambrosio, FrictionLaw, LuGre, value
 
 G, MU = 9.81, 0.1
 R, L, RADIUS, OMEGA = 0.05, 0.2, 0.01, 20.0 * math.pi  # slider-crank: lengths, pin [m], 600 rpm
@@ -41,7 +39,7 @@ ROD, ROD_INERTIA, SLIDER = 0.5, 0.002, 0.8
 DRY, STICKING = Ambrosio(sliding_coefficient=MU), LuGre(static_coefficient=MU, sliding_coefficient=MU)
 WAYS: dict[str, Callable[[Scenario], Result]] = {
     "compiled": lambda s: simulate(replace(s, formulation="compiled", solver=SolverSettings(tolerance=1e-9))),
-    "redundant": lambda s: simulate(replace(s, formulation="redundant", step=2e-5)),
+    "exudyn": lambda s: simulate(replace(s, formulation="exudyn", step=2e-5)),
 }
 both = pytest.mark.parametrize("way", WAYS)
 
@@ -162,39 +160,6 @@ def test_a_block_on_a_slope_creeps_with_a_warning_or_holds(way: str) -> None:
     assert found["holds"]["g.friction_force"][-1] == pytest.approx(G * math.sin(SLOPE), rel=1e-5)
 
 
-TURNING = RADIUS * math.radians(10.0)  # slip at 10 deg/s [m/s]
-
-
-@value
-class Turned(Machine):
-    """A wheel of 1 kN on a driven shaft."""
-
-    def linkage(self) -> Linkage:
-        body = Body(mass=1000.0 / G, inertia=0.1, centre=(0.0, 0.0))
-        pins = {"O": pinned("ground", "wheel", (0.0, 0.0))}
-        return Linkage(bodies={"wheel": body}, pins=pins, cranks={"motor": Crank(body="wheel")})
-
-
-@both
-@pytest.mark.parametrize(
-    ("law", "share"),
-    [
-        (STICKING, 1.0),
-        (DRY, (TURNING - 1e-4) / 9.9e-3),
-        (CubicCoulomb(sliding_coefficient=MU), (TURNING / 1e-2) ** 2 * (3.0 - TURNING / 5e-3)),
-    ],
-)
-def test_a_slow_pin_has_its_whole_friction_or_a_warning(way: str, law: FrictionLaw, share: float) -> None:
-    pins = {"O": IdealPin(friction=law, radius=RADIUS)}
-    scene = Scenario(machine=Turned(), drive=Steady(rate=math.radians(10.0)), duration=0.5, pins=pins)
-    result = simulate(replace(scene, formulation=way, step=1e-3))
-    assert abs(result["pin.O.friction_moment"][-1]) == pytest.approx(share * MU * RADIUS * 1000.0, rel=1e-5)
-    assert bool(result.warnings) == (share < 1.0)
-    if result.warnings:
-        assert f"pins.O: {type(law).__name__} slips below its full-friction speed" in result.warnings[0]
-        assert f"with {share:.0%} of its full friction" in result.warnings[0]
-
-
 def test_a_pin_in_a_slot_rubs_and_rolls_alike_in_both_formulations() -> None:
     guides: dict[str, Guide] = {"slot": IdealGuide(friction=Ambrosio(sliding_coefficient=0.3), pin_radius=0.02)}
     scene = Scenario(
@@ -217,17 +182,8 @@ def test_a_block_with_a_rubbing_pin_is_alike_in_both_formulations(law: FrictionL
     pins = {"B": IdealPin(friction=law, radius=0.02)}
     scene = Scenario(machine=Crankshaft(), drive=Steady(rate=OMEGA), duration=0.1, pins=pins, guides=guides)
     fast, slow = (way(scene) for way in WAYS.values())
-    # at dead centres the slip passes the ramp within a step of the redundant formulation
+    # at dead centres the slip passes the ramp within a step of the Exudyn formulation
     assert fast["energy.friction_loss"][-1] == pytest.approx(slow["energy.friction_loss"][-1], rel=2e-4)
-
-
-def test_a_block_that_is_held_by_its_moment_creeps() -> None:
-    guides: dict[str, Guide] = {"g": IdealGuide(friction=Ambrosio(sliding_coefficient=1.0), block=BLOCK)}
-    pull = AppliedForce(body="sled", point=(0.0, 0.2), full_force=(10.0, 0.0))
-    scene = Scenario(machine=Sled(), gravity=(0.0, 0.0), duration=0.2, guides=guides, loads={"pull": pull})
-    result = simulate(replace(scene, formulation="compiled"))
-    # friction of four times the pull holds: the block creeps where the ramp gives a quarter
-    assert result["sled.velocity_x"][-1] == pytest.approx(1e-4 + 0.25 * 9.9e-3, rel=1e-5)
 
 
 def test_a_guide_that_jams_is_refused_with_its_name() -> None:
@@ -238,20 +194,3 @@ def test_a_guide_that_jams_is_refused_with_its_name() -> None:
     # 5 tan of the rod's angle is above 1: pushed against its guide, the slider would need infinite force
     assert "a joint jams by its friction" in failure.advice
     assert "in guides.g." in failure.advice
-
-
-def test_files_keep_friction_where_there_is_no_clearance() -> None:
-    nothing: dict[str, Any] = {"clearance_mm": 0.0, "friction": 0.1}
-    scene = simple_scenario(
-        "slider_crank_guide", duration_s=0.01, pins={"B": nothing}, guides={"slot": nothing}
-    )
-    assert scene.pins["B"] == IdealPin(friction=DRY, radius=0.01)
-    assert scene.guides["slot"] == IdealGuide(friction=DRY, block=(0.1, 0.05))
-    with pytest.raises(InputError, match="bore_radius_mm: missing"):
-        simple_scenario(Crankshaft(), duration_s=0.01, pins={"B": nothing})
-    bare = simple_scenario(
-        Crankshaft(), duration_s=0.01, guides={"g": nothing | {"friction_law": "CubicCoulomb"}}
-    )
-    assert bare.guides["g"] == IdealGuide(friction=CubicCoulomb(sliding_coefficient=0.1))
-    assert (refused := scene.guides["slot"].refused_in_space()) is not None
-    assert refused.what == "IdealGuide with friction"

@@ -17,6 +17,7 @@ CYLINDER = opened(RampedOpening(start=0.02, end=0.15, ramp=0.02, extent=1.0), da
 CHANNELS = ("jack.length", "ram.velocity_y", "jack.pressure", "jack.rod_pressure")
 YIELDS = YieldValve(opening_pressure=3e6, rated_flow=2e-2, rated_overpressure=1e6)
 CASES = {
+    "plain": CYLINDER,
     "yields": replace(CYLINDER, yield_valve=YIELDS),
     "hysteresis": replace(CYLINDER, yield_valve=replace(YIELDS, closing_pressure=2.5e6, rated_flow=1e-2)),
     "boils": replace(CYLINDER, vapour_pressure=-9e4),
@@ -48,27 +49,14 @@ def error(run: Result, wanted: Result) -> float:
 @pytest.mark.parametrize("name", CASES)
 def test_legs_are_those_of_the_compiled_formulation_to_second_order(name: str) -> None:
     wanted = lift(CASES[name], "compiled")
-    coarse, fine = lift(CASES[name], "redundant"), lift(CASES[name], "redundant", step=2e-4)
+    coarse, fine = lift(CASES[name], "exudyn"), lift(CASES[name], "exudyn", step=2e-4)
     assert error(fine, wanted) < 1e-3
     assert 3.3 < error(coarse, wanted) / error(fine, wanted) < 4.7
     events, known = fine.oil_events["jack"], wanted.oil_events["jack"]
-    assert known
+    assert bool(known) == (name != "plain")
     assert [one[1:] for one in events] == [one[1:] for one in known]
     np.testing.assert_allclose([e.time for e in events], [e.time for e in known], atol=2e-5)
     assert np.abs(fine["energy.balance"]).max() < 1e-5 * fine["energy.work"].max()
-
-
-def test_oil_is_conserved() -> None:
-    run = lift(CASES["yields"], "redundant")
-    kept = run["jack.oil"] + run["jack.yielded"] - run["jack.let_in"]
-    assert np.abs(kept - kept[0]).max() < 1e-10 * kept[0]
-    assert run["jack.yielded"][-1] > 1e-6
-
-
-def test_stops_far_away_leave_a_plain_cylinder() -> None:
-    far = replace(CYLINDER, end_stops=EndStops(lowest=-0.4, highest=0.9))
-    plain, leg = lift(CYLINDER, "redundant"), lift(far, "redundant")
-    assert error(leg, plain) < 2e-3
 
 
 @pytest.mark.parametrize("speed", [1e-5, -1e-5])
@@ -78,7 +66,7 @@ def test_a_valve_that_opens_very_slowly_cuts_no_step_again_and_again(speed: floa
     scene = replace(leg_cases.on_cylinder(speed), actuators={"leg0": leg}, duration=1e-3, record_period=1e-5)
     run, known = (
         simulate(replace(scene, formulation=one, step=1e-5, solver=SolverSettings(tolerance=1e-10)))
-        for one in ("redundant", "compiled")
+        for one in ("exudyn", "compiled")
     )
     assert run.counts.cut_steps <= 1
     assert [one[1:] for one in run.oil_events["leg0"]] == [one[1:] for one in known.oil_events["leg0"]]

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from support_exudyn import Body, ClearancePin, Result, Scenario, SolverSettings, simulate
 from tests.cases.run_cases import Pair, paper_contact
@@ -26,14 +25,15 @@ def contact(friction: float) -> JournalContact:
     )
 
 
-def fly(one: Body, two: Body, bore: Bore, impact_steps: int = 512) -> Result:
+def fly(one: Body, two: Body, bore: Bore, formulation: str = "exudyn") -> Result:
     scenario = Scenario(
         machine=Pair(one=one, two=two, one_point=(0.2, 0.25), two_point=(0.2, 0.25)),
         pins={"pin": ClearancePin(contact=contact(0.3), bore=bore)},
         duration=0.03,
         step=2e-5,
         gravity=(0.0, 0.0),
-        solver=SolverSettings(impact_steps=impact_steps),
+        formulation=formulation,
+        solver=SolverSettings(impact_steps=512, tolerance=1e-9),
     )
     return simulate(scenario)
 
@@ -54,36 +54,31 @@ def momenta(result: Result, one: Body, two: Body) -> tuple[np.ndarray, np.ndarra
     return linear, angular
 
 
-@pytest.mark.parametrize(
-    ("turn", "bore"),
-    [
-        (0.0, "first"),
-        (3.0, "second"),
-        *(pytest.param(*way, marks=pytest.mark.slow) for way in ((0.0, "second"), (3.0, "first"))),
-        *(pytest.param(1.0, bore, marks=pytest.mark.slow) for bore in ("first", "second")),
-    ],
-)
-def test_momentum_is_kept_whichever_body_carries_the_bore(bore: Bore, turn: float) -> None:
-    two = Body(**{**vars(TWO), "angle": TWO.angle + turn})
-    result = fly(ONE, two, bore)
+# what steps leave of the angular momentum, as a share; a force pair that does not act at one point gives 1e-3
+FORMULATIONS = {"exudyn": 1e-6, "compiled": 1e-8}
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+@pytest.mark.parametrize(("turn", "bore"), [(0.0, "first"), (3.0, "second")])
+def test_momentum_is_kept_whichever_body_carries_the_bore(formulation: str, bore: Bore, turn: float) -> None:
+    two = replace(TWO, angle=TWO.angle + turn)
+    result = fly(ONE, two, bore, formulation)
     assert len(result.onsets["pin"]) >= 3  # else the test says nothing
     assert result["energy.friction_loss"][-1] > 0.0
     linear, angular = momenta(result, ONE, two)
     # rounding of some thousand steps
     np.testing.assert_allclose(linear, np.broadcast_to(linear[0], linear.shape), atol=1e-12)
-    # asked for; what is left is the integrator's and falls with the step, a force pair that does not act
-    # at one point gives 1e-3 whatever the step
-    np.testing.assert_allclose(angular, angular[0], rtol=1e-6)
+    np.testing.assert_allclose(angular, angular[0], rtol=FORMULATIONS[formulation])
+    assert result.energy_error < 10.0 * FORMULATIONS[formulation] * result.dissipated
 
 
-@pytest.mark.parametrize("bore", ["first", pytest.param("second", marks=pytest.mark.slow)])
-def test_momentum_is_kept_while_the_bodies_turn_against_each_other(bore: Bore) -> None:
+def test_momentum_is_kept_while_the_bodies_turn_against_each_other() -> None:
     # two links as heavy as the support's, which turn by 2 rad against each other in half a second: with
     # marker frames that stay behind, 1e-4 of the angular momentum is lost
     one = Body(mass=500.0, inertia=44.7, centre=(-0.4, 0.6), angle=0.3, velocity=(0.1, 0.2), spin=4.0)
     two = Body(mass=400.0, inertia=51.3, centre=(-0.7, 1.0), angle=1.0, velocity=(-0.1, 0.1), spin=-4.5)
     machine = Pair(one=one, two=two, one_point=(-0.8, 0.94), two_point=(-0.8, 0.94))
-    pin = ClearancePin(contact=paper_contact(1.5, 0.25), bore=bore)
+    pin = ClearancePin(contact=paper_contact(1.5, 0.25))
     scenario = Scenario(
         machine=machine,
         pins={"pin": pin},
@@ -108,28 +103,8 @@ def test_spin_of_both_bodies_enters_the_slip() -> None:
 
     def riding(body: Body) -> Body:
         x, y = body.centre
-        return Body(**{**vars(body), "velocity": (-spin * (y - py), spin * (x - px)), "spin": spin})
+        return replace(body, velocity=(-spin * (y - py), spin * (x - px)), spin=spin)
 
     result = fly(riding(ONE), riding(TWO), "first")
     # the journal drifts outwards by the difference of centripetal accelerations only once it flies
     assert abs(result["pin.pin.slip"][0]) < 1e-12
-
-
-@settings(max_examples=8, deadline=None)
-@given(
-    spins=st.tuples(st.floats(-20, 20), st.floats(-20, 20)),
-    impact_velocity=st.floats(0.2, 1.0),
-    angle=st.floats(-3.0, 3.0),
-    bore=st.sampled_from(["first", "second"]),
-)
-def test_momentum_is_kept_for_any_motion(
-    spins: tuple[float, float], impact_velocity: float, angle: float, bore: Bore
-) -> None:
-    one = Body(**{**vars(ONE), "spin": spins[0], "velocity": (0.0, 0.0)})
-    two = Body(**{**vars(TWO), "spin": spins[1], "velocity": (impact_velocity, 0.0), "angle": angle})
-    linear, angular = momenta(fly(one, two, bore, impact_steps=64), one, two)
-    np.testing.assert_allclose(linear, np.broadcast_to(linear[0], linear.shape), atol=1e-11)
-    # relative to what both bodies carry, since the sum may nearly vanish; the error is of second order, and
-    # 64 steps in an impact leave 1e-7
-    scale = max(abs(angular[0]), one.inertia * abs(spins[0]) + two.inertia * abs(spins[1]) + 0.1)
-    np.testing.assert_allclose(angular, angular[0], atol=2e-6 * scale)

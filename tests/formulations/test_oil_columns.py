@@ -99,19 +99,6 @@ def test_a_sudden_start_follows_the_closed_form_of_an_oscillator() -> None:
     assert result.impulses == ()
 
 
-def test_forces_after_a_sudden_start_converge_with_second_order() -> None:
-    def force(step: float) -> float:
-        drive = UniformSpeed(start=0.1, end=2.1)
-        scene = support(actuators=BOTH, drive=drive, duration=0.108, record_period=0.108, step=step)
-        return float(simulate(scene)[FORCE][-1])
-
-    coarse, middle, fine = (force(step) for step in (4e-4, 2e-4, 1e-4))
-    # 4 for second order
-    assert 2.5 < (coarse - middle) / (middle - fine) < 6.0
-    assert abs(fine - middle) < 2e-3 * fine
-    assert fine > 2.0 * 58779.0  # the static force
-
-
 def test_stiffer_oil_tends_to_rigid_actuators_with_order_one() -> None:
     drive = CubicStep(start=0.05, end=0.55, stroke=0.1)
     rigid = simulate(support(drive=drive, duration=0.3))
@@ -126,26 +113,14 @@ def test_stiffer_oil_tends_to_rigid_actuators_with_order_one() -> None:
     assert off(10.0) / off(100.0) == pytest.approx(10.0, rel=0.05)
 
 
-@pytest.mark.parametrize(
-    ("actuators", "drive"),
-    [
-        pytest.param(BOTH, CubicStep(start=0.5, end=1.5), marks=pytest.mark.slow),
-        pytest.param(BOTH, UniformSpeed(start=0.5, end=2.5), marks=pytest.mark.slow),
-        pytest.param(ONE_OF_OIL, CubicStep(start=0.5, end=1.5), marks=pytest.mark.slow),
-        pytest.param(ONE_OF_OIL, UniformSpeed(start=0.5, end=2.5), marks=pytest.mark.slow),
-        (ONE_OF_OIL, UniformSpeed(start=0.1, end=2.1)),
-    ],
-)
-def test_energy_adds_up(drive: Drive, actuators: dict[str, OilColumn | RigidActuator]) -> None:
-    gentle = isinstance(drive, CubicStep)
-    scene = loose_support(drive=drive, actuators=actuators, duration=drive.start + 0.2)
-    result = simulate(replace(scene, step=1.25e-4 if gentle else 6.25e-5))
-    # the journal's fall makes the oil vibrate at 40 Hz, which generalised alpha damps a little between impacts:
-    # 1.2e-4 at this step, and 6e-4 where a sudden start makes it vibrate far more
-    assert result.energy_error < (3e-4 if gentle else 1e-3) * result.dissipated
-    rigid = [name for name, actuator in actuators.items() if isinstance(actuator, RigidActuator)]
-    jumps = [sorted(impulse.actuators) for impulse in result.impulses]
-    assert jumps == ([rigid] if rigid and isinstance(drive, UniformSpeed) else [])
+def test_energy_adds_up_where_one_column_is_of_oil() -> None:
+    drive = UniformSpeed(start=0.1, end=2.1)
+    result = simulate(loose_support(drive=drive, actuators=ONE_OF_OIL, duration=0.3, step=6.25e-5))
+    # the journal's fall and the sudden start make the oil vibrate at 40 Hz, which generalised alpha damps a
+    # little between impacts: 6e-4 at this step
+    assert result.energy_error < 1e-3 * result.dissipated
+    # the rigid one alone is struck
+    assert [sorted(impulse.actuators) for impulse in result.impulses] == [["rear_column"]]
 
 
 def test_energy_adds_up_over_a_stroke_that_halves_the_stiffness() -> None:
@@ -168,10 +143,3 @@ def test_wrong_oil_is_refused() -> None:
         OilColumn(bore_area=1.0, oil_length=1.0, bulk_modulus=0.0)
     with pytest.raises(InputError, match="diameter"):
         bore_area(0.0)
-
-
-def test_oil_survives_the_result_file(tmp_path: object) -> None:
-    scenario = support(actuators=BOTH, duration=0.01)
-    result = simulate(scenario)
-    path = result.save(f"{tmp_path}/oil.h5")
-    assert Result.load(path).scenario == scenario

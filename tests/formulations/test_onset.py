@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from support_exudyn.formulations.contact_events import (
+from tests.analytic import fall_through
+from user_forces.contact_events import (
     BEYOND,
     SHARE,
     Action,
@@ -18,8 +19,7 @@ from support_exudyn.formulations.contact_events import (
     judge,
     judge_at_ends,
 )
-from support_exudyn.mechanics.contact_state import HEAVIEST, InverseMass, Onset, PinMemory
-from tests.analytic import fall_through
+from user_forces.contact_state import HEAVIEST, InverseMass, Onset, PinMemory
 
 H = 1e-3  # length of a step [s]
 BEHIND = BEYOND * SHARE  # how far behind an event a cut step is to end, in steps

@@ -6,18 +6,18 @@ import math
 from dataclasses import replace
 
 import pytest
-
-from support_exudyn import ClearancePin, Held, Scenario, SimulationError
-from support_exudyn.formulations.contact_events import DepthPath
-from support_exudyn.formulations.peak_force import has_a_top, peak
 from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.clearance.connector_force import Relative
 from support_exudyn.formulations.redundant.clearance.pin_motion import Course
+
+from support_exudyn import ClearancePin, Held, Scenario, SimulationError
 from tests.cases.run_cases import PIN, paper_contact, support
 from tests.compiled_runs import simulate_redundant
 from user_forces import Flores
 from user_forces.contact import ContactForce
+from user_forces.contact_events import DepthPath
 from user_forces.lawful import LawError
+from user_forces.peak_force import has_a_top, peak
 
 LAW = Flores(restitution=0.485, stiffness=5.7e8, exponent=1.167)
 

@@ -16,9 +16,9 @@ from support_exudyn import (
     Linkage,
     Machine,
     Pin,
+    Result,
     Scenario,
-    UniformSpeed,
-    cylinders_and_rods,
+    SolverSettings,
     simulate,
 )
 from support_exudyn.model.linkage import pinned
@@ -45,63 +45,46 @@ class Wheel(Machine):
         return Linkage(bodies={"wheel": body}, pins={"pivot": pinned(*ends, (0.3, 0.4))})
 
 
-@value
-class Pendulum(Machine):
-    """A point-like mass on a long light rod, held out by a small angle."""
-
-    angle: float
-    length: float = 2.0
-
-    def linkage(self) -> Linkage:
-        at = (self.length * math.sin(self.angle), -self.length * math.cos(self.angle))
-        body = Body(mass=MASS, inertia=1e-3, centre=at, angle=self.angle)
-        return Linkage(bodies={"bob": body}, pins={"pivot": pinned("ground", "bob", (0.0, 0.0))})
+FORMULATIONS = pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 
 
-@pytest.mark.parametrize("ground_first", [True, False])
-@pytest.mark.parametrize("spin", [8.0, -8.0])
-def test_a_wheel_is_slowed_down_by_mu_n_r(spin: float, ground_first: bool) -> None:
-    machine = Wheel(spin=spin, ground_first=ground_first)
-    result = simulate(Scenario(machine=machine, pins={"pivot": RUBBING}, duration=1.0))
+def spun_down(pin: IdealPin, formulation: str, tolerance: float, **changes: object) -> Result:
+    """A second of a wheel on a pin."""
+    solver = SolverSettings(tolerance=tolerance)
+    return simulate(
+        Scenario(
+            machine=Wheel(**changes), pins={"pivot": pin}, duration=1.0, formulation=formulation, solver=solver
+        )
+    )
+
+
+@FORMULATIONS
+@pytest.mark.parametrize(("spin", "ground_first"), [(8.0, True), (-8.0, True), (8.0, False)])
+def test_a_wheel_is_slowed_down_by_mu_n_r(spin: float, ground_first: bool, formulation: str) -> None:
+    result = spun_down(RUBBING, formulation, 1e-9, spin=spin, ground_first=ground_first)
     moment = MU * MASS * G * RADIUS
     expected = spin - math.copysign(moment / INERTIA, spin) * result.time
-    # constant deceleration, which the integrator takes exactly; rounding of 2000 steps
-    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, atol=1e-10)
+    # constant deceleration, which both integrators take exactly but for rounding; some 1e-9 where steps are few
+    close = 1e-10 if formulation == "exudyn" else 1e-9
+    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, atol=close)
     on_second = -1.0 if ground_first else 1.0  # against the wheel's spin if that is the second body
     np.testing.assert_allclose(
         result["pin.pivot.friction_moment"], on_second * math.copysign(moment, spin), rtol=1e-9
     )
     lost = 0.5 * INERTIA * (spin**2 - expected**2)
-    np.testing.assert_allclose(result["energy.friction_loss"], lost, atol=1e-8)
-    assert result.energy_error < 1e-8
-    assert result.counts.user_function_calls > result.counts.steps
+    np.testing.assert_allclose(result["energy.friction_loss"], lost, atol=100.0 * close)
+    assert result.energy_error < 100.0 * close
 
 
-def test_a_wheel_that_creeps_is_slowed_down_by_the_ramp_of_the_law() -> None:
+@FORMULATIONS
+def test_a_wheel_that_creeps_is_slowed_down_by_the_ramp_of_the_law(formulation: str) -> None:
     law = Ambrosio(sliding_coefficient=MU, static_speed=0.0, dynamic_speed=1.0)
-    result = simulate(
-        Scenario(machine=Wheel(), pins={"pivot": IdealPin(friction=law, radius=RADIUS)}, duration=1.0)
-    )
+    result = spun_down(IdealPin(friction=law, radius=RADIUS), formulation, 1e-11)
     # below 1 m/s a dashpot of mu N r^2
     expected = 8.0 * np.exp(-MU * MASS * G * RADIUS**2 / INERTIA * result.time)
     # second order of a step of 0.5 ms, against a decay within 5 s: 1e-9
-    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, rtol=1e-8)
-
-
-def test_a_pendulum_loses_the_same_angle_every_half_swing() -> None:
-    law = Ambrosio(sliding_coefficient=MU, static_speed=0.0, dynamic_speed=1e-5)
-    machine, radius = Pendulum(angle=0.1), 0.005
-    half = math.pi * math.sqrt(machine.length / G)
-    scenario = Scenario(
-        machine=machine, pins={"pivot": IdealPin(friction=law, radius=radius)}, duration=4.0 * half, step=5e-4
-    )
-    result = simulate(scenario)
-    turned = result["bob.angle"]
-    ends = [np.abs(turned[np.abs(result.time - n * half) < 0.1 * half]).max() for n in range(1, 5)]
-    # about mu N r/(m g l) from the middle as far as before: twice that less. The force is the weight within the
-    # square of the angle, 1 %, and the ramp softens the ends
-    np.testing.assert_allclose(-np.diff([0.1, *ends]), 2.0 * MU * radius / machine.length, rtol=0.02)
-    assert result.energy_error < 1e-4 * result.dissipated  # second order; kinks where it turns
+    close = 1e-8 if formulation == "exudyn" else 1e-9
+    np.testing.assert_allclose(result["wheel.angular_velocity"], expected, rtol=close)
 
 
 PINS = tuple(support().linkage.pins)
@@ -132,16 +115,6 @@ def test_energy_adds_up_with_friction_beside_a_loose_pin(sliding: float) -> None
     assert result.counts.failed_newton == 0
     # as without friction in the ideal pins; measured 4e-5
     assert result.energy_error < 3e-4 * result.dissipated
-
-
-def test_energy_adds_up_with_friction_in_the_pins_of_actuators_and_a_sudden_start() -> None:
-    pins: dict[str, Pin] = dict.fromkeys((*PINS, "front_column_foot", "rear_column_head"), SUPPORT_PIN)
-    drive = UniformSpeed(stroke=0.05, start=0.05, end=0.25)
-    result = simulate(
-        support(drive=drive, duration=0.3, pins=pins, actuators=cylinders_and_rods(), start="settled")
-    )
-    assert len(result.impulses) == 2
-    assert result.energy_error < 1e-3 * result.dissipated  # steps after a jump are known by their ends only
 
 
 def test_friction_and_radius_go_together() -> None:

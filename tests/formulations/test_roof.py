@@ -1,4 +1,4 @@
-"""A roof that comes down: closed forms of impacts on it, statics of the support under 10 MN, and energies."""
+"""Roofs and applied forces: closed forms of impacts, statics of the support under them, and energies."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import pytest
 from scipy.optimize import brentq
 
 from support_exudyn import (
+    AppliedForce,
     ClearancePin,
     CubicStep,
     Held,
@@ -44,16 +45,15 @@ from tests.roof_cases import (
     pressed_support,
     thrown,
 )
+from user_forces.values.value import Vector2
 
 W = math.sqrt(STIFFNESS / MASS)
 # landings at many places of a step, see `test_steps_that_miss_the_landing...`
 COARSE = 2e-3  # [s]
 GAPS = [0.01 + COARSE * (0.6180339887 * n % 1.0) for n in range(24)]
-BODIES = ("rear_link", "front_link", "shield", "canopy")
 WITH_CLEARANCE = loose_support().pins
 KINDS = {
     "rigid, ideal": {},
-    "rigid, clearance": {"pins": WITH_CLEARANCE},
     "oil, ideal": {"actuators": DAMPED},
     "oil, clearance": {"actuators": DAMPED, "pins": WITH_CLEARANCE},
 }
@@ -63,18 +63,27 @@ GIVES = {name: GIVES_DAMPED if "oil" in name else 0.0 for name in KINDS}
 # --- a ram thrown at the roof ---
 
 
-def test_a_ram_thrown_at_the_roof_comes_back_after_half_a_period() -> None:
-    scene = replace(thrown(0.01, 1e-4), record_period=1e-3)
-    result = simulate(scene)
+FORMULATIONS = pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
+
+
+def by(formulation: str, scene: Scenario) -> Result:
+    solver = SolverSettings(tolerance=1e-9)
+    return simulate(replace(scene, formulation=formulation, solver=solver))
+
+
+@FORMULATIONS
+def test_a_ram_thrown_at_the_roof_comes_back_after_half_a_period(formulation: str) -> None:
+    result = by(formulation, replace(thrown(0.01, 1e-4), record_period=1e-3))
     t = result.time - 0.01  # it flies for 10 ms
     swing = np.sin(W * np.clip(t, 0.0, math.pi / W))
-    # second order: (W h)^2 = 1e-5 of the largest
-    np.testing.assert_allclose(result["roof.force"], STIFFNESS / W * swing, atol=1e-4 * STIFFNESS / W)
+    # second order: (W h)^2 = 1e-5 of the largest; the landing of a step with error control is not met
+    close = 1e-5 if formulation == "exudyn" else 1e-6
+    np.testing.assert_allclose(result["roof.force"], STIFFNESS / W * swing, atol=10.0 * close * STIFFNESS / W)
     after = t > math.pi / W + 1e-3
-    np.testing.assert_allclose(result["ram.velocity_y"][after], -1.0, atol=1e-5)
-    np.testing.assert_allclose(result["roof.gap"][after], (t - math.pi / W)[after], atol=1e-5)
+    np.testing.assert_allclose(result["ram.velocity_y"][after], -1.0, atol=close)
+    np.testing.assert_allclose(result["roof.gap"][after], (t - math.pi / W)[after], atol=close)
     # of 500 J; half of it is stored when the ram is half as deep as it gets times the root of two
-    assert result.energy_error < 1e-2
+    assert result.energy_error < 1e3 * close
     assert result["energy.elastic"].max() == pytest.approx(500.0, rel=1e-3)  # a record beside the peak
     assert result["energy.work"][-1] == result["energy.damping_loss"][-1] == 0.0
 
@@ -112,8 +121,7 @@ def test_a_damped_roof_gives_back_what_the_closed_form_says(damping: float) -> N
 def test_a_ram_that_a_descent_pushes_is_given_its_work() -> None:
     # the roof overtakes the ram at rest: seen from the roof, the ram is thrown at it
     down = over_the_ram(gap=0.01, descent=UniformSpeed(stroke=1.0, start=0.0, end=1.0))
-    scene = replace(thrown(0.01, 1e-4), machine=Ram(), loads={"roof": down})
-    result = simulate(scene)
+    result = simulate(replace(thrown(0.01, 1e-4), machine=Ram(), loads={"roof": down}))
     assert result["ram.velocity_y"][-1] == pytest.approx(-2.0, rel=1e-4)  # second order: 1e-5
     assert result["energy.work"][-1] == pytest.approx(0.5 * MASS * 4.0, rel=1e-4)
     assert result.energy_error < 2e-2  # of 2 kJ
@@ -128,47 +136,47 @@ def test_what_no_expression_can_python_does() -> None:
     assert told["roof.force"].max() > 3e4
 
 
-def test_a_dead_load_takes_no_more_than_its_class() -> None:
+def test_an_applied_force_gives_its_work_to_the_ram() -> None:
+    up = AppliedForce(body="ram", point=TOP, full_force=(0.0, 5e3), start=0.1, end=0.3)
+    scene = Scenario(machine=Ram(), loads={"jack": up}, duration=0.5, record_period=1e-3, gravity=(0.0, 0.0))
+    result = simulate(scene)
+    # m v = F (0.1 + 0.2), the ramp counting half; second order in the step
+    speed = 5e3 * 0.3 / MASS
+    assert result["ram.velocity_y"][-1] == pytest.approx(speed, rel=1e-5)
+    assert result["energy.work"][-1] == pytest.approx(0.5 * MASS * speed**2, rel=1e-5)
+    assert result["jack.force_y"][[0, 100, 200, 300, 500]] == pytest.approx(
+        [0.0, 0.0, 2.5e3, 5e3, 5e3], abs=1e-6
+    )
+    assert result.energy_error < 1e-4 * 0.5 * MASS * speed**2
+
+
+@FORMULATIONS
+def test_a_dead_load_takes_no_more_than_its_class(formulation: str) -> None:
     load = DeadLoad(body="ram", point=TOP, vector=(7.0, -300.0))
-    result = simulate(replace(thrown(0.01, 1e-3), loads={"weight": load}, record_period=1e-2))
+    result = by(formulation, replace(thrown(0.01, 1e-3), loads={"weight": load}, record_period=1e-2))
     expected = TOP[1] + result.time - 0.5 * 0.3 * result.time**2
-    # constant acceleration, which the integrator takes exactly; Newton's tolerance of 1e-8
-    np.testing.assert_allclose(result["ram.y"], expected, atol=1e-8)
-    np.testing.assert_allclose(result["guide.force"][1:], 7.0, rtol=1e-6)
+    # constant acceleration, which both integrators take exactly; Newton's tolerance of 1e-8, else rounding
+    place, share = (1e-8, 1e-6) if formulation == "exudyn" else (1e-13, 1e-12)
+    np.testing.assert_allclose(result["ram.y"], expected, atol=place)
+    np.testing.assert_allclose(result["guide.force"][1:], 7.0, rtol=share)
     assert result.energy_error < 1e-4  # of 500 J
     assert "weight.force" not in result.channels
 
 
-def test_a_block_that_waits_is_an_elastic_impact() -> None:
+@FORMULATIONS
+def test_a_block_that_waits_is_an_elastic_impact(formulation: str) -> None:
     # 250 kg meet 1 t that comes up at 1 m/s, after 10 mm; without weight, loss and outer force
     block = elastic_block(body="ram", point=TOP, mass=MASS / 4.0, height=0.01, stiffness=STIFFNESS)
-    scene = replace(thrown(0.01, 1e-4), loads={"block": block})
-    result = simulate(scene)
+    result = by(formulation, replace(thrown(0.01, 1e-4), loads={"block": block}))
     # the formulas of an elastic impact; second order in the steps: 1e-5
-    assert result["ram.velocity_y"][-1] == pytest.approx(0.6, rel=1e-4)
-    assert result["block.velocity_y"][-1] == pytest.approx(1.6, rel=1e-4)
+    close = 6e-5 if formulation == "exudyn" else 1e-6
+    assert result["ram.velocity_y"][-1] == pytest.approx(0.6, abs=close)
+    assert result["block.velocity_y"][-1] == pytest.approx(1.6, abs=close)
     assert result.energy_error < 1e-2  # of 500 J
     # both masses together as one of a fifth of a ton; half a swing, second order
     (onset,) = result.onsets["block"]
     lasted = onset.separation_time - onset.time
     assert lasted == pytest.approx(math.pi * math.sqrt(MASS / 5.0 / STIFFNESS), rel=1e-5)
-
-
-@pytest.mark.parametrize("actuators", [pytest.param({}, marks=pytest.mark.slow), ON_OIL], ids=["rigid", "oil"])
-def test_a_block_that_falls_on_the_canopy_gives_its_energy_to_the_audit(
-    actuators: dict[str, OilColumn],
-) -> None:
-    block = elastic_block(body="canopy", point=OVER_THE_COLUMNS, mass=2000.0, height=0.05, stiffness=1e8)
-    result = simulate(
-        pressed_support(block, actuators=actuators, loads={"rock": block}, pins=WITH_CLEARANCE, step=1e-4)
-    )
-    fallen = result.time < 0.1  # it lands after 0.101 s
-    expected = result["rock.y"][0] - 0.5 * 9.81 * result.time**2
-    np.testing.assert_allclose(result["rock.y"][fallen], expected[fallen], atol=1e-9)  # Newton's tolerance
-    # landed: of speed times sqrt(k m), 440 kN, the front column takes half
-    assert result["front_column.force"].max() > 2e5
-    # of 1 kJ that it falls with; second order: 0.2 J
-    assert result.energy_error < 0.5
 
 
 # --- the support under 10 MN ---
@@ -185,33 +193,49 @@ def pressed(kind: str, damping: float = 0.0, duration: float = 0.3) -> Result:
     return simulate(press(kind, damping, duration))
 
 
-def reactions(result: Result, row: int = -1) -> tuple[np.ndarray, np.ndarray]:
-    """Forces of pins (5, 2) and thrusts of actuators (2,) from statics where a record has the bodies [N]."""
+def reactions(result: Result, pushed: Vector2, row: int = -1) -> tuple[np.ndarray, np.ndarray]:
+    """Forces of pins (5, 2) and thrusts of actuators (2,) from statics where a record has the bodies [N].
+
+    pushed: force on the canopy over its columns [N].
+    """
     linkage = result.scenario.linkage
     closed = kinetics_of(linkage)
     position = np.concatenate(
         [
             [
-                result[f"{name}.x"][row] - body.centre[0],
-                result[f"{name}.y"][row] - body.centre[1],
-                result[f"{name}.angle"][row] - body.angle,
+                result[f"{name}.{axis}"][row] - of
+                for axis, of in zip(("x", "y", "angle"), (*body.centre, body.angle), strict=True)
             ]
             for name, body in linkage.bodies.items()
         ]
     )
-    force = closed.weight(result.scenario.gravity)
     rate = closed.point(position, "canopy", OVER_THE_COLUMNS)[1]
-    force = force + np.array([0.0, -result["roof.force"][row]]) @ rate
+    force = closed.weight(result.scenario.gravity) + np.array(pushed) @ rate
     found = closed.respond(position, force, 0.0)[1]
     # what the rows pull with is what the actuators push with, and acts on the second bodies reversed
     return -found[:10].reshape(-1, 2), -found[closed.driven()]
+
+
+@pytest.mark.parametrize("actuators", [{}, DAMPED], ids=["rigid", "oil"])
+@pytest.mark.parametrize("force", [(0.0, -1e6), (2e5, -5e5)])
+def test_actuators_and_pins_carry_an_applied_force(actuators: dict[str, OilColumn], force: Vector2) -> None:
+    push = AppliedForce(body="canopy", point=OVER_THE_COLUMNS, full_force=force, start=0.02, end=0.12)
+    result = simulate(pressed_support(push, actuators=actuators, duration=0.6))
+    pins, thrusts = reactions(result, force)
+    # on oil what the lines leave of vibrations after 0.48 s
+    for name, wanted in zip(result.scenario.linkage.pins, pins, strict=True):
+        assert result[f"pin.{name}.force"][-1] == pytest.approx(float(np.hypot(*wanted)), rel=1e-6)
+    for name, thrust in zip(result.scenario.linkage.actuators, thrusts, strict=True):
+        assert result[f"{name}.force"][-1] == pytest.approx(thrust, rel=1e-6)
+    # 1 MN over some tenths of a millimetre of oil
+    assert result.energy_error < 1e-4 * max(1.0, result["energy.work"].max())
 
 
 @pytest.mark.parametrize("kind", ["rigid, ideal", "oil, ideal"])
 def test_actuators_and_pins_carry_what_statics_say(kind: str) -> None:
     result = pressed(kind, duration=0.3 if kind == "rigid, ideal" else 0.8)
     assert result["roof.force"][-1] == pytest.approx(TEN_MEGANEWTONS, rel=0.01)  # by how much oil was guessed
-    pins, actuators = reactions(result)
+    pins, actuators = reactions(result, (0.0, -result["roof.force"][-1]))
     # what is left of vibrations that lines damp for 0.7 s
     for name, thrust in zip(("front_column", "rear_column"), actuators, strict=True):
         assert result[f"{name}.force"][-1] == pytest.approx(thrust, rel=1e-7)
@@ -224,27 +248,15 @@ def test_actuators_and_pins_carry_what_statics_say(kind: str) -> None:
     assert result["roof.force"][-1] == pytest.approx(HARD * depth, rel=1e-12)  # rounding
 
 
-def test_the_roof_on_rigid_actuators_is_known_to_the_last_digit() -> None:
-    result = pressed("rigid, ideal")
-    extension = np.array([result.scenario.loads["roof"].descent.extension(t) for t in result.time])
-    expected = HARD * np.maximum(0.0, extension - GAP)  # the canopy stays where it is
-    # constraints hold positions to some 1e-15 m, and Newton's method to 1e-8 of 10 MN
-    np.testing.assert_allclose(result["roof.force"], expected, atol=10.0)
-    # all of the work is in the roof: 50 kJ
-    assert result["energy.elastic"][-1] == pytest.approx(TEN_MEGANEWTONS**2 / HARD / 2.0, rel=1e-6)
-    assert result["energy.work"][-1] == pytest.approx(TEN_MEGANEWTONS**2 / HARD / 2.0, rel=1e-5)
-
-
-@pytest.mark.parametrize("kind", [pytest.param("rigid, clearance", marks=pytest.mark.slow), "oil, clearance"])
-def test_a_loose_pin_is_pressed_with_the_force_of_statics(kind: str) -> None:
+def test_a_loose_pin_is_pressed_with_the_force_of_statics() -> None:
     # one that soon rests
     base = WITH_CLEARANCE[PIN].contact
     pin = ClearancePin(contact=replace(base, normal=replace(base.normal, restitution=0.3)))
-    result = simulate(replace(press(kind), pins={PIN: pin}, start="settled"))
+    result = simulate(replace(press("oil, clearance"), pins={PIN: pin}, start="settled"))
     place = list(result.scenario.linkage.pins).index(PIN)
     late = np.flatnonzero(result.time > 0.25)
     # forces along the line of centres have the same moment wherever on it they act: as in an ideal pin
-    wanted = np.array([reactions(result, row)[0][place] for row in late])
+    wanted = np.array([reactions(result, (0.0, -result["roof.force"][row]), row)[0][place] for row in late])
     found = np.array([result[f"pin.{PIN}.force_{axis}"][late] for axis in "xy"]).T
     size = float(np.hypot(*wanted[-1]))
     # it shakes by 2 %; of the mean over 50 ms that leaves 5e-4
@@ -256,17 +268,14 @@ def test_a_loose_pin_is_pressed_with_the_force_of_statics(kind: str) -> None:
 @pytest.mark.parametrize(
     ("kind", "damping"),
     [
+        ("rigid, ideal", 0.0),
         ("rigid, ideal", 1.0),
+        ("oil, ideal", 0.0),
         ("oil, ideal", 1.0),
         ("oil, clearance", 1.0),
-        ("rigid, ideal", 0.0),
-        ("oil, ideal", 0.0),
-        pytest.param("rigid, clearance", 1.0, marks=pytest.mark.slow),
-        pytest.param("rigid, clearance", 0.0, marks=pytest.mark.slow),
-        pytest.param("oil, clearance", 0.0, marks=pytest.mark.slow),
     ],
 )
-def test_energy_adds_up(kind: str, damping: float) -> None:
+def test_energy_adds_up_under_a_roof_that_never_pulls(kind: str, damping: float) -> None:
     result = pressed(kind, damping)
     work = result["energy.work"].max()
     assert work > 4.7e4
@@ -275,14 +284,6 @@ def test_energy_adds_up(kind: str, damping: float) -> None:
     assert (np.diff(result["energy.damping_loss"]) > -1e-5 * work).all()
     lost = result["energy.damping_loss"][-1]
     assert lost > 100.0 if damping or "clearance" in kind else True
-
-
-@pytest.mark.parametrize(
-    "kind",
-    ["rigid, ideal", pytest.param("rigid, clearance", marks=pytest.mark.slow), "oil, ideal", "oil, clearance"],
-)
-def test_the_roof_never_pulls(kind: str) -> None:
-    result = pressed(kind, 1.0)
     assert (result["roof.force"] >= 0.0).all()
     apart = result["roof.gap"] > 0.0
     assert apart[0]
@@ -317,12 +318,6 @@ def test_forces_converge_with_second_order() -> None:
         assert 3.2 < first / second < 6.0, name
 
 
-def test_steps_do_not_grow_past_a_landing() -> None:
-    scene = press("rigid, ideal")
-    grown = simulate(replace(scene, solver=SolverSettings(growth=16.0)))
-    assert grown.energy_error == pytest.approx(pressed("rigid, ideal").energy_error, rel=1e-6)  # rounding
-
-
 @pytest.mark.parametrize("gap", [0.0, 1e-3])
 def test_a_settled_start_takes_the_roof_as_it_is(gap: float) -> None:
     held = over_the_canopy(0.0, gap=gap, descent=Held())
@@ -334,27 +329,3 @@ def test_a_settled_start_takes_the_roof_as_it_is(gap: float) -> None:
     pressing = result["roof.force"][0]
     assert pressing > 1e4 if gap == 0.0 else pressing == 0.0
     np.testing.assert_allclose(result["roof.force"], pressing, rtol=1e-6)
-
-
-def test_runs_to_an_accuracy_know_the_roof() -> None:
-    lowered = over_the_canopy(GAP + 0.01 + GIVES_ON_OIL)
-    scene = pressed_support(lowered, actuators=ON_OIL, duration=0.2)
-    result, other = (
-        simulate(replace(scene, formulation=name), accuracy="standard") for name in ("redundant", "auto")
-    )
-    assert result.met
-    # a fifth of sqrt(m/k) and less; the default step is ten times as long as that of a reference
-    assert result.scenario.step < 1e-3
-    assert other.met
-    assert other.scenario.formulation == "compiled"
-    ours, theirs = other.numbers(), result.numbers()
-    assert ours["roof.force.largest"].value == pytest.approx(theirs["roof.force.largest"].value, rel=2e-3)
-
-
-def test_a_result_under_a_roof_survives_its_file(tmp_path: object) -> None:
-    result = pressed("oil, clearance", 1.0)
-    read = Result.load(result.save(f"{tmp_path}/roof.h5"))
-    assert read.scenario == result.scenario
-    for name in ("roof.force", "roof.gap", "energy.elastic"):
-        np.testing.assert_array_equal(read[name], result[name])
-        assert read.channels[name].unit == result.channels[name].unit

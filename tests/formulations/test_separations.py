@@ -4,19 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from support_exudyn import (
-    Body,
     ClearancePin,
     Held,
-    Linkage,
-    Machine,
     Onset,
-    PinPlace,
     Result,
     Scenario,
     SolverSettings,
@@ -27,7 +22,7 @@ from tests.analytic import delivered_restitution
 from tests.cases.run_cases import PIN, loose_support
 from tests.cases.spatial_cases import LENGTH, InSpace, contact
 from tests.user_forces.test_restitution import scenario
-from user_forces import JournalBearing, JournalContact, LankaraniNikravesh, value
+from user_forces import LankaraniNikravesh
 
 LAW = LankaraniNikravesh(stiffness=1e8, restitution=0.7)
 DELIVERED = delivered_restitution(LAW.damping_factor)
@@ -46,16 +41,6 @@ def seen_parting(result: Result, depth: str) -> float:
     (n,) = np.flatnonzero((values[:-1] > 0.0) & (values[1:] <= 0.0))
     share = values[n] / (values[n] - values[n + 1])
     return float(result.time[n] + share * (result.time[n + 1] - result.time[n]))
-
-
-@pytest.mark.parametrize("backend", ["python", "symbolic"])
-@pytest.mark.parametrize("impact_steps", [64, 512])
-def test_a_free_impact_parts_as_fast_as_its_law_delivers(impact_steps: int, backend: str) -> None:
-    tried = scenario(LAW, solver=SolverSettings(impact_steps=impact_steps, backend=backend))
-    onset = only(simulate(tried))
-    assert onset.speed == pytest.approx(SPEED, rel=1e-9)  # free flight is exact
-    # second-order error of an impact in N steps: measured 0.6/N^2 and 0.7/N^2
-    assert onset.separation_velocity == pytest.approx(DELIVERED * SPEED, rel=impact_steps**-2.0)
 
 
 def test_the_time_of_a_parting_is_that_of_the_records() -> None:
@@ -92,51 +77,6 @@ def test_a_contact_that_has_not_parted_has_no_end(locate: bool) -> None:
 
 
 # --- formulations ---
-
-
-@value
-class Swing(Machine):
-    """A bar on an ideal pin, at whose lower end a journal hits the wall of a bore in the ground.
-
-    The arc by which it goes there is 1 m long and 1 mm wide, so that the impact is central to 1e-6.
-    """
-
-    def linkage(self) -> Linkage:
-        """Bar, hinge and bore."""
-        low = (0.0, -1.0)
-        bar = Body(mass=3.0, inertia=0.25, centre=(0.0, -0.5), velocity=(0.5 * SPEED, 0.0), spin=SPEED)
-        return Linkage(
-            bodies={"bar": bar},
-            pins={
-                "hinge": PinPlace(
-                    first="ground", second="bar", first_point=(0.0, 0.0), second_point=(0.0, 0.0)
-                ),
-                "pin": PinPlace(first="ground", second="bar", first_point=low, second_point=low),
-            },
-        )
-
-
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
-@pytest.mark.parametrize("bore", ["first", "second"])
-def test_formulations_part_as_fast_as_the_law_delivers(formulation: str, bore: str) -> None:
-    laws = JournalContact(bearing=JournalBearing(bore_radius=0.02, clearance=1e-3), normal=LAW)
-    result = simulate(
-        Scenario(
-            machine=Swing(),
-            pins={"pin": ClearancePin(contact=laws, bore=bore)},
-            duration=0.012,
-            gravity=(0.0, 0.0),
-            formulation=formulation,
-        )
-    )
-    # 512 steps an impact, a tolerance of 1e-7: as above; and the arc
-    assert only(result).separation_velocity == pytest.approx(DELIVERED * SPEED, rel=2e-5)
-    # records are 1 ms apart
-    context = seen_parting(result, "pin.pin.depth")
-    assert only(result).separation_time == pytest.approx(context, abs=1e-3)
-    # it flies back at that speed, along the arc
-    late = -result["pin.pin.depth"][-1] / (result.time[-1] - only(result).separation_time)
-    assert late == pytest.approx(only(result).separation_velocity, rel=1e-4)
 
 
 def test_in_space_edges_and_the_whole_part_as_in_the_plane() -> None:
@@ -190,15 +130,3 @@ def test_a_journal_in_space_has_parted_when_its_last_section_has() -> None:
     ended = simulate(replace(result.scenario, duration=0.0062))  # the right one alone is in contact
     assert ended.onsets["pin.left"][0].separation_time == pytest.approx(left.separation_time, rel=1e-9)
     assert ended.onsets["pin"][0].separation_time == math.inf
-
-
-# --- files ---
-
-
-def test_a_file_keeps_how_contacts_ended(tmp_path: Path) -> None:
-    result = simulate(loose_support(1.5, 0.0, drive=Held(), duration=0.04))
-    first, last = result.onsets[PIN][0], result.onsets[PIN][-1]
-    assert first.time < first.separation_time < last.time
-    assert 0.0 < first.separation_velocity < first.speed
-    assert last.separation_time == math.inf
-    assert Result.load(result.save(tmp_path / "run.h5")).onsets == result.onsets

@@ -54,14 +54,25 @@ def test_drive_puts_in_what_the_bodies_have(ideal: Result) -> None:
     assert ideal.energy_error < 1e-6 * 110.0
 
 
-def test_first_five_onsets() -> None:
-    result = simulate(loose_slider_crank(1.3e-3))
+# formulation, tolerance, and how close times [s] and speeds [m/s] are. The engine's error is of second order in
+# the step: asked for are shares of 1e-5 and 1e-3. Compiled at a tolerance of 1e-12 it is half of the last digit
+# printed, at 1e-8 five impacts multiply it
+Close = dict[str, float]
+WAYS: dict[str, tuple[str, float, Close, Close]] = {
+    "engine": ("exudyn", 1e-7, {"rtol": 1e-5}, {"rtol": 1e-4}),
+    "compiled, fine": ("compiled", 1e-12, {"rtol": 0.0, "atol": 6e-10}, {"rtol": 0.0, "atol": 6e-7}),
+    "compiled": ("compiled", 1e-8, {"rtol": 0.0, "atol": 5e-9}, {"rtol": 0.0, "atol": 5e-5}),
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_first_five_onsets(way: str) -> None:
+    formulation, tolerance, time, speed = WAYS[way]
+    solver = SolverSettings(tolerance=tolerance)
+    result = simulate(loose_slider_crank(1.3e-3, formulation=formulation, solver=solver))
     onsets = result.onsets[SLIDER_PIN]
-    assert len(onsets) == 5
-    for onset, time, speed in zip(onsets, TIMES, SPEEDS, strict=True):
-        # asked for: 1e-5 and 1e-3; the error is of second order in the step
-        assert onset.time == pytest.approx(time, rel=1e-5)
-        assert onset.speed == pytest.approx(speed, rel=1e-4)
+    np.testing.assert_allclose([one.time for one in onsets], TIMES, **time)
+    np.testing.assert_allclose([one.speed for one in onsets], SPEEDS, **speed)
     # printed as "about 4.59e4 N near 7.55 degrees"
     force = result[f"pin.{SLIDER_PIN}.force"]
     assert result.largest_force[SLIDER_PIN] == pytest.approx(4.59e4, rel=1e-3)
@@ -76,11 +87,9 @@ def test_onsets_converge_with_second_order() -> None:
     assert errors[0] / errors[1] > 10.0
 
 
-@pytest.mark.parametrize("backend", ["python", pytest.param("symbolic", marks=pytest.mark.slow)])
-def test_it_runs_with_friction(backend: str) -> None:
+def test_it_runs_with_friction() -> None:
     # over the crank angles in which the journal settles against the bore
-    scenario = loose_slider_crank(REVOLUTION / 4, 0.03, solver=SolverSettings(backend=backend))
-    result = simulate(scenario)
+    result = simulate(loose_slider_crank(REVOLUTION / 4, 0.03))
     assert result.counts.failed_newton == 0
     assert result["energy.friction_loss"][-1] > 0.0
     # of what is dissipated; second order in the step

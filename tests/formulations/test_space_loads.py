@@ -12,7 +12,9 @@ from scipy.integrate import solve_ivp
 from support_exudyn import (
     AppliedForce,
     AppliedTorque,
+    BeddedRoof,
     CubicStep,
+    FallingBlock,
     Held,
     Load,
     MomentLoad,
@@ -23,11 +25,12 @@ from support_exudyn import (
     TorsionSpring,
     simulate,
 )
-from support_exudyn.mechanics.space.acting_loads import turning_axis
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from tests.cases.run_cases import PIN, loose_support, support
 from tests.cases.spatial_cases import InSpace, observed
 from tests.roof_cases import ON_OIL
+from tests.roof_cases import OVER_THE_COLUMNS as OVER
 
 TIP = (3.19590271431274, 1.95)  # of the reference support's canopy [m]
 INERTIA = (0.03, 0.05, 0.04, 0.0, 0.0, 0.0)
@@ -66,20 +69,6 @@ def pressed(load: Load | MomentLoad, dimensions: int = 3, **more: object) -> Res
 
 
 # --- a free body ---
-
-
-def test_a_force_beside_the_centre_shifts_and_rolls_a_free_body() -> None:
-    # a short time: F t^2 / 2 m up, F z t^2 / 2 J_xx about x, what the turn changes is of the fourth order
-    force, lateral, t = 3.0, 0.4, 1e-2
-    load = AppliedForce(body="a", point=(0.0, 0.0), lateral=lateral, full_force=(0.0, force))
-    result = simulate(flight(load, duration=t, step=1e-4, record_period=t))
-    assert result["a.y"][-1] == pytest.approx(0.5 * force / MASS * t * t, rel=1e-6)
-    # the force is up and to the right: about x it turns the right side up, which is a negative roll
-    turn = 0.5 * lateral * force / INERTIA[0] * t * t
-    assert abs(result["a.roll"][-1]) == pytest.approx(turn, rel=1e-4)
-    assert result["a.angular_velocity_x"][-1] == pytest.approx(-lateral * force / INERTIA[0] * t, rel=1e-4)
-    for still in ("a.x", "a.z", "a.yaw"):
-        assert abs(result[still][-1]) < 1e-9 * turn
 
 
 def test_a_body_on_a_lengthwise_hinge_swings_under_a_force_beside_it() -> None:
@@ -175,15 +164,6 @@ def test_turns_beyond_half_a_turn_are_counted() -> None:
     assert np.abs(result["energy.balance"]).max() < 3e-4 * 0.5 * INERTIA[2] * 3600.0
 
 
-def test_the_axis_of_a_turn_gives_its_rate() -> None:
-    # e' = omega x e, and the difference of atan2 of both
-    e, omega = np.array([0.6, 0.2, -0.77]), np.array([0.3, -1.1, 0.7])
-    h = 1e-6
-    ahead, behind = (e + s * h * np.cross(omega, e) for s in (1.0, -1.0))
-    rate = (math.atan2(ahead[1], ahead[0]) - math.atan2(behind[1], behind[0])) / (2.0 * h)
-    assert np.dot(turning_axis(*e), omega) == pytest.approx(rate, rel=1e-8)
-
-
 def test_a_torque_between_two_bodies_turns_them_against_each_other() -> None:
     other = SpatialBody(mass=1.0, inertia=(0.1, 0.1, 0.08, 0.0, 0.0, 0.0), centre=(1.0, 0.0, 0.0))
     space = replace(free().space, bodies={**free().space.bodies, "b": other})
@@ -194,8 +174,76 @@ def test_a_torque_between_two_bodies_turns_them_against_each_other() -> None:
     assert result["b.angular_velocity"][-1] == pytest.approx(-2.0 * t / 0.08, rel=1e-5)
 
 
+# --- a bed of rock over a stretch of a body ---
+
+BED_COMES_DOWN = CubicStep(stroke=0.05, start=0.0, end=0.1)
+ENDS = ((-1.0, 0.1), (1.5, 0.3))
+GAPS = (0.002, 0.006)
+BEDDING, DAMPING = 2e3, 0.4
+
+
+def on_a_free_body(loads: dict[str, ActingLoad]) -> Result:
+    """A body that spins about all axes, and is pressed beside its centre."""
+    body = SpatialBody(
+        mass=20.0, inertia=(3.0, 9.0, 8.0, 0.0, 0.0, 0.0), centre=(0.0, 0.0, 0.0), spin=(0.8, 0.5, -0.6)
+    )
+    scenario = Scenario(
+        machine=InSpace(space=SpatialLinkage(bodies={"a": body})),
+        dimensions=3,
+        loads=loads,
+        duration=0.2,
+        step=5e-4,
+        record_period=1e-2,
+        gravity=(0.0, 0.0),
+    )
+    return simulate(scenario)
+
+
+def bed(**changes: object) -> BeddedRoof:
+    fields: dict[str, object] = {
+        "body": "a",
+        "points": ENDS,
+        "lateral": 0.3,
+        "bedding": BEDDING,
+        "gaps": GAPS,
+        "damping": DAMPING,
+        "descent": BED_COMES_DOWN,
+    }
+    return BeddedRoof(**fields | changes)
+
+
+def test_many_single_roofs_tend_to_the_bed_with_second_order() -> None:
+    whole = on_a_free_body({"roof": bed()})
+    length = float(np.hypot(2.5, 0.2))
+    channels = ("a.x", "a.y", "a.z", "a.roll", "a.yaw", "a.angle")
+    errors = []
+    for count in (8, 32):
+        loads: dict[str, ActingLoad] = {}
+        for n in range(count):
+            s = (n + 0.5) / count
+            loads[f"roof_{n}"] = Roof(
+                body="a",
+                point=(-1.0 + 2.5 * s, 0.1 + 0.2 * s),
+                lateral=0.3,
+                stiffness=BEDDING * length / count,
+                gap=GAPS[0] + s * (GAPS[1] - GAPS[0]),
+                damping=DAMPING,
+                descent=BED_COMES_DOWN,
+            )
+        run = on_a_free_body(loads)
+        errors.append([float(np.abs(run[name] - whole[name]).max()) for name in channels])
+    moved = [float(np.ptp(whole[name])) for name in channels]
+    assert moved[1] > 1e-2  # it is pressed down, and rolled
+    assert np.ptp(whole["roof.pressed"]) > 0.5  # another part of it is pressed all the time
+    for coarse, fine, way, name in zip(*errors, moved, channels, strict=True):
+        assert fine < 2e-3 * way + 1e-12, name
+        assert coarse > 6.0 * fine or fine < 1e-9, name
+    assert whole.energy_error < 1e-4 * whole["energy.work"].max()
+
+
 # --- the support ---
 
+BLOCK = FallingBlock(body="canopy", point=TIP, mass=1e3, height=0.01, speed=2.0, stiffness=1e9, restitution=0.4)
 LOADS = {
     "force": AppliedForce(body="canopy", point=TIP, full_force=(0.0, -1e6), start=0.01, end=0.03),
     "torque": AppliedTorque(body="canopy", other="shield", full_torque=1e5, start=0.01, end=0.03),
@@ -215,6 +263,15 @@ LOADS = {
         stiffness=1e8,
         damping=0.5,
     ),
+    "bed": BeddedRoof(
+        body="canopy",
+        points=((OVER[0] - 0.6, OVER[1]), (OVER[0] + 1.4, OVER[1])),
+        bedding=5e8,
+        gaps=(0.001, 0.003),
+        descent=CubicStep(stroke=0.006, start=0.0, end=0.05),
+    ),
+    "block": BLOCK,
+    "block with a sloping face": replace(BLOCK, slope=0.2),
 }
 
 
@@ -229,12 +286,12 @@ def test_a_load_in_the_middle_acts_as_in_the_plane(name: str) -> None:
                 space[channel], plane[channel], rtol=1e-5, atol=1e-6 * max(size, scale), err_msg=channel
             )
     assert np.abs(space["canopy.roll"]).max() < 1e-9
-
-
-def test_in_the_plane_a_lateral_place_has_no_effect() -> None:
-    force = LOADS["force"]
-    aside = pressed(replace(force, lateral=0.6), 2)
-    np.testing.assert_array_equal(aside["tip.y"], pressed(force, 2)["tip.y"])
+    for load, blows in plane.onsets.items():
+        assert [one.time for one in space.onsets[load]] == pytest.approx([one.time for one in blows])
+        assert space.largest_force[load] == pytest.approx(plane.largest_force[load], rel=1e-6)
+    if hasattr(LOADS[name], "lateral"):  # a place across counts in space alone
+        aside = pressed(replace(LOADS[name], lateral=0.6), 2)
+        np.testing.assert_array_equal(aside["tip.y"], plane["tip.y"])
 
 
 def beside(**loads: Load) -> Result:
@@ -242,23 +299,27 @@ def beside(**loads: Load) -> Result:
     return simulate(loose_support(drive=Held(), duration=0.05, actuators=ON_OIL, loads=loads, dimensions=3))
 
 
-def test_left_mirrors_right_and_two_halves_are_one() -> None:
-    whole = AppliedForce(body="canopy", point=TIP, full_force=(0.0, -4e5), start=0.0, end=0.02)
-    half = replace(whole, full_force=(0.0, -2e5))
-    right, left = (beside(load=replace(whole, lateral=z)) for z in (0.5, -0.5))
+WHOLE = AppliedForce(body="canopy", point=TIP, full_force=(0.0, -4e5), start=0.0, end=0.02)
+
+
+@pytest.mark.parametrize("load", [WHOLE, LOADS["bed"], BLOCK], ids=["force", "bed", "block"])
+def test_left_mirrors_right(load: Load) -> None:
+    right, left = (beside(load=replace(load, lateral=z)) for z in (0.5, -0.5))
     roll = np.abs(right["canopy.roll"]).max()
     assert roll > 1e-5
     for what in ("roll", "yaw", "z"):
         np.testing.assert_allclose(left[f"canopy.{what}"], -right[f"canopy.{what}"], atol=1e-3 * roll)
     np.testing.assert_allclose(left["canopy.y"], right["canopy.y"], atol=1e-3 * roll)
-    np.testing.assert_allclose(
-        left["front_column_left.force"],
-        right["front_column_right.force"],
-        atol=1e-4 * np.abs(right["front_column_right.force"]).max(),
-    )
-    both, one = beside(l=replace(half, lateral=-0.5), r=replace(half, lateral=0.5)), beside(load=whole)
+    for one, other in (("left", "right"), ("right", "left")):
+        wanted = right[f"front_column_{other}.force"]
+        np.testing.assert_allclose(left[f"front_column_{one}.force"], wanted, atol=1e-4 * np.abs(wanted).max())
+
+
+def test_two_halves_are_one() -> None:
+    half = replace(WHOLE, full_force=(0.0, -2e5))
+    both, one = beside(l=replace(half, lateral=-0.5), r=replace(half, lateral=0.5)), beside(load=WHOLE)
     np.testing.assert_allclose(both["canopy.y"], one["canopy.y"], atol=1e-9)
-    assert np.abs(both["canopy.roll"]).max() < 1e-3 * roll
+    assert np.abs(both["canopy.roll"]).max() < 1e-8
 
 
 def test_the_support_settles_under_a_load_beside_its_middle() -> None:

@@ -8,9 +8,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from support_exudyn import ClearancePin, Result, Steady, ravn_slider_crank, reference_support, simulate
+from support_exudyn import (
+    Body,
+    ClearancePin,
+    LinearActuator,
+    Linkage,
+    Machine,
+    Result,
+    Scenario,
+    SolverSettings,
+    Steady,
+    ravn_slider_crank,
+    reference_support,
+    simulate,
+)
+from support_exudyn.model.linkage import GROUND, pinned
 from tests.cases.run_cases import CRANK_SPEED, SLIDER_PIN, paper_contact, slider_crank, slider_crank_contact
 from tests.cases.run_cases import support as support_scenario
+from user_forces import value
 
 ANGLES = (0.0, 0.7, 2.0, -1.3)
 WITH_CLEARANCE = {SLIDER_PIN: ClearancePin(contact=slider_crank_contact())}
@@ -99,3 +114,43 @@ def test_actuators_at_speed_start_with_the_velocities_of_the_closed_form(
     )
     assert moved == pytest.approx((tip[0] * rate, tip[1] * rate), rel=1e-7)
     assert result.impulses == ()
+
+
+@value
+class Lifted(Machine):
+    """A bar on a pivot that an actuator from the ground holds up."""
+
+    def linkage(self) -> Linkage:
+        bar = Body(mass=20.0, inertia=2.0, centre=(0.6, 0.1))
+        jack = LinearActuator(foot=GROUND, head="bar", foot_point=(0.7, -1.0), head_point=(1.0, 0.0))
+        return Linkage(
+            bodies={"bar": bar}, pins={"pivot": pinned(GROUND, "bar", (0.0, 0.0))}, actuators={"jack": jack}
+        )
+
+
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
+def test_an_actuator_pushes_with_what_the_bar_asks_for(formulation: str) -> None:
+    result = simulate(
+        Scenario(
+            machine=Lifted(),
+            drive=Steady(rate=0.2),
+            duration=1.0,
+            record_period=0.01,
+            formulation=formulation,
+            solver=SolverSettings(tolerance=1e-9),
+        )
+    )
+    out, about = math.hypot(0.7, 1.0), 2.0 + 20.0 * 0.37
+    length = math.hypot(0.3, 1.0) + 0.2 * result.time
+    # the law of cosines in the triangle of pivot, foot and head: its angle at the pivot
+    angle = np.arccos((1.0 + out**2 - length**2) / (2.0 * out))
+    turn = angle - angle[0]
+    arm = out * np.sin(angle) / length  # of the force about the pivot: how the length grows with the turn
+    bend = (out * np.cos(angle) - arm**2) / length
+    spin, acceleration = 0.2 / arm, -bend * 0.2**2 / arm**3
+    weight = 20.0 * 9.81 * (0.6 * np.cos(turn) - 0.1 * np.sin(turn))
+    # joints hold it; the engine's rates and forces are of second order in steps of 0.5 ms
+    rates, forces = (1e-11, 1e-10) if formulation == "compiled" else (1e-6, 1e-6)
+    np.testing.assert_allclose(result["bar.angle"], turn, atol=1e-12)
+    np.testing.assert_allclose(result["bar.angular_velocity"], spin, rtol=rates)
+    np.testing.assert_allclose(result["jack.force"], (about * acceleration + weight) / arm, rtol=forces)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from support_exudyn.formulations.time_grid import SHARE_OF_STEP, StepPlan, shortest_step
+from support_exudyn.formulations.time_grid import StepPlan, shortest_step
 
 Times = list[float]
 
@@ -70,32 +70,6 @@ def test_every_record_and_break_is_hit_exactly(planned: tuple[StepPlan, Times], 
 
 
 @given(planned=plans(), share=shares)
-def test_a_time_just_short_of_a_stop_is_on_it(planned: tuple[StepPlan, Times], share: float) -> None:
-    plan, stops = planned
-    largest = share * plan.step
-    for stop in stops[1:-1]:
-        short = math.nextafter(stop, 0.0)
-        # rounding of times up to 15 s
-        assert plan.next_time(short, largest) == pytest.approx(plan.next_time(stop, largest), abs=4e-15)
-
-
-@given(planned=plans())
-def test_the_last_time_is_the_end(planned: tuple[StepPlan, Times]) -> None:
-    plan, _ = planned
-    # rounding of the last record, if the end is one
-    assert walk(plan)[-1] == pytest.approx(plan.duration, rel=1e-15)
-    assert plan.next_time(plan.duration) == plan.duration
-
-
-@given(planned=plans(), share=shares)
-def test_no_step_is_longer_than_asked_for(planned: tuple[StepPlan, Times], share: float) -> None:
-    plan, _ = planned
-    longest = max(b - a for a, b in pairwise(walk(plan, share * plan.step)))
-    # a share of 1e-9 is not worth another step
-    assert longest <= min(1.0, share) * plan.step * (1.0 + 2e-9)
-
-
-@given(planned=plans(), share=shares)
 def test_steps_between_two_stops_are_equal_and_as_few_as_possible(
     planned: tuple[StepPlan, Times], share: float
 ) -> None:
@@ -110,24 +84,6 @@ def test_steps_between_two_stops_are_equal_and_as_few_as_possible(
         for a, b in pairwise(inside):
             # rounding of times up to 15 s
             assert b - a == pytest.approx((after - before) / parts, abs=1e-14)
-
-
-@given(planned=plans(), share=shares)
-def test_a_largest_step_gives_the_grid_of_a_plan_with_that_step(
-    planned: tuple[StepPlan, Times], share: float
-) -> None:
-    plan, _ = planned
-    shorter = StepPlan(plan.duration, plan.record_period, min(1.0, share) * plan.step, plan.breaks)
-    # rounding of times up to 15 s
-    assert walk(plan, share * plan.step) == pytest.approx(walk(shorter), abs=1e-14)
-
-
-@given(planned=plans(), longer=st.floats(1.0, 10.0))
-def test_a_largest_step_beyond_the_plans_own_changes_nothing(
-    planned: tuple[StepPlan, Times], longer: float
-) -> None:
-    plan, _ = planned
-    assert walk(plan, longer * plan.step) == walk(plan)
 
 
 @given(planned=plans(), place=st.floats(0.0, 1.0, exclude_max=True), share=shares)
@@ -152,16 +108,6 @@ def test_every_record_is_recorded_once_and_nothing_else(planned: tuple[StepPlan,
     assert recorded == pytest.approx(expected_stops(plan.duration, plan.record_period, []), abs=4e-15)
 
 
-@given(planned=plans())
-def test_breaks_are_known_as_such(planned: tuple[StepPlan, Times]) -> None:
-    plan, _ = planned
-    for t in walk(plan):
-        # breaks that differ by rounding only are the same time
-        near = [b for b in plan.breaks if abs(t - b) < 1e-12]
-        found = plan.breaks_at(t)
-        assert set(found) == set(near)
-
-
 def test_steps_by_hand() -> None:
     plan = StepPlan(duration=0.5, record_period=0.2, step=0.1, breaks=[0.25])
     # 0.2 to the break in one step, from there to 0.4 in two of 0.075; rounding
@@ -176,14 +122,6 @@ def test_shorter_steps_by_hand() -> None:
     assert plan.next_time(0.07, 0.06) == pytest.approx(0.1, abs=1e-15)
 
 
-def test_breaks_outside_the_run_are_left_out() -> None:
-    assert StepPlan(1.0, 0.1, 0.1, [-1.0, 0.35, 1.0, 2.0]).breaks == [0.35]
-
-
-def test_a_break_at_the_start_is_one() -> None:
-    assert StepPlan(1.0, 0.1, 0.1, [0.0, 0.35]).breaks_at(0.0) == [0.0]
-
-
 def test_a_break_within_rounding_of_a_record_takes_no_step_of_its_own() -> None:
     assert 3 * 0.1 != 0.3
     sizes = [b - a for a, b in pairwise(walk(StepPlan(1.0, 0.1, 0.05, [0.3, 0.6, 0.7])))]
@@ -191,43 +129,11 @@ def test_a_break_within_rounding_of_a_record_takes_no_step_of_its_own() -> None:
     assert sizes == pytest.approx([0.05] * 20, abs=1e-15)
 
 
-def test_a_break_close_to_a_record_is_still_landed_on() -> None:
-    late = 0.3 + 1e-7
-    times = walk(StepPlan(1.0, 0.1, 0.05, [late]))
-    assert late in times
-    assert 3 * 0.1 in times
-
-
-def test_the_end_is_a_record_even_off_the_period() -> None:
-    plan = StepPlan(1.0, 0.3, 0.1, [])
-    assert plan.is_record(1.0)
-    assert [t for t in walk(plan) if plan.is_record(t)] == pytest.approx([0.0, 0.3, 0.6, 0.9, 1.0], abs=1e-15)
-
-
-def test_the_start_is_a_record() -> None:
-    assert StepPlan(1.0, 0.3, 0.1, []).is_record(0.0)
-
-
-def test_a_long_run_lands_on_every_record() -> None:
-    plan = StepPlan(100.0, 1e-3, 1e-3, [])
-    t, records = 0.0, 0
-    while t < 100.0:
-        t += plan.next_time(t) - t
-        records += plan.is_record(t)
-    assert records == 100_000
-
-
 def test_only_the_step_after_a_break_follows_it() -> None:
     plan = StepPlan(1.0, 0.1, 0.05, [0.32])
     # from 0.32 to the record at 0.4 there are two steps of 0.04
     following = [t for t in (0.25, 0.3, 0.31, 0.32, 0.33, 0.3599, 0.36, 0.4) if plan.follows_break(t)]
     assert following == [0.32, 0.33, 0.3599]
-
-
-def test_tiny_steps_advance_late_in_a_long_run() -> None:
-    plan = StepPlan(338.1, 0.1, 1.6759e-6, ())
-    t = 678 * 0.1
-    assert plan.next_time(t) > t + 1e-6
 
 
 def test_the_last_record_is_the_end_and_comes_once() -> None:
@@ -271,39 +177,6 @@ def test_far_times_by_hand() -> None:
     assert plan.records_between(0.1, 0.2) == []
 
 
-@given(
-    duration=st.floats(0.01, 1.0),
-    period=st.floats(1e-3, 0.1),
-    step=st.floats(1e-4, 0.05),
-    breaks=st.lists(st.floats(0.0, 1.0), max_size=3),
-    share=st.sampled_from([1.0, 1.0 / 32.0]),
-)
-def test_stretches_are_the_steps_one_by_one(
-    duration: float, period: float, step: float, breaks: list[float], share: float
-) -> None:
-    plan = StepPlan(duration, min(period, duration), step, breaks)
-    assume(duration / step < 2000)
-
-    def largest(t: float) -> float:
-        return share * step if plan.follows_break(t) else math.inf
-
-    singles, t = [], 0.0
-    while t < duration * (1.0 - 1e-12):
-        t = plan.next_time(t, largest(t))
-        singles.append(t)
-    together, t = [], 0.0
-    while t < duration * (1.0 - 1e-12):
-        end, steps = plan.run_of_steps(t, largest(t))
-        assert steps >= 1
-        # nothing that has to be looked at lies inside
-        assert not [b for b in plan.breaks if t + 1e-9 < b < end - 1e-9]
-        assert not plan.records_between(t, end)
-        together += [t + (end - t) * n / steps for n in range(1, steps)] + [end]
-        t = end
-    # times of the same grid: rounding
-    assert together == pytest.approx(singles, abs=1e-9 * step + 1e-14)
-
-
 # --- late in a long run ---
 
 
@@ -327,39 +200,9 @@ def test_steps_late_in_a_long_run_are_as_equal_as_early(largest: float) -> None:
     assert plan.breaks_at(999.0004) == [999.0004]
 
 
-def test_the_shortest_steps_advance_at_the_end_of_a_long_run() -> None:
-    plan = StepPlan(1000.0, 1e-3, 1e-3, [])
-    t = 999.9995
-    for _ in range(100):
-        later = plan.next_time(t, 1e-11)
-        # rounding of times: 1.1e-13 s
-        assert 5e-12 < later - t < 1.5e-11
-        t = later
-
-
-def test_thousands_of_breaks_are_landed_on() -> None:
-    breaks = [0.1 + 0.01 * n for n in range(5000)]
-    plan = StepPlan(60.0, 1.0, 0.1, breaks)
-    times = walk(plan)
-    assert set(breaks) - {b for b in breaks if plan.is_record(b)} <= set(times)
-    assert all(plan.breaks_at(b) == [b] for b in plan.breaks)
-    assert all(plan.follows_break(b) and plan.follows_break(b + 0.004) for b in plan.breaks)
-    assert not plan.breaks_at(0.105)
-    assert not plan.follows_break(50.5)
-
-
 # --- rests that are not worth a step ---
 
 ROUNDING = 1e-15  # [m], of a machine of some metres
-
-
-@given(rounding=st.floats(1e-20, 1e-10), largest=st.floats(1e-9, 0.1))
-def test_the_shortest_step_is_where_rounding_and_change_are_alike(rounding: float, largest: float) -> None:
-    h = shortest_step(rounding, largest)
-    assert 0.0 < h <= SHARE_OF_STEP * largest
-    if h < SHARE_OF_STEP * largest:
-        # of the acceleration: what rounding leaves in a step, and by what it changes within it; 10 m/s^2
-        assert rounding / h**2 == pytest.approx(10.0 * h / largest, rel=1e-9)
 
 
 def test_the_shortest_step_of_the_support() -> None:
@@ -420,11 +263,3 @@ def test_a_step_that_ends_at_a_record_passes_none() -> None:
     assert plan.passes_record(0.05, 0.11)
     assert plan.passes_record(0.1, 0.3)
     assert plan.passes_record(0.22, 0.27)  # beyond a break
-
-
-@given(planned=plans(), where=st.lists(st.floats(0.0, 1.0), min_size=1, max_size=20))
-def test_breaks_are_told_whatever_was_asked_before(planned: tuple[StepPlan, Times], where: list[float]) -> None:
-    plan, _ = planned
-    for share in where:
-        for t in (share * plan.duration, *plan.breaks):
-            assert plan.breaks_at(t) == [b for b in plan.breaks if abs(t - b) <= plan._tolerance]

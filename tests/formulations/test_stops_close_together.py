@@ -57,7 +57,6 @@ def pressed(t: float) -> AppliedForce:
 SCENES: dict[str, Callable[[float], Scenario]] = {
     "smooth": lambda t: support(drive=cubic(t), **SHORT),
     "struck": lambda t: support(drive=uniform(t), **SHORT),
-    "struck at once": lambda t: support(drive=uniform(abs(t - BREAK)), **SHORT),
     "table": lambda t: support(drive=table(t, "smooth"), **SHORT),
     "table of lines": lambda t: support(drive=table(t, "linear"), **SHORT),
     "two drives": lambda t: support(drive=uniform(BREAK), drives={"front_column": uniform(t)}, **SHORT),
@@ -79,7 +78,6 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     "compiled, struck": lambda t: support(
         drive=uniform(t), drives={"rear_column": table(t, "smooth")}, formulation="compiled", **SHORT
     ),
-    "compiled, load": lambda t: support(loads={"press": pressed(t)}, formulation="compiled", **SHORT),
 }
 # of the forces: accelerations jump at smooth breaks by 10 m/s^2 and change within 10 ms, so that forces change
 # by 1e-3 of the weight if a break moves by 1e-6 s; below it is Newton's method, and rounding in steps of 15 us
@@ -102,9 +100,7 @@ def apart(one: Result, other: Result) -> float:
 
 
 @pytest.mark.parametrize("scene", SCENES)
-@pytest.mark.parametrize(
-    "beside", [1e-13, -1e-9, -1e-6, *(pytest.param(t, marks=pytest.mark.slow) for t in (-1e-12, 1e-11, -3e-7))]
-)
+@pytest.mark.parametrize("beside", [1e-13, -1e-9, -1e-6])
 def test_a_break_just_beside_a_record_is_as_one_on_it(scene: str, beside: float) -> None:
     found = simulate(SCENES[scene](BREAK + beside))
     assert apart(found, coinciding(scene)) < AGREE + AND_PER_SECOND * abs(beside)
@@ -114,7 +110,7 @@ def test_a_break_just_beside_a_record_is_as_one_on_it(scene: str, beside: float)
 RISE = support(drive=CubicStep(start=0.1, end=0.9, stroke=0.05), duration=1.0)
 
 
-@pytest.mark.parametrize("formulation", ["redundant", "compiled"])
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
 def test_records_that_end_just_before_the_run(formulation: Any) -> None:
     period = 0.0333333333  # as a third of a tenth is typed in ms
     rise = replace(RISE, formulation=formulation)
@@ -128,21 +124,12 @@ def test_records_that_end_just_before_the_run(formulation: Any) -> None:
         assert typed[name][-1] == pytest.approx(exact[name][-1], rel=1e-6)
 
 
-def test_a_duration_of_single_precision() -> None:
-    short = replace(RISE, duration=float(np.float32(0.3)))
-    found, exact = simulate(short), simulate(replace(RISE, duration=0.3))
-    assert found.time[-1] == short.duration != 0.3
-    for name in ("front_column.force", "rear_column.force", "pin.front_base.force"):
-        assert found[name][-1] == pytest.approx(exact[name][-1], rel=1e-5)
-        assert found[name].max() == pytest.approx(exact[name].max(), rel=1e-5)
-
-
 @cache
 def dropped(record_period: float) -> Result:
     return simulate(loose_support(0.5, 0.25, duration=0.04, record_period=record_period))
 
 
-@pytest.mark.parametrize("before", [1e-12, 1e-10, 1e-9, 1e-8, 1e-7])
+@pytest.mark.parametrize("before", [1e-12, 1e-9, 1e-7])
 @pytest.mark.parametrize("event", ["impact", "separation"])
 def test_a_touch_or_parting_just_before_a_record(event: str, before: float) -> None:
     # the record is laid just behind where it happens, which the period does not change

@@ -14,8 +14,6 @@ import pytest
 from exudyn.advancedUtilities import ConvertFunctionToSymbolic
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-
-from support_exudyn import Body, ClearancePin, Held, Result, Scenario, SolverSettings, simulate
 from support_exudyn.formulations.redundant.clearance.connector import user_function
 from support_exudyn.formulations.redundant.clearance.connector_force import (
     Attachment,
@@ -24,7 +22,8 @@ from support_exudyn.formulations.redundant.clearance.connector_force import (
 )
 from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.clearance.symbolic_force import SymbolicForce, engine
-from support_exudyn.mechanics.contact_state import Onset, PinMemory
+
+from support_exudyn import Body, ClearancePin, Held, Result, Scenario, SolverSettings, simulate
 from tests.cases.law_cases import (
     BEARING,
     FRICTION_LAWS,
@@ -57,6 +56,7 @@ from user_forces import (
     Stribeck,
     Threlfall,
 )
+from user_forces.contact_state import Onset, PinMemory
 
 Vector = tuple[float, float]
 Ground = Literal["bore", "journal"] | None  # what is on the ground

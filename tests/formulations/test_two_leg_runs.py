@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from studies.common.paper_machine import clearance_joint
-from support_exudyn import CubicStep, Held, OilColumn, Result, Scenario, UniformSpeed, bore_area, simulate
-from support_exudyn.files.machines import load_machine
+from support_exudyn import CubicStep, Held, OilColumn, Result, Scenario, bore_area, simulate
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.check.shield_stroke import stations
-from support_exudyn.postprocessing.look.looks import look
 from support_exudyn.postprocessing.pytest_plugin import SimulateCached
-from tests.machine_files import written
 
 DATA = read_machine("two_leg_shield")
 MACHINE: Any = DATA.machine
@@ -54,21 +50,6 @@ def test_the_ram_is_as_long_as_closed_form_says(rise: Result) -> None:
     assert rise["ram.length"][some] == pytest.approx(expected, abs=1e-10)
 
 
-def test_a_run_is_saved_and_read_with_its_machine(rise: Result, tmp_path: Path) -> None:
-    rise.save(tmp_path / "rise.h5")
-    read = Result.load(tmp_path / "rise.h5")
-    assert read.scenario == RISE
-    assert read.scenario.drive_of("ram") == RISE.drive_of("ram")
-
-
-def test_a_sudden_inlet_is_an_impulse_in_both() -> None:
-    sudden = replace(RISE, drive=UniformSpeed(stroke=0.1, start=0.1, end=0.3), duration=0.4)
-    result = simulate(sudden)
-    assert np.abs(result["canopy.angle"]).max() < 1e-9
-    # errors of second order in a step of 1 ms; a run with 5 % is refused
-    assert abs(result["energy.balance"][-1]) < 1e-2 * abs(result["energy.work"][-1])
-
-
 def test_loose_pins_and_oil_work() -> None:
     drop = replace(RISE, drive=CubicStep(stroke=0.05, start=0.1, end=0.3), duration=0.4, step=5e-4)
     with_clearance = simulate(replace(drop, pins={"rear_base": clearance_joint(1.5, 0.25)}, duration=0.15))
@@ -84,15 +65,6 @@ def test_loose_pins_and_oil_work() -> None:
     assert given["tip.y"][-1] == pytest.approx(ideal["tip.y"][-1], abs=3e-3)
 
 
-def test_the_compiled_formulation_moves_it_alike(rise: Result) -> None:
-    # a ram that follows the leg by a curve of its own
-    other = simulate(replace(RISE, formulation="compiled"))
-    assert np.abs(other["canopy.angle"]).max() < 1e-10
-    for name in ("leg.force", "ram.force", "pin.front_base.force"):
-        # second order of steps of 1 ms, of accelerations that are small beside the weight
-        np.testing.assert_allclose(other[name], rise[name], atol=1e-4 * np.abs(rise[name]).max(), err_msg=name)
-
-
 def test_it_runs_in_space() -> None:
     still = replace(RISE, drive=Held(), dimensions=3, duration=0.02)
     result = simulate(still)
@@ -100,23 +72,3 @@ def test_it_runs_in_space() -> None:
     # both sides bear half; the solver's tolerance
     assert 2.0 * result["leg_left.force"][-1] == pytest.approx(flat["leg.force"][-1], rel=1e-6)
     assert 2.0 * result["ram_right.force"][-1] == pytest.approx(flat["ram.force"][-1], rel=1e-6)
-
-
-@pytest.mark.parametrize("dimensions", [2, 3])
-def test_it_has_a_look_with_closed_surfaces(dimensions: Any) -> None:
-    shown = look(replace(RISE, dimensions=dimensions))
-    assert all(solid.mesh.is_watertight for solid in shown.solids)
-    assert sorted(strut.name for strut in shown.struts) == ["leg_left", "leg_right", "ram_left", "ram_right"]
-
-
-def test_a_support_that_is_not_in_the_package_runs(tmp_path: Path) -> None:
-    data = load_machine(written(tmp_path))
-    machine: Any = data.machine
-    result = simulate(
-        Scenario(machine=machine, drive=CubicStep(stroke=0.6, start=0.1, end=1.1), duration=1.3, step=1e-3)
-    )
-    last = stations(machine, 0.6, 2)[-1]
-    # joints closed within some 1e-12 m
-    assert result["tip.x"][-1] == pytest.approx(last.posture.tip[0], abs=1e-9)
-    assert result["front_column.force"][-1] == pytest.approx(last.forces.actuators["front_column"], abs=1.0)
-    assert all(solid.mesh.is_watertight for solid in look(result.scenario).solids)

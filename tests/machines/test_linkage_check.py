@@ -12,9 +12,6 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from studies.benchmarking.drawn_linkages import bar_of, chain, towards
-from support_exudyn import ravn_slider_crank
-from support_exudyn.files.machines.read import read_machine
-from support_exudyn.machines.check import check_machine
 from support_exudyn.machines.check.any_machine import MachineReport, check_any
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage
@@ -118,15 +115,6 @@ def test_transmission_angles_are_those_of_the_triangle() -> None:
     for moved, angle in zip(report.ways[0].moved, found.angles, strict=True):
         apart = math.dist(towards(60.0 + math.degrees(moved.travel), a), (g, 0.0))
         assert angle == pytest.approx(corner(b, c, apart), abs=1e-9)
-
-
-def test_transmission_to_a_slider_is_counted_from_the_normal_of_its_guide() -> None:
-    machine = ravn_slider_crank()
-    report = check_any(MachineData(machine), None)
-    (found,) = report.transmission["crank"]
-    steepest = math.asin(machine.crank_length / machine.rod_length)
-    assert found.least[1] == pytest.approx(0.5 * math.pi - steepest, abs=1e-9)
-    assert [one[0] for one in told(report, "crank", "turns back")] == pytest.approx([0.0, 180.0], abs=1e-6)
 
 
 def boom() -> Linkage:
@@ -241,14 +229,6 @@ def with_an_arm() -> Linkage:
     )
 
 
-def test_a_freedom_under_a_spring_is_no_freedom_too_many() -> None:
-    arm = with_an_arm()
-    held = {"back": TorsionSpring(body="arm", other="rocker", stiffness=5.0)}
-    report = check_any(MachineData(PlanarLinkage(drawing=arm, acting=held), kind="linkage"), None)
-    assert report.warnings == []
-    assert "it moves under its loads in one way: arm turns about pin D" in report.facts
-
-
 # --- freedoms ---
 
 
@@ -278,13 +258,6 @@ def test_a_bar_too_many_is_told_and_moves_all_the_same() -> None:
     for one in report.ways[0].moved:
         turns = one.position[2::3]
         assert turns == pytest.approx([one.travel, 0.0, one.travel, one.travel], abs=1e-5)
-
-
-def test_a_parallelogram_drawn_flat_is_in_a_dead_centre() -> None:
-    report = checked(driven(four_bar(0.2, 0.5, 0.2, 0.5, 0.0), "crank"))
-    assert len(report.warnings) == 1
-    assert report.warnings[0].startswith("the start posture is a dead centre")
-    assert report.ways == []
 
 
 def test_two_cranks_that_fight_are_told() -> None:
@@ -317,14 +290,6 @@ def test_a_freedom_too_many_is_told_with_what_moves() -> None:
     assert "bodies.plate: nothing joins it to the ground" in checked(loose).warnings
 
 
-def test_a_block_on_a_line_shifts() -> None:
-    linkage = Linkage(
-        bodies={"block": Body(mass=1.0, inertia=1e-3, centre=(0.0, 0.0))},
-        slides={"line": Slide(body="block", point=(0.0, 0.0), direction=math.radians(30.0))},
-    )
-    assert checked(linkage).facts[-1] == "it moves freely in one way: block shifts along 30 degrees"
-
-
 # --- all of it ---
 
 
@@ -351,14 +316,6 @@ def test_linkages_are_drawn(excavator: MachineReport) -> None:
             figure = check_figure(report)
             figure.canvas.draw()
             assert len(figure.axes) == (4 if report.ways else 1)
-
-
-def test_the_shipped_crank_rocker_is_told_as_it_is() -> None:
-    report = check_machine(read_machine("crank_rocker"))
-    data = report.data()["drives"]["crank"]
-    assert data["turns_right_round"] is True
-    assert [one["what"] for one in data["points"]] == ["turns back", "turns back"]
-    assert math.degrees(data["transmission_angles"][0]["least_rad"]) == pytest.approx(38.62, abs=0.01)
 
 
 @pytest.mark.parametrize("length", [0.7, 1.1, 1.6, 1.9, 2.3])

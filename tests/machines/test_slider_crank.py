@@ -9,9 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import ClearancePin, Crank, Scenario, Slide, SliderCrank, Steady, ravn_slider_crank
-from support_exudyn.model.linkage import GROUND
-from tests.cases.machine_cases import contact
+from support_exudyn import Scenario, SliderCrank, Steady, ravn_slider_crank
 from user_forces import InputError, Value
 
 angles = st.floats(-10.0, 10.0)
@@ -70,13 +68,6 @@ def test_acceleration_is_the_derivative_of_the_speed(one: SliderCrank, angle: fl
     assert one.slider_acceleration(angle, speed) == pytest.approx(expected, abs=4e-11 * scale + 1e-300)
 
 
-@given(one=machines, angle=angles, speed=speeds)
-def test_motion_is_symmetric_about_the_guide(one: SliderCrank, angle: float, speed: float) -> None:
-    assert one.slider_position(-angle) == one.slider_position(angle)
-    assert one.slider_speed(-angle, speed) == -one.slider_speed(angle, speed)
-    assert one.slider_acceleration(-angle, speed) == one.slider_acceleration(angle, speed)
-
-
 def test_dead_centres_by_hand() -> None:
     ravn = ravn_slider_crank()
     # 120 mm plus and minus 50 mm; rounding
@@ -88,15 +79,6 @@ def test_dead_centres_by_hand() -> None:
     # w^2 r (1 + r/l) and w^2 r (1 - r/l); rounding
     assert ravn.slider_acceleration(0.0, 100.0) == pytest.approx(-1e4 * 0.05 * (1.0 + 5.0 / 12.0), rel=1e-14)
     assert ravn.slider_acceleration(math.pi, 100.0) == pytest.approx(1e4 * 0.05 * (1.0 - 5.0 / 12.0), rel=1e-14)
-
-
-def test_upright_crank_by_hand() -> None:
-    ravn = ravn_slider_crank()
-    along = math.sqrt(0.12**2 - 0.05**2)
-    # the slider moves as fast as the crank pin; cos(pi/2) is 6e-17
-    assert ravn.slider_position(math.pi / 2) == pytest.approx(along, rel=1e-14)
-    assert ravn.slider_speed(math.pi / 2, 100.0) == pytest.approx(-5.0, rel=1e-14)
-    assert ravn.slider_acceleration(math.pi / 2, 100.0) == pytest.approx(1e4 * 0.05**2 / along, rel=1e-13)
 
 
 # --- the mechanism ---
@@ -135,40 +117,10 @@ def test_bodies_lie_along_crank_and_rod_with_their_centres_in_the_middle(one: Sl
     assert (slider.centre, slider.angle) == (linkage.pins["slider_pin"].first_point, 0.0)
 
 
-def test_masses_are_those_given() -> None:
-    bodies = machine().linkage().bodies
-    assert {name: body.mass for name, body in bodies.items()} == {"crank": 0.3, "rod": 0.2, "slider": 0.1}
-    assert (bodies["crank"].inertia, bodies["rod"].inertia) == (1e-4, 2e-4)
-
-
-def test_crank_is_driven_and_slider_guided() -> None:
-    linkage = machine().linkage()
-    bodies = [(pin.first, pin.second) for pin in linkage.pins.values()]
-    assert bodies == [(GROUND, "crank"), ("crank", "rod"), ("slider", "rod")]
-    assert linkage.cranks == {"crank": Crank(body="crank")}
-    (guide,) = linkage.slides.values()
-    # through the main pin, so along x at height 0
-    assert isinstance(guide, Slide)
-    assert (guide.body, guide.point[1], guide.direction) == ("slider", 0.0, 0.0)
-
-
-def test_the_slider_is_traced() -> None:
-    linkage = machine().linkage()
-    assert linkage.points["slider"].point == linkage.bodies["slider"].centre
-
-
 @pytest.mark.parametrize("turns", [1.0, -100.0])
 def test_the_crank_turns_right_round_as_often_as_asked(turns: float) -> None:
     drive = Steady(rate=2.0 * math.pi * turns)
     assert Scenario(machine=machine(), drive=drive, duration=1.0).drive == drive
-
-
-@pytest.mark.parametrize("name", ["main", "crank_pin", "slider_pin"])
-def test_any_pin_may_have_clearance(name: str) -> None:
-    with_clearance = ClearancePin(contact=contact())
-    assert Scenario(machine=machine(), duration=1.0, pins={name: with_clearance}).clearance_pins == {
-        name: with_clearance
-    }
 
 
 # --- bad input, and back from data ---
@@ -179,24 +131,6 @@ def test_a_rod_that_does_not_let_the_crank_round_is_refused(ratio: float) -> Non
     length = 0.05 * ratio
     with pytest.raises(InputError, match=rf"rod_length = {length} m: allowed: > crank_length = 0\.05 m"):
         machine(ratio=ratio)
-
-
-@pytest.mark.parametrize(
-    "field",
-    [
-        "crank_length",
-        "rod_length",
-        "crank_mass",
-        "rod_mass",
-        "slider_mass",
-        "crank_inertia",
-        "rod_inertia",
-    ],
-)
-def test_what_must_be_positive_is_refused_at_zero(field: str) -> None:
-    fields = {name: getattr(machine(), name) for name in vars(machine())} | {field: 0.0}
-    with pytest.raises(InputError, match=rf"SliderCrank\.{field} = 0\.0: .*allowed: > 0"):
-        SliderCrank(**fields)
 
 
 def test_a_slider_crank_comes_back_from_json() -> None:

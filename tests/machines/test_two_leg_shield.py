@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.drives.coupled_drive import CoupledDrive, following
 from support_exudyn.model.plane_geometry import distance
 from user_forces import InputError
-from user_forces.values.value import Value
 
 STROKE = 1.15
 
@@ -29,12 +27,6 @@ def shield() -> TwoLegShield:
 @pytest.fixture(scope="module")
 def scenario(shield: TwoLegShield) -> Scenario:
     return Scenario(machine=shield, drive=CubicStep(stroke=STROKE), duration=5.0)
-
-
-def test_it_starts_level_at_its_height(shield: TwoLegShield) -> None:
-    start = shield.start()
-    assert start.canopy == 0.0
-    assert start.hinge[1] == pytest.approx(1.7, abs=1e-12)  # the root's tolerance, 1e-15 rad, and rounding
 
 
 def test_the_tip_wanders_less_than_the_rule_allows(shield: TwoLegShield) -> None:
@@ -99,34 +91,9 @@ def test_breaks_jumps_and_starts_are_those_of_the_leg(shield: TwoLegShield) -> N
     assert steady.initial_speed == steady.speed(0.0) != 0.0
 
 
-def test_its_span_holds_all_of_it(scenario: Scenario) -> None:
-    ram = scenario.drive_of("ram")
-    low, high = ram.span(5.0)
-    values = [ram.extension(float(t)) for t in np.linspace(0.0, 5.0, 1001)]
-    # samples come near the ends as the cubic step does: it rests there
-    assert (min(values), max(values)) == pytest.approx((low, high), abs=1e-15)
-
-
-def test_a_span_knows_where_the_follower_turns_back() -> None:
-    """A parabola, whose largest value lies within."""
-    lead = CubicStep(stroke=1.0)
-    coupled_drive = following(lead, 5.0, lambda x: x * (1.0 - x))
-    assert coupled_drive.span(5.0) == pytest.approx((0.0, 0.25), abs=1e-14)  # rounding
-    assert coupled_drive.extension(4.0) == pytest.approx(0.25, abs=1e-14)
-
-
 def test_what_no_polynomial_follows_is_refused() -> None:
     with pytest.raises(InputError, match="without bounds"):
         following(CubicStep(stroke=1.0), 5.0, np.sqrt)
-
-
-def test_followers_are_written_and_read(scenario: Scenario) -> None:
-    ram = scenario.drive_of("ram")
-    assert Value.from_data(ram.to_data()) == ram
-
-
-def test_a_held_leg_holds_the_ram(shield: TwoLegShield) -> None:
-    assert Scenario(machine=shield, duration=1.0).drive_of("ram") == Held()
 
 
 def test_a_scenario_may_drive_the_ram(shield: TwoLegShield) -> None:
@@ -153,8 +120,3 @@ def test_the_ram_follows_the_drive_that_is_the_legs_own(shield: TwoLegShield) ->
 def test_what_cannot_be_followed_is_told(shield: TwoLegShield, drives: dict[str, Drive], said: str) -> None:
     with pytest.raises(InputError, match=said):
         Scenario(machine=shield, drive=CubicStep(stroke=0.2), drives=drives, duration=5.0)
-
-
-def test_pivots_of_nonsense_are_refused(shield: TwoLegShield) -> None:
-    with pytest.raises(InputError, match=r"ram_foot.*is it given in mm"):
-        replace(shield, ram_foot=(339.0, 1753.0))

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin
 from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
-from support_exudyn.mechanics.contact_state import PinMemory
 from tests.cases.run_cases import paper_contact
 from user_forces import Ambrosio, FrictionLaw, Frictionless, value
 from user_forces.contact import SlipHistory
+from user_forces.contact_state import PinMemory
 
 BASE = paper_contact(1.5, 0.0)
 NORMAL = replace(BASE.normal, restitution=0.5)  # asks for the mass that moves

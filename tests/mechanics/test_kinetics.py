@@ -23,11 +23,11 @@ from support_exudyn import (
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.mechanics.body_coordinates import BodyItem
-from support_exudyn.mechanics.contact_state import HEAVIEST, InverseMass
 from support_exudyn.mechanics.kinetics import Kinetics
 from support_exudyn.model.linkage import GROUND, pinned
 from tests.cases.run_cases import PIN, Pair, paper_contact, slider_crank_contact, support
 from tests.often import often
+from user_forces.contact_state import HEAVIEST, InverseMass
 from user_forces.values.value import Vector2
 
 sometimes = settings(deadline=None, max_examples=often(40))

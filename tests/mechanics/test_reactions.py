@@ -1,4 +1,4 @@
-"""Joint forces and accelerations of redundant runs from their motion."""
+"""Joint forces and accelerations of Exudyn runs from their motion."""
 
 from __future__ import annotations
 

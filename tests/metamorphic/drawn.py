@@ -60,7 +60,7 @@ from user_forces import (
     Stribeck,
 )
 
-IMPACT_STEPS = 64  # of the redundant formulation: enough, for its errors are known
+IMPACT_STEPS = 64  # of the Exudyn formulation: enough, for its errors are known
 MS = 1e-3  # [s]
 GRAVITY = (0.0, -9.81)
 SUPPORTS = ("reference", "zf18000", "two_leg_shield")
@@ -255,7 +255,7 @@ def on_columns_of_oil(draw: st.DrawFn) -> Scenario:
 
 @st.composite
 def in_bodies(draw: st.DrawFn, level: bool = True) -> Scenario:
-    """Any support for the redundant formulation; `level`: with loads that know what is down."""
+    """Any support for the Exudyn formulation; `level`: with loads that know what is down."""
     duration = MS * draw(st.integers(10, 20))
     name = draw(st.sampled_from(SUPPORTS))
     kind = machine(name)
@@ -278,7 +278,7 @@ def in_bodies(draw: st.DrawFn, level: bool = True) -> Scenario:
         duration=duration,
         record_period=MS,
         step=1e-4,
-        formulation="redundant",
+        formulation="exudyn",
         solver=SolverSettings(impact_steps=IMPACT_STEPS),
     )
 
@@ -306,6 +306,6 @@ def cranks(draw: st.DrawFn, free: bool) -> Scenario:
         record_period=period,
         step=2e-5,
         gravity=draw(st.sampled_from(((0.0, 0.0), GRAVITY))),
-        formulation="compiled" if free else "redundant",
+        formulation="compiled" if free else "exudyn",
         solver=SolverSettings(tolerance=TOLERANCE, impact_steps=IMPACT_STEPS),
     )

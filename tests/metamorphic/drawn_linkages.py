@@ -62,7 +62,7 @@ def opening_pins(linkage: Linkage) -> list[str]:
 
 @st.composite
 def driven(draw: st.DrawFn, from_rest: bool = False) -> Scenario:
-    """A chain whose crank a drive turns, up to two pins of which have clearance; redundant formulation.
+    """A chain whose crank a drive turns, up to two pins of which have clearance; Exudyn formulation.
 
     from_rest: without weight, by a drive that begins smoothly.
     """
@@ -84,7 +84,7 @@ def driven(draw: st.DrawFn, from_rest: bool = False) -> Scenario:
         record_period=MS,
         step=1e-4,
         gravity=(0.0, 0.0) if from_rest else draw(st.sampled_from(((0.0, 0.0), GRAVITY))),
-        formulation="redundant",
+        formulation="exudyn",
         solver=SolverSettings(impact_steps=IMPACT_STEPS),
     )
 

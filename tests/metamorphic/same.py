@@ -31,7 +31,7 @@ MARGIN = 3.0  # both runs have an error, and that of a coarse run is now and the
 # impacts multiply that; measured 2e-5, else 1e-8. Redundant: Newton's method leaves 1e-8 of the residual, which
 # reactions of rigid bodies and accelerations show the more the shorter the steps; measured 4e-4 at worst, of a
 # slider that does not turn.
-ROUNDING = {"compiled": 1e-4, "redundant": 1e-3}
+ROUNDING = {"compiled": 1e-4, "exudyn": 1e-3}
 # Largest value in a unit, where a scene shows less because it rests
 SMALLEST = {"m": 1e-4, "rad": 1e-4, "m/s": 0.1, "rad/s": 0.1, "rad/s^2": 10.0, "J": 1e-6, "m^3/s": 1e-6}
 MOTION = ("m", "rad")  # units of which the change is the size, for places are known much better than by a share

@@ -62,8 +62,8 @@ def lone_grazes(one: Run, other: Result) -> np.ndarray:
 
 
 def compare(scene: Scenario, other: Result, finer: float) -> None:
-    """The redundant formulation at steps so many times shorter shows the same as another run of a scene."""
-    one = run(replace(scene, formulation="redundant").refined(finer))
+    """The Exudyn formulation at steps so many times shorter shows the same as another run of a scene."""
+    one = run(replace(scene, formulation="exudyn").refined(finer))
     records = one.determined() & ~lone_grazes(one, other)
     assert 2 * records.sum() > records.size
     # the impact velocity jumps to 0 at a separation, which may lie on either side of a record
@@ -82,10 +82,10 @@ def test_compiled_and_redundant_move_a_linkage_alike(scene: Scenario) -> None:
         compare(scene, other, 8.0)
 
 
-@given(scene=drawn_linkages.driven(), formulation=st.sampled_from(("compiled", "redundant")))
+@given(scene=drawn_linkages.driven(), formulation=st.sampled_from(("compiled", "exudyn")))
 @scenes(12)
 def test_statistics_do_not_depend_on_records(scene: Scenario, formulation: str) -> None:
-    # of the redundant formulation records cut steps, whose errors impacts multiply: without them
+    # of the Exudyn formulation records cut steps, whose errors impacts multiply: without them
     pins = scene.pins if formulation == "compiled" else {}
     scene = replace(scene, formulation=formulation, pins=pins)  # type: ignore[arg-type]
     fine, coarse = (told(replace(scene, record_period=one)) for one in (2e-5, scene.duration / 3.0))

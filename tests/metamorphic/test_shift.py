@@ -17,7 +17,7 @@ WAYS = st.sampled_from(
 NEAR = st.sampled_from(((3.0, 2.0), (-7.0, 5.0), (0.0, 1.0)))
 # By metre. Of the largest value in a unit: 3e-14 m at 300 m are 1e-2 m/s^2 in steps of an impact of 1 us, and
 # measured 8e-3 of the accelerations there; formulations with error control compute motions from the start
-ROUNDING = {"compiled": 1e-7, "redundant": 1e-4}
+ROUNDING = {"compiled": 1e-7, "exudyn": 1e-4}
 
 
 def shifted(scene: Scenario, way: tuple[float, float]) -> None:

@@ -34,7 +34,7 @@ def with_a_loose_pin(draw: st.DrawFn, pin: str) -> Scenario:
         record_period=drawn.MS,
         step=1e-4,
         solver=SolverSettings(impact_steps=drawn.IMPACT_STEPS),
-        formulation="redundant",
+        formulation="exudyn",
     )
 
 

@@ -6,7 +6,6 @@ import math
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from scipy.integrate import quad
 
 from support_exudyn import CubicStep, Drive, Held, Reciprocating, Steady, UniformSpeed
 from tests.analytic import adams_step
@@ -36,14 +35,6 @@ def test_speed_is_the_derivative_of_the_extension(
     slope = (chosen.extension(t + h) - chosen.extension(t - h)) / (2.0 * h)
     # central difference: third derivative 12 stroke/length^3 times h^2/6, and rounding of 2 m over h
     assert chosen.speed(t) == pytest.approx(slope, abs=12.0 * 2.0 / length**3 * h**2 / 6.0 + 1e-10)
-
-
-@given(kind=kinds, stroke=strokes, start=starts, length=lengths)
-def test_speed_adds_up_to_the_stroke(kind: type[Stroke], stroke: float, start: float, length: float) -> None:
-    chosen = drive(kind, stroke, start, length)
-    # from just after the start, where uniform speed has jumped; polynomials: quadrature is exact
-    total = quad(chosen.speed, start + 1e-12, start + length)[0]
-    assert total == pytest.approx(stroke, abs=1e-9)
 
 
 @given(kind=kinds, stroke=strokes, start=starts, length=lengths, before=st.floats(0.0, 5.0))
@@ -79,38 +70,6 @@ def test_default_is_the_sum_of_steps_that_the_paper_writes(t: float) -> None:
     assert CubicStep().extension(t) == pytest.approx(paper / 1e3, abs=2e-16)
 
 
-def test_cubic_step_is_fastest_in_the_middle() -> None:
-    # 3/2 of the mean speed of 0.5 m in 2 s
-    assert CubicStep().speed(4.0) == 0.375
-
-
-@pytest.mark.parametrize(("t", "expected"), [(3.0, 0.75), (5.0, -0.75)])
-def test_acceleration_of_the_cubic_step_jumps_at_its_ends(t: float, expected: float) -> None:
-    inside = 1e-6 if t == 3.0 else -1e-6
-    slope = (CubicStep().speed(t + inside) - CubicStep().speed(t)) / inside
-    # 6 stroke/length^2; one-sided difference: 12 stroke/length^3 times 1e-6 s
-    assert slope == pytest.approx(expected, abs=1e-6)
-
-
-@given(stroke=strokes, start=starts, length=lengths, share=st.floats(0.0, 0.5))
-def test_cubic_step_is_symmetric_about_its_middle(
-    stroke: float, start: float, length: float, share: float
-) -> None:
-    chosen = drive(CubicStep, stroke, start, length)
-    middle = start + 0.5 * length
-    sides = chosen.extension(middle - share * length) + chosen.extension(middle + share * length)
-    # rounding of the times, 1e-15 s, at speeds up to 1.5 * 2 m / 0.1 s
-    assert sides == pytest.approx(stroke, abs=1e-12)
-
-
-def test_uniform_speed_is_the_papers() -> None:
-    assert UniformSpeed().speed(4.0) == 0.25
-
-
-def test_uniform_speed_is_half_way_at_half_time() -> None:
-    assert UniformSpeed().extension(4.0) == 0.25
-
-
 def test_uniform_speed_at_its_jumps_is_the_speed_before() -> None:
     assert UniformSpeed().speed(3.0) == 0.0
     assert UniformSpeed().speed(5.0) == 0.25
@@ -124,18 +83,6 @@ def test_speed_jumps_at_the_breaks_as_told(
     for t in chosen.breaks:
         # the cubic step's acceleration, at most 6 stroke/length^2 = 1200 m/s^2, over 1 ns
         assert chosen.speed_jump(t) == pytest.approx(chosen.speed(t + h) - chosen.speed(t), abs=2e-6)
-
-
-@pytest.mark.parametrize(
-    "chosen", [UniformSpeed(), CubicStep(), Held(), Steady(rate=3.0), Reciprocating(period=2.0)]
-)
-def test_speed_does_not_jump_between_the_breaks(chosen: Drive) -> None:
-    assert [chosen.speed_jump(t) for t in (0.0, 2.9, 4.0, 5.1)] == [0.0] * 4
-
-
-@given(kind=kinds, stroke=strokes, start=starts, length=lengths)
-def test_breaks_are_start_and_end(kind: type[Stroke], stroke: float, start: float, length: float) -> None:
-    assert drive(kind, stroke, start, length).breaks == (start, start + length)
 
 
 @given(
@@ -164,14 +111,6 @@ def test_held_actuators_do_not_move(t: float) -> None:
     assert Held().span(5.0) == (0.0, 0.0)
 
 
-@pytest.mark.parametrize(
-    "chosen", [Held(), CubicStep(), UniformSpeed(), UniformSpeed(start=0.0), Reciprocating(period=2.0)]
-)
-def test_actuators_start_at_rest(chosen: Drive) -> None:
-    # a stroke that begins at the start begins with a jump and not with a speed
-    assert chosen.initial_speed == 0.0
-
-
 # --- a crank that has been turning for long ---
 
 
@@ -192,27 +131,6 @@ def test_a_steady_crank_begins_at_its_start_angle_and_at_speed(rate: float) -> N
     assert crank.speed_jump(0.0) == 0.0
 
 
-def test_a_steady_crank_has_no_break() -> None:
-    assert Steady(rate=3.0).breaks == ()
-
-
-@pytest.mark.parametrize(("rate", "span"), [(3.0, (0.0, 6.0)), (-3.0, (-6.0, 0.0)), (0.0, (0.0, 0.0))])
-def test_span_of_a_steady_crank_is_what_it_turns_in_the_run(rate: float, span: tuple[float, float]) -> None:
-    assert Steady(rate=rate).span(2.0) == span
-
-
-@given(rate=rates, duration=st.floats(0.1, 12.0), share=st.floats(0.0, 1.0))
-def test_a_steady_crank_stays_within_the_span(rate: float, duration: float, share: float) -> None:
-    lowest, highest = Steady(rate=rate).span(duration)
-    assert lowest <= Steady(rate=rate).extension(share * duration) <= highest
-
-
-@pytest.mark.parametrize("rate", [float("nan"), float("inf")])
-def test_a_rate_that_is_not_finite_is_refused(rate: float) -> None:
-    with pytest.raises(InputError, match=rf"Steady\.rate = {rate}: "):
-        Steady(rate=rate)
-
-
 # --- raised and lowered over and over ---
 
 periods = st.floats(0.1, 10.0)
@@ -225,16 +143,6 @@ def test_speed_of_reciprocating_is_the_derivative(stroke: float, period: float, 
     # central difference: third derivative stroke/2 w^3 times h^2/6; rounding of 2 m, and of phases up to
     # 750 rad at 1e-13 rad, over h
     assert chosen.speed(t) == pytest.approx(slope, abs=chosen.frequency**3 * h**2 / 6.0 + 4e-8)
-
-
-@given(stroke=strokes, period=periods, cycle=st.integers(0, 5))
-def test_reciprocating_is_down_at_whole_periods_and_up_between(
-    stroke: float, period: float, cycle: int
-) -> None:
-    chosen = Reciprocating(stroke=stroke, period=period)
-    # at rest in both: only the square of the rounding of a phase of 40 rad, and rounding of 2 m, count
-    assert chosen.extension(cycle * period) == pytest.approx(0.0, abs=1e-15)
-    assert chosen.extension((cycle + 0.5) * period) == pytest.approx(stroke, abs=1e-15)
 
 
 def test_reciprocating_by_hand() -> None:
@@ -273,12 +181,6 @@ def test_a_period_that_makes_no_sense_is_refused(period: float) -> None:
 def test_end_before_the_start_is_refused(kind: type[Stroke], end: float) -> None:
     with pytest.raises(InputError, match=rf"{kind.__name__}: end = {end} s: allowed: > start = 3\.0 s"):
         kind(start=3.0, end=end)
-
-
-@pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
-def test_start_before_the_run_is_refused(kind: type[Stroke]) -> None:
-    with pytest.raises(InputError, match=rf"{kind.__name__}\.start = -1\.0: .*allowed: >= 0"):
-        kind(start=-1.0)
 
 
 RETURNING = [

@@ -10,14 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import AppliedForce, FallingBlock, LoadedPoint, Scenario, reference_support
-from support_exudyn.formulations.redundant.scene.load_item import _pull
-from support_exudyn.model.loads.load import AnyLoad
 from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.look.plain import blocks, look
 from support_exudyn.postprocessing.look.solid import Role
 from tests.roof_cases import TOP, Ram
-from user_forces import Exact, InputError, delivered_restitution
-from user_forces.values.value import Value, value
+from user_forces import InputError
 
 ROCK = FallingBlock(body="ram", point=TOP, mass=400.0, height=0.2, stiffness=2e8, restitution=0.4)
 FORCE = AppliedForce(body="ram", point=TOP, full_force=(2e3, -5e4), start=0.1, end=0.3)
@@ -43,24 +40,6 @@ def test_a_block_never_pulls(depth: float, rate: float) -> None:
     assert found.normal_force >= 0.0
     assert found.normal_force == 0.0 or found.depth > 0.0
     assert (found.force_x, found.force_y) == (0.0, -found.normal_force)
-
-
-@pytest.mark.parametrize("far", [0.1, 2.0, 1e3])
-def test_a_face_is_met_from_one_side_alone(far: float) -> None:
-    contact = ROCK.contact
-    found = contact.force(0.0, -far, 0.0, -1.0, 0.0, 0.0, 2.0)
-    assert found.normal_force == 0.0
-    assert found.depth == pytest.approx(-far - contact.bearing.clearance)
-    assert found.rate == -1.0
-
-
-@pytest.mark.parametrize("restitution", [0.1, 0.5, 0.9])
-def test_its_law_is_the_exact_one(restitution: float) -> None:
-    law = replace(ROCK, restitution=restitution, exponent=1.0, stiffness=1e6).contact.normal
-    assert isinstance(law, Exact)
-    # the root of an equation, and back; with the force at a rate of the speed of the impact twice the elastic
-    chi = law(1e-3, 2.0, 2.0) / law.elastic_force(1e-3) - 1.0
-    assert delivered_restitution(chi) == pytest.approx(restitution, rel=1e-9)
 
 
 def test_the_first_depth_is_that_of_all_its_energy() -> None:
@@ -91,11 +70,6 @@ def test_pictures_have_a_cube_of_its_mass() -> None:
     assert cube.mesh.volume == pytest.approx(1.0)
     assert cube.mesh.bounds[0][1] == pytest.approx(tip[1] + 0.5)
     assert cube.name in {solid.name for solid in looks.look(scene).solids}
-
-
-@pytest.mark.parametrize("load", [ROCK, FORCE])
-def test_loads_come_back_from_data(load: AnyLoad) -> None:
-    assert Value.from_data(load.to_data()) == load
 
 
 @pytest.mark.parametrize(
@@ -133,18 +107,3 @@ def test_an_applied_force_has_come_on_when_it_says() -> None:
     for end in (0.0, 0.1):
         with pytest.raises(InputError, match=r"allowed: > start = 0\.1 s, or both 0"):
             replace(FORCE, end=end)
-
-
-def test_the_connector_pulls_its_ends_together_with_what_the_load_pushes_them_apart() -> None:
-    found = _pull(FORCE)(None, 0.3, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    assert found == pytest.approx([-2e3, 5e4, 0.0])
-
-
-@value
-class Unheard(AnyLoad):
-    """A load of no kind that anything knows."""
-
-
-def test_a_load_that_nothing_would_let_act_is_refused() -> None:
-    with pytest.raises(InputError, match=r"loads\.odd = Unheard: allowed: one of the kinds"):
-        Scenario(machine=Ram(), loads={"odd": Unheard(body="ram")}, duration=0.1)

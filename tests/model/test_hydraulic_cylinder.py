@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -23,11 +22,8 @@ from support_exudyn import (
     SuddenOpening,
     reference_support,
 )
-from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.channels import DataNeeds
-from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
-from support_exudyn.mechanics.trajectory import CylinderSeries
-from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage
+from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder
+from support_exudyn.model.linkage import GROUND, LinearActuator
 from support_exudyn.scenario.timescales import timescales
 from tests.cases.machine_cases import support
 from user_forces import InputError
@@ -151,56 +147,6 @@ def test_wrong_cylinders_are_refused() -> None:
     assert mixed.compliant_actuators == ("front_column",)
 
 
-def test_channels_and_breaks_are_those_of_the_valves() -> None:
-    inlet = SuddenOpening(start=0.2, end=0.7)
-    scenario = Scenario(
-        machine=support(), duration=1.0, actuators={"front_column": replace(CYLINDER, inlet=inlet)}
-    )
-    assert {0.2, 0.7} <= set(scenario.breaks)
-    channel_definitions = scenario.channel_definitions
-    assert channel_definitions["front_column.pressure"].unit == "Pa"
-    assert channel_definitions["front_column.flow"].unit == "m^3/s"
-    assert "rear_column.pressure" not in channel_definitions
-    assert "pumps" in channel_definitions["energy.work"].meaning
-
-
-def test_the_static_loads_fill_them() -> None:
-    linkage = support().linkage()
-    both = dict.fromkeys(("front_column", "rear_column"), CYLINDER)
-    loads = {name: one.load for name, one in fill_cylinders(linkage, both, (0.0, -9.81)).items()}
-    assert sum(loads.values()) > 0.0
-    assert fill_cylinders(linkage, {}, (0.0, -9.81)) == {}
-
-
-def test_the_ends_of_what_is_allowed() -> None:
-    length = support().linkage().actuators["front_column"].start_length
-    CYLINDER.check_length(0.51, "jack")
-    with pytest.raises(InputError, match=r"actuators\.jack\.oil_length = 0\.5 m"):
-        CYLINDER.check_length(0.5, "jack")  # the oil would take all of it
-    replace(CYLINDER, oil_length=0.999 * length).check_length(length, "jack")
-    with pytest.raises(InputError, match=r"actuators\.jack\.system_pressure = 500000\.0 Pa: allowed: > tank"):
-        replace(CYLINDER, system_pressure=0.5e6).check_length(length, "jack")
-    for inlet in (SuddenOpening, RampedOpening):
-        assert inlet(extent=-1.0).extent == -1.0
-        for beyond in (-1.001, 1.001):
-            with pytest.raises(InputError, match="extent"):
-                inlet(extent=beyond)
-        for end in (2.0, 1.0):
-            with pytest.raises(InputError, match=rf"end = {end} s: allowed: > start = 2\.0 s"):
-                inlet(start=2.0, end=end)
-    assert RampedOpening(start=1.0, end=2.0, ramp=0.5).opening(1.5) == 1.0  # half of the time is allowed
-
-
-def test_what_is_not_said_is_what_the_text_says() -> None:
-    plain = HydraulicCylinder(
-        bore_area=0.1, rod_side_area=0.02, oil_length=0.5, rod_side_length=1.0, bulk_modulus=1.5e9,
-        system_pressure=30e6, nominal_flow=6e-3,
-    )  # fmt: skip
-    assert (plain.nominal_drop, plain.tank_pressure, plain.damping) == (1e6, 0.0, 0.0)
-    assert (plain.hose_volume, plain.rod_side_hose_volume) == (1e-3, 1e-3)
-    assert plain.inlet == ClosedInlet()
-
-
 @given(
     start=st.integers(0, 100),
     open_for=st.integers(20, 200),
@@ -226,34 +172,3 @@ def test_steps_have_to_follow_the_valve() -> None:
         machine=support(), duration=1.0, drive=Held(), actuators={"front_column": slow, "rear_column": quick}
     )
     assert timescales(scenario).drive == pytest.approx(0.15)
-
-
-def test_flows_and_pressures_stand_under_their_names() -> None:
-    inlet = SuddenOpening(start=0.0, end=1.0, extent=0.5)
-    actuators = {"front_column": replace(CYLINDER, inlet=inlet)}
-    channel_definitions = Scenario(machine=support(), duration=1.0, actuators=actuators).channel_definitions
-    series = CylinderSeries(*(np.full(1, float(n)) for n in range(7)))
-    context = SimpleNamespace(run=SimpleNamespace(cylinders={"front_column": series}))
-    for what, field in {
-        "pressure": "pressure", "rod_pressure": "rod_pressure", "opening": "opening", "flow": "flow",
-        "rod_flow": "rod_flow",
-    }.items():  # fmt: skip
-        assert channel_definitions[f"front_column.{what}"].values(context) == getattr(series, field)
-    for name in ("front_column.pressure", "energy.elastic", "energy.balance"):
-        assert DataNeeds.OIL in channel_definitions[name].needs
-
-
-@pytest.mark.parametrize("rate", [0.2, -0.3])
-def test_the_record_of_an_actuator_is_that_of_its_model(rate: float) -> None:
-    linkage = Linkage(
-        bodies={"ram": Body(mass=1.0, inertia=1.0, centre=(0.0, 1.6))}, actuators={"jack": ACTUATOR}
-    )
-    motion = BodyMotion(linkage, np.array([[0.0, 0.1, 0.0]]), np.array([[0.0, rate, 0.0]]), np.zeros((1, 3)))
-    one = preloaded()
-    series = one.series(motion, np.array([[3e6, 1e6]]), np.array([0.5]))
-    assert series.force == pytest.approx(3e6 * 0.1 - 1e6 * 0.02 - 1e4 * rate)  # seals hold it back
-    assert (series.pressure, series.rod_pressure, series.opening) == (3e6, 1e6, 0.5)
-    assert (series.flow, series.rod_flow) == pytest.approx(one.model.flows(3e6, 1e6, 0.5))
-    # p^2/2B in each chamber, which has become longer and shorter; B (exp(p/B) - 1 - p/B) is 1e-3 more
-    wanted = (9e12 * (0.1 * 0.6 + 1e-3) + 1e12 * (0.02 * 0.9 + 1e-3)) / 3e9
-    assert series.energy == pytest.approx(wanted, rel=2e-3)

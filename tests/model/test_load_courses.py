@@ -25,11 +25,10 @@ from support_exudyn import (
 )
 from support_exudyn.files.scenarios.scenario_file import scenario_of
 from support_exudyn.files.toml.text import parsed
-from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.summary import what_is_run
 from tests.linkage_cases import CrankRocker
-from user_forces.values.value import InputError, Value
+from user_forces.values.value import InputError
 
 TABLE = TableCourse(times=(0.1, 0.2, 0.4), shares=(2.0, 1.0, -0.5))
 SINE = HarmonicCourse(period=0.25, phase=0.2, mean=0.5)
@@ -94,11 +93,6 @@ def test_energy_stored_by_moments_changes_by_the_powers(
     rate = (ends[1] - ends[0]) / (2.0 * small)
     assert rate == pytest.approx(powers.work - powers.loss - load.moment(at) * spin, rel=1e-5, abs=1e-3)
     assert powers.loss >= 0.0
-
-
-@pytest.mark.parametrize("load", [FORCE, TORQUE, SPRING, COIL])
-def test_loads_come_back_from_data(load: ActingLoad) -> None:
-    assert Value.from_data(load.to_data()) == load
 
 
 def test_courses_that_cannot_be_are_refused() -> None:

@@ -19,28 +19,20 @@ from support_exudyn import (
     Scenario,
     Steady,
     ravn_slider_crank,
-    reference_support,
     simulate,
 )
-from support_exudyn.model.loads.load import AnyLoad
 from support_exudyn.scenario.timescales import timescales
-from tests.cases.run_cases import loose_support
 from tests.roof_cases import (
-    GAP,
-    HARD,
     MASS,
-    ON_OIL,
     STIFFNESS,
     TOP,
     DeadLoad,
-    Ram,
     over_the_canopy,
     over_the_ram,
     pressed_support,
     thrown,
 )
 from user_forces import InputError, Value
-from user_forces.values.value import kinds_of
 
 DESCENTS: list[Drive] = [Held(), Steady(rate=0.3), CubicStep(stroke=0.1, start=0.2, end=1.2)]
 descents = st.sampled_from(DESCENTS)
@@ -75,13 +67,6 @@ def test_a_roof_by_hand() -> None:
     assert pushes == [500.0, 250.0, 125.0, 0.0, 0.0]
 
 
-def test_a_face_that_comes_down_presses_as_a_point_that_goes_up() -> None:
-    lowered = roof(Steady(rate=0.25), 0.0)
-    held = roof(Held(), 0.0)
-    assert lowered.force(at(t=0.5)) == held.force(at(y=0.125))
-    assert lowered.force(at(t=0.5))[1] < 0.0
-
-
 @given(descent=descents, damping=dampings, t=times, x=ways, y=ways, vx=speeds, vy=speeds)
 def test_a_roof_pushes_down_or_not_at_all(
     descent: Drive, damping: float, t: float, x: float, y: float, vx: float, vy: float
@@ -93,13 +78,6 @@ def test_a_roof_pushes_down_or_not_at_all(
     assert up <= 0.0
     # and only where there is no gap
     assert up == 0.0 or chosen.observed(point)["gap"] < 0.0
-
-
-@given(damping=dampings, vy=speeds, depth=st.floats(0.0, 1e-9))
-def test_the_force_begins_without_a_jump(damping: float, vy: float, depth: float) -> None:
-    push = roof(Held(), damping, gap=0.0).observed(at(y=depth, vy=vy))["force"]
-    # k depth (1 + b rate) with the largest of all: 0.2 N times 7
-    assert push <= 2e8 * 1e-9 * (1.0 + 3.0 * 2.0)
 
 
 @given(descent=descents, damping=dampings, t=times, y=ways, vy=speeds)
@@ -116,13 +94,6 @@ def test_energy_stored_is_work_minus_loss_minus_what_the_point_gets(
     # rounding of up to 2e8 N/m (0.3 m)^2/2 over 0.2 us; the cubic's second derivative is of order h^2
     assert (later - earlier) / (2.0 * h) == pytest.approx(balance, rel=1e-6, abs=0.2)
     assert loss >= 0.0
-
-
-def test_largest_force_and_steepness_are_those_of_a_point_that_stays() -> None:
-    chosen = roof(CubicStep(stroke=0.07, start=0.0, end=1.0), 0.0, gap=0.02)
-    assert chosen.largest(2.0) == (0.0, pytest.approx(-2e8 * 0.05, rel=1e-15))  # rounding
-    assert roof(Held(), 0.0).largest(2.0) == (0.0, 0.0)
-    assert chosen.steepness == (0.0, 2e8)
 
 
 # --- what a scenario takes ---
@@ -168,7 +139,7 @@ def test_a_load_on_one_of_two_in_space_is_refused() -> None:
 
 @pytest.mark.parametrize(
     ("field", "number", "allowed"),
-    [("stiffness", 0.0, "> 0"), ("gap", -1e-3, ">= 0"), ("damping", -1.0, ">= 0")],
+    [("stiffness", 0.0, "> 0"), ("damping", -1.0, ">= 0")],
 )
 def test_numbers_that_make_no_sense_are_refused(field: str, number: float, allowed: str) -> None:
     with pytest.raises(InputError, match=rf"Roof\.{field} = {number}: .*allowed: {allowed}"):
@@ -191,26 +162,6 @@ def test_a_ram_on_its_roof_vibrates_with_its_mass() -> None:
     assert timescales(thrown(0.01, 1e-3)).resting == pytest.approx(math.sqrt(MASS / STIFFNESS), rel=1e-12)
 
 
-def test_a_canopy_on_rigid_actuators_does_not_vibrate_under_a_roof() -> None:
-    press = over_the_canopy(0.1)
-    assert timescales(pressed_support(press)).resting == math.inf
-    on_oil = timescales(pressed_support(press, actuators=ON_OIL)).resting
-    # some of the support's 7 t
-    assert 500.0 < on_oil**2 * HARD < 7000.0
-
-
-def test_a_loose_pin_is_stiffer_the_harder_it_is_pressed() -> None:
-    pins = loose_support().pins
-    light, heavy = (
-        timescales(pressed_support(over_the_canopy(GAP + down), pins=pins)).resting for down in (0.0, 0.01)
-    )
-    # of the 1.5th power: the stiffness grows with the third root of the load, which in the rear pin grows from
-    # 59 kN to some 0.8 MN
-    assert heavy < 0.75 * light
-    free = Scenario(machine=reference_support(), pins=pins, duration=0.3)
-    assert light == pytest.approx(timescales(free).resting, rel=1e-12)  # rounding
-
-
 def test_steps_follow_the_descent() -> None:
     assert timescales(pressed_support(over_the_canopy(0.1, start=0.03, end=0.07))).drive == pytest.approx(0.04)
     rising = CubicStep(stroke=0.1, start=0.0, end=0.02)
@@ -220,13 +171,3 @@ def test_steps_follow_the_descent() -> None:
     press = over_the_canopy(0.1, body="slider", point=crank.linkage().bodies["slider"].centre)
     steady = replace(press, descent=Steady(rate=100.0))
     assert timescales(Scenario(machine=crank, loads={"roof": steady}, duration=0.1)).drive == math.inf
-
-
-def test_a_ram_without_a_load_has_no_times() -> None:
-    assert timescales(Scenario(machine=Ram(), duration=0.1)).resting == math.inf
-
-
-def test_what_only_groups_others_is_no_kind_of_load() -> None:
-    with pytest.raises(InputError, match="AnyLoad: is a kind of values; allowed: AppliedForce, "):
-        AnyLoad(body="canopy")
-    assert "AnyLoad" not in kinds_of(AnyLoad)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import Onset, Result
-from support_exudyn.postprocessing.figures import style, units
+from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.channels import error_over_time, over_time
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.figures.units import readable
@@ -43,41 +43,12 @@ def run(error: float = 0.0) -> Result:
         ("m", 30.0, ("m", 1.0)),
         ("m", 2e-5, ("µm", 1e6)),
         ("rad", 1.0, ("deg", 180.0 / np.pi)),
-        ("rad/s^2", 0.0, ("deg/s²", 180.0 / np.pi)),
         ("s", 1e-3, ("ms", 1e3)),
-        ("s", 1e-3 - 1e-15, ("ms", 1e3)),
-        ("J", 0.0, ("J", 1.0)),
         ("1", 5.0, ("1", 1.0)),
     ],
 )
 def test_units_are_those_that_are_read_best(unit: str, size: float, expected: tuple[str, float]) -> None:
     assert readable(unit, size) == (expected[0], pytest.approx(expected[1]))
-
-
-PREFIXES = {"": 1.0, "M": 1e-6, "k": 1e-3, "m": 1e3, "\u00b5": 1e6}
-
-
-@pytest.mark.parametrize("unit", units.SIZES)
-@pytest.mark.parametrize("exponent", range(-8, 9))
-def test_a_prefix_means_what_it_means_everywhere(unit: str, exponent: int) -> None:
-    size = 2.0 * 10.0**exponent
-    shown = readable(unit, size)
-    assert shown.name.endswith(unit)
-    assert shown.scale == PREFIXES[shown.name.removesuffix(unit)]
-    # and never smaller than a unit without a prefix that would do
-    assert not (shown.scale > 1.0 and shown.scale * size >= 1e4)
-
-
-@pytest.mark.parametrize("unit", units.ANGLES)
-def test_angles_are_shown_in_degrees(unit: str) -> None:
-    shown = readable(unit, 1.0)
-    assert shown.name.startswith("deg")
-    assert shown.scale == pytest.approx(180.0 / np.pi)
-
-
-def test_quantities_are_said_with_their_units() -> None:
-    assert units.said(2.6e-4, "s") == "260 µs"
-    assert units.said(-51234.0, "N", 4) == "-51.23 kN"
 
 
 def test_patterns_are_those_of_a_shell() -> None:
@@ -113,22 +84,6 @@ def test_curves_of_a_panel_differ_in_colour_and_in_dashes() -> None:
     assert curves[2].get_color() == style.CONTACT
 
 
-def test_five_clearance_pins_are_in_one_panel_in_five_colours() -> None:
-    pins = ("rear_base", "front_base", "rear_shield", "front_shield", "shield_canopy")
-    found = run()
-    scenario = replace(SCENARIO, formulation="redundant", pins=dict.fromkeys(pins, SCENARIO.pins["rear_base"]))
-    channel = found.channels["pin.rear_base.force"]
-    channels = {**found.channels, **{f"pin.{pin}.force": channel for pin in pins}}
-    found = replace(found, scenario=scenario, channels=channels, onsets=dict.fromkeys(pins, ()))
-    (axes,) = over_time(found, ["pin.*.force"]).axes
-    assert len({line.get_color() for line in axes.lines}) == len(axes.lines) == len(pins)
-
-
-def test_a_depth_is_not_drawn_beside_a_position() -> None:
-    drawing = over_time(run(), ["pin.*.depth", "tip.x"])
-    assert [axes.get_ylabel() for axes in drawing.axes] == ["length [mm]", "length [mm]"]
-
-
 def test_ranges_that_differ_a_hundredfold_have_axes_of_their_own() -> None:
     def made(range_: float) -> Result:
         places = {"tip__x": (3.0 + 0.1 * WAVE, "m"), "tip__y": (3.0 + range_ * WAVE, "m")}
@@ -162,11 +117,6 @@ def test_errors_are_those_of_the_estimate() -> None:
     value = 1e-3 * found["rear_column.force"][130]
     assert [at.min(), at.max()] == pytest.approx([value - 1e-3 * errors[130], value + 1e-3 * errors[130]])
     assert "rear_column.force" in figure_checks.words_below(drawing)
-
-
-def test_runs_without_an_accuracy_say_that_nothing_is_known() -> None:
-    assert error_over_time(run(), "tip.x") is None
-    assert "nothing tells its numerical error" in figure_checks.words_below(over_time(run(), ["tip.x"]))
 
 
 def test_what_cannot_be_drawn_is_refused() -> None:

@@ -11,8 +11,6 @@ from matplotlib.figure import Figure
 
 from studies.common.panels import letters
 from support_exudyn.postprocessing.figures.drawing_data import save_drawing_data
-from support_exudyn.postprocessing.figures.machine import machine_drawing
-from tests.cases.run_cases import support
 
 
 def saved(drawing: Figure, folder: Path) -> tuple[list[str], list[dict[str, str]]]:
@@ -86,8 +84,3 @@ def test_maps_marks_and_bands(tmp_path: Path) -> None:
     assert [(r["x"], r["y"], r["value"]) for r in b] == [("0.5", "1", "7"), ("2", "1", "8")]
     assert [(r["x"], r["y"]) for r in c if r["curve"] == "runs"] == [("1", "3"), ("2", "4")]
     assert {r["y"] for r in c if r["curve"] == "error"} == {"1", "2", "3"}
-
-
-def test_a_drawing_of_a_machine_has_no_data(tmp_path: Path) -> None:
-    assert not save_drawing_data(machine_drawing(support()), tmp_path / "machine.csv")
-    assert not list(tmp_path.iterdir())

@@ -6,7 +6,6 @@ import csv
 import dataclasses
 from pathlib import Path
 
-import meshio
 import numpy as np
 import pytest
 from meshio.xdmf import TimeSeriesReader
@@ -16,7 +15,6 @@ from support_exudyn.postprocessing.export.mesh_files import to_vtu, to_xdmf
 from support_exudyn.postprocessing.export.meshes import parts_of, pin_points
 from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.tables import to_csv, to_hdf5
-from support_exudyn.postprocessing.look.solid import Role
 from support_exudyn.postprocessing.render.panels import pin_view
 from tests.cases.export_cases import (
     Read,
@@ -29,7 +27,6 @@ from tests.cases.export_cases import (
     start_points,
 )
 from tests.cases.run_cases import PIN, loose_support, support
-from tests.roof_cases import thrown
 from user_forces import InputError
 
 # rounding of a rotation and a shift of points up to 5 m from the origin, and of the fit to them
@@ -110,19 +107,6 @@ def test_bodies_are_where_the_channels_say(exported: Exported, machine: list[Rea
                 assert yaw == pytest.approx(result[f"{body}.yaw"][record], abs=ROUNDING)
 
 
-def test_traced_points_move_with_their_bodies(exported: Exported, machine: list[Read]) -> None:
-    result, names = exported.result, exported.names("body")
-    space = result.scenario.dimensions == 3
-    points = result.scenario.space.points if space else result.scenario.linkage.points
-    for step, record in zip(machine, exported.records, strict=True):
-        for name, point in points.items():
-            now = step.points[points_of(step, names.index(point.body))]
-            turn, shift = rigid(start_points(exported.kind, point.body), now)
-            place = turn @ [*point.point, 0.0][:3] + shift
-            for axis, value in zip("xyz"[: len(point.point)], place, strict=False):
-                assert value == pytest.approx(result[f"{name}.{axis}"][record], abs=ROUNDING)
-
-
 def test_velocities_are_those_of_the_channels(exported: Exported, machine: list[Read]) -> None:
     result, names = exported.result, exported.names("body")
     for step, record in zip(machine, exported.records, strict=True):
@@ -139,21 +123,6 @@ def test_velocities_are_those_of_the_channels(exported: Exported, machine: list[
             expected = centre_velocity + np.cross(spin, step.points[at] - centre)
             # rounding of arms times up to 600 rad/s of the crank
             assert step.point_data["velocity_m_s"][at] == pytest.approx(expected, abs=600 * ROUNDING)
-
-
-def test_the_ground_stands_still(exported: Exported, machine: list[Read]) -> None:
-    assert exported.names("body")[0] == "ground"
-    at = points_of(machine[0], 0)
-    assert at.size == len(start_points(exported.kind, "ground")) > 0
-    for step in machine:
-        assert (step.points[at] == machine[0].points[at]).all()
-        assert not step.point_data["velocity_m_s"][at].any()
-
-
-def test_displacements_add_up_from_the_first_step(machine: list[Read]) -> None:
-    assert np.abs(machine[-1].point_data["displacement_m"]).max() > 1e-4
-    for step in machine:
-        assert step.point_data["displacement_m"] == pytest.approx(step.points - machine[0].points, abs=ROUNDING)
 
 
 def test_every_triangle_has_a_body_and_a_role(exported: Exported, machine: list[Read]) -> None:
@@ -260,21 +229,6 @@ def test_both_formats_hold_the_same(exported: Exported) -> None:
                 np.testing.assert_array_equal(values, there.point_data[name])
 
 
-def test_displacements_are_since_the_first_record_that_is_written(tmp_path: Path) -> None:
-    after = Sampling(after=0.05, every=25)
-    steps = by_vtk(to_vtu(run("plane"), tmp_path, after)[0])
-    assert not steps[0].point_data["displacement_m"].any()
-    moved = steps[-1].points - steps[0].points
-    assert np.abs(moved).max() > 1e-3
-    assert steps[-1].point_data["displacement_m"] == pytest.approx(moved, abs=ROUNDING)
-
-
-def test_roles_of_columns_are_those_of_their_parts() -> None:
-    found = {part.body: part.role for part in parts_of(look_of("plane"))}
-    assert found["front_column_left cylinder"] is Role.CYLINDER
-    assert found["front_column_left rod"] is Role.ROD
-
-
 @pytest.mark.parametrize("bore", ["first", "second"])
 def test_a_loose_pin_is_at_its_journal_and_pressed_back_into_its_bore(bore: str) -> None:
     """Whichever body has the bore: the eccentricity that was recorded lies between both bodies' points."""
@@ -341,28 +295,7 @@ def test_meshio_reads_xdmf_back(exported: Exported) -> None:
                     assert moved == pytest.approx(step.points, abs=ROUNDING)
 
 
-def test_meshio_reads_vtu_back(exported: Exported) -> None:
-    for index in exported.indexes("pvd"):
-        files = sorted(index.parent.glob(f"{index.stem}_*.vtu"))
-        for file, step in zip(files, by_vtk(index), strict=True):
-            mesh = meshio.read(file)
-            np.testing.assert_array_equal(mesh.points, step.points)
-            np.testing.assert_array_equal(mesh.cells[0].data, step.cells)
-            for name, values in mesh.point_data.items():
-                np.testing.assert_array_equal(values, step.point_data[name])
-            assert set(mesh.point_data) == set(step.point_data)
-            assert set(mesh.cell_data) == set(step.cell_data)
-
-
 # --- files ---
-
-
-def test_xdmf_can_be_moved_with_its_numbers(exported: Exported, tmp_path: Path) -> None:
-    for file in exported.xdmf:
-        (tmp_path / file.name).write_bytes(file.read_bytes())
-    assert str(exported.xdmf[0].parent) not in exported.xdmf[0].read_text(encoding="utf-8")
-    here, there = by_vtk(tmp_path / exported.xdmf[0].name), by_vtk(exported.xdmf[0])
-    np.testing.assert_array_equal(here[-1].points, there[-1].points)
 
 
 def test_a_shorter_export_leaves_no_step_of_a_longer_one(tmp_path: Path) -> None:
@@ -397,20 +330,6 @@ def test_an_interruption_leaves_what_was_there(kind: str, tmp_path: Path) -> Non
     assert {path: path.read_bytes() for path in (tmp_path / "out").iterdir()} == before
 
 
-def test_an_unwritable_place_is_named(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("here", encoding="utf-8")
-    result, below = run("plane"), tmp_path / "file" / "x"
-    for write, path in (
-        (to_xdmf, below / "run.xdmf"),
-        (to_vtu, below),
-        (to_csv, below / "run.csv"),
-        (to_hdf5, below / "run.h5"),
-    ):
-        with pytest.raises(OSError, match="it cannot be written") as caught:
-            write(result, path)
-        assert caught.value.filename == str(below if write in (to_xdmf, to_vtu) else path)
-
-
 def test_a_run_is_not_overwritten_by_its_export(tmp_path: Path) -> None:
     path = run("plane").save(tmp_path / "run.h5")
     before = path.read_bytes()
@@ -438,34 +357,4 @@ def test_a_run_without_the_motion_of_its_bodies_is_refused(tmp_path: Path) -> No
         InputError, match=r"'pin\.\w+\.force_x': was not recorded, and pins are written with it"
     ):
         to_vtu(result, tmp_path)
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_name_that_readers_of_xdmf_cannot_follow_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"12:30\.xdmf'.*: allowed: names without ':'"):
-        to_xdmf(run("plane"), tmp_path / "12:30.xdmf")
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_other_endings_than_xdmf_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"run\.xmf'.*: allowed: names that end in \.xdmf"):
-        to_xdmf(run("plane"), tmp_path / "run.xmf")
-
-
-def test_an_export_of_a_machine_without_pins_leaves_no_pins_of_another(tmp_path: Path) -> None:
-    few = Sampling(every=50)
-    to_xdmf(run("plane"), tmp_path / "run.xdmf", few)
-    to_vtu(run("plane"), tmp_path / "vtu", few)
-    alone = simulate(thrown(0.01, 1e-3))
-    files = to_xdmf(alone, tmp_path / "run.xdmf", few) + to_vtu(alone, tmp_path / "vtu", few)
-    assert set(tmp_path.rglob("*")) == {*files, tmp_path / "vtu"}
-    assert len(by_vtk(files[0])) == len(alone.time[::50])
-
-
-def test_too_many_steps_for_the_memory_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("support_exudyn.postprocessing.export.mesh_files.MOST_VALUES", 100_000)
-    with pytest.raises(
-        InputError, match=r"101 steps of \d+ numbers each: allowed .* here \d steps; choose fewer"
-    ):
-        to_xdmf(run("plane"), tmp_path / "run.xdmf", Sampling())
     assert list(tmp_path.iterdir()) == []

@@ -16,7 +16,6 @@ from PIL.ImageColor import getrgb
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
-from support_exudyn.postprocessing.figures.units import said_beside
 from support_exudyn.postprocessing.render import movie, panels
 from support_exudyn.postprocessing.render.movie import moments
 from support_exudyn.postprocessing.render.panels import (
@@ -25,10 +24,6 @@ from support_exudyn.postprocessing.render.panels import (
     PinView,
     Strip,
     pin_view,
-    round_down,
-    round_up,
-    said,
-    usual,
 )
 from support_exudyn.postprocessing.render.sheet import INK, Canvas
 from support_exudyn.postprocessing.render.stage import fitted
@@ -85,46 +80,7 @@ def test_speed_is_seconds_of_the_run_in_one_of_the_movie(speed: float, frames: i
     assert found.pace == pace
 
 
-def test_frames_are_as_many_a_second_as_was_asked_for() -> None:
-    found = moments(TIME, None, None, 10.0, 2.0)
-    assert found.times == pytest.approx([0.0, 0.2, 0.4, 0.6, 0.8, 1.0])
-
-
-def test_a_trail_is_as_long_in_the_movie_at_any_speed() -> None:
-    found = moments(TIME, 0.2, 0.6, 25.0, 0.5)
-    # 0.25 s of the movie are 0.125 s of the run: from 0.4 s to the first record after 0.275 s
-    assert found.back(10, 0.25) == 28
-    assert found.back(3, 0.25) == 20  # no farther than the first frame
-
-
-@pytest.mark.parametrize(("speed", "decimals"), [(1.0, 3), (0.025, 3), (0.0025, 4), (2.5e-6, 7)])
-def test_times_are_printed_so_that_they_differ(speed: float, decimals: int) -> None:
-    assert moments(TIME, 0.0, 40 * speed * 0.01, 25.0, speed).decimals == decimals
-
-
 # --- scales ---
-
-
-@pytest.mark.parametrize(
-    ("number", "up", "down"),
-    [
-        (1.0, 1.0, 1.0),
-        (1.1, 2.0, 1.0),
-        (4.9, 5.0, 2.0),
-        (60.0, 100.0, 50.0),
-        (0.03, 0.05, 0.02),
-        (0.0, 1.0, 1.0),
-    ],
-)
-def test_scales_are_round(number: float, up: float, down: float) -> None:
-    assert (round_up(number), round_down(number)) == (pytest.approx(up), pytest.approx(down))
-
-
-def test_the_usual_force_is_that_which_few_exceed() -> None:
-    assert usual(np.concatenate([np.zeros(500), np.arange(1.0, 102.0)])) == pytest.approx(98.0)
-    assert usual(np.zeros(3)) == 1.0
-    assert said(12000.0) == "12 000"
-    assert said(0.5) == "0.5"
 
 
 # --- camera ---
@@ -220,21 +176,6 @@ def test_the_arrow_goes_from_the_wall_that_is_touched_into_the_bore(x: float, y:
     assert np.abs(aside[ahead > RADIUS - 55.0]).max() < 12.0
 
 
-def test_the_trail_has_the_colours_of_what_it_was() -> None:
-    shown = view(0.0, 0.0, (0.0, 0.0))
-    assert shown.bore is not None
-    # forward from 1 mm behind, in contact in the second half; then it is back in the middle, in flight
-    x = np.where(TIME < 1.0, 2e-3 * TIME - 1e-3, 0.0)
-    bore = replace(shown.bore, eccentricity=np.column_stack([x, 0.0 * x]), closed=(TIME > 0.5) & (TIME < 0.99))
-    picture, found = inset_of(bore, 98)
-    row = round(found.centre[1])
-    flight = pixels_of(picture, FLIGHT)
-    trail = flight[np.abs(flight[:, 1] - row) < 3]
-    assert len(trail)
-    assert trail[:, 0].max() < found.centre[0] + 2.0  # behind is to the left
-    assert trail[:, 0].min() == pytest.approx(found.centre[0] - 1e-3 * PIXELS, abs=2.0)
-
-
 # --- force over time ---
 
 AXES = (60, 30, 560, 130)
@@ -264,60 +205,6 @@ def test_force_is_drawn_over_the_time_that_is_shown() -> None:
     # the axis goes to 1.08 of the largest
     assert contact[:, 1].min() == pytest.approx(100.0 * (1.0 - 1.0 / 1.08), abs=2.0)
     assert np.median(flight[:, 1]) == pytest.approx(100.0, abs=2.0)
-
-
-def test_a_contact_of_a_single_record_is_seen() -> None:
-    hit = np.arange(TIME.size) == 50
-    _, sheet = shown_strip(np.where(hit, 10e3, 0.0), hit, 0.0, 1.0)
-    inside = Image.fromarray(sheet.frame()[AXES[1] : AXES[3], AXES[0] : AXES[2]])
-    contact = pixels_of(inside, CONTACT)
-    assert len(contact)
-    assert contact[:, 0].mean() == pytest.approx(250.0, abs=2.0)
-    assert contact[:, 1].min() < 15.0
-
-
-def test_the_cursor_is_at_its_time_and_force() -> None:
-    found, sheet = shown_strip(np.full_like(TIME, 10e3), TIME >= 0.0, 0.2, 0.7)
-    before = sheet.frame()
-    found.cursor(sheet, 0.4, 5.4e3)  # half of the axis, which ends at 10.8 kN
-    after = sheet.frame()
-    changed = Image.fromarray(np.where(before == after, 255, after))
-    assert np.array_equal(sheet.frame(), before)  # it is not there on the next frame
-    dark = pixels_of(changed, INK)
-    assert dark[:, 0].mean() == pytest.approx(60 + 0.4 * 500, abs=1.0)
-    wide = [row for row in np.unique(dark[:, 1]) if np.count_nonzero(dark[:, 1] == row) >= 6]
-    assert np.mean(wide) == pytest.approx(80.0, abs=1.5)  # the dot
-
-
-@pytest.mark.parametrize(("peak", "unit", "top"), [(40.0, "N", 43.2), (10e3, "kN", 10.8)])
-def test_small_forces_are_shown_in_newtons(peak: float, unit: str, top: float) -> None:
-    _, sheet = shown_strip(np.full_like(TIME, peak), TIME >= 0.0, 0.0, 1.0)
-    assert f"force [{unit}] over time [s]" in [text.get_text() for text in sheet.axes.texts]
-    assert sheet.axes.figure is not None
-    assert sheet.axes.figure.axes[1].get_ylim() == pytest.approx((0.0, top))
-
-
-@pytest.mark.parametrize(
-    ("force", "peak", "text"),
-    [
-        (40.0, 90.0, "40.0 N"),
-        (40.0, 9e4, "40.0 N"),
-        (60.0, 9e4, "0.1 kN"),
-        (0.0, 9e4, "0.0 kN"),
-        (5e4, 9e4, "50.0 kN"),
-    ],
-)
-def test_no_force_is_said_to_be_nought(force: float, peak: float, text: str) -> None:
-    assert said_beside(force, "N", peak) == text
-
-
-def test_what_is_cut_off_is_said() -> None:
-    _, sheet = shown_strip(np.where(TIME == 0.5, 90e3, 10e3), TIME >= 0.0, 0.0, 1.0)
-    assert "cut off at 12.5 kN" in [text.get_text() for text in sheet.axes.texts]
-    assert sheet.axes.figure is not None
-    (_, axes) = sheet.axes.figure.axes
-    said_there = [text.get_text() for text in axes.get_yticklabels() if text.get_position()[1] < 12.5]
-    assert said_there == ["0", "5", "10"]
 
 
 # --- arrows, and the movie ---

@@ -15,9 +15,7 @@ from support_exudyn.postprocessing.look.plain import look
 from support_exudyn.postprocessing.look.slots import sliding_block, slot_walls
 from support_exudyn.postprocessing.render.frame import title
 from support_exudyn.simulation.reported_numbers import measures
-from support_exudyn.sweeps.measures import check_numbers
 from tests.cases.guide_cases import BLOCK, slider_crank
-from user_forces import InputError
 
 SLIDE = Slide(body="slider", point=(1.0, 2.0), direction=0.0)
 GUIDE = ClearanceGuide.simple(gaps=(2e-3, 1e-3), block=BLOCK)
@@ -66,10 +64,3 @@ def test_impacts_are_told_by_corner(
     result.save(path)
     assert main(["show", str(path), "--impacts"]) == 0
     assert "guide.upper_right" in capsys.readouterr().out
-
-
-def test_numbers_of_corners_can_be_asked_for(scene: Scenario) -> None:
-    check_numbers(scene, ["guide.guide.upper_left.largest_force", "guide.guide.lower_left.onset_1.time"])
-    check_numbers(scene, ["guide.guide.gap_upper.min"])
-    with pytest.raises(InputError, match="no such number"):
-        check_numbers(scene, ["guide.other.upper_left.largest_force"])

@@ -12,7 +12,6 @@ import pytest
 from support_exudyn import HydraulicCylinder, OilColumn, Result, Scenario, bore_area, reference_support
 from support_exudyn.__main__ import main
 from support_exudyn.files.machines.read import machine
-from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge
@@ -101,12 +100,6 @@ def test_too_coarse_records_are_refused(chosen: dict[str, object], time: np.ndar
         read(pushed(time, time=time), PressureGauge(**BORE, **chosen))
 
 
-def test_a_shorter_last_step_is_left_out() -> None:
-    time = np.array([0.0, 0.1, 0.2, 0.25])
-    found = read(pushed(1e6 * time, time=time), PressureGauge(column="front_column", bore=0.25, rate=5.0))
-    np.testing.assert_allclose(found * bore_area(0.25), [0.0, 2e5], atol=1e-6)
-
-
 # --- columns ---
 
 
@@ -159,10 +152,8 @@ def test_a_hydraulic_cylinder_tells_its_pressures() -> None:
     [
         (PressureGauge(column="front_column"), "allowed: bore_mm of the gauge"),
         (PressureGauge(column="front_column", side="rod", bore=0.25), "allowed: bore_mm and rod_mm"),
-        (PressureGauge(column="front_column", side="rod", bore=0.2, rod=0.2), "less than the bore, 200 mm"),
         (PressureGauge(column="front_colum", bore=0.25), "no such actuator; did you mean 'front_column'"),
         (PressureGauge(column="rear_column", bore=0.25), "'rear_column.force': was not recorded"),
-        (Inclinometer(body="canpy"), "no such body; did you mean 'canopy'"),
         (Inclinometer(body="canopy", at="front_base"), "no such place on canopy"),
         (Inclinometer(body="canopy"), "'canopy.angle': was not recorded"),
     ],
@@ -199,13 +190,6 @@ def test_noise_is_seeded_and_has_its_rms() -> None:
     assert abs(np.corrcoef(both["one"].values, both["another"].values)[0, 1]) < 5.0 / math.sqrt(1001)
 
 
-def test_digits_are_multiples_of_the_resolution() -> None:
-    run = pushed(np.linspace(0.0, 8e5, TIME.size))
-    plain, rounded = (read(run, PressureGauge(**BORE, rate=1000.0, resolution=by)) / 1e5 for by in (0.0, 1e5))
-    np.testing.assert_allclose(rounded, np.round(rounded), atol=1e-9)
-    assert 0.4 < np.abs(rounded - plain).max() <= 0.5 + 1e-9
-
-
 def test_samples_are_taken_at_their_rates_and_told_by_the_clock(tmp_path: Path) -> None:
     slow, fast = (PressureGauge(column="front_column", bore=0.25, rate=rate) for rate in (4.0, 16.0))
     station = MeasuringStation(instruments={"slow": slow, "fast": fast}, clock_offset=0.5)
@@ -218,14 +202,6 @@ def test_samples_are_taken_at_their_rates_and_told_by_the_clock(tmp_path: Path) 
     again = converted(series["slow"], "Pa")
     np.testing.assert_array_equal(np.isnan(again), np.arange(17) % 4 != 0)
     np.testing.assert_allclose(again[::4], found["slow"].values, rtol=0.0, atol=0.1)
-
-
-def test_what_rounding_leaves_of_nothing_is_written_as_nothing(tmp_path: Path) -> None:
-    values = np.array([0.0, -2.2e-16, 4.4e-16, -1e-13, 1e-7, 0.12345678912])
-    path = write_measured({"a": NamedSeries("a", "m", TIME[:6], values)}, tmp_path / "measured.csv")
-    assert [line.partition(",")[2] for line in path.read_text("utf-8").splitlines()] == [
-        "a_mm", "0", "0", "0", "0", "0.0001", "123.4567891",
-    ]  # fmt: skip
 
 
 # --- what mines measure, the file, the command ---
@@ -275,12 +251,10 @@ def test_a_file_says_the_same_as_python(tmp_path: Path) -> None:
     ("old", "new", "said"),
     [
         ("corner_Hz = 2.5", "corner_Hz = 0", "corner_Hz = 0: allowed: > 0"),
-        ("order = 1", "order = 9", "order = 9"),
         ("noise_MPa", "noise", "is written with its unit; allowed: noise_MPa"),
         ('"PressureGauge"', '"Gauge"', "allowed: ExtensionSensor, Inclinometer, PressureGauge"),
         ("seed = 3", "seed = -1", "seed = -1: allowed: a whole number >= 0"),
         (FILE, "seed = 3", "instruments: missing"),
-        (FILE, "instruments = {}", "allowed: at least 1 items"),
     ],
 )
 def test_a_wrong_file_is_told_with_its_key(tmp_path: Path, old: str, new: str, said: str) -> None:

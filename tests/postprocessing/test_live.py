@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from matplotlib.figure import Figure
 
-import support_exudyn
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.page.live import (
     MOST_POINTS,
@@ -78,24 +77,6 @@ def test_a_peak_of_one_record_is_not_lost_and_a_curve_has_few_points() -> None:
     assert one.x[one.y.index(443.2101)] == pytest.approx(time[123_457], rel=1e-7)
 
 
-def test_curves_over_the_same_times_stay_so_and_others_do_not_mind() -> None:
-    time = np.linspace(0.0, 5.0, 30_001)
-    rng = np.random.default_rng(3)
-    rough = rng.normal(size=(2, time.size))
-    found = live_panel(
-        "y [m]",
-        [
-            Drawn("a", time, rough[0], "#000000"),
-            Drawn("other", time[:70], rough[0, :70], "#000000"),
-            Drawn("b", time, rough[1], "#000000"),
-        ],
-    ).curves
-    assert [one.label for one in found] == ["a", "other", "b"]
-    assert found[0].x == found[2].x
-    assert len(found[1].x) == 70
-    assert len(found[0].x) < 1.6 * MOST_POINTS
-
-
 def test_curves_of_a_drawing_are_its_labelled_lines_from_the_undermost() -> None:
     found = of_drawing(drawing(), [1, 0])
     assert found.x_label == "time [s]"
@@ -105,20 +86,6 @@ def test_curves_of_a_drawing_are_its_labelled_lines_from_the_undermost() -> None
     assert (over.label, over.dash) == ("over", "dashed")
     assert (paper.dash, paper.x, paper.y) == ("points", (1.0, 2.0), (0.0, 30.0))
     assert max(v for v in under.y if v is not None) == 30.0
-
-
-def test_a_panel_can_be_told_what_it_is() -> None:
-    found = of_drawing(drawing(), {1: "pin force, mode 2 [kN]"})
-    assert [panel.label for panel in found.panels] == ["pin force, mode 2 [kN]"]
-
-
-def test_a_panel_without_curves_is_refused() -> None:
-    figure = Figure()
-    figure.subplots().plot([0.0, 1.0], [0.0, 1.0])
-    with pytest.raises(InputError, match=r"panel 0 .*no line with a label"):
-        of_drawing(figure, [0])
-    with pytest.raises(InputError, match="panel 1: there is none; allowed: 0 to 0"):
-        of_drawing(figure, [1])
 
 
 def test_a_figure_is_read_back_as_it_was_written(tmp_path: Path) -> None:
@@ -135,7 +102,6 @@ def test_a_figure_is_read_back_as_it_was_written(tmp_path: Path) -> None:
     [
         ("{", "Invalid JSON"),
         ('{"x_label": "t", "panels": []}', "at least one panel"),
-        ('{"x_label": "t"}', "panels: Field required"),
         (
             '{"x_label": "t", "panels": [{"label": "y", "curves": [{"label": "a", "x": [1.0], "y": [1.0, 2.0],'
             ' "colour": "#000000"}]}]}',
@@ -166,9 +132,3 @@ def test_names_cannot_leave_the_script() -> None:
     bad = "</script><script>alert(1)</script>"
     figure = LiveFigure("time [s]", (live_panel(bad, [Drawn(bad, time, time, "#000000")]),))
     assert "alert(1)</script>" not in html({"a": figure}).scripts
-
-
-def test_bokeh_is_imported_where_a_page_is_made_alone() -> None:
-    package = Path(support_exudyn.__file__).parent
-    early = re.compile(r"^(import|from) bokeh", re.MULTILINE)
-    assert not [path for path in package.rglob("*.py") if early.search(path.read_text(encoding="utf-8"))]

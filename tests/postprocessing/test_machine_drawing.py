@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
@@ -14,12 +12,10 @@ from support_exudyn.files.machines.read import shipped
 from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.machine import MARK, machine_drawing
-from support_exudyn.postprocessing.figures.outlines import LAYERS, shapes
+from support_exudyn.postprocessing.figures.outlines import shapes
 from support_exudyn.postprocessing.look.looks import look
-from support_exudyn.postprocessing.look.solid import Role
 from tests import figure_checks
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, paper_contact, slider_crank, support
-from user_forces import InputError
 
 COLUMN = CylinderAndRod(
     cylinder_mass=300.0, cylinder_centre=0.45, cylinder_inertia=20.0,
@@ -96,12 +92,6 @@ def test_the_ring_is_at_the_pin_and_the_detail_says_its_data() -> None:
     assert "(clearance drawn 10 times larger)" in words
 
 
-def test_bodies_are_named_where_there_is_room() -> None:
-    with style.look():
-        words = [text for text, _ in figure_checks.texts(machine_drawing(SCENES["zf18000"]))]
-    assert {"rear link", "front link", "shield", "canopy", "base", "front column", "rear column"} <= set(words)
-
-
 def test_ideal_pins_are_marked_by_name_alone() -> None:
     drawing = machine_drawing(SCENES["support, ideal"], ["rear_shield", "front_base"])
     assert len(rings(drawing)) == 2
@@ -109,30 +99,3 @@ def test_ideal_pins_are_marked_by_name_alone() -> None:
         words = [text for text, _ in figure_checks.texts(drawing)]
     assert "rear shield pin" in words
     assert not [text for text in words if "clearance" in text]
-
-
-def test_a_pin_that_there_is_not_is_refused_with_those_that_there_are() -> None:
-    with pytest.raises(InputError, match=r"marked = 'middle': no such pin; allowed: rear_base, front_base"):
-        machine_drawing(SCENES["support"], ["middle"])
-
-
-def test_a_crank_in_line_with_its_rod_is_turned_and_the_drawing_says_so() -> None:
-    scenario = SCENES["slider-crank"]
-    turned = replace(scenario, machine=replace(scenario.machine, start_angle=2.0))
-    with style.look():
-        in_line = [text for text, _ in figure_checks.texts(machine_drawing(scenario))]
-        otherwise = [text for text, _ in figure_checks.texts(machine_drawing(turned))]
-    assert "crank drawn at 50°" in in_line
-    assert not [text for text in otherwise if "drawn at" in text]
-
-
-def test_outlines_are_those_of_the_solids_and_one_of_a_pair() -> None:
-    drawn = look(SCENES["support"])
-    found = {(shape.name, shape.role): shape.outline for shape in shapes(drawn)}
-    canopy = next(solid for solid in drawn.solids if solid.role is Role.CANOPY)
-    (left, low, _), (right, high, _) = canopy.mesh.bounds
-    assert found["canopy", Role.CANOPY].bounds == pytest.approx((left, low, right, high), abs=1e-3)
-    assert found["canopy", Role.CANOPY].area < (right - left) * (high - low)
-    assert [role for name, role in found if name == "rear_column"] == [Role.ROD, Role.CYLINDER]
-    order = list(LAYERS)
-    assert [order.index(role) for _, role in found] == sorted(order.index(role) for _, role in found)

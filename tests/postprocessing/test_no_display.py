@@ -10,7 +10,6 @@ import pytest
 
 from support_exudyn import Held, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.postprocessing.viewer.view import NoDisplayError, check_display
 from tests import screen
 from tests.cases.run_cases import support
 from tests.processes import environment
@@ -99,49 +98,4 @@ def test_windows_that_are_not_to_open_do_not(run: Path, tmp_path: Path) -> None:
     assert "EXUDYN_SUPPRESS_UI_WINDOW_OPEN" in refused(run, env, tmp_path)
 
 
-def test_an_exception_is_told_by_its_last_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.TRY", "raise RuntimeError('no context')")
-    with pytest.raises(NoDisplayError, match=r"here: RuntimeError: no context\. Allowed"):
-        check_display()
-
-
-def test_the_reason_comes_before_what_drivers_warn_of(monkeypatch: pytest.MonkeyPatch) -> None:
-    told = (
-        "print('libEGL warning: x'); print('warning: y'); print('warning: z'); print('  what():  no context')"
-    )
-    trial = f"import os, sys; {told}; sys.stdout.flush(); os.abort()"
-    monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.TRY", trial)
-    monkeypatch.delenv("EXUDYN_SUPPRESS_UI_WINDOW_OPEN", raising=False)
-    with pytest.raises(NoDisplayError, match=r"here: what\(\):  no context; libEGL"):
-        check_display()
-
-
-def test_a_window_that_dies_without_a_word_is_told_with_its_signal(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.TRY", "import os; os.kill(os.getpid(), 9)")
-    monkeypatch.delenv("EXUDYN_SUPPRESS_UI_WINDOW_OPEN", raising=False)
-    with pytest.raises(NoDisplayError, match=r"ended by signal 9 \(SIGKILL\)"):
-        check_display()
-
-
-def test_a_display_that_never_answers_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.TRY", "import time; time.sleep(600)")
-    monkeypatch.setattr("support_exudyn.postprocessing.viewer.view.LONGEST", 0.2)
-    monkeypatch.delenv("EXUDYN_SUPPRESS_UI_WINDOW_OPEN", raising=False)
-    with pytest.raises(NoDisplayError, match=r"more than 0\.2 s"):
-        check_display()
-
-
 # --- the tests' own display ---
-
-
-@pytest.mark.parametrize("ci", [True, False])
-def test_without_xvfb_tests_are_skipped_but_where_all_is_to_be_checked(
-    ci: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("PATH", str(tmp_path))
-    monkeypatch.delenv("CI", raising=False)
-    monkeypatch.delenv("WITHOUT_XVFB", raising=False)
-    if ci:
-        monkeypatch.setenv("CI", "true")
-    with pytest.raises(pytest.fail.Exception if ci else pytest.skip.Exception, match="apt-get install xvfb"):
-        screen.needed()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import pickle
 import sys
 from collections.abc import Mapping
 from dataclasses import replace
@@ -16,7 +15,6 @@ import pytest
 
 from support_exudyn import Result, channels, compare, load_machine, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.postprocessing.html import html_table
 from tests.cases.run_cases import SLIDER_PIN, loose_slider_crank, slider_crank
 from user_forces import InputError
 
@@ -106,10 +104,6 @@ def test_a_plot_is_a_figure_that_notebooks_show_without_pyplot(runs: Mapping[str
         runs["loose"].plot("pim.*")
 
 
-def test_keys_are_completed(runs: Mapping[str, Result]) -> None:
-    assert runs["loose"]._ipython_key_completions_() == list(runs["loose"].channels)
-
-
 def test_a_result_shows_what_was_run_and_what_came_out(runs: Mapping[str, Result]) -> None:
     rows = Cells(runs["ideal"]._repr_html_()).rows
     assert ["machine", "SliderCrank, in the plane"] in rows
@@ -126,19 +120,6 @@ def test_a_scenario_shows_what_is_run(runs: Mapping[str, Result]) -> None:
     rows = dict(Cells(runs["loose"].scenario._repr_html_()).rows)  # type: ignore[arg-type]
     assert rows["formulation"] == "compiled"
     assert rows[f"pin {SLIDER_PIN}"].startswith("0.5 mm clearance in a bore of 10 mm radius")
-
-
-def test_names_of_others_are_no_html() -> None:
-    page = html_table("<b>", ("a", ">b"), [("<script>", "\x1b[1m")])
-    assert Cells(page).rows == [["a", "b"], ["<script>", "\\x1b[1m"]]
-    assert "<script>" not in page
-
-
-def test_results_are_whole_after_pickling(runs: Mapping[str, Result]) -> None:
-    again = pickle.loads(pickle.dumps(runs["loose"]))
-    np.testing.assert_array_equal(again[FORCE], runs["loose"][FORCE])
-    with pytest.raises(KeyError, match="no such clearance pin; did you mean 'slider_pin'"):
-        again.onsets["slider_pni"]
 
 
 @pytest.mark.parametrize(
@@ -158,11 +139,6 @@ def test_a_wrong_name_is_told_with_those_that_look_like_it(
     assert str(caught.value)[0] in "'p"  # a sentence, not one in quotes
 
 
-def test_a_channel_asked_for_as_an_attribute_is_told_how_to_ask(runs: Mapping[str, Result]) -> None:
-    with pytest.raises(AttributeError, match=r"no attribute 'tme'; did you mean time.*Result\['time'\]"):
-        runs["ideal"].tme  # type: ignore[attr-defined] # noqa: B018
-
-
 # --- side by side ---
 
 
@@ -179,15 +155,6 @@ def test_numbers_stand_side_by_side_with_their_errors(runs: Mapping[str, Result]
     assert rows[f"pin.{SLIDER_PIN}.largest_force"][2] == ""
     assert str(both).startswith("errors of loose not known")
     assert f"{FORCE}.mean" in str(both)
-
-
-def test_a_window_is_that_of_all_runs(runs: Mapping[str, Result]) -> None:
-    part = compare(runs["ideal"], runs["loose"], after=0.002, until=0.003)
-    found = part.numbers[f"{FORCE}.largest"]["run 2"].value
-    assert found == runs["loose"].window(FORCE, 0.002, 0.003).largest[0]
-    figure = part.plot(FORCE)
-    assert len(figure.axes[0].lines) >= 2
-    assert part.plot("slider.x", difference=True).axes
 
 
 def test_numbers_side_by_side_are_a_table_of_pandas(runs: Mapping[str, Result]) -> None:

@@ -52,16 +52,6 @@ def test_flight_and_contact_are_parted_at_the_touches() -> None:
     assert (colours["free flight"], colours["contact"]) == (style.FLIGHT, style.CONTACT)
 
 
-def test_a_short_path_is_shown_in_the_unit_of_the_clearance() -> None:
-    run = synthetic.journal(SCENARIO, TIME, np.zeros_like(TIME), -1e-6 * np.arange(TIME.size) / TIME.size)
-    assert orbit(run).axes[0].get_xlabel() == "eccentricity x [mm]"
-
-
-def test_the_two_flights_are_not_joined_through_the_contact() -> None:
-    flight = lines(orbit(bouncing()).axes[0])["free flight"]
-    assert np.isnan(flight[1]).any()
-
-
 def test_an_impact_between_two_records_is_drawn_as_contact() -> None:
     y = np.where(TIME < 15.2e-3, -0.1 * TIME, -CLEARANCE + 0.05 * (TIME - 15.6e-3))
     run = synthetic.journal(SCENARIO, TIME, np.zeros_like(TIME), y, [Onset(15.2e-3, 0.1, 15.6e-3, 0.05)])
@@ -70,23 +60,6 @@ def test_an_impact_between_two_records_is_drawn_as_contact() -> None:
     # both ends of it lie on the circle; hypot rounds in the last digit
     assert np.nanmin(contact[1]) == pytest.approx(-1.5, rel=1e-12)
     assert "400 µs" in figure_checks.words_below(drawing)
-
-
-def test_the_circle_is_that_of_the_clearance_and_axes_are_equal() -> None:
-    path = orbit(bouncing()).axes[0]
-    assert np.hypot(*lines(path)["clearance circle"]) == pytest.approx(1.5)
-    assert path.get_aspect() == 1.0
-    assert path.get_xlim() == pytest.approx(path.get_ylim())
-    assert path.get_xlabel() == "eccentricity x [mm]"
-
-
-def test_touches_lie_on_the_circle_in_the_direction_of_the_flight() -> None:
-    angle = math.radians(-30.0)
-    away = np.minimum(0.1 * TIME, CLEARANCE + 1e-4)
-    run = synthetic.journal(SCENARIO, TIME, away * math.cos(angle), away * math.sin(angle), [Onset(15e-3, 0.1)])
-    assert journal(run).directions == pytest.approx([angle])
-    x, y = lines(orbit(run).axes[0])["impact"]
-    assert (x, y) == (pytest.approx([1.5 * math.cos(angle)]), pytest.approx([1.5 * math.sin(angle)]))
 
 
 def test_the_direction_of_a_touch_is_that_of_the_flight_carried_on() -> None:
@@ -113,12 +86,6 @@ def test_a_parting_is_where_the_records_around_it_are() -> None:
     assert here[separation] == pytest.approx(-CLEARANCE, rel=1e-4)
 
 
-def test_a_parting_after_the_piece_is_not_drawn() -> None:
-    shown = journal(bouncing(), until=20e-3)
-    assert len(shown.path()[0]) == shown.time.size + 1  # the impact
-    assert len(journal(bouncing()).path()[0]) == TIME.size + 2
-
-
 def test_contact_is_deep_and_said_so() -> None:
     drawing = orbit(bouncing())
     depths = {line.get_color(): np.array(line.get_ydata()) for line in drawing.axes[1].lines}
@@ -127,20 +94,6 @@ def test_contact_is_deep_and_said_so() -> None:
     assert "Deepest record: 0.3 mm" in figure_checks.words_below(drawing)
     marks = {line.get_label(): line.get_markerfacecolor() for line in drawing.axes[0].lines}
     assert (marks["start"], marks["end"]) == ("white", style.IDEAL)
-
-
-def test_start_and_end_are_marked() -> None:
-    drawn = lines(orbit(bouncing(), after=2e-3, until=30e-3).axes[0])
-    assert drawn["start"][1] == pytest.approx(-0.2)
-    assert drawn["end"][1] == pytest.approx(-1.5 + 0.08 * 5.0)
-
-
-def test_depth_and_speeds_have_units() -> None:
-    _, depth, speeds, _ = orbit(bouncing()).axes
-    assert (depth.get_xlabel(), depth.get_ylabel()) == ("time [ms]", "depth [mm]")
-    assert speeds.get_ylabel() == "speed [mm/s]"
-    assert lines(speeds)["impact"].ravel() == pytest.approx([15.0, 100.0])
-    assert lines(speeds)["separation"].ravel() == pytest.approx([25.0, 80.0])
 
 
 @pytest.mark.parametrize(

@@ -81,12 +81,6 @@ def test_each_fault_of_a_file_has_a_sentence_of_its_own(tmp_path: Path, text: st
         overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_series(path)})
 
 
-def test_too_few_or_too_many_runs_are_refused() -> None:
-    for count in (1, 6):
-        with pytest.raises(InputError, match="allowed in a figure: 2 to 5"):
-            overlay({str(n): run(0.1) for n in range(count)}, ["tip.x"])
-
-
 def test_nothing_is_cut_off() -> None:
     with style.look():
         runs = {"a first run with a long name": run(0.1), "a second one": run(0.2)}

@@ -4,22 +4,16 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import io
 import re
-from pathlib import Path
 
-import numpy as np
 from jinja2 import DictLoader
-from PIL import Image
 
 from support_exudyn.postprocessing.page.pieces import (
-    WIDEST,
     FileLink,
     KeyNumber,
     Sheet,
     ShownFigure,
     ShownTable,
-    image,
     policy,
     templates,
 )
@@ -67,16 +61,3 @@ def test_the_policy_allows_the_scripts_of_the_page_and_no_other() -> None:
         f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{own}'"
     )
     assert policy(['<script type="application/json">{}</script>']).endswith("script-src 'none'")
-
-
-def test_a_picture_is_in_the_page_small_and_as_it_looks(tmp_path: Path) -> None:
-    pixels = np.full((400, 2 * WIDEST, 3), 255, np.uint8)
-    pixels[100:300, 1000:2000] = (213, 94, 0)
-    Image.fromarray(pixels).save(tmp_path / "a.png")
-    head, _, data = image(tmp_path / "a.png").partition(",")
-    assert head == "data:image/png;base64"
-    with Image.open(io.BytesIO(base64.b64decode(data))) as shown:
-        assert shown.size == (WIDEST, 200)
-        colours = shown.convert("RGB")
-    assert colours.getpixel((5, 5)) == (255, 255, 255)
-    assert colours.getpixel((750, 100)) == (213, 94, 0)

@@ -39,20 +39,3 @@ def test_the_journal_is_where_the_record_next_to_the_time_has_it() -> None:
             tail, tip = lines[0]["data"].reshape(2, 3)
             assert tip - tail == pytest.approx([0.0, SIZE, 0.0])  # it is the usual one
         assert rest[-1]["text"].startswith("50.0 kN" if down else "0.0 kN")
-
-
-def test_they_lie_below_the_machine_and_are_seen() -> None:
-    found = insets([(0.0, 0.0)] * 3, [(0.0, 1.0)] * 3)
-    low, high = found.corners.min(axis=0), found.corners.max(axis=0)
-    assert high[1] < LOW[1]
-    for part in found.graphics(0.0):
-        if part["type"] == "Line":
-            points = part["data"].reshape(-1, 3)
-            assert (points[:, :2] >= low[:2] - 1e-12).all()
-            assert (points[:, :2] <= high[:2] + 1e-12).all()
-
-
-def test_without_clearance_there_are_none() -> None:
-    found = PinInsets([], TIME, LOW, HIGH)
-    assert found.graphics(0.0) == []
-    assert found.corners.shape == (0, 3)

@@ -9,7 +9,6 @@ import pytest
 from support_exudyn import ClearancePin, Scenario
 from support_exudyn.postprocessing.look.poses import PlacedPin, placed_pins
 from tests.cases.run_cases import PIN, loose_support, paper_contact
-from tests.postprocessing.test_shield_look import HEAVY
 
 FRONT = "front_base"  # of the left and the right front link
 
@@ -43,10 +42,3 @@ def test_bearings_of_a_pair_are_both_loose() -> None:
     ]
     left, right = (found[f"{FRONT}_{side}"].bore.point[2] for side in ("left", "right"))
     assert left == -right < 0.0
-
-
-def test_guides_of_columns_are_no_pins() -> None:
-    in_space = replace(HEAVY, dimensions=3)
-    guides = {name for name, bearing in in_space.space.bearings.items() if bearing.is_guide}
-    assert guides
-    assert set(pins_of(in_space)) == set(in_space.space.bearings) - guides

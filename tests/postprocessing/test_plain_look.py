@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +13,7 @@ from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look.looks import look, look_of
 from support_exudyn.postprocessing.look.poses import planar_pins
-from support_exudyn.postprocessing.look.solid import Look, Role
+from support_exudyn.postprocessing.look.solid import Look
 from user_forces import Frictionless, JournalBearing, JournalContact, LankaraniNikravesh
 
 BEARING = JournalBearing(bore_radius=0.3, clearance=0.03)
@@ -36,23 +35,6 @@ def test_every_body_and_the_ground_are_closed_surfaces(name: str) -> None:
     for solid in shown.solids:
         assert solid.mesh.is_watertight, solid.name
         assert solid.mesh.volume > 0.0, solid.name
-
-
-def test_the_slider_is_a_block_on_a_rail_longer_than_it() -> None:
-    scenario = SCENES["ideal"]
-    solids = {solid.name: solid for solid in look(scenario).solids}
-    block, rail = (solids[name].mesh.bounds for name in ("slider", GROUND))
-    assert block[1, 0] - block[0, 0] > block[1, 1] - block[0, 1]
-    assert rail[0, 0] < block[0, 0]
-    assert block[1, 0] < rail[1, 0]
-
-
-def test_bodies_lie_one_behind_the_other() -> None:
-    scenario = SCENES["ideal"]
-    solids = [s for s in look(scenario).solids if s.role is not Role.PIN]
-    spans = sorted((s.mesh.bounds[0, 2], s.mesh.bounds[1, 2]) for s in solids)
-    for (_, far), (near, _) in itertools.pairwise(spans):
-        assert far < near
 
 
 def test_a_journal_fits_its_bore() -> None:

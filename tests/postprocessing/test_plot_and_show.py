@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -56,11 +55,6 @@ def test_without_a_wish_an_overview_is_drawn(runs: Path, capsys: pytest.CaptureF
     assert (out / "with_clearance_overview.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_a_run_with_ideal_pins_has_forces_and_motion(runs: Path, tmp_path: Path) -> None:
-    assert main(["plot", str(runs / "ideal.h5"), "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("ideal_overview")
-
-
 def test_what_a_run_has_none_of_is_left_out_of_the_overview_in_a_sentence(
     runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -93,12 +87,6 @@ def test_one_kind_of_one_pin_is_drawn(runs: Path, tmp_path: Path) -> None:
     assert names(tmp_path) == both("crank_spectrum_main_after_0.01_s")
 
 
-def test_sections_take_channels_and_a_phase(runs: Path, tmp_path: Path) -> None:
-    args = ["plot", str(runs / "crank.h5"), "--section", "slider.x", "slider.velocity_x", "--phase", "0.25"]
-    assert main([*args, "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("crank_poincare_slider.x_slider.velocity_x_phase_0.25")
-
-
 def test_channels_are_drawn_by_pattern(runs: Path, tmp_path: Path) -> None:
     assert main(["plot", str(runs / "with_clearance.h5"), "pin.*.force", "tip.?", "--out", str(tmp_path)]) == 0
     assert names(tmp_path) == both("with_clearance_pin.force_tip")
@@ -113,32 +101,6 @@ def test_several_runs_are_drawn_one_upon_another(runs: Path, tmp_path: Path) -> 
     assert names(tmp_path) == expected
 
 
-def test_a_curve_of_a_csv_file_is_drawn_beside_a_run(
-    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    measured = tmp_path / "measured.csv"
-    measured.write_text("time_ms,tip.x_mm,other\n0,3195,1\n100,3194,2\n", encoding="utf-8")
-    assert main(["plot", str(runs / "ideal.h5"), str(measured), "--out", str(tmp_path / "out")]) == 0
-    assert names(tmp_path / "out") == both("ideal_and_measured_overview")
-    for text, message in (
-        ("time_s,x\n0,1\n", "has a series of none of these channels"),
-        ("tip.x_mm,tip.y_mm\n1,2\n", "has no times"),
-        ("time_s,tip.x_mm\n0,1\n1,x\n", "line 3, column 'tip.x': 'x'; allowed: a number"),
-        ("time_s,tip.x_mm\n0,1\n1\n", "line 3: has 1 items"),
-    ):
-        measured.write_text(text, encoding="utf-8")
-        assert main(["plot", str(runs / "ideal.h5"), str(measured), "tip.x"]) == 1
-        assert message in capsys.readouterr().err
-    assert main(["plot", str(measured)]) == 1
-
-
-def test_the_same_piece_by_the_option_s_earlier_name(runs: Path, tmp_path: Path) -> None:
-    run = str(runs / "ideal.h5")
-    for option in ("--from", "--after"):
-        assert main(["plot", "--out", str(tmp_path / option), option, "0.1", run, "tip.x"]) == 0
-    assert names(tmp_path / "--from") == names(tmp_path / "--after") == both("ideal_tip.x_after_0.1_s")
-
-
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -146,7 +108,6 @@ def test_the_same_piece_by_the_option_s_earlier_name(runs: Path, tmp_path: Path)
         (["ideal.h5", "with_clearance.h5", "--orbit"], "are of one run, and 2 are given"),
         (["ideal.h5", "crank.h5", "--difference", "tip.x"], "in common"),
         (["ideal.h5", "ideal.h5", "tip.x"], "is given twice"),
-        (["ideal.h5", "with_clearance.h5", "tip.w"], "tip.x"),
     ],
 )
 def test_what_several_runs_cannot_show_is_said(
@@ -156,25 +117,14 @@ def test_what_several_runs_cannot_show_is_said(
     assert message in capsys.readouterr().err
 
 
-def test_without_a_display_a_sentence_says_so(
-    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    if os.name != "posix" or os.uname().sysname != "Linux":
-        pytest.skip("other systems do not tell by their environment")
-    assert main(["plot", str(runs / "ideal.h5"), "tip.x", "--show", "--out", str(tmp_path)]) == 0
-    assert "there is no display here" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("run", "args", "message"),
     [
         ("with_clearance", ["pin.rear_base.forse"], "pin.rear_base.force"),
         ("with_clearance", ["--orbit", "--pin", "front_base"], "no clearance pin"),
-        ("with_clearance", ["--spectrum", "--pin", "rear_bas"], "rear_base"),
         ("ideal", ["--orbit"], "no clearance pin"),
         ("with_clearance", ["tip.x", "--from", "7"], "0 records lie between"),
         ("with_clearance", ["--section", "tip.x", "tip.y"], "periods of the drive"),
-        ("with_clearance", ["--section", "tip.x", "tip.q"], "no such channel"),
         ("nothing", [], "no such file"),
     ],
 )
@@ -228,10 +178,6 @@ def test_show_tells_what_was_run_how_and_what_came_out(runs: Path, capsys: pytes
     assert row[3] == "kN"
 
 
-def test_show_of_a_run_without_an_accuracy_says_so(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert "numerical errors not known" in shown(runs / "ideal.h5", capsys)
-
-
 @pytest.mark.parametrize("run", ["with_clearance", "ideal", "space", "crank"])
 def test_all_channels_are_shown_with_their_whole_names(
     runs: Path, capsys: pytest.CaptureFixture[str], run: str
@@ -253,17 +199,6 @@ def test_some_channels_are_shown_by_pattern(runs: Path, capsys: pytest.CaptureFi
     assert [float(cell) for cell in rows[1][2:5]] == pytest.approx(
         [1e3 * x.least[0], 1e3 * x.mean, 1e3 * x.greatest[0]], rel=1e-5
     )
-
-
-def test_narrow_terminals_keep_the_numbers(
-    runs: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("support_exudyn.commands.tables.PIPED", 80)
-    said = shown(runs / "space.h5", capsys)
-    result = Result.load(runs / "space.h5")
-    assert max(map(len, said.splitlines())) <= 80
-    assert f"{result.window('pin.rear_base.depth').least[0] * 1e3:.6g}" in said
-    assert "…" not in said
 
 
 def test_show_ends_quietly_when_nobody_reads_on(runs: Path) -> None:
@@ -289,47 +224,6 @@ def test_the_narrowest_terminals_cut_no_number(
         return [row[:5] for row in found if row and row[0].startswith(("tip.", "pin.", "energy."))]
 
     assert rows(narrow) == rows(wide)
-
-
-def test_a_run_of_nothing_but_its_time(runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    simulate(support(duration=0.01, channels=())).save(tmp_path / "time.h5")
-    assert "what was run" in shown(tmp_path / "time.h5", capsys, "--all")
-    assert main(["plot", str(tmp_path / "time.h5")]) == 1
-    assert "none to draw" in capsys.readouterr().err
-
-
-def test_show_says_nothing_where_there_is_no_output(runs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "stdout", None)  # as after `>&-`
-    assert main(["show", str(runs / "with_clearance.h5")]) == 0
-
-
-@pytest.mark.slow
-def test_all_figures_are_drawn_though_nobody_reads_their_names(runs: Path, tmp_path: Path) -> None:
-    arguments = ["plot", str(runs / "crank.h5"), "slider.x", "--orbit", "--out", str(tmp_path)]
-    command = [sys.executable, "-m", "support_exudyn", *arguments]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        assert process.stdout is not None
-        process.stdout.close()
-        assert process.stderr is not None
-        assert process.stderr.read() == b""
-        assert process.wait() == 0
-    assert names(tmp_path) == both("crank_slider.x", "crank_orbit_slider_pin")
-
-
-def test_an_interruption_while_libraries_load_is_said_in_a_line(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def interrupted() -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("support_exudyn.commands.parser.parser", interrupted)
-    assert main(["show", "run.h5"]) == 130
-    assert capsys.readouterr().err.startswith("interrupted")
-
-
-def test_show_refuses_unknown_channels(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["show", str(runs / "with_clearance.h5"), "tip.w"]) == 1
-    assert "tip.x" in capsys.readouterr().err
 
 
 def test_numbers_are_shown_by_the_names_that_they_are_printed_with(
@@ -377,15 +271,6 @@ def test_show_for_scripts_has_what_the_tables_have(runs: Path, capsys: pytest.Ca
     assert [one["time_s"] for one in told["impacts"]["rear_base"]] == [
         o.time for o in result.onsets["rear_base"]
     ]
-
-
-def test_show_for_scripts_says_null_where_errors_are_not_known(
-    runs: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["show", str(runs / "ideal.h5"), "tip.*", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert {number["error"] for number in told["numbers"].values()} == {None}
-    assert all(name.startswith("tip.") for name in told["channels"])
 
 
 def test_plot_and_export_name_their_files_for_scripts(

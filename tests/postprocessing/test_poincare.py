@@ -100,49 +100,7 @@ def test_without_a_period_touches_make_the_section() -> None:
     assert "by impacts" in drawing.get_suptitle()
 
 
-def test_directions_are_in_degrees_side_by_side() -> None:
-    time = np.arange(400) * 1e-3
-    turn = np.radians(np.where(time < 0.2, 170.0, -170.0))
-    away = np.minimum(1.4e-3 + 0.0 * time, 1.4e-3)
-    run = synthetic.journal(
-        loose_support(1.5), time, away * np.cos(turn), away * np.sin(turn),
-        [Onset(0.1005, 0.2, 0.101, 0.1), Onset(0.3005, 0.1, 0.301, 0.1)],
-    )  # fmt: skip
-    places = poincare(run).axes[0]
-    assert places.lines[1].get_xdata() == pytest.approx([170.0, 190.0])
-
-
-def test_a_channel_that_hardly_changes_is_shown_from_its_middle() -> None:
-    wave = np.sin(2.0 * np.pi * 0.25 * TIME / PERIOD + 0.3)
-    run = synthetic.journal(
-        SCENARIO, TIME, 1e-3 + 0.0 * TIME, 0.0 * TIME, tip__x=(3.0 + 2e-3 * wave, "m"), tip__y=(wave, "m")
-    )
-    axes = poincare(run, channels=("tip.x", "tip.y")).axes[1]
-    (points,) = [line for line in axes.lines if line.get_label() == "free flight"]
-    x, y = np.array(points.get_xdata()), np.array(points.get_ydata())
-    assert x.max() == pytest.approx(-x.min())
-    # both channels are the same wave, of 2 mm and of 1000 mm
-    assert np.ptp(x) == pytest.approx(2e-3 * np.ptp(y))
-    assert "[mm]" in axes.get_xlabel()
-    assert axes.get_xlabel().startswith("tip.x,\nfrom 3")
-
-
-def test_one_touch_is_no_section() -> None:
-    with pytest.raises(InputError, match="1 impacts"):
-        poincare(closed([0.2]))
-
-
-def test_phases_beyond_the_period_are_refused() -> None:
-    with pytest.raises(InputError, match="phase"):
-        poincare(swinging(1.0), phase=1.5)
-
-
 @pytest.mark.parametrize("share", [1.0, 0.5, 0.37, 1e-4])
 def test_nothing_is_cut_off_or_overlaps(share: float) -> None:
     with style.look():
         figure_checks.check(poincare(swinging(share)))
-
-
-def test_nothing_of_touches_is_cut_off_or_overlaps() -> None:
-    with style.look():
-        figure_checks.check(poincare(closed([0.2, 0.1, 0.15, 0.05])))

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,7 +12,6 @@ import pytest
 import trimesh
 from PIL import Image
 from PIL.ImageColor import getrgb
-from scipy.spatial.transform import Rotation
 
 from studies.common.paper_machine import clearance_rise, ideal_rise
 from support_exudyn import CubicStep, Held, Result, simulate
@@ -23,14 +20,12 @@ from support_exudyn.model.loads.roof import Roof
 from support_exudyn.postprocessing.export.meshes import machine_mesh
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render import render, still
-from support_exudyn.postprocessing.render.frame import Layout, inset_boxes
-from support_exudyn.postprocessing.render.movie import durations, moment
-from support_exudyn.postprocessing.render.panels import Inset, pin_view
+from support_exudyn.postprocessing.render.frame import Layout
 from support_exudyn.postprocessing.render.scene import RenderedScene
 from support_exudyn.postprocessing.render.sheet import INK, Canvas
 from support_exudyn.postprocessing.render.sheet import Image as Picture
 from support_exudyn.postprocessing.render.stage import Camera, MeshItem, Stage, direction_of_view
-from tests.hostile import DISKS, left_behind, little_room, with_own_files
+from tests.hostile import DISKS, little_room
 from user_forces import InputError
 
 SIZE = (320, 180)
@@ -80,34 +75,6 @@ def test_the_camera_sees_points_where_the_ray_tracer_draws_them() -> None:
         assert (columns.mean() + 0.5, rows.mean() + 0.5) == pytest.approx(
             camera.pixels(np.array([point]))[0], abs=0.5
         )
-
-
-def test_the_ray_tracer_turns_props_and_has_their_colours() -> None:
-    camera = Camera(direction_of_view(), (0.0, 0.0, 0.0), 4.0, *SIZE)
-    bar = trimesh.creation.box((1.0, 0.05, 0.05))
-    bar.apply_translation([0.5, 0.0, 0.0])
-    turn = Rotation.from_euler("zxy", [50.0, 20.0, -30.0], degrees=True).as_matrix()
-    picture = (
-        Stage([MeshItem(bar, (1.0, 0.4, 0.0), edges=False)], camera).image([(np.zeros(3), turn)]).astype(int)
-    )
-    drawn = np.argwhere(picture[:, :, 2] < 100)[:, ::-1] + 0.5
-    ends = camera.pixels(np.array([[0.0, 0.0, 0.0], turn[:, 0]]))
-    # half of the bar's thickness of 2 pixels, and its edges
-    assert drawn.mean(axis=0) == pytest.approx(ends.mean(axis=0), abs=1.0)
-    along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
-    aside = (drawn - ends[0]) @ np.array([-along[1], along[0]])
-    assert np.abs(aside).max() < 4.0
-    red, green, blue = picture[drawn[:, 1].astype(int), drawn[:, 0].astype(int)].mean(axis=0)
-    assert red > 1.5 * green > 1.5 * blue
-
-
-def test_forward_is_to_the_right_and_up_is_up() -> None:
-    camera = Camera(direction_of_view(), (0.0, 0.0, 0.0), 4.0, *SIZE)
-    forward, up = camera.arrow(np.array([1.0, 0.0, 0.0])), camera.arrow(np.array([0.0, 1.0, 0.0]))
-    assert forward[0] > 0.9 * camera.scale
-    assert up[1] < -0.9 * camera.scale
-    nearer = camera.rotation.apply([[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]])[:, 2]
-    assert nearer[0] > nearer[1]  # the right side is seen
 
 
 def test_the_machine_moves_and_the_camera_does_not(rising: Result) -> None:
@@ -174,16 +141,6 @@ def test_surfaces_are_put_where_the_exported_mesh_has_them(bouncing: Result, spa
         ]
         # rounding of places of some metres
         assert np.concatenate(placed)[: len(expected)] == pytest.approx(expected, abs=1e-12)
-
-
-def test_the_coal_is_in_front_the_goaf_behind_and_the_roof_above(rising: Result) -> None:
-    scene = RenderedScene(rising)
-    labels = {label.text: label.place for label in scene.labels(0)}
-    low, high = scene.points.min(axis=0), scene.points.max(axis=0)
-    assert labels["coal\nface"][0] > high[0]
-    assert labels["goaf"][0] < low[0]
-    assert labels["floor"][1] < scene.look.floor <= low[1]
-    assert labels["roof"][1] > scene.roof(0) >= high[1]  # without a roof that presses it is above the highest
 
 
 class Arrow(NamedTuple):
@@ -266,52 +223,11 @@ def test_the_arrow_of_a_force_beyond_the_scale_is_cut_and_says_so(
     assert "the arrow is cut short" in words
 
 
-def test_in_space_the_middle_of_the_bearing_is_shown(spatial: Result) -> None:
-    view = pin_view(spatial, WITH_CLEARANCE)
-    assert view is not None
-    assert view.bore is not None
-    for k, axis in enumerate("xy"):
-        ends = [spatial[f"pin.{WITH_CLEARANCE}.{side}_eccentricity_{axis}"] for side in ("left", "right")]
-        assert view.bore.eccentricity[:, k] == pytest.approx(0.5 * (ends[0] + ends[1]))
-
-
-def test_no_place_on_the_wall_is_marked_where_the_middle_of_the_journal_is_away_from_it(
-    spatial: Result,
-) -> None:
-    """An edge of a tilted journal makes contact elsewhere: only its middle has the colour of contact."""
-    pin = pin_view(spatial)
-    assert pin is not None
-    assert pin.bore is not None
-    assert pin.bore.can_tilt
-    clearance = pin.bore.pin.contact.bearing.clearance
-    tilted = replace(
-        pin.bore,
-        eccentricity=np.array([[0.1 * clearance, 0.0], [1.1 * clearance, 0.0]]),
-        closed=np.array([True, True]),
-    )
-    inset = Inset((0, 0, 286, 286), tilted, 1.0)
-    context = []
-    for record in (0, 1):
-        sheet = Canvas(286, 286)
-        sheet.hold()
-        inset.draw(sheet, record, record, (0.0, 0.0), False)
-        context.append(pixels_of(sheet.frame()[30:250], CONTACT))  # without the words
-    wall = inset.centre[0] + 80.0  # pixels; the journal's middle is never so far from the bore's
-    assert (context[0][:, 1] < wall).all()
-    assert (context[1][:, 1] > wall).any()
-
-
 def test_a_run_in_space_is_shown(spatial: Result) -> None:
     picture = still(spatial, 0.02, size=SIZE)
     assert picture.shape == (180, 320, 3)
     assert picture.dtype == np.uint8
     assert np.ptp(picture) > 200
-
-
-@pytest.mark.parametrize("pin", ["rear_shield", pytest.param("shield_canopy", marks=pytest.mark.slow)])
-def test_any_pin_can_be_shown(bouncing: Result, pin: str) -> None:
-    shown, default = (still(bouncing, 0.1, size=SIZE, pin=name) for name in (pin, None))
-    assert (shown != default).any()
 
 
 # --- files ---
@@ -334,65 +250,6 @@ def test_frames_and_a_gif(bouncing: Result, tmp_path: Path) -> None:
         assert length == 240.0
         assert movie.convert("RGB").getpixel((318, 178)) == (255, 255, 255)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["run.gif", "run_frames"]
-
-
-def test_frames_are_what_stills_are(bouncing: Result, tmp_path: Path) -> None:
-    frames = render(bouncing, tmp_path / "f", after=0.04, until=0.12, size=SIZE, movie="none").frames
-    assert len(frames) == 3
-    with Image.open(frames[1]) as frame:
-        picture = np.asarray(frame)
-    machine = slice(*Layout(*SIZE, True).picture[1::2])
-    other = still(bouncing, 0.08, size=SIZE)[machine]
-    # arrows are scaled by what is shown, and numbers stand elsewhere: the machine is the same
-    assert (np.abs(picture[machine].astype(int) - other.astype(int)).max(axis=-1) > 8).mean() < 0.05
-
-
-def test_a_frame_in_which_nothing_is_seen_to_move_is_not_traced_anew(
-    bouncing: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    real, traced = Stage.image, []
-
-    def image(stage: Stage, places: Any) -> Any:
-        traced.append(1)
-        return real(stage, places)
-
-    monkeypatch.setattr(Stage, "image", image)
-    told: list[tuple[int, float]] = []
-    window = {"after": 0.05, "until": 0.06, "speed": 0.005}
-    written = render(
-        bouncing, tmp_path / "f", **window, size=SIZE, movie="none", announce=lambda *said: told.append(said)
-    )  # fmt: skip
-    assert len(written.frames) > 40
-    assert 1 <= len(traced) < len(written.frames) / 4
-    ((frames, seconds),) = told
-    assert frames == len(written.frames)
-    assert seconds > 0.0
-
-
-def test_all_clearance_pins_have_their_insets() -> None:
-    panel = (980, 48, 1266, 578)
-    for count in range(1, 12):
-        boxes = inset_boxes(panel, count, 1.0)
-        assert len(boxes) == count
-        for n, (left, top, right, bottom) in enumerate(boxes):
-            assert abs((right - left) - (bottom - top)) <= 1
-            assert panel[0] <= left < right <= panel[2]
-            assert panel[1] <= top < bottom <= panel[3]
-            assert all(right <= a or c <= left or bottom <= b or d <= top for a, b, c, d in boxes[:n])
-
-
-def test_the_time_of_a_still_is_told_as_finely_as_records_lie() -> None:
-    assert moment(np.arange(0.0, 2e-3, 1e-5), 1.5e-3).decimals == 5
-    assert moment(np.arange(0.0, 1.0, 0.1), 0.3).decimals == 3
-    assert moment(np.array([0.0]), 0.0).decimals == 3
-
-
-def test_slow_motion_has_more_frames(bouncing: Result, tmp_path: Path) -> None:
-    written = render(bouncing, tmp_path / "f", after=0.05, until=0.06, speed=0.05, size=SIZE)
-    assert len(written.frames) == 6
-    assert written.movie is not None
-    with Image.open(written.movie) as movie:
-        assert movie.n_frames == 6  # none is dropped because it is like the one before
 
 
 def test_an_mp4_has_all_frames(bouncing: Result, tmp_path: Path) -> None:
@@ -439,23 +296,6 @@ def test_an_interruption_leaves_all_as_it_was(bouncing: Result, tmp_path: Path, 
     assert len(list(tmp_path.iterdir())) == 2
 
 
-def test_progress_goes_to_the_end(bouncing: Result, tmp_path: Path) -> None:
-    told: list[float] = []
-    render(bouncing, tmp_path / "f", until=0.04, size=SIZE, progress=told.append)
-    assert told == sorted(told)
-    assert told[-1] == 1.0
-
-
-@pytest.mark.parametrize(("number", "rate"), [(126, 25.0), (90, 30.0), (7, 0.7), (101, 50.0)])
-def test_frames_of_a_gif_last_as_long_as_the_movie(number: int, rate: float) -> None:
-    lengths = durations(number, rate)
-    assert len(lengths) == number
-    assert all(length >= 20 and length % 10 == 0 for length in lengths)
-    assert sum(lengths) == pytest.approx(
-        1000.0 * number / rate, abs=5.0
-    )  # [ms], half of a hundredth of a second
-
-
 # --- what is refused ---
 
 
@@ -463,16 +303,13 @@ def test_frames_of_a_gif_last_as_long_as_the_movie(number: int, rate: float) -> 
     ("wrong", "said"),
     [
         ({"frames_per_second": 0.0}, "frames_per_second = 0"),
-        ({"frames_per_second": float("nan")}, "frames_per_second = nan"),
         ({"frames_per_second": 60.0}, "of a GIF"),
-        ({"speed": 0.0}, "speed = 0"),
         ({"speed": 1e-6}, "frames from"),
         ({"after": -1.0}, "after = -1 s: allowed: 0 to 0.2 s"),
         ({"until": 9.0}, "until = 9 s: allowed: 0 to 0.2 s"),
         ({"after": 0.1, "until": 0.05}, "later than"),
         ({"movie": "avi"}, "'avi': allowed: gif, mp4, none"),
         ({"size": (321, 180)}, "width = 321"),
-        ({"size": (320, 20000)}, "height = 20000"),
         ({"pin": "knee"}, "no such pin; allowed: rear_base"),
     ],
 )
@@ -491,44 +328,12 @@ def test_a_run_that_has_not_recorded_its_bodies_is_refused(tmp_path: Path) -> No
     assert not list(tmp_path.iterdir())
 
 
-def test_a_file_in_place_of_the_folder_is_refused(bouncing: Result, tmp_path: Path) -> None:
-    (tmp_path / "f").write_text("mine")
-    with pytest.raises(NotADirectoryError, match="a folder should be"):
-        render(bouncing, tmp_path / "f", until=0.04, size=SIZE)
-    assert [path.name for path in tmp_path.iterdir()] == ["f"]
-
-
-def test_leftovers_of_killed_processes_go_and_files_of_others_stay(bouncing: Result, tmp_path: Path) -> None:
-    (tmp_path / "f").mkdir()
-    left, own = left_behind(tmp_path / "f"), with_own_files(tmp_path)
-    made = {tmp_path / "f" / f"frame_{n:04d}.png" for n in (900, 901)}
-    (tmp_path / "f" / "frame_0900.png").write_text("of the user", encoding="utf-8")
-    Image.new("RGB", (4, 4)).save(tmp_path / "f" / "frame_0901.png")
-    render(bouncing, tmp_path / "f", until=0.04, size=SIZE, movie="none")
-    assert os.name == "nt" or not left.exists()
-    assert all(path.exists() for path in (*own, *made))
-
-
-def test_a_folder_that_cannot_be_made_is_named(bouncing: Result, tmp_path: Path) -> None:
-    (tmp_path / "file").touch()
-    with pytest.raises(OSError, match=r"a folder should be; it cannot be written: '.*file/frames'"):
-        render(bouncing, tmp_path / "file" / "frames", until=0.04, size=SIZE)
-
-
 @pytest.mark.parametrize("kind", DISKS)
 def test_a_full_disk_is_told_by_the_folder_of_the_frames(bouncing: Result, tmp_path: Path, kind: str) -> None:
     with little_room(tmp_path, 12_000, kind) as place:
         with pytest.raises(OSError, match=r"it cannot be written: '.*frames'"):
             render(bouncing, place / "frames", until=0.1, size=SIZE, movie="none")
         assert list(place.iterdir()) == []
-
-
-def test_an_mp4_without_its_library_is_refused(
-    bouncing: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
-    with pytest.raises(InputError, match=r"support-exudyn\[movie\]"):
-        render(bouncing, tmp_path / "f", size=SIZE, movie="mp4")
 
 
 # --- command line ---

@@ -15,8 +15,6 @@ import pytest
 
 from support_exudyn import Result, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.postprocessing.summary import to_error
-from support_exudyn.simulation.estimate import Estimate
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
 
 # all text of tooltips that are shown, in whatever shadow they are
@@ -105,19 +103,6 @@ def test_what_cannot_be_is_said_in_a_line(
     error = capsys.readouterr().err
     assert re.search(told, error)
     assert len(error.splitlines()) == 1
-
-
-@pytest.mark.parametrize(
-    ("value", "error", "text"),
-    [
-        (443.28, 1.8, "443 ± 2"),
-        (60.7471, 0.0021, "60.747 ± 0.002"),
-        (56.42103762, 2.4e-7, "56.421"),
-        (0.0, float("nan"), "0"),
-    ],
-)
-def test_numbers_are_printed_to_their_error(value: float, error: float, text: str) -> None:
-    assert to_error(Estimate(value, error, "N"), 1.0) == text
 
 
 # --- in a browser ---

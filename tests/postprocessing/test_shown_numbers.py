@@ -7,15 +7,13 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
-from rich.console import Console
 
-from support_exudyn.commands.tables import show_numbers
 from support_exudyn.postprocessing import summary as summary
-from support_exudyn.postprocessing.run_report import _telling_time, _tiles
+from support_exudyn.postprocessing.run_report import _tiles
 from support_exudyn.postprocessing.shown_numbers import hardest_first, label, ranking, shown
 from support_exudyn.simulation.estimate import Estimate
 from tests import synthetic
-from tests.cases.run_cases import PIN, loose_support
+from tests.cases.run_cases import loose_support
 
 TIME = np.arange(11) * 0.1
 RUN = synthetic.journal(loose_support(1.5, 0.25), TIME, 0.0 * TIME, 0.0 * TIME, [])
@@ -52,14 +50,6 @@ def test_pins_are_ranked_in_a_line_by_the_largest_force_at_any_step() -> None:
     assert ranking(of_pins(a=(90e3, 100e3), b=(99e3, math.nan))) == ""
 
 
-def test_run_and_show_print_the_ranking(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(summary, "numbers", lambda *_: TWO)
-    show_numbers(Console(width=150), "what came out", "none asked", RUN, 0.0, math.inf)
-    assert "hits hardest: b, 130 kN at 0.51 s; then a, 100 kN at 0.51 s\n" in capsys.readouterr().out
-
-
 def test_of_a_piece_both_are_told_by_names_that_say_of_what() -> None:
     (found,) = shown([RUN], [TWO], 0.3, math.inf)
     assert set(found) == set(TWO)
@@ -84,14 +74,6 @@ def test_the_ranking_tells_no_time_of_several_alike_peaks() -> None:
     assert ranking(found) == "hits hardest: b, 130 kN; then a, 100 kN at 0.51 s"
 
 
-def test_an_ideal_pin_keeps_its_largest_force_beside_one_with_clearance() -> None:
-    ideal = of_pins(a=(7e3, math.nan))
-    first, second = shown([RUN, RUN], [ideal, TWO], 0.0, math.inf)
-    assert first["pin.a.force.largest"].value == 7e3
-    assert second["pin.a.force.largest"].value == 90e3
-    assert "pin.b.force.largest" not in second
-
-
 def test_the_tiles_of_a_report_are_of_the_hardest_hit_pin() -> None:
     names = [tile.name for tile in _tiles({"run": TWO}, [*TWO])]
     assert names == [
@@ -99,11 +81,3 @@ def test_the_tiles_of_a_report_are_of_the_hardest_hit_pin() -> None:
     ]  # fmt: skip
     before = _tiles({"ideal": of_pins(b=(7e3, math.nan)), "loose": TWO}, [*TWO])
     assert (before[0].before, before[0].value.partition(" ")[0]) == ("7.0 ± 0.5", "130")
-
-
-def test_the_picture_of_a_report_is_of_the_largest_force_at_any_step() -> None:
-    force = {PIN: 9e4}
-    found = synthetic.journal(RUN.scenario, TIME, 0.0 * TIME, 0.0 * TIME, [])
-    object.__setattr__(found, "largest_force", force)
-    object.__setattr__(found, "largest_force_time", {PIN: 0.4321})
-    assert _telling_time(found) == (0.4321, f"when the force in {PIN} is largest, at 0.4321 s")

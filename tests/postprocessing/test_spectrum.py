@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import fft
 
-from support_exudyn import Onset, Result
+from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.spectrum import equally_spaced, force_spectrum, spectrum
 from tests import figure_checks, synthetic
@@ -62,42 +62,10 @@ def test_one_piece_is_the_fourier_transform_of_what_the_window_leaves() -> None:
     assert found.averaged == 1
 
 
-def test_resolution_and_highest_frequency_are_told() -> None:
-    found = spectrum(TIME, tone(50.0, 1.0), segments=4)
-    assert (found.resolution, found.nyquist) == (pytest.approx(1.0), pytest.approx(500.0))
-    assert found.averaged == 7
-
-
-def test_straight_trends_do_not_show() -> None:
-    # a ramp of 1e5 leaves rounding, 1e5 * 1e-16, times the number of samples
-    assert spectrum(TIME, 1e5 * TIME).amplitude.max() < 1e-6
-
-
-def test_what_is_too_fast_for_the_records_appears_folded() -> None:
-    found = spectrum(TIME, tone(930.0, 1.0))
-    assert found.peaks(1)[0][0] == pytest.approx(1000.0 - 930.0)
-
-
 def test_peaks_are_the_highest_that_stand_out() -> None:
     found = spectrum(TIME, tone(20.0, 5.0) + tone(64.0, 9.0) + tone(200.0, 1.0) + 1e-3 * tone(400.0, 1.0))
     assert [round(frequency) for frequency, _ in found.peaks()] == [64, 20, 200]
     assert spectrum(TIME, np.zeros_like(TIME)).peaks() == []
-
-
-def test_ripple_far_below_the_largest_amplitude_is_no_peak() -> None:
-    found = spectrum(TIME, tone(64.0, 9.0) + 1e-4 * tone(400.0, 9.0))
-    peaks = [round(frequency) for frequency, _ in found.peaks()]
-    assert peaks[0] == 64
-    assert 400 not in peaks
-
-
-def test_peaks_are_told_in_the_unit_of_the_axis() -> None:
-    drawing = force_spectrum(run(5e3 + tone(64.0, 3e3), TIME / 100.0), over_time=False)
-    (axes,) = drawing.axes
-    legend = axes.get_legend()
-    assert legend is not None
-    assert axes.get_xlabel() == "frequency [kHz]"
-    assert legend.get_texts()[0].get_text().startswith("A: 6.4 ± 0.05 kHz, 3")
 
 
 def test_records_off_the_grid_are_interpolated_and_a_last_one_left_out() -> None:
@@ -143,23 +111,6 @@ def test_over_time_a_tone_of_half_the_amplitude_is_six_decibels_lower() -> None:
     assert 2.0 < times[0] < 2.1
     assert row[times < 2.9] == pytest.approx(0.0, abs=0.1)
     assert row[times > 3.1] == pytest.approx(20.0 * np.log10(0.5), abs=0.1)
-
-
-def test_the_record_period_that_would_follow_the_shortest_touch_is_told() -> None:
-    values = np.abs(tone(20.0, 1e3))
-    impacts = [Onset(1.0, 0.1, 1.004, 0.1), Onset(2.0, 0.1, 2.002, 0.1), Onset(3.5, 0.1, 3.501, 0.1)]
-    made = synthetic.result(support(), TIME, {FORCE: (values, "N")}, {"rear_base": impacts})
-    drawing = force_spectrum(made, until=3.0, over_time=False)
-    assert "shortest impact lasts 2 ms: a record_period of 200 \u00b5s" in figure_checks.words_below(drawing)
-    assert drawing.axes[0].lines[0].get_color() == style.CONTACT
-
-
-def test_the_piece_of_the_run_is_chosen() -> None:
-    values = np.where(TIME < 2.0, tone(30.0, 1.0), tone(80.0, 1.0))
-    for window, expected in (({"until": 1.999}, 30.0), ({"after": 2.0}, 80.0)):
-        curve = force_spectrum(run(values), over_time=False, **window).axes[0].lines[0]
-        # 500 records to a piece: bins of 2 Hz
-        assert curve.get_xdata()[np.argmax(curve.get_ydata())] == pytest.approx(expected, abs=1.01)
 
 
 def test_too_few_records_and_unknown_pins_are_refused() -> None:

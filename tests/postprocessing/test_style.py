@@ -21,12 +21,3 @@ def test_a_figure_is_written_as_png_and_pdf(tmp_path: Path) -> None:
     assert png.read_bytes().startswith(b"\x89PNG")
     assert pdf.read_bytes().startswith(b"%PDF")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["line.pdf", "line.png"]
-
-
-def test_a_figure_may_go_without_a_pdf(tmp_path: Path) -> None:
-    with style.look():
-        assert style.save(drawing(), tmp_path, "line", pdf=False) == [tmp_path / "line.png"]
-
-
-def test_sizes_are_given_in_millimetres() -> None:
-    assert style.size(25.4, 50.8) == (1.0, 2.0)

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from support_exudyn.mechanics.space.motion import rotation
 from support_exudyn.postprocessing.export.solution_file import euler_parameters
 from support_exudyn.postprocessing.look.poses import strut_axes as along
-from support_exudyn.postprocessing.viewer.view import checked_every, differing_versions, every_row
+from support_exudyn.postprocessing.viewer.view import checked_every, differing_versions
 from support_exudyn.simulation.provenance import provenance
 from user_forces import InputError
 
@@ -35,21 +35,10 @@ def test_other_versions_are_named(package: str) -> None:
     assert f"made with {package} 0.0.1" in sentence
 
 
-@pytest.mark.parametrize(("count", "every"), [(1, 1), (250, 1), (5001, 20), (10**6, 200)])
-def test_a_run_takes_about_ten_seconds(count: int, every: int) -> None:
-    assert every_row(count) == every
-    assert checked_every(every, count) == every
-
-
 @pytest.mark.parametrize("every", [0, -1, 201, True, 1.5, "2", None])
 def test_rows_from_frame_to_frame_are_a_number_of_the_viewers_slider(every: Any) -> None:
     with pytest.raises(InputError, match="allowed: a whole number from 1 to 200"):
         checked_every(every, 1000)
-
-
-def test_no_more_rows_are_passed_over_than_there_are() -> None:
-    with pytest.raises(InputError, match="from 1 to 5"):
-        checked_every(6, 5)
 
 
 # rounding: a few units of the last place of numbers about 1

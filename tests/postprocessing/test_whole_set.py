@@ -8,7 +8,6 @@ import pytest
 
 from support_exudyn.postprocessing.export.whole_set import whole_set
 from tests.hostile import DISKS, left_behind, little_room, posix_only, with_own_files
-from user_forces import InputError
 
 FILES, INDEXES = ("a.bin", "b.bin"), ("all.index",)
 
@@ -74,45 +73,6 @@ def test_a_full_disk_leaves_the_old_files(tmp_path: Path, kind: str) -> None:
         with pytest.raises(OSError, match="it cannot be written"):
             write(folder, "new", 65536)
         assert texts(folder) == dict.fromkeys((*FILES, *INDEXES), "old")
-
-
-def in_a_file(path: Path) -> Path:
-    (path / "file").write_text("old", encoding="utf-8")
-    return path / "file"
-
-
-def below_a_file(path: Path) -> Path:
-    return in_a_file(path) / "set"
-
-
-def over_a_folder(path: Path) -> Path:
-    (path / FILES[0]).mkdir()
-    return path
-
-
-def with_a_nul(path: Path) -> Path:
-    return path / "a\0b"
-
-
-@posix_only
-@pytest.mark.parametrize("place", [in_a_file, below_a_file, over_a_folder, with_a_nul])
-def test_what_cannot_be_written_is_said_before_the_work(tmp_path: Path, place: object) -> None:
-    folder = place(tmp_path)  # type: ignore[operator]
-    before = sorted(tmp_path.rglob("*"))
-    with (
-        pytest.raises(OSError, match="it cannot be written") as caught,
-        whole_set(folder, FILES, INDEXES),
-    ):
-        pytest.fail("the work is begun")
-    assert str(caught.value.filename).startswith(str(tmp_path))
-    assert sorted(tmp_path.rglob("*")) == before
-
-
-def test_a_run_is_not_overwritten(tmp_path: Path) -> None:
-    (tmp_path / "b.bin").write_bytes(b"support_exudyn result 5\n")
-    with pytest.raises(InputError, match=r"b\.bin: is a run, which would be lost"):
-        write(tmp_path, "new")
-    assert list(texts(tmp_path)) == ["b.bin"]
 
 
 @posix_only

@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from studies.common.paper_machine import bearing
-from support_exudyn import ClearancePin, CubicStep, Scenario, UniformSpeed, ravn_slider_crank, reference_support
+from support_exudyn import ClearancePin, CubicStep, Scenario, UniformSpeed, reference_support
 from support_exudyn.files import parsed, read_value, scenario_of, table_of, toml_text
-from support_exudyn.files.machines.read import read_machine
 from support_exudyn.files.scenarios.short_forms import DriveFile, DriveMode, DrivesFile
 from support_exudyn.files.scenarios.short_guide import ShortGuide
 from support_exudyn.files.scenarios.short_laws import simple_laws
 from support_exudyn.files.scenarios.short_pin import ShortPin
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
-from support_exudyn.machines.slider_crank import SliderCrank
-from support_exudyn.model.drives.drive import Stroke
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.guides import ClearanceGuide
 from support_exudyn.model.simple_laws import USUAL_RESTITUTION
@@ -27,7 +23,6 @@ from tests import strategies as some
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
-    Exact,
     InputError,
     JournalBearing,
     JournalContact,
@@ -86,11 +81,6 @@ def test_a_pin_in_short_is_what_python_makes_of_the_same_inputs(law: str) -> Non
     assert read(f'{TOP}{WITH_CLEARANCE}law = "{law}"\n{stiffness}') == expected
 
 
-def test_the_rest_velocity_of_a_pin_is_the_default() -> None:
-    law = read(TOP + WITH_CLEARANCE).clearance_pins["rear_base"].contact.normal
-    assert law.rest_velocity == 0.01  # type: ignore[attr-defined]
-
-
 @pytest.mark.parametrize("short", MADE, ids=lambda cls: cls.__name__)
 def test_every_default_of_a_short_form_is_that_of_what_it_makes(short: type[Value]) -> None:
     made, own = MADE[short]
@@ -113,21 +103,6 @@ def test_a_simple_pin_in_python_has_the_defaults_of_files() -> None:
     assert said == {name: files[name] for name in said}
 
 
-def test_a_simple_guide_in_python_has_the_defaults_of_files() -> None:
-    ours = {name: one.default for name, one in inspect.signature(ClearanceGuide.simple).parameters.items()}
-    files = defaults(ShortGuide)
-    assert (ours.pop("wall_material"), ours.pop("block_material")) == (STEEL, STEEL_35CRMO)
-    assert ours.pop("law") is Exact
-    said = {name: one for name, one in ours.items() if one is not inspect.Parameter.empty}
-    assert said == {name: files[name] for name in said}
-
-
-@pytest.mark.parametrize("mode", [1, 2])
-def test_a_mode_in_short_is_pythons(mode: int) -> None:
-    kind: Callable[[], Stroke] = UniformSpeed if mode == 1 else CubicStep
-    assert read(TOP + f"drive.mode = {mode}").drive == kind()
-
-
 @pytest.mark.parametrize("kind", some.kinds(), ids=lambda cls: cls.__name__)
 def test_a_class_of_which_a_file_says_the_least_is_pythons(kind: type[Value]) -> None:
     examples = some.examples_of(kind)
@@ -144,15 +119,3 @@ def test_a_class_of_which_a_file_says_the_least_is_pythons(kind: type[Value]) ->
 
 def _field(kind: type[Value], key: str) -> str:
     return next(one.name for one in field_shapes(kind).values() if key in (one.name, *one.keys))
-
-
-def test_a_machine_of_which_a_file_says_the_least_is_pythons(tmp_path: Path) -> None:
-    crank = ravn_slider_crank()
-    lengths = {f"{name}_mm": 1e3 * getattr(crank, name) for name in ("crank_length", "rod_length")}
-    masses = {f"{name}_kg": getattr(crank, name) for name in ("crank_mass", "rod_mass", "slider_mass")}
-    lines = [f"{key} = {float(item)!r}" for key, item in (lengths | masses).items()]
-    path = tmp_path / "crank.toml"
-    path.write_text('kind = "slider_crank"\nname = "a"\n' + "\n".join(lines), encoding="utf-8")
-    found = read_machine(str(path), tmp_path).machine
-    assert isinstance(found, SliderCrank)
-    assert found.start_angle == defaults(SliderCrank)["start_angle"]

@@ -15,15 +15,12 @@ from user_forces import (
     STEEL_35CRMO,
     Exact,
     Flores,
-    Hertz,
     InputError,
     Johnson,
     JournalContact,
     Material,
     PinInBore,
     effective_modulus,
-    external_contact_stiffness,
-    internal_contact_stiffness,
 )
 from user_forces.backing import pin_stiffness
 
@@ -61,14 +58,6 @@ def test_what_is_said_is_taken() -> None:
     soft = {"name": "soft", "elastic_modulus_GPa": 100, "poisson_ratio": 0.3, "density_kg_per_m3": 8000}
     material = Material(name="soft", elastic_modulus=1e11, poisson_ratio=0.3, density=8000.0)
     assert law_of(journal_material=soft).effective_modulus == effective_modulus(STEEL, material)
-
-
-def test_spheres_stay_by_name() -> None:
-    bearing = law_of().bearing
-    for name, stiffness in (("paper", external_contact_stiffness), ("internal", internal_contact_stiffness)):
-        k = stiffness(bearing, STEEL, STEEL_35CRMO)
-        assert pin_of(stiffness=name).contact.normal == Exact(stiffness=k, restitution=0.9)
-    assert isinstance(pin_of(law="Hertz").contact.normal, Hertz)  # a force of its own, not a damping factor
 
 
 def test_in_python_the_length_makes_the_choice() -> None:
@@ -140,28 +129,6 @@ def test_a_pin_tells_pressure_angle_depth_and_slope() -> None:
     assert paper.stiffness == pytest.approx(5.04e8, rel=0.01)
 
 
-def test_the_pressure_is_that_of_the_laws_own_modulus_and_length() -> None:
-    pin = pin_of()
-    softer = replace(law_of(), effective_modulus=0.25 * law_of().effective_modulus)
-    soft = replace(pin, contact=replace(pin.contact, normal=softer))
-    hard, found = (pressed_pin(reference_support(), "rear_base", one, 1e4).line for one in (pin, soft))
-    assert hard is not None
-    assert found is not None
-    assert found.peak_pressure == pytest.approx(0.5 * hard.peak_pressure, rel=1e-2)
-    with pytest.raises(InputError, match=r"length = 0.35 m: its law has 0.7 m; allowed: to leave it out"):
-        replace(pin, length=0.35)
-
-
-def test_a_pin_that_yields_is_told_in_a_sentence() -> None:
-    pin = pin_of()
-    found = pressed_pin(reference_support(), "rear_base", pin, 3e7)
-    assert found.warning is not None
-    assert found.warning.startswith("rear_base: 3e+04 kN on 700 mm press with")
-    unknown = Material(name="tin", elastic_modulus=5e10, poisson_ratio=0.3, density=7300.0)
-    bare = replace(pin, bore_material=unknown, journal_material=unknown)
-    assert pressed_pin(reference_support(), "rear_base", bare, 3e7).warning is None
-
-
 def test_without_a_length_or_a_law_that_holds_it_nothing_is_made_up() -> None:
     simple = ClearancePin.simple(clearance=0.0005, bore_radius=0.01)
     found = pressed_pin(ravn_slider_crank(), "slider_pin", simple, 1e3)
@@ -182,7 +149,3 @@ def test_the_static_load_is_that_of_the_weight() -> None:
     (found,) = statically_pressed(scenario)
     assert found.name == "rear_base"
     assert found.force == pytest.approx(60.7e3, rel=0.05)
-
-
-def test_an_exact_law_is_the_usual_one_on_cylinders() -> None:
-    assert Exact(stiffness=1.0, restitution=0.9).damping_factor == law_of().damping_factor

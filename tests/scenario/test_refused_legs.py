@@ -10,16 +10,12 @@ import pytest
 from support_exudyn import (
     CylinderAndRod,
     OilColumn,
-    OwnBody,
     PumpStation,
     Scenario,
-    TrappedAir,
     YieldValve,
     simulate,
 )
 from support_exudyn.model.actuator_model import ActuatorModel
-from support_exudyn.model.hydraulics.leg import HydraulicLeg
-from tests.cases.run_cases import support
 from tests.formulations.hydraulics.leg_cases import COLUMN, CYLINDER, STAGE, Uprights
 from user_forces import InputError
 
@@ -61,12 +57,6 @@ def test_columns_are_looked_at_wherever_they_stand(leg: Any, where: str) -> None
     standing(leg(replace(COLUMN, vapour_pressure=-99e3)))
 
 
-def test_a_jack_on_oil_is_looked_at() -> None:
-    (part,) = support().machine.jacks
-    with pytest.raises(InputError, match=rf"parts\.{part}\.jack\.vapour_pressure = -200000.0 Pa"):
-        support(parts={part: OwnBody(jack=replace(COLUMN, vapour_pressure=-2e5))})
-
-
 @pytest.mark.parametrize(
     ("valve", "name", "down_to"),
     [
@@ -98,18 +88,3 @@ def test_what_would_boil_at_the_start_is_named_with_its_own_pressure() -> None:
     simulate(standing(replace(COLUMN, vapour_pressure=5e5)))
     with pytest.raises(InputError, match=r"its rod side would have 5e\+05 Pa"):
         simulate(standing(replace(CYLINDER, vapour_pressure=6e5)))
-
-
-def test_air_has_room_in_the_hose_as_well() -> None:
-    # pressure of the weight, and of the tank on the rod side
-    pressure = (MASS * 9.81 + CYLINDER.tank_pressure * CYLINDER.rod_side_area) / CYLINDER.bore_area
-    room = CYLINDER.bore_area * CYLINDER.oil_length + 0.5 * 0.02
-    fits = TrappedAir(volume=room / TrappedAir(volume=1.0).at(pressure))
-    simulate(standing(replace(CYLINDER, hose_volume=0.02, trapped_air=fits)))
-    with pytest.raises(InputError, match="no room for oil is left"):
-        simulate(standing(replace(CYLINDER, hose_volume=0.001, trapped_air=fits)))
-
-
-def test_a_leg_that_is_neither_column_nor_cylinder_is_none() -> None:
-    with pytest.raises(InputError, match="is a kind of values; allowed: HydraulicCylinder, OilColumn"):
-        HydraulicLeg()  # type: ignore[abstract]

@@ -26,7 +26,7 @@ from support_exudyn import (
     cylinders_and_rods,
     reference_support,
 )
-from support_exudyn.model.linkage import Body, Part
+from support_exudyn.model.linkage import Body
 from tests.cases.machine_cases import contact, support
 from user_forces import InputError, JournalBearing, Value, value
 
@@ -41,136 +41,79 @@ def scenario(**changes: object) -> Scenario:
 # --- bad input is refused when it is made ---
 
 
-def test_negative_mass_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Part\.mass = -500\.0: .*allowed: > 0"):
-        Part(mass=-500.0, centre=(0.0, 0.0))
-    with pytest.raises(InputError, match=r"Body\.mass = -500\.0: .*allowed: > 0"):
-        Body(mass=-500.0, inertia=1.0, centre=(0.0, 0.0))
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"drive": CubicStep(stroke=5.0)}, r"column extension = 5\.0 m: .*allowed: up to "),
+        ({"drive": UniformSpeed(stroke=-2.0)}, r"column extension = -2\.0 m: .*allowed: up to "),
+        ({"drive": Steady(rate=0.1), "duration": 50.0}, r"column extension = 5\.0 m: .*allowed: up to "),
+        ({"step": 0.0}, r"Scenario\.step = 0\.0: .*allowed: > 0 and <= 0\.1"),
+        ({"step": -0.001}, r"Scenario\.step = -0\.001: .*allowed: > 0"),
+        ({"speed": 3}, r"Scenario\.speed = 3: unknown field; the fields are machine, pins, guides"),
+        ({"pins": {"rear": IdealPin()}}, r"pins\.rear: the machine has no such pin; allowed: rear_base, "),
+        ({"pins": {"rear_base": contact()}}, r"Scenario\.pins\.rear_base = JournalContact\(.*Pin"),
+        ({"record_period": 6.0}, r"record_period = 6\.0 s: allowed: at most the duration, 5\.0 s"),
+        ({"record_period": 0.0}, r"Scenario\.record_period = 0\.0: .*> 0"),
+        ({"duration": 0.0}, r"Scenario\.duration = 0\.0: .*allowed: > 0"),
+        ({"duration": math.inf}, r"Scenario\.duration = inf: .*allowed: > 0"),
+        ({"machine": "support"}, r"Scenario\.machine = 'support': .*Machine"),
+        ({"start": "resting"}, r"Scenario\.start = 'resting': .*'concentric' or 'settled'"),
+        (
+            {"drive": Steady(rate=0.02), "start": "settled"},
+            "start = 'settled': is at rest, but the drive moves",
+        ),
+        ({"drives": {"rear_column": Steady(rate=0.01)}, "start": "settled"}, r"start = 'settled'.*0\.01 per s"),
+        ({"gravity": (0.0, math.nan)}, r"Scenario\.gravity\.1 = nan: "),
+        (
+            {"drives": {"jack": Held()}},
+            r"drives\.jack: the machine has no such driven part",
+        ),
+        ({"drives": {"rear_column": CubicStep(stroke=5.0)}}, r"rear_column cannot follow beyond 3\.4"),
+        ({"parts": {"side_shield": OwnBody()}}, r"parts\.side_shield: .*no such part on a jack"),
+        ({"parts": {"tail_beam": OwnBody()}}, r"parts\.tail_beam: the machine lacks tail_hinge"),
+    ],
+)
+def test_scenarios_that_cannot_be_are_refused(changes: dict[str, object], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        scenario(**changes)
 
 
-def test_clearance_larger_than_the_bore_is_refused() -> None:
-    with pytest.raises(InputError, match=r"clearance = 1\.5 m: .*allowed: > 0 and < 0\.0655"):
-        JournalBearing(bore_radius=0.0655, clearance=1.5)
-
-
-@pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
-@pytest.mark.parametrize("stroke", [5.0, -2.0])
-def test_actuators_that_cannot_close_the_linkage_are_refused(
-    kind: type[CubicStep] | type[UniformSpeed], stroke: float
-) -> None:
-    with pytest.raises(InputError, match=rf"column extension = {stroke} m: .*allowed: up to "):
-        scenario(drive=kind(stroke=stroke))
-
-
-def test_step_of_zero_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Scenario\.step = 0\.0: .*allowed: > 0 and <= 0\.1"):
-        scenario(step=0.0)
-
-
-def test_negative_step_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Scenario\.step = -0\.001: .*allowed: > 0 and <= 0\.1"):
-        scenario(step=-0.001)
-
-
-def test_unknown_field_is_refused() -> None:
-    with pytest.raises(
-        InputError,
-        match=r"Scenario\.speed = 3: unknown field; the fields are machine, pins, guides, actuators, pump",
-    ):
-        scenario(speed=3)
-
-
-def test_unknown_pin_name_is_refused() -> None:
-    names = "rear_base, front_base, rear_shield, front_shield, shield_canopy"
-    with pytest.raises(InputError, match=rf"pins\.rear: the machine has no such pin; allowed: {names}"):
-        scenario(pins={"rear": IdealPin()})
-
-
-def test_record_period_longer_than_the_run_is_refused() -> None:
-    with pytest.raises(InputError, match=r"record_period = 6\.0 s: allowed: at most the duration, 5\.0 s"):
-        scenario(record_period=6.0)
-
-
-@pytest.mark.parametrize("duration", [-5.0, 0.0, math.nan, math.inf])
-def test_duration_of_no_length_is_refused(duration: float) -> None:
-    with pytest.raises(InputError, match=rf"Scenario\.duration = {duration}: .*allowed: > 0"):
-        scenario(duration=duration)
-
-
-def test_missing_duration_is_refused() -> None:
+def test_a_missing_duration_and_a_wrong_copy_are_refused() -> None:
     with pytest.raises(InputError, match=r"Scenario\.duration: missing"):
         Scenario(machine=SUPPORT)
+    with pytest.raises(InputError, match=r"record_period = 6\.0 s"):
+        dataclasses.replace(scenario(), record_period=6.0)
 
 
-def test_record_period_of_zero_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Scenario\.record_period = 0\.0: .*> 0"):
-        scenario(record_period=0.0)
-
-
-def test_something_else_in_place_of_a_pin_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Scenario\.pins\.rear_base = JournalContact\(.*Pin"):
-        scenario(pins={"rear_base": contact()})
-
-
-def test_something_else_in_place_of_a_machine_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Scenario\.machine = 'support': .*Machine"):
-        scenario(machine="support")
-
-
-def test_unknown_start_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Scenario\.start = 'resting': .*'concentric' or 'settled'"):
-        scenario(start="resting")
-
-
-def test_gravity_that_is_not_finite_is_refused() -> None:
-    with pytest.raises(InputError, match=r"Scenario\.gravity\.1 = nan: "):
-        scenario(gravity=(0.0, math.nan))
+def test_bores_and_their_sides_are_checked() -> None:
+    with pytest.raises(InputError, match=r"clearance = 1\.5 m: .*allowed: > 0 and < 0\.0655"):
+        JournalBearing(bore_radius=0.0655, clearance=1.5)
+    with pytest.raises(InputError, match=r"ClearancePin\.bore = 'third': .*'first' or 'second'"):
+        ClearancePin(contact=contact(), bore="third")
 
 
 @pytest.mark.parametrize(
     ("field", "wrong", "allowed"),
     [
         ("spectral_radius", 1.1, ">= 0 and <= 1"),
-        ("spectral_radius", -0.1, ">= 0 and <= 1"),
-        ("newton_tolerance", 0.0, "> 0 and <= 0.001"),
         ("newton_tolerance", 0.1, "> 0 and <= 0.001"),
         ("impact_steps", 15, ">= 16 and <= 10000"),
-        ("impact_steps", 10001, ">= 16 and <= 10000"),
-        ("growth", 0.5, ">= 1 and <= 64"),
         ("growth", 65.0, ">= 1 and <= 64"),
         ("tolerance", 1e-14, ">= 1e-13 and <= 0.01"),
-        ("tolerance", 0.1, ">= 1e-13 and <= 0.01"),
-    ],
-)
-def test_solver_setting_out_of_range_is_refused(field: str, wrong: float, allowed: str) -> None:
-    with pytest.raises(InputError, match=rf"SolverSettings\.{field} = {wrong}: .*allowed: {allowed}"):
-        SolverSettings(**{field: wrong})
-
-
-def test_unknown_backend_is_refused() -> None:
-    with pytest.raises(
-        InputError, match=r"SolverSettings\.backend = 'fortran': .*'auto', 'python', 'symbolic' or"
-    ):
-        SolverSettings(backend="fortran")
-
-
-@pytest.mark.parametrize(
-    ("field", "wrong", "allowed"),
-    [
+        ("backend", "fortran", "'auto', 'python', 'symbolic' or"),
         ("integrator", "euler", "'generalised_alpha' or 'trapezoidal'"),
         ("newton", "none", "'modified' or 'full'"),
         ("constraint_index", 1, "2 or 3"),
+        ("most_steps", 0, ">= 1"),
     ],
 )
-def test_unknown_choice_of_the_solver_is_refused(field: str, wrong: object, allowed: str) -> None:
+def test_settings_of_the_solver_that_cannot_be_are_refused(field: str, wrong: object, allowed: str) -> None:
     with pytest.raises(InputError, match=rf"SolverSettings\.{field} = {wrong!r}: .*{allowed}"):
         SolverSettings(**{field: wrong})
 
 
 def test_the_trapezoidal_rule_is_refused_with_constraints_of_positions() -> None:
-    with pytest.raises(
-        InputError, match=r"'trapezoidal', constraint_index = 3: allowed: 2 with this integrator"
-    ):
+    with pytest.raises(InputError, match=r"'trapezoidal', constraint_index = 3: allowed: 2"):
         SolverSettings(integrator="trapezoidal")
     assert SolverSettings(integrator="trapezoidal", constraint_index=2).constraint_index == 2
 
@@ -227,7 +170,7 @@ def test_an_accuracy_is_a_word_or_a_number(accuracy: str | float | None, goal: f
 def test_of_a_scenario_with_an_accuracy_that_is_refined() -> None:
     # errors are of second order in the steps; settings are chosen anew, so they stay
     coarse = scenario(accuracy="draft", solver=SolverSettings(impact_steps=9000))
-    for formulation in ("auto", "redundant", "compiled"):
+    for formulation in ("auto", "exudyn", "compiled"):
         one = dataclasses.replace(coarse, formulation=formulation)
         assert one.refined() == dataclasses.replace(one, accuracy=2.5e-3)
     assert scenario(accuracy=2e-8).refined().accuracy == 1e-8
@@ -242,22 +185,6 @@ def test_a_tolerance_is_refined_where_it_decides() -> None:
     assert finest.refined() == finest
 
 
-def test_a_drive_is_refused_if_it_leaves_the_reach_only_late_in_the_run() -> None:
-    assert scenario(drive=Steady(rate=0.1)).drive.span(5.0) == (0.0, 0.5)
-    with pytest.raises(InputError, match=r"column extension = 5\.0 m: .*allowed: up to "):
-        scenario(drive=Steady(rate=0.1), duration=50.0)
-
-
-def test_bore_on_neither_body_is_refused() -> None:
-    with pytest.raises(InputError, match=r"ClearancePin\.bore = 'third': .*'first' or 'second'"):
-        ClearancePin(contact=contact(), bore="third")
-
-
-def test_a_changed_copy_is_checked_too() -> None:
-    with pytest.raises(InputError, match=r"record_period = 6\.0 s"):
-        dataclasses.replace(scenario(), record_period=6.0)
-
-
 # --- good input ---
 
 
@@ -266,40 +193,11 @@ def test_a_stroke_within_reach_is_taken(stroke: float) -> None:
     assert scenario(drive=CubicStep(stroke=stroke)).drive.span(5.0) == (min(0.0, stroke), max(0.0, stroke))
 
 
-def test_a_single_record_is_taken() -> None:
-    assert scenario(record_period=5.0).record_period == 5.0
-
-
 def test_actuators_are_held_and_pins_ideal_unless_said_otherwise() -> None:
     plain = scenario()
     assert plain.drive == Held()
     assert plain.clearance_pins == {}
     assert plain.gravity == (0.0, -9.81)
-
-
-def test_only_pins_with_clearance_are_listed_as_such() -> None:
-    with_clearance = ClearancePin(contact=contact())
-    mixed = scenario(pins={"front_base": IdealPin(), "rear_base": with_clearance})
-    assert mixed.clearance_pins == {"rear_base": with_clearance}
-
-
-def test_a_scenario_cannot_be_changed() -> None:
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        scenario().duration = 1.0  # type: ignore[misc]
-
-
-@pytest.mark.parametrize("impact_steps", [16, 10000])
-def test_few_and_many_steps_per_impact_are_taken(impact_steps: int) -> None:
-    assert SolverSettings(impact_steps=impact_steps).impact_steps == impact_steps
-
-
-def test_settings_are_those_documented_unless_said_otherwise() -> None:
-    plain = SolverSettings()
-    assert (plain.spectral_radius, plain.newton_tolerance) == (0.5, 1e-8)
-    assert (plain.impact_steps, plain.backend) == (512, "auto")
-    assert (plain.integrator, plain.constraint_index, plain.newton) == ("generalised_alpha", 3, "modified")
-    assert (plain.locate, plain.growth, plain.tolerance) == (True, 1.0, 1e-7)
-    assert (scenario().accuracy, scenario().goal, scenario().formulation) == (None, None, "auto")
 
 
 # --- the same run with all steps shorter ---
@@ -370,20 +268,7 @@ def test_an_ideal_pin_must_be_closed_at_the_start() -> None:
     Scenario(machine=Open(), duration=1.0, pins={"pin": ClearancePin(contact=contact())})
 
 
-def test_a_moving_drive_cannot_start_settled() -> None:
-    with pytest.raises(InputError, match="start = 'settled': is at rest, but the drive moves"):
-        scenario(drive=Steady(rate=0.02), start="settled")
-
-
 # --- drives of single parts ---
-
-
-def test_a_drive_of_an_unknown_part_is_refused() -> None:
-    with pytest.raises(
-        InputError,
-        match=r"drives\.jack: the machine has no such driven part; allowed: front_column, rear_column",
-    ):
-        scenario(drives={"jack": Held()})
 
 
 def test_every_part_follows_the_drive_unless_said_otherwise() -> None:
@@ -394,16 +279,6 @@ def test_every_part_follows_the_drive_unless_said_otherwise() -> None:
     apart = scenario(drive=front, drives={"rear_column": rear})
     assert (apart.drive_of("front_column"), apart.drive_of("rear_column")) == (front, rear)
     assert apart.breaks == (1.0, 3.0, 5.0)
-
-
-def test_each_drive_must_stay_within_reach() -> None:
-    with pytest.raises(InputError, match=r"drives\.rear_column: rear_column cannot follow beyond 3\.4"):
-        scenario(drives={"rear_column": CubicStep(stroke=5.0)})
-
-
-def test_no_drive_may_move_from_a_settled_start() -> None:
-    with pytest.raises(InputError, match=r"start = 'settled'.*0\.01 per s"):
-        scenario(drives={"rear_column": Steady(rate=0.01)}, start="settled")
 
 
 def test_oil_is_checked_against_the_drive_of_its_own_actuator() -> None:
@@ -449,16 +324,6 @@ def test_oil_in_an_actuator_of_two_bodies_is_oil() -> None:
     assert scenario(actuators=actuators).oil_columns == {"front_column": oil, "rear_column": oil}
     with pytest.raises(InputError, match=r"actuators\.front_column\.drive\.oil_length = 0\.1 m"):
         scenario(actuators=actuators, drive=CubicStep(stroke=-0.2))
-
-
-def test_a_part_that_the_machine_does_not_have_is_refused() -> None:
-    with pytest.raises(InputError, match=r"parts\.side_shield: .*no such part on a jack; allowed: tail_beam"):
-        scenario(parts={"side_shield": OwnBody()})
-
-
-def test_a_part_that_the_machine_has_no_data_of_is_refused() -> None:
-    with pytest.raises(InputError, match=r"parts\.tail_beam: the machine lacks tail_hinge"):
-        scenario(parts={"tail_beam": OwnBody()})
 
 
 @pytest.mark.parametrize("name", ["jack", "tail_jack"])

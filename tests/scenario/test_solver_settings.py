@@ -1,10 +1,9 @@
-"""What the settings of the time integration do in the redundant formulation."""
+"""What the settings of the time integration do in the Exudyn formulation."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -15,15 +14,12 @@ from tests.cases.run_cases import (
     CRANK_SPEED,
     FORCE,
     PIN,
-    SLIDER_PIN,
-    loose_slider_crank,
     loose_support,
     paper_contact,
     slider_crank,
     support,
 )
 from tests.formulations.test_drop import SPEEDS, TIMES
-from tests.formulations.test_slider_crank import SPEEDS as CRANK_SPEEDS
 from user_forces import Exact, InputError
 
 INDEX_2: dict[str, object] = {"integrator": "trapezoidal", "constraint_index": 2}
@@ -101,12 +97,6 @@ def test_cranks_turn_with_index_2() -> None:
     np.testing.assert_allclose(runs[1]["crank.moment"], other["crank.moment"], atol=1e-3 * 138.5)
 
 
-def test_touches_of_the_slider_crank_with_index_2() -> None:
-    onsets = simulate(loose_slider_crank(8e-4, solver=SolverSettings(impact_steps=256, **INDEX_2)))
-    for onset, speed in zip(onsets.onsets[SLIDER_PIN], CRANK_SPEEDS, strict=False):
-        assert onset.speed == pytest.approx(speed, rel=1e-5)  # measured 4e-6
-
-
 def test_what_index_2_cannot_do_is_refused() -> None:
     with pytest.raises(InputError, match=r"constraint_index = 2: .* generalised alpha"):
         simulate(support(duration=0.01, drive=Held(), solver=SolverSettings(constraint_index=2)))
@@ -143,18 +133,6 @@ def test_without_locating_onsets_are_those_of_plain_recipes() -> None:
         assert onsets[0].time == pytest.approx(TIMES[0], abs=10.0 * step**2 / SPEEDS[0])
     # and the third impact is off by what a late first one makes of it, far more than if it is located
     assert abs(runs[2e-4][2].speed / SPEEDS[2] - 1.0) > 0.1
-
-
-def test_without_locating_a_break_of_the_drive_is_no_reason_for_short_steps() -> None:
-    result = simulate(
-        support(
-            drive=CubicStep(start=0.01, end=0.5, stroke=0.01),
-            duration=0.02,
-            step=1e-3,
-            solver=SolverSettings(locate=False),
-        )
-    )
-    assert result.counts.steps == 20
 
 
 # --- steps that grow ---
@@ -197,17 +175,3 @@ def test_records_inside_a_step_lie_on_the_motion() -> None:
     # a change of the step disturbs accelerations by less than what it takes to let steps shrink
     channel = "rear_link.angular_acceleration"
     np.testing.assert_allclose(grown[channel], plain[channel], atol=SMOOTH * 9.81)
-
-
-def test_grown_steps_land_on_breaks_and_records_come_once() -> None:
-    drive = CubicStep(start=0.20037, end=0.40071, stroke=0.02)
-    result = simulate(
-        support(drive=drive, duration=0.5, record_period=3e-3, solver=SolverSettings(growth=16.0))
-    )
-    # rounding
-    np.testing.assert_allclose(result.time[:-1], 3e-3 * np.arange(167), atol=1e-15)
-    assert result.time[-1] == 0.5
-    assert all(a < b for a, b in pairwise(result.time))
-    assert result["tip.y"][-1] == pytest.approx(
-        simulate(support(drive=drive, duration=0.5, record_period=3e-3))["tip.y"][-1], abs=1e-8
-    )

@@ -22,7 +22,6 @@ from support_exudyn import (
     UniformSpeed,
     machine,
 )
-from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.scenario.timescales import SLOWEST_FALL, timescales
 from tests.cases.run_cases import (
     CRANK_SPEED,
@@ -76,18 +75,6 @@ def test_a_flight_is_a_fall_through_the_clearance() -> None:
     assert found == pytest.approx(math.sqrt(2.0 * CLEARANCE / 9.81), rel=1e-12)
 
 
-def test_the_smallest_clearance_decides() -> None:
-    both = loose_support(drive=Held())
-    narrow = ClearancePin(contact=paper_contact(0.5, 0.0))
-    scene = replace(both, pins={**both.pins, "front_shield": narrow})
-    assert timescales(scene).flight == pytest.approx(math.sqrt(2.0 * 0.5e-3 / 9.81), rel=1e-12)
-
-
-def test_gravity_counts_in_any_direction() -> None:
-    one, other = (timescales(loose_support(gravity=g)).flight for g in ((3.0, -4.0), (0.0, 5.0)))
-    assert one == pytest.approx(other, rel=1e-12) == math.sqrt(2.0 * CLEARANCE / 5.0)
-
-
 @pytest.mark.parametrize(("start_angle", "gravity"), [(0.0, 0.0), (0.5, 0.0), (0.5, 9.81)])
 def test_in_a_running_machine_the_fastest_body_pulls(start_angle: float, gravity: float) -> None:
     scene = loose_slider_crank(1e-3, gravity=(0.0, -gravity))
@@ -103,12 +90,6 @@ def test_in_a_running_machine_the_fastest_body_pulls(start_angle: float, gravity
     assert found == pytest.approx(math.sqrt(2.0 * 5e-4 / pull), rel=1e-9)
 
 
-def test_a_crank_at_the_start_of_its_turn_pulls_with_half_its_radius() -> None:
-    # at angle 0 the slider is at a dead centre, and both centres move at r w / 2: a = r w^2 / 2
-    found = timescales(loose_slider_crank(1e-3)).flight
-    assert found == pytest.approx(math.sqrt(2.0 * 5e-4 / (0.5 * RADIUS * CRANK_SPEED**2)), rel=1e-9)
-
-
 def test_where_nothing_pulls_a_flight_takes_long_but_has_an_end() -> None:
     found = timescales(loose_support(drive=Held(), gravity=(0.0, 0.0)))
     assert found.flight == pytest.approx(math.sqrt(2.0 * CLEARANCE / SLOWEST_FALL), rel=1e-12)
@@ -117,13 +98,6 @@ def test_where_nothing_pulls_a_flight_takes_long_but_has_an_end() -> None:
 
 
 # --- weight ---
-
-
-def test_the_weight_is_that_of_all_bodies() -> None:
-    linkage = support().machine.linkage()
-    weight = kinetics_of(linkage).weight((3.0, -4.0)).reshape(-1, 3)
-    masses = [body.mass for body in linkage.bodies.values()]
-    np.testing.assert_allclose(weight, [[3.0 * m, -4.0 * m, 0.0] for m in masses], rtol=1e-15)
 
 
 # --- resting ---
@@ -150,15 +124,6 @@ def test_without_weight_the_lightest_direction_decides() -> None:
     assert found == pytest.approx(math.sqrt(end / 1e8), rel=1e-6)
 
 
-def test_of_a_law_that_stiffens_the_slope_at_rest_counts() -> None:
-    mass, stiffness = 3.0, 1e9
-    found = timescales(stand(Hertz(stiffness=stiffness), (0.0, -9.81), mass)).resting
-    load = 2.0 / 3.0 * mass * 9.81
-    slope = 1.5 * stiffness ** (2.0 / 3.0) * load ** (1.0 / 3.0)
-    # a secant over the last hundredth of the depth in place of the tangent: 0.25 % less stiff
-    assert found == pytest.approx(math.sqrt(2.0 / 3.0 * mass / slope), rel=2e-3)
-
-
 def test_on_the_support_the_load_is_that_of_the_ideal_pin() -> None:
     scene = loose_support(drive=Held())
     pin = scene.clearance_pins[PIN]
@@ -179,10 +144,6 @@ def test_on_the_support_the_load_is_that_of_the_ideal_pin() -> None:
     slope = 1.5 * stiffness ** (2.0 / 3.0) * 58778.944 ** (1.0 / 3.0)
     # the secant's 0.25 % of the slope
     assert timescales(scene).resting == pytest.approx(math.sqrt(mass / slope), rel=2e-3)
-
-
-def test_a_pin_without_weight_and_pull_does_not_rest() -> None:
-    assert timescales(stand(spring(1e6))).resting == math.inf
 
 
 @value
@@ -229,25 +190,6 @@ def test_friction_stops_in_the_mass_times_its_ramp_over_the_force(static: float,
     assert timescales(rubbed(static, static + ramp)).rubbing == pytest.approx(expected, rel=1e-5)
 
 
-def test_on_the_support_friction_stops_what_moves_most_easily() -> None:
-    scene = loose_support(1.5, 0.25, drive=Held())
-    friction = scene.clearance_pins[PIN].contact.friction
-    ideal = tuple(pin for pin in scene.linkage.pins if pin != PIN)
-    kinetics = kinetics_of(scene.linkage, ideal)
-    still = np.zeros(3 * len(scene.linkage.bodies))
-    inverse_mass = kinetics.inverse_mass(still, kinetics.relative(still, scene.linkage.pins[PIN])[1])
-    mass = 1.0 / float(np.linalg.eigvalsh(inverse_mass)[-1])
-    # 58 779 N is the load of the ideal pin, as above
-    expected = mass * (friction.dynamic_speed - friction.static_speed) / (0.25 * 58778.944)
-    assert timescales(scene).rubbing == pytest.approx(expected, rel=1e-4)
-
-
-def test_without_friction_nothing_is_stopped() -> None:
-    assert timescales(loose_support(1.5, 0.0, drive=Held())).rubbing == math.inf
-    assert timescales(rubbed(1e-4, 1e-2, coefficient=0.0)).rubbing == math.inf
-    assert timescales(support(drive=Held())).rubbing == math.inf
-
-
 # --- drive ---
 
 
@@ -264,21 +206,6 @@ def test_the_drives_time_is_its_stroke_or_a_cranks_turn() -> None:
     # actuators that go on as they are have no time of their own
     assert timescales(support(drive=Steady(rate=0.05), duration=1.0)).drive == math.inf
     assert timescales(support(drive=Held())).drive == math.inf
-
-
-def test_with_ideal_pins_only_the_drive_has_a_time() -> None:
-    found = timescales(support(drive=CubicStep()))
-    assert (found.flight, found.resting) == (math.inf, math.inf)
-    assert found.drive == 2.0
-
-
-def test_a_tighter_bore_rests_no_differently() -> None:
-    scene = loose_slider_crank(1e-3)
-    pin = scene.clearance_pins[SLIDER]
-    tight = replace(pin.contact.bearing, clearance=1e-4)
-    other = replace(scene, pins={SLIDER: replace(pin, contact=replace(pin.contact, bearing=tight))})
-    assert timescales(other).resting == timescales(scene).resting
-    assert timescales(other).flight == pytest.approx(timescales(scene).flight / math.sqrt(5.0), rel=1e-12)
 
 
 # --- friction that holds ---

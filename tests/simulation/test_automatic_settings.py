@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Held, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.registry import Formulation
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL, LARGEST_STEP, SMALLEST_GOAL
 from support_exudyn.scenario.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.scenario.timescales import timescales
@@ -25,7 +24,7 @@ from support_exudyn.simulation.automatic_settings import (
     RESTING,
     settings_for,
 )
-from tests.cases.run_cases import loose_slider_crank, loose_support, slider_crank, support
+from tests.cases.run_cases import loose_slider_crank, loose_support
 from tests.formulations.test_formulations import COVERED, SCENES
 from user_forces import Ambrosio, InputError
 
@@ -40,7 +39,7 @@ DROP = loose_support(drive=Held(), duration=0.02)
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_the_cheapest_that_covers_a_scene_is_taken(scene: str) -> None:
-    expected = next(name for name in ("compiled", "redundant") if scene in COVERED[name])
+    expected = next(name for name in ("compiled", "exudyn") if scene in COVERED[name])
     assert settings_for(SCENES[scene], 1e-3).formulation == expected
 
 
@@ -57,12 +56,12 @@ def test_one_that_does_not_cover_the_scene_is_refused() -> None:
 
 def test_a_backend_that_is_asked_for_decides_too() -> None:
     symbolic = replace(DROP, solver=SolverSettings(backend="symbolic"))
-    assert settings_for(symbolic, 1e-3).formulation == "redundant"
+    assert settings_for(symbolic, 1e-3).formulation == "exudyn"
     python = replace(DROP, solver=SolverSettings(backend="python"))
     assert settings_for(python, 1e-3).formulation == "compiled"  # which has no Python function to choose
     assert settings_for(python, 1e-3).solver.backend == "auto"
-    named = settings_for(replace(python, formulation="redundant"), 1e-3)
-    assert (named.formulation, named.solver.backend) == ("redundant", "python")
+    named = settings_for(replace(python, formulation="exudyn"), 1e-3)
+    assert (named.formulation, named.solver.backend) == ("exudyn", "python")
 
 
 def rubbing(scene: Scenario, ramp: float) -> Scenario:
@@ -83,7 +82,7 @@ def test_friction_too_steep_for_explicit_steps_is_left_to_the_implicit_ones(scen
     assert 1e-9 < steepest < wide  # there are such friction laws
     assert settings_for(rubbing(scene, 1.05 * steepest), 1e-3).formulation == "compiled"
     steep = rubbing(scene, 0.95 * steepest)
-    assert settings_for(steep, 1e-3).formulation == "redundant"
+    assert settings_for(steep, 1e-3).formulation == "exudyn"
     # who asks for another has it
     assert settings_for(replace(steep, formulation="compiled"), 1e-3).formulation == "compiled"
 
@@ -91,7 +90,7 @@ def test_friction_too_steep_for_explicit_steps_is_left_to_the_implicit_ones(scen
 def test_a_run_to_an_accuracy_is_made_by_the_formulation_that_can() -> None:
     steep = rubbing(replace(DROP, duration=0.02), 2e-9)  # friction stops in 20 ps what slides
     result = simulate(steep, accuracy=0.1)
-    assert result.scenario.formulation == "redundant"
+    assert result.scenario.formulation == "exudyn"
     assert len(result.onsets["rear_base"]) == 1
 
 
@@ -112,17 +111,6 @@ def test_settings_are_allowed_ones_and_nothing_else_is_changed(goal: float, name
     assert back == scene
 
 
-@given(goal=goals, name=st.sampled_from(sorted(SCENES)))
-def test_settings_can_be_refined_twice_without_which_no_error_is_known(goal: float, name: str) -> None:
-    chosen = settings_for(replace(SCENES[name], formulation="redundant"), goal)
-    finer = chosen.refined(2.0).refined(2.0)
-    assert finer.solver.impact_steps == 4 * chosen.solver.impact_steps
-    if name in COVERED["compiled"]:
-        first = settings_for(replace(SCENES[name], formulation="compiled"), goal)
-        second = first.refined(2.0)
-        assert second.refined(2.0).solver.tolerance < second.solver.tolerance < first.solver.tolerance
-
-
 @given(pair=st.tuples(goals, goals), name=st.sampled_from(sorted(SCENES)))
 def test_a_smaller_goal_is_never_coarser(pair: tuple[float, float], name: str) -> None:
     fine, coarse = (settings_for(SCENES[name], goal) for goal in sorted(pair))
@@ -132,7 +120,7 @@ def test_a_smaller_goal_is_never_coarser(pair: tuple[float, float], name: str) -
 
 
 def test_steps_are_shares_of_the_scenes_times() -> None:
-    scene = replace(loose_slider_crank(1e-3), record_period=1e-3, formulation="redundant")
+    scene = replace(loose_slider_crank(1e-3), record_period=1e-3, formulation="exudyn")
     times, chosen = timescales(scene), settings_for(scene, GOAL_OF_SHARES)
     shares = (FLIGHT * times.flight, RESTING * times.resting, DRIVE * times.drive)
     assert chosen.step == min(shares)
@@ -141,27 +129,3 @@ def test_steps_are_shares_of_the_scenes_times() -> None:
     finer = settings_for(scene, GOAL_OF_SHARES / 4.0)
     assert finer.step == pytest.approx(0.5 * chosen.step, rel=1e-12)
     assert finer.solver.impact_steps == 2 * IMPACT_STEPS
-
-
-def test_a_scene_without_loose_pins_takes_no_steps_for_impacts() -> None:
-    # which would end the refinement long before they are used
-    for scene in (support(), slider_crank(1e-3)):
-        assert settings_for(scene, 1e-6).solver.impact_steps == FEWEST_IMPACT_STEPS
-
-
-def test_a_scene_in_which_nothing_happens_has_a_step_all_the_same() -> None:
-    still = support(drive=Held(), record_period=1.0)
-    assert settings_for(replace(still, formulation="redundant"), 0.1).step == LARGEST_STEP
-
-
-def test_only_the_formulations_that_come_first_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[str] = []
-
-    def covers(self: Formulation, scenario: Scenario) -> bool:
-        asked.append(self.name)
-        return self.name == "compiled"
-
-    monkeypatch.setattr(Formulation, "covers", covers)
-    scene = replace(SCENES["clearance support on oil"], accuracy=1e-3)
-    assert settings_for(scene, 1e-3).formulation == "compiled"
-    assert asked == ["compiled"]

@@ -29,12 +29,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.formulations.engine_settings import engine_settings
-from support_exudyn.formulations.redundant.run import build
-from support_exudyn.formulations.redundant.scene.record_forces import with_causes
-from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
 from support_exudyn.formulations.redundant.solver.solver import SolverRun
-from support_exudyn.mechanics.contact_state import PinMemory
-from support_exudyn.scenario.recorded_channels import needs
 from tests.cases.run_cases import FORCE, PIN, loose_support, support
 from user_forces import JournalBearing, JournalContact, LankaraniNikravesh, LuGre
 
@@ -97,67 +92,6 @@ def test_any_choice_has_the_numbers_of_all(scene: str, data: st.DataObject) -> N
     assert found.impulses == full.impulses
 
 
-def unaudited(scenario: Scenario) -> Scenario:
-    return replace(scenario, solver=replace(scenario.solver, result_checks=False))
-
-
-def history(scenario: Scenario) -> History:
-    scene = build(scenario)
-    recorder = Recorder(scene, with_causes(needs(scenario)))
-    SolverRun(scene, recorder, lambda share: None).go()
-    scene.release()
-    return recorder.history()
-
-
-@pytest.mark.parametrize(
-    "scene", ["ideal, driven", "ideal, growing steps", "with_clearance", "clearance, growing steps"]
-)
-def test_nothing_is_kept_that_nobody_asked_for(scene: str) -> None:
-    one = unaudited(SCENES[scene])  # result checks looks at everything
-    places = history(replace(one, channels=("tip.*",)))
-    assert places.position.shape == (places.time.size, 12)
-    assert places.velocity.shape == (places.time.size, 0)
-    assert places.memory.shape[1] == 0
-    # what follows from the motion and the forces in contacts
-    with_clearance = len(one.clearance_pins) * len(PinMemory._fields)
-    for asked in ("pin.front_base.force", "*.angular_acceleration"):
-        found = history(replace(one, channels=(asked,)))
-        assert found.position.shape[1] == found.velocity.shape[1] == 12
-        assert found.memory.shape[1] * found.memory.shape[2] == with_clearance
-
-
-@pytest.mark.parametrize(
-    ("scene", "asked", "computed"),
-    [
-        ("with_clearance", ("tip.*", "pin.*"), False),
-        ("with_clearance", ("energy.kinetic", "energy.potential", "energy.elastic"), False),
-        ("with_clearance", ("energy.friction_loss",), True),
-        ("oil", ("*_column.force",), False),
-        ("oil", ("energy.balance",), True),
-        ("ideal, driven", ("tip.*",), False),
-        ("ideal, driven", ("energy.work",), True),
-        ("ideal, held", ("*",), False),  # held and ideal, nothing works or loses anything
-    ],
-)
-def test_energies_are_followed_only_if_asked(
-    monkeypatch: pytest.MonkeyPatch, scene: str, asked: tuple[str, ...], computed: bool
-) -> None:
-    calls = []
-    followed = Recorder._powers
-
-    def counted(self: Recorder, t: float) -> tuple[float, float, float]:
-        calls.append(t)
-        return followed(self, t)
-
-    monkeypatch.setattr(Recorder, "_powers", counted)
-    result = simulate(unaudited(replace(SCENES[scene], channels=asked)))
-    # at the start and at the end of every step, or never
-    assert len(calls) == (result.counts.steps + 1 if computed else 0)
-    calls.clear()
-    checked = simulate(replace(SCENES[scene], channels=asked))
-    assert len(calls) == (checked.counts.steps + 1 if scene != "ideal, held" else 0)
-
-
 def test_a_channel_that_was_not_recorded_is_told_from_one_that_does_not_exist() -> None:
     result = simulate(replace(SCENES["ideal, held"], channels=("tip.*",)))
     with pytest.raises(KeyError, match=r"'energy.balance': was not recorded, .* channels = \('tip\.\*',\)"):
@@ -166,17 +100,6 @@ def test_a_channel_that_was_not_recorded_is_told_from_one_that_does_not_exist() 
         _ = result.dissipated
     with pytest.raises(KeyError, match=r"'tip.z': no such channel"):
         _ = result["tip.z"]
-
-
-@pytest.mark.parametrize("asked", [(), ("tip.x", "energy.work"), ("pin.*",)])
-def test_the_file_keeps_what_was_recorded(tmp_path: Path, asked: tuple[str, ...]) -> None:
-    result = simulate(replace(SCENES["with_clearance"], channels=asked))
-    back = Result.load(result.save(tmp_path / "run.h5"))
-    assert back.scenario == result.scenario
-    assert set(back.channels) == set(result.channels)
-    for name in result.channels:
-        np.testing.assert_array_equal(back[name], result[name])
-    assert back.onsets == result.onsets
 
 
 def test_estimates_do_not_depend_on_what_is_asked(tmp_path: Path) -> None:
@@ -249,21 +172,6 @@ def test_the_engine_alone_makes_the_steps_of_one_that_is_watched(
         a, b = alone[name], looked_at[name]
         share, size = AGREE[alone.unit(name)]
         np.testing.assert_allclose(a, b, rtol=0.0, atol=share * size, err_msg=name)
-
-
-def test_the_progress_is_told_at_every_record() -> None:
-    told: list[float] = []
-    result = simulate(SCENES["ideal, held"], progress=told.append)
-    assert told == pytest.approx(result.time / result.time[-1], abs=1e-12)
-
-
-def test_a_run_of_the_engine_alone_can_be_interrupted() -> None:
-    def stop(share: float) -> None:
-        if share > 0.5:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        simulate(SCENES["ideal, held"], progress=stop)
 
 
 def with_iterations(most: int, monkeypatch: pytest.MonkeyPatch) -> None:

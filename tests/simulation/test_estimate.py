@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from support_exudyn import (
     ClearancePin,
-    Estimate,
     Held,
     Onset,
     Result,
@@ -172,19 +171,6 @@ def known_size(name: str) -> float:
     return largest
 
 
-@pytest.mark.parametrize(("r", "taken"), [(1e-3, FASTEST), (0.99, SLOWEST), (3.0, SLOWEST)])
-def test_a_fall_that_three_runs_cannot_tell_is_not_believed(r: float, taken: float) -> None:
-    assert falling(1e-3, r).fall == taken
-
-
-def test_two_runs_alone_are_taken_to_be_of_first_order() -> None:
-    run = replace(scaled(1.0), coarser=scaled(1.01), goal=1e-3)
-    assert run.fall == FIRST_ORDER
-    distance = 0.01 * run.window(FORCE).mean
-    # 1e-10 of it is added
-    assert run.numbers()[f"{FORCE}.mean"].error == pytest.approx(SAFETY * distance, rel=1e-6)
-
-
 @given(r=rates)
 def test_a_number_of_ones_own_is_estimated_by_the_fall_of_all(r: float) -> None:
     run = falling(1e-2, r)
@@ -234,16 +220,6 @@ def test_a_number_on_which_all_runs_agree_by_chance_is_as_wrong_as_its_family_is
     assert run.numbers()[other].error == pytest.approx(last.numbers()[other].error, rel=1e-9)
 
 
-def test_the_spread_of_a_force_that_hardly_varies_says_little_of_its_mean() -> None:
-    mean = float(exact().window(FORCE).mean)
-    noise = 1e-8 * mean * (-1.0) ** np.arange(exact()[FORCE].size)
-    # the spread falls by a quarter from run to run, and is nearly all wrong; the mean is right to 1e-8
-    run = three(*(with_channel(exact(), FORCE, mean + 0.25**n * noise) for n in range(3)))
-    told = run.numbers()
-    assert told[f"{FORCE}.std"].error > told[f"{FORCE}.std"].value
-    assert told[f"{FORCE}.mean"].error < 1e-8 * mean
-
-
 @pytest.mark.parametrize("own", [0.05, 0.4, 0.9])
 def test_a_number_that_falls_slower_than_others_has_a_larger_error(own: float) -> None:
     r, share = 0.25, 1e-3
@@ -267,7 +243,7 @@ def test_a_touch_is_not_known_better_than_a_step_may_be() -> None:
         assert found[f"{name}.time"].error == pytest.approx(1e-5 * CLEARANCE / impact.speed)
         assert found[f"{name}.speed"].error == pytest.approx(1e-5 * impact.speed)
     # steps that are given follow nothing else
-    given = replace(run, scenario=replace(run.scenario, formulation="redundant"))
+    given = replace(run, scenario=replace(run.scenario, formulation="exudyn"))
     assert three(given, given, given).numbers()[f"pin.{PIN}.onset_1.speed"].error < 1e-6 * impact.speed
 
 
@@ -295,20 +271,6 @@ def test_a_touch_that_a_coarser_run_misses_has_no_error_that_is_known(fewer: int
     assert math.isfinite(three(*runs).worst_error)
 
 
-def test_only_the_touches_of_the_run_itself_are_numbers() -> None:
-    assert len(exact().onsets[PIN]) >= ONSETS
-    run = three(exact(), exact(), without(exact(), 1))
-    assert f"pin.{PIN}.onset_1.time" in run.numbers()
-    assert f"pin.{PIN}.onset_2.time" not in run.numbers()
-    assert f"pin.{PIN}.onset_{ONSETS + 1}.time" not in three(exact(), exact(), exact()).numbers()
-
-
-def test_a_number_that_is_none_has_an_infinite_error() -> None:
-    run = falling(1e-3, 0.25)
-    assert run.estimate(lambda result: math.nan).error == math.inf
-    assert run.estimate(lambda result: math.nan if result is run else 1.0).error == math.inf
-
-
 # --- what an accuracy is of ---
 
 
@@ -328,30 +290,7 @@ def test_the_worst_error_is_that_of_forces_and_paths(r: float) -> None:
     assert not replace(run, goal=0.99 * goal).met
 
 
-def test_the_worst_error_of_a_force_is_relative() -> None:
-    r, runs = 0.25, [with_force(exact(), 1.0 + 1e-2 * 0.25**n) for n in range(3)]
-    run = three(*runs)
-    # all others are constants: the median of those that are none is theirs
-    assert run.fall == pytest.approx(r, rel=1e-9)
-    # distances are believed to fall by half at most; they are shares of a run's own force, off by up to 1e-2
-    last = 1e-2 * (1.0 - r) * FIRST_ORDER
-    assert run.worst_error == pytest.approx(SAFETY_OF_WORST * last, rel=2e-2)
-
-
 # --- which numbers there are ---
-
-
-def test_names_and_units() -> None:
-    found = falling(1e-3, 0.25).numbers()
-    units = {name: number.unit for name, number in found.items()}
-    assert units[f"{FORCE}.mean"] == units[f"{FORCE}.std"] == units[f"{FORCE}.largest"] == "N"
-    assert units["front_column.force.mean"] == "N"
-    assert units["rear_link.angular_acceleration.std"] == "rad/s^2"
-    assert units["tip.x.mean"] == units["tip.y.mean"] == "m"
-    assert units[f"pin.{PIN}.largest_force"] == "N"
-    assert units[f"pin.{PIN}.onset_1.time"] == "s"
-    assert units[f"pin.{PIN}.onset_3.speed"] == "m/s"
-    assert all(number.error >= 0.0 for number in found.values())
 
 
 @pytest.mark.parametrize(("after", "until"), [(0.0, math.inf), (0.02, math.inf), (0.0, 0.05), (0.02, 0.05)])
@@ -368,14 +307,6 @@ def test_without_statistics_numbers_are_those_of_the_records_over_time(after: fl
     expected = {"mean": mean, "std": math.sqrt(squares / duration), "largest": force.max()}
     for word, value in expected.items():
         assert numbers[f"{FORCE}.{word}"].value == pytest.approx(value, rel=1e-12)
-
-
-def test_touches_and_the_largest_force_are_those_of_the_whole_run() -> None:
-    run = falling(1e-3, 0.25)
-    whole, late = run.numbers(), run.numbers(after=0.06)
-    for name in whole:
-        if "onset" in name or "largest_force" in name:
-            assert late[name] == whole[name]
 
 
 @pytest.mark.parametrize("window", [(1.0, math.inf), (0.05, 0.02), (math.nan, math.inf)])
@@ -397,18 +328,6 @@ def test_a_run_without_an_accuracy_says_what_to_do() -> None:
     assert not run.met
 
 
-@pytest.mark.parametrize(
-    ("number", "text"),
-    [
-        (Estimate(51503.8323, 0.0088, "N"), "51503.832 ± 0.009 N"),
-        (Estimate(0.0174475432, 2e-9, "s"), "0.017447543 ± 2e-09 s"),
-        (Estimate(1.0, math.inf, "m/s"), "1 ± inf m/s"),
-    ],
-)
-def test_an_estimate_reads_as_a_number_with_its_error(number: Estimate, text: str) -> None:
-    assert str(number) == text
-
-
 # --- numbers that are next to nothing ---
 
 
@@ -417,33 +336,10 @@ def with_channel(run: Result, name: str, values: np.ndarray) -> Result:
     return replace(run, channels={**run.channels, name: replace(run.channels[name], values=values)})
 
 
-def test_rounding_beside_far_larger_numbers_tells_no_fall() -> None:
-    still = np.ones_like(exact().time)
-    runs = [with_channel(exact(), "tip.x", x * still) for x in (0.0, 1e-12, 4e-12)]
-    assert three(*runs).fall == FASTEST
-
-
 def test_a_force_that_hardly_varies_has_no_spread_to_be_wrong() -> None:
     noise = np.random.default_rng(1).normal(size=(3, exact().time.size))
     runs = [with_channel(exact(), FORCE, 5e4 + 1e-6 * row) for row in noise]
     assert three(*runs).worst_error < 1e-5
-
-
-def test_a_spread_and_a_least_value_near_zero_are_as_uncertain_as_the_values_they_are_of() -> None:
-    def off(size: float) -> Result:
-        values = np.full(exact().time.size, 1e5)
-        values[::2] += size
-        return with_channel(exact(), FORCE, values)
-
-    found = three(off(3e-8), off(2e-8), off(1e-8)).numbers()
-    spread, mean = found[f"{FORCE}.std"], found[f"{FORCE}.mean"]
-    assert spread.value < 1e-7
-    assert spread.error >= ROUNDING * mean.value
-    actuator = "front_column.force"
-    least = np.linspace(1e-4, 1e5, exact().time.size)
-    run = with_channel(exact(), actuator, least)
-    found = three(run, run, run).numbers()
-    assert found[f"{actuator}.min"].error - whatever_the_steps(run, f"{actuator}.min") >= ROUNDING * 1e5
 
 
 def test_a_force_that_is_rounding_of_others_is_not_told_from_zero() -> None:
@@ -453,14 +349,6 @@ def test_a_force_that_is_rounding_of_others_is_not_told_from_zero() -> None:
     for word in ("mean", "std", "largest", "min", "max"):
         number = found[f"front_column.force.{word}"]
         assert abs(number.value) <= number.error <= 2e-12 * exact()[FORCE].max()
-
-
-def test_a_path_that_goes_nowhere_is_measured_by_the_clearance() -> None:
-    along = np.arange(exact().time.size) / exact().time.size
-    still = with_channel(exact(), "tip.x", np.ones_like(along))
-    runs = [with_channel(still, "tip.y", 2.0 + x * along) for x in (1.75e-9, 1.25e-9, 1e-9)]
-    # 0.5 nm apart, of a clearance of 1.5 mm
-    assert three(*runs).worst_error < 1e-5
 
 
 def test_what_newton_leaves_of_a_force_is_more_of_its_spread_where_it_hardly_varies() -> None:
@@ -476,7 +364,7 @@ def test_what_newton_leaves_of_a_force_is_more_of_its_spread_where_it_hardly_var
         duration=0.005,
         step=5e-5,
         record_period=1e-4,
-        formulation="redundant",
+        formulation="exudyn",
     )
     result = simulate(scene, errors=True)
     fine = replace(scene, formulation="compiled", solver=SolverSettings(tolerance=1e-11))

@@ -10,7 +10,6 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 
@@ -56,29 +55,6 @@ def test_a_file_that_was_cut_off_is_refused_at_any_length(whole: bytes, tmp_path
     chance = random.Random(2)
     for length in [*range(4), BLOCK - 1, BLOCK, len(whole) - 1, *chance.sample(range(len(whole)), CUTS)]:
         assert is_refused(tmp_path / "run.h5", whole[:length]), length
-
-
-def test_what_follows_the_end_or_stands_before_it_is_refused(whole: bytes, tmp_path: Path) -> None:
-    for data in (whole + b"x", whole[1:], b"\n" + whole, whole[BLOCK:], bytes(len(whole)), whole + whole):
-        assert is_refused(tmp_path / "run.h5", data)
-
-
-def test_a_value_that_was_changed_by_hand_is_refused(result: Result, tmp_path: Path) -> None:
-    path = result.save(tmp_path / "run.h5")
-    with h5py.File(path, "r+") as file:
-        file["channels/tip.x"][3] = np.nan
-    with pytest.raises(InputError, match=r"run\.h5: .* does not fit its digest: it was cut off or changed"):
-        Result.load(path)
-
-
-def test_every_reader_of_hdf5_reads_the_file(result: Result, tmp_path: Path) -> None:
-    with h5py.File(result.save(tmp_path / "run.h5"), "r") as file:
-        np.testing.assert_array_equal(file["channels/tip.x"], result["tip.x"])
-
-
-def test_a_folder_is_not_said_to_be_damaged(tmp_path: Path) -> None:
-    with pytest.raises(OSError, match=r"directory|denied"):
-        Result.load(tmp_path)
 
 
 @pytest.mark.parametrize("kind", DISKS)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import gc
-import importlib
-import os
 import signal
 from collections.abc import Callable
 from dataclasses import replace
@@ -15,24 +13,18 @@ import pytest
 
 from support_exudyn import (
     ClearancePin,
-    Failure,
     Held,
     OilColumn,
     Result,
     Scenario,
     SolverSettings,
-    UniformSpeed,
     simulate,
 )
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.redundant.solver.solver import SolverRun
-from support_exudyn.formulations.registry import formulation
-from support_exudyn.sweeps.parallel_runs import run_all
-from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support, paper_contact
+from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, paper_contact
 from tests.hostile import Interruption, posix_only
-from tests.processes import soon_started
 from user_forces import LankaraniNikravesh, value
-from user_forces.lawful import AT_REST
 
 PROMPT = 2.0  # [s] of work, within which an interruption is asked to come out
 LONG = 1000.0  # [s] that the machine is simulated for: minutes of work
@@ -47,7 +39,7 @@ RUNS = {
     "space": replace(PLANE, dimensions=3),
     "space, ideal pins, one channel": replace(PLANE, dimensions=3, pins={}, channels=("tip.x",)),
     "compiled": replace(PLANE, formulation="compiled", actuators=ACTUATORS),
-    "with an accuracy": replace(PLANE, accuracy="draft", formulation="redundant"),
+    "with an accuracy": replace(PLANE, accuracy="draft", formulation="exudyn"),
 }
 
 
@@ -109,28 +101,6 @@ def test_a_compiled_run_is_interrupted_between_its_pauses() -> None:
     assert same(simulate(scenario), before)
 
 
-@pytest.mark.parametrize("at_once", [1, 37])
-def test_pauses_of_a_compiled_run_change_nothing(monkeypatch: pytest.MonkeyPatch, at_once: int) -> None:
-    drive = UniformSpeed(stroke=0.01, start=0.02, end=0.06)  # whose speed jumps twice
-    scenario = replace(PLANE, formulation="compiled", drive=drive, duration=0.1)
-    before = simulate(scenario)
-    assert len(before.impulses) == 2
-    assert len(before.onsets[PIN]) > 2
-    module = importlib.import_module("support_exudyn.formulations.compiled.run")
-    monkeypatch.setattr(module, "AT_ONCE", at_once)
-    told: list[float] = []
-    paused = simulate(scenario, progress=told.append)
-    assert same(paused, before)
-    assert (paused.counts, paused.impulses, paused.largest_force) == (
-        before.counts,
-        before.impulses,
-        before.largest_force,
-    )
-    assert len(told) > before.counts.steps / at_once / 2
-    assert told == sorted(told)
-    assert told[-1] == 1.0
-
-
 class Calls:
     """Interrupts when it is called for the nth time."""
 
@@ -174,69 +144,4 @@ def test_an_interruption_in_a_law_is_not_taken_for_a_failed_run(name: str, call:
     assert exudyn.config.printToConsole
 
 
-@value
-class Buggy(LankaraniNikravesh):
-    """Has a bug in its elastic part, deeper than laws are called before a run."""
-
-    def elastic_force(self, depth: float) -> float:
-        if depth > 1.1 * AT_REST[-1]:
-            raise LookupError("a bug in the law")
-        return super().elastic_force(depth)
-
-
-def test_a_bug_is_not_taken_for_a_missing_equilibrium() -> None:
-    good = paper_contact(1.5, 0.0)
-    contact = type(good)(bearing=good.bearing, normal=Buggy(stiffness=good.normal.stiffness, restitution=0.9))
-    scenario = replace(PLANE, pins={PIN: ClearancePin(contact=contact)}, start="settled")
-    with pytest.raises(LookupError, match="a bug in the law"):
-        simulate(scenario, throw=False)
-
-
-def test_an_interruption_waits_for_an_import_to_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    done: list[str] = []
-
-    def slow(name: str) -> str:
-        signal.raise_signal(signal.SIGINT)
-        done.append(name)
-        return name
-
-    monkeypatch.setattr("support_exudyn.formulations.registry.import_module", slow)
-    handler = signal.getsignal(signal.SIGINT)
-    with pytest.raises(KeyboardInterrupt):
-        _ = formulation("compiled").program
-    assert done == ["support_exudyn.formulations.compiled"]
-    assert signal.getsignal(signal.SIGINT) is handler
-
-
 # --- sweeps ---
-
-
-@value
-class Killing(LankaraniNikravesh):
-    """Has its process killed once the journal is deeper than laws are called before a run."""
-
-    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
-        if depth > 1.1 * AT_REST[-1]:
-            os.kill(os.getpid(), signal.SIGKILL)
-        return super().__call__(depth, rate, impact_velocity)
-
-
-@posix_only
-@soon_started(__name__)
-def test_a_run_whose_process_is_killed_is_a_row_and_the_sweep_goes_on() -> None:
-    good = paper_contact(1.5, 0.0)
-    law = Killing(stiffness=good.normal.stiffness, restitution=0.9)
-    killing = replace(PLANE, pins={PIN: ClearancePin(contact=type(good)(bearing=good.bearing, normal=law))})
-    scenarios = {"one": PLANE, "killing": killing, "other": replace(PLANE, duration=0.03)}
-    told: list[dict[str, float]] = []
-    results = run_all(scenarios, workers=1, progress=lambda shares: told.append(dict(shares)))
-    failure = results["killing"]
-    assert isinstance(failure, Failure)
-    assert "signal 9 (SIGKILL, out of memory?)" in failure.reason
-    assert "memory" in failure.advice
-    assert 0.0 < failure.time < 0.04  # what was told last: the first impact is at 17.4 ms
-    for name in ("one", "other"):
-        result = results[name]
-        assert isinstance(result, Result)
-        np.testing.assert_array_equal(result[FORCE], simulate(scenarios[name])[FORCE])
-    assert set(told[-1].values()) == {1.0}

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
+from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 
 from support_exudyn import Drive, Held, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.scene import Scene
 from tests.cases.run_cases import loose_support
@@ -40,7 +40,7 @@ def peak(scenario: Scenario) -> int:
 
 
 @pytest.mark.parametrize(
-    ("formulation", "duration"), [pytest.param("redundant", 0.4, marks=pytest.mark.slow), ("compiled", 5.0)]
+    ("formulation", "duration"), [pytest.param("exudyn", 0.4, marks=pytest.mark.slow), ("compiled", 5.0)]
 )
 def test_memory_is_flat_in_simulated_time(formulation: str, duration: float) -> None:
     simulate(held(formulation, 0.2))  # what is made once
@@ -63,7 +63,7 @@ def only_ours() -> Iterator[None]:
 @pytest.mark.parametrize("descent", [None, Held(), Branching(speed_down=0.1)], ids=type)
 def test_nothing_of_a_run_stays_behind(descent: Drive | None) -> None:
     loads = {"roof": over_the_canopy(0.1, descent=descent)} if descent else {}
-    simulate(replace(held("redundant", 0.1), loads=loads))
+    simulate(replace(held("exudyn", 0.1), loads=loads))
     # the engine would keep its user functions alive, and they all that they know
     gc.collect()
     assert not [item for item in gc.get_objects() if isinstance(item, (Scene, ClearanceJoint, LoadItem))]

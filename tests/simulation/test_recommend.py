@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -39,28 +38,12 @@ def test_the_cheapest_within_what_is_allowed_is_taken() -> None:
     assert "3 of 4" in advice.reason
 
 
-def test_if_no_other_will_do_it_is_the_fullest() -> None:
-    assert recommend("mean force", table(FULL, tried("off", 1.0, 900.0))).scene == "fullest"
-
-
 def test_what_the_errors_may_hide_is_not_let_pass() -> None:
     # 5 N apart, 10 N are allowed; with an error of 6 N nobody knows
     unsure = tried("unsure", 1.0, 1005.0, error=6.0)
     assert recommend("mean force", table(FULL, unsure)).scene == "fullest"
     sure = tried("sure", 2.0, 1005.0, error=4.0)
     assert recommend("mean force", table(FULL, unsure, sure)).scene == "sure"
-
-
-def test_the_fullest_answers_whatever_its_errors() -> None:
-    doubtful = replace(FULL, numbers={"mean_pin_force": Estimate(1000.0, 60.0, "N")})
-    assert recommend("mean force", table(doubtful, tried("good", 1.0, 1000.0))).scene == "fullest"
-
-
-def test_of_scenes_at_the_same_cost_the_one_with_fewer_elements_is_taken() -> None:
-    space = replace(tried("space", 1.0, 1000.0), fields=fields_of(PLAIN) | {"dimensions": 3})
-    assert (space.elements, FULL.elements) == (1, 0)
-    assert recommend("mean force", table(FULL, space, tried("plain", 1.09, 1000.0))).scene == "plain"
-    assert recommend("mean force", table(FULL, space, tried("plain", 1.11, 1000.0))).scene == "space"
 
 
 def test_other_questions_are_refused() -> None:
@@ -73,21 +56,6 @@ def test_what_a_table_lacks_is_said() -> None:
         recommend("unequal columns", table(FULL))
     with pytest.raises(InputError, match="'fullest': has no mean_tip_x"):
         recommend("posture", table(FULL))
-
-
-def test_a_table_is_read_as_it_was_written(tmp_path: Path) -> None:
-    made = table(FULL, tried("good", 2.0, 1009.0, 0.1))
-    made.save(tmp_path / "table.json")
-    assert EvidenceTable.load(tmp_path / "table.json") == made
-    committed().save(tmp_path / "table.json")
-    assert EvidenceTable.load(tmp_path / "table.json") == committed()
-
-
-@pytest.mark.parametrize("text", ["", "{}", '{"format": "other"}', "[]"])
-def test_what_is_no_table_is_refused(tmp_path: Path, text: str) -> None:
-    (tmp_path / "table.json").write_text(text, encoding="utf-8")
-    with pytest.raises(InputError, match=r"table\.json: not a table"):
-        EvidenceTable.load(tmp_path / "table.json")
 
 
 @pytest.mark.parametrize("question", QUESTIONS)

@@ -29,7 +29,6 @@ from support_exudyn.scenario.recorded_channels import Channel, channels
 from support_exudyn.simulation.result_checks import (
     APART,
     GIVEN_BACK,
-    OPEN,
     energy_open,
     joints_apart,
     result_checks,
@@ -116,13 +115,6 @@ def test_energy_that_does_not_add_up_is_refused(outcome: Outcome, found: Found) 
         assert result_checks(SCENARIO, outcome, opened(found, sign * 0.98 * allowed)) is None
 
 
-def test_what_is_allowed_is_a_share_of_what_was_turned_over(found: Found) -> None:
-    _, allowed = energy_open(SCENARIO, found)
-    fall = np.ptp(found["energy.potential"].values)
-    # what falls goes into other kinds, so that everything turned over is more than the fall, and a few of it
-    assert OPEN * fall < allowed < 4.0 * OPEN * fall
-
-
 @pytest.mark.parametrize("name", ["damping_loss", "friction_loss"])
 def test_a_loss_that_becomes_less_is_refused(outcome: Outcome, found: Found, name: str) -> None:
     allowed = GIVEN_BACK * turned_over(found) + rounding_of_energy(SCENARIO)
@@ -164,11 +156,6 @@ def test_what_bristles_have_stored_may_be_given_back(outcome: Outcome, found: Fo
             sticking, run_with, {**found, f"energy.{name}": replace(found["time"], values=less)}
         )
         assert (failure is not None) == wrong
-
-
-def test_a_machine_at_rest_may_be_off_by_rounding() -> None:
-    still = replace(loose_support(drive=Held(), duration=0.05, start="settled"), record_period=0.01)
-    assert not isinstance(simulate(still, throw=False), Failure)
 
 
 def test_an_ideal_pin_that_comes_apart_is_refused(outcome: Outcome, found: Found) -> None:

@@ -67,19 +67,11 @@ def test_the_saved_scenario_gives_the_same_run_again(result: Result, tmp_path: P
 
 
 def test_provenance_names_versions_and_settings(result: Result) -> None:
-    assert {"python", "exudyn", "numpy", "support-exudyn", "platform", "made_at"} <= set(result.provenance)
+    made_by = {"python", "exudyn", "numpy", "scipy", "numba", "support-exudyn", "platform"}
+    assert made_by | {"made_at"} <= set(result.provenance)
     data = result.scenario.to_data()
     assert data["step"] == result.scenario.step
     assert data["solver"]["spectral_radius"] == 0.5
-
-
-@pytest.mark.parametrize("damage", ["cut", "text", "empty"])
-def test_a_damaged_file_is_refused(result: Result, tmp_path: Path, damage: str) -> None:
-    path = result.save(tmp_path / "run.h5")
-    whole = path.read_bytes()
-    path.write_bytes({"cut": whole[: len(whole) // 2], "text": b"not a result", "empty": b""}[damage])
-    with pytest.raises(InputError, match="damaged"):
-        Result.load(path)
 
 
 @pytest.mark.parametrize(
@@ -117,13 +109,6 @@ def test_the_runs_by_which_errors_are_estimated_come_back(estimated: Result, tmp
     assert (back.fall, back.worst_error, back.met) == (estimated.fall, estimated.worst_error, True)
 
 
-def test_without_an_accuracy_the_file_has_no_other_runs(result: Result, tmp_path: Path) -> None:
-    path = result.save(tmp_path / "run.h5")
-    with h5py.File(path) as file:
-        assert "coarser" not in file
-    assert (Result.load(path).coarser, Result.load(path).goal) == (None, None)
-
-
 def drop_channels(group: h5py.Group) -> None:
     del group["channels"]
 
@@ -132,20 +117,12 @@ def drop_scenario(group: h5py.Group) -> None:
     del group.attrs["scenario"]
 
 
-def spoil_text(group: h5py.Group) -> None:
-    group.attrs["counts"] = "{"
-
-
 def add_a_count(group: h5py.Group) -> None:
     group.attrs["counts"] = '{"steps": 1, "leaps": 2}'
 
 
 def spoil_scenario(group: h5py.Group) -> None:
     group.attrs["scenario"] = '{"type": "Scenario", "duration": -1.0}'
-
-
-def drop_unit(group: h5py.Group) -> None:
-    del group["channels/time"].attrs["unit"]
 
 
 def widen_onsets(group: h5py.Group) -> None:
@@ -166,19 +143,10 @@ def turn_time_back(group: h5py.Group) -> None:
     group["channels/time"][3] = group["channels/time"][1]
 
 
-def lose_a_time(group: h5py.Group) -> None:
-    group["channels/time"][3] = np.nan
-
-
 DAMAGES = [
-    *(drop_channels, drop_scenario, spoil_text, add_a_count, drop_unit, widen_onsets),
-    *(turn_time_back, lose_a_time),
+    *(drop_channels, drop_scenario, add_a_count, widen_onsets, turn_time_back),
     replace_channel("tip.x", np.zeros(3)),
-    replace_channel("tip.x", np.zeros((61, 2))),
-    replace_channel("tip.x", np.float64(1.0)),
-    replace_channel("tip.x", "words"),
     replace_channel("time", np.zeros(0)),
-    replace_channel("tip.x", np.zeros(61, dtype=np.int64)),
 ]
 
 
@@ -205,15 +173,6 @@ def test_a_file_with_a_value_that_does_not_fit_says_which(
         Result.load(path)
 
 
-def test_a_coarser_run_that_is_no_group_is_refused(estimated: Result, tmp_path: Path) -> None:
-    path = estimated.save(tmp_path / "run.h5")
-    with changed(path) as file:
-        del file["coarser"]
-        file["coarser"] = np.zeros(3)
-    with pytest.raises(InputError, match="damaged"):
-        Result.load(path)
-
-
 @pytest.mark.parametrize("group", ["coarser", "coarser/coarser"])
 def test_a_coarser_run_without_a_channel_is_refused(estimated: Result, tmp_path: Path, group: str) -> None:
     path = estimated.save(tmp_path / "run.h5")
@@ -237,25 +196,6 @@ def test_a_file_of_another_version_says_so(result: Result, tmp_path: Path) -> No
         Result.load(path)
 
 
-def test_a_missing_file_is_said_to_be_missing(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match="no such file"):
-        Result.load(tmp_path / "nowhere.h5")
-
-
-def test_an_unknown_channel_lists_those_there_are(result: Result) -> None:
-    with pytest.raises(KeyError, match=r"tip\.x"):
-        result["tip.z"]
-
-
-@pytest.mark.parametrize("kind", ["result", "crank"])
-def test_every_channel_has_a_unit_and_the_length_of_time(kind: str, request: pytest.FixtureRequest) -> None:
-    result: Result = request.getfixturevalue(kind)
-    for channel in result.channels.values():
-        assert channel.values.shape == result.time.shape
-        assert channel.unit in {"s", "m", "m/s", "rad", "rad/s", "rad/s^2", "N", "N m", "J"}
-        assert channel.meaning
-
-
 def test_cranks_slides_and_states_of_friction_have_channels(crank: Result) -> None:
     units = {name: channel.unit for name, channel in crank.channels.items()}
     new = {"crank.moment": "N m", "guide.force": "N", "guide.moment": "N m"}
@@ -265,27 +205,3 @@ def test_cranks_slides_and_states_of_friction_have_channels(crank: Result) -> No
     assert set(impulse.cranks) == {"crank"}
     assert len(crank.onsets[SLIDER_PIN]) >= 1
     assert np.abs(crank[f"pin.{SLIDER_PIN}.deflection"]).max() > 0.0
-
-
-def test_friction_without_a_state_has_no_channel_of_it(result: Result) -> None:
-    assert "pin.rear_base.friction_force" in result.channels
-    assert "pin.rear_base.deflection" not in result.channels
-
-
-def test_a_failed_save_leaves_the_old_file(result: Result, tmp_path: Path) -> None:
-    path = result.save(tmp_path / "run.h5")
-    before = path.read_bytes()
-    broken = dataclasses.replace(result, provenance={"versions": object()})  # type: ignore[dict-item]
-    with pytest.raises(TypeError):
-        broken.save(path)
-    assert path.read_bytes() == before
-    assert [p.name for p in tmp_path.iterdir()] == ["run.h5"]
-
-
-def test_a_folder_and_a_name_of_nothing_are_refused_with_what_is_allowed(tmp_path: Path) -> None:
-    with pytest.raises(
-        IsADirectoryError, match=r"is a directory; allowed: files that Result\.save has written"
-    ):
-        Result.load(tmp_path)
-    with pytest.raises(FileNotFoundError, match=r"no such file; allowed: files that Result\.save has written"):
-        Result.load(tmp_path / "none.h5")

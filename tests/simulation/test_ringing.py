@@ -10,7 +10,6 @@ import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SolverSettings, simulate
 from support_exudyn.scenario.timescales import loaded_contacts
-from support_exudyn.simulation.automatic_settings import settings_for
 from support_exudyn.simulation.contact_ringing import (
     FASTEST,
     GONE,
@@ -95,13 +94,6 @@ def test_the_last_of_three_runs_leaves_what_rings() -> None:
     assert ringing_step(replace(scene, duration=0.1)) > 2.0 * ringing_step(scene)
 
 
-def test_redundant_runs_to_an_accuracy_begin_with_steps_that_let_contacts_ring() -> None:
-    # at steps that follow the vibration along the load only, all three runs damp out the one across it
-    scene = narrow(duration=120.0)
-    scene = replace(scene, record_period=0.1, formulation="redundant")
-    assert settings_for(scene, 1e-2).step <= ringing_step(scene)
-
-
 @pytest.mark.slow
 def test_what_is_left_of_a_fall_rings_as_told() -> None:
     scene = replace(narrow(duration=2.4), formulation="compiled")
@@ -112,8 +104,6 @@ def test_what_is_left_of_a_fall_rings_as_told() -> None:
     # steps are for the least damping that the law may have; it falls as one over the impact velocity
     expected = found.fall * FASTEST / REST_VELOCITY
     assert math.log(sizes[0] / sizes[1]) / 0.8 == pytest.approx(expected, rel=0.1)
-    kept = simulate(replace(scene, formulation="redundant", step=0.25 * ringing_step(scene)))[
-        f"pin.{PIN}.force"
-    ]
+    kept = simulate(replace(scene, formulation="exudyn", step=0.25 * ringing_step(scene)))[f"pin.{PIN}.force"]
     size = float(np.ptp(kept[(time > 2.35) & (time <= 2.4)]))
     assert 0.5 * math.exp(-KEPT) * sizes[1] < size < 1.1 * sizes[1]

@@ -25,7 +25,6 @@ from support_exudyn import (
 from support_exudyn.files.hdf5 import BLOCK, with_checksum
 from support_exudyn.files.series.own_runs import OLDER
 from support_exudyn.formulations.statistics.collected import StepStatistics
-from support_exudyn.formulations.statistics.ends import between_ends
 from support_exudyn.formulations.statistics.steps import NODES
 from support_exudyn.mechanics.time_statistics import TimeStatistics, statistics_of_records
 from tests.cases.run_cases import FORCE, support
@@ -97,7 +96,7 @@ def test_numbers_of_a_rattling_six_bar_do_not_depend_on_its_records(tmp_path: Pa
     assert known["pin.P.force.largest"].value == pytest.approx(known["pin.P.largest_force"].value, rel=1e-4)
 
 
-@pytest.mark.parametrize("formulation", ["compiled", "redundant"])
+@pytest.mark.parametrize("formulation", ["compiled", "exudyn"])
 def test_the_mean_of_a_coupler_point_is_that_of_its_curve(formulation: str) -> None:
     rate, duration, links = -25.0 * math.pi / 30.0, 2.0, (0.04, 0.11, 0.09)
 
@@ -162,26 +161,6 @@ def test_intervals_combine_to_any_window(intervals: int, after: float, until: fl
         assert window.greatest[1] == pytest.approx(time[values.argmax()], abs=1e-3)
 
 
-def test_what_jumps_has_a_value_on_either_side() -> None:
-    before, after = collected(20).window("one", 1.0, 1.3), collected(20).window("other", 1.3, 1.5)
-    assert before.last == pytest.approx(course(np.array([1.3]))[0], abs=1e-6)
-    assert after.first == pytest.approx(-course(np.array([1.3]))[0] - 2.0, abs=1e-6)
-
-
-def test_between_the_ends_of_steps_parabolas_are_met_and_corners_do_not_overshoot() -> None:
-    time = np.array([0.0, 0.1, 0.25, 0.3, 0.3, 0.5, 0.6])
-    begins = np.array([True, False, False, False, True, False, False])
-    values = np.where(np.arange(7) < 4, 1.0 + time - 3.0 * time**2, 5.0 + 2.0 * time**2)
-    found = between_ends(time, begins, values)
-    nodes = time[:-1, None] + np.diff(time)[:, None] * NODES
-    np.testing.assert_allclose(found[:3], 1.0 + nodes[:3] - 3.0 * nodes[:3] ** 2, rtol=1e-12)
-    np.testing.assert_allclose(found[4:], 5.0 + 2.0 * nodes[4:] ** 2, rtol=1e-12)
-    corner = np.array([0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
-    smooth = between_ends(np.linspace(0.0, 1.0, 6), np.array([True] + 5 * [False]), corner)
-    assert smooth.min() >= 0.0
-    assert smooth.max() <= 1.0
-
-
 # --- records ---
 
 
@@ -201,7 +180,7 @@ def test_a_file_of_the_version_before_gives_the_numbers_of_its_records(tmp_path:
     [
         ({}, 2e-3),  # a rise of 2 s, ideal pins; the finest of a run of 5 s is 1 ms
         ({"duration": 40.0}, 1e-2),
-        ({"drive": Held(), "duration": 0.3}, 5e-4),  # steps of the redundant formulation are not cut
+        ({"drive": Held(), "duration": 0.3}, 5e-4),  # steps of the Exudyn formulation are not cut
         ({"drive": Held(), "duration": 0.3, "formulation": "compiled"}, 2e-4),
         ({"record_period": 0.07}, 0.07),
     ],

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from support_exudyn import Held, Result, simulate
-from support_exudyn.simulation.reported_numbers import measures
 from tests import synthetic
 from tests.cases.run_cases import FORCE, SLIDER_PIN, loose_slider_crank, support
 from tests.compiled_runs import simulate_compiled, simulate_redundant
@@ -40,11 +39,6 @@ def test_the_time_of_the_largest_is_that_of_its_record() -> None:
     assert when.unit == "s"
     assert when.value == pytest.approx(0.2)  # where the force pulls with 2 N
     assert PERIOD <= when.error < 2.0 * PERIOD
-
-
-def test_in_a_window_it_is_the_time_of_the_largest_there() -> None:
-    numbers = three(*(bumps(second) for second in (1.0, 1.01, 1.011))).numbers(after=0.5)
-    assert numbers[f"{FORCE}.largest_time"].value == pytest.approx(0.7)
 
 
 def test_where_another_time_could_be_meant_the_error_reaches_there() -> None:
@@ -84,11 +78,3 @@ def test_its_time_is_reported_beside_it_with_an_error() -> None:
     assert numbers[name].value == result.largest_force_time[SLIDER_PIN]
     finer = simulate_compiled(scenario, 1e-10)
     assert abs(numbers[name].value - finer.largest_force_time[SLIDER_PIN]) <= numbers[name].error
-
-
-def test_a_run_of_an_earlier_version_does_not_tell_it(tmp_path: Path) -> None:
-    run = simulate_compiled(loose_slider_crank(0.001))
-    loaded = Result.load(replace(run, largest_force_time={}).save(tmp_path / "run.h5"))
-    assert loaded.largest_force == run.largest_force
-    assert f"pin.{SLIDER_PIN}.largest_force_time" not in measures(loaded, 0.0, 1.0)
-    assert f"pin.{SLIDER_PIN}.largest_force_time" in measures(run, 0.0, 1.0)

@@ -30,8 +30,8 @@ from studies.benchmarking.yardstick import YardstickError, compiled, run_yardsti
 from studies.slider_crank.run import REFERENCE
 from support_exudyn import Failure, SimulationError, simulate
 from support_exudyn.files.toml.text import load_toml
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.simulation.result_checks import energy_open
+from user_forces.contact_state import Onset
 
 # --- lines ---
 
@@ -175,7 +175,7 @@ def test_a_row_is_timed_in_turns(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_the_pin_that_bounces_all_the_time_keeps_its_energy() -> None:
-    result = simulate(replace(restless(1.5), formulation="redundant"))
+    result = simulate(replace(restless(1.5), formulation="exudyn"))
     open_by, allowed = energy_open(result.scenario, result.channels)
     # measured: 0.4 J of 17 J; 17 J are open after 1.5 s with steps of 2 ms
     assert open_by.max() < 0.1 * allowed
@@ -226,7 +226,7 @@ def standing(program: str, setting: str, seconds: float, slider: float) -> Stand
 
 FOUND = [
     standing("ours, compiled", "fine", 0.01, 1e-7),
-    standing("ours, redundant", "fine", 0.5, 1e-7),
+    standing("ours, exudyn", "fine", 0.5, 1e-7),
     standing("scipy's LSODA", "coarse", 0.01, 1e-5),
     standing("scipy's LSODA", "fine", 0.04, 1e-7),
     standing("MuJoCo, limit of a tendon", "fine", 0.2, 1e-4),
@@ -257,11 +257,11 @@ def test_what_is_not_installed_is_left_out_with_a_word() -> None:
     assert replace(ENTRANTS["ours, compiled"], package="of tomorrow").missing == "there is no such formulation"
 
 
-@pytest.mark.parametrize("name", ["ours, compiled", "ours, redundant", "Exudyn, hollow spheres, DOPRI5"])
+@pytest.mark.parametrize("name", ["ours, compiled", "ours, exudyn", "Exudyn, hollow spheres, DOPRI5"])
 def test_an_entrant_has_time_and_errors(name: str) -> None:
     entrant = ENTRANTS[name]
     scenario, exact = WITH_REFERENCE["slider-crank"].scenario, references()["slider-crank"].path[0]
-    coarse = {"ours, redundant": entrant.settings[0]}.get(name, entrant.settings[2])
+    coarse = {"ours, exudyn": entrant.settings[0]}.get(name, entrant.settings[2])
     found = contest.standing(entrant, coarse, scenario, exact)
     assert found.seconds > 0.0
     assert found.slider < 1e-4  # measured: 3e-5, 1.2e-5 and 2e-7
@@ -315,8 +315,8 @@ def test_the_yardstick_integrates_the_same_machine() -> None:
 
 def test_a_setting_is_put_into_a_scenario() -> None:
     fine = Setting("fine", {"step": 1e-4}, {"impact_steps": 99})
-    made = fine.applied(SCENES["rise"](), "redundant")
-    assert (made.formulation, made.step, made.solver.impact_steps) == ("redundant", 1e-4, 99)
+    made = fine.applied(SCENES["rise"](), "exudyn")
+    assert (made.formulation, made.step, made.solver.impact_steps) == ("exudyn", 1e-4, 99)
 
 
 def test_a_line_that_misses_has_its_reason() -> None:

@@ -70,7 +70,7 @@ def test_all_that_matters_varies() -> None:
     assert {pin.offset == (0.0, 0.0) for pin in pins} == {True, False}
     assert {one.start for one in scenes} == {"concentric", "settled"}
     assert len({type(one.drive) for one in scenes}) == 5
-    assert {one.formulation for one in scenes} == {"auto", "redundant"}
+    assert {one.formulation for one in scenes} == {"auto", "exudyn"}
 
 
 # --- how a number is judged ---
@@ -88,9 +88,9 @@ def judged(claimed: float, *references: Reference) -> Judged:
 
 
 def test_another_formulation_judges_where_it_is_sharp_enough() -> None:
-    own, other = known("compiled", 100.5, 1e-6), known("redundant", 100.4, 0.09)
+    own, other = known("compiled", 100.5, 1e-6), known("exudyn", 100.4, 0.09)
     found = judged(1.0, own, other)
-    assert (found.by, found.apart) == ("redundant", False)
+    assert (found.by, found.apart) == ("exudyn", False)
     assert found.away == pytest.approx(0.4)
     assert found.ratio == pytest.approx(0.4)
     # with a smaller error claimed it no longer can
@@ -98,16 +98,16 @@ def test_another_formulation_judges_where_it_is_sharp_enough() -> None:
 
 
 def test_what_no_reference_can_tell_is_set_apart() -> None:
-    found = judged(0.01, known("compiled", 100.0, 0.005), known("redundant", 100.01, 0.1))
+    found = judged(0.01, known("compiled", 100.0, 0.005), known("exudyn", 100.01, 0.1))
     assert found.apart
     assert judge(FORCE, 100.0, 1.0, "compiled", ()).apart
     assert judged(1.0, known("compiled", math.nan, 0.0)).apart
 
 
 def test_a_blunt_reference_that_is_surely_further_away_counts() -> None:
-    own, other = known("compiled", 100.0, 1e-9), known("redundant", 105.0, 0.4)
+    own, other = known("compiled", 100.0, 1e-9), known("exudyn", 105.0, 0.4)
     found = judged(0.01, own, other)
-    assert (found.by, found.apart) == ("redundant", False)
+    assert (found.by, found.apart) == ("exudyn", False)
     assert found.ratio == pytest.approx(500.0)
 
 
@@ -125,7 +125,7 @@ def test_what_judges_a_largest_value_judges_its_time() -> None:
     blunt = {value: 100.05, at: 0.003}  # another peak is the largest of this reference
     sharp = {value: 100.0 + 1e-8, at: 0.03 + 1e-9}
     references = [
-        Reference("redundant", blunt, {value: 100.09, at: 0.003}, {value: 100.2, at: 0.003}, 0.25),
+        Reference("exudyn", blunt, {value: 100.09, at: 0.003}, {value: 100.2, at: 0.003}, 0.25),
         Reference("compiled", sharp, {value: 100.0, at: 0.03}, {value: 100.0, at: 0.03}, 0.25),
     ]
     numbers = {value: Estimate(100.0, 1e-4, "N"), at: Estimate(0.03, 1e-5, "s")}
@@ -135,7 +135,7 @@ def test_what_judges_a_largest_value_judges_its_time() -> None:
 
 def three(fine: float, coarse: float, coarsest: float) -> Reference:
     """Of the engine, by steps of a length, twice and four times that."""
-    return Reference("redundant", {FORCE: fine}, {FORCE: coarse}, {FORCE: coarsest}, 0.25)
+    return Reference("exudyn", {FORCE: fine}, {FORCE: coarse}, {FORCE: coarsest}, 0.25)
 
 
 def test_the_last_distance_is_not_believed_below_what_the_one_before_makes_it() -> None:
@@ -152,19 +152,19 @@ def test_a_number_of_a_reference_that_does_not_converge_tells_of_no_other_unless
     irregular = three(105.0, coarse, coarsest)
     assert not irregular.converges(FORCE)  # too near by chance; further than before; the other way
     assert judged(0.1, known("compiled", 100.0, 1e-9), irregular).by == "compiled"
-    assert judged(4.0, known("compiled", 100.0, 1e-9), irregular).by == "redundant"
+    assert judged(4.0, known("compiled", 100.0, 1e-9), irregular).by == "exudyn"
 
 
 def test_a_number_near_zero_is_known_as_well_as_the_values_that_it_is_of() -> None:
     names = ["rear_column.force.mean", "rear_column.force.std"]
     runs = [dict(zip(names, (1e5, spread), strict=True)) for spread in (2.1e-6, 2.9e-6, 4e-6)]
-    reference = Reference("redundant", *runs, 0.25)
+    reference = Reference("exudyn", *runs, 0.25)
     assert reference.error(names[1]) >= covered.NEWTON * 1e5
 
 
 def test_what_three_runs_agree_in_but_for_rounding_converges() -> None:
     assert three(105.0, 105.0, 105.0).converges(FORCE)
-    assert judged(0.1, three(105.0, 105.0, 105.0)).by == "redundant"
+    assert judged(0.1, three(105.0, 105.0, 105.0)).by == "exudyn"
 
 
 # --- what is told of all ---

@@ -250,7 +250,7 @@ def test_an_error_that_is_reported_too_small_is_seen_by_half_the_steps(
 
 def test_so_it_is_in_a_run_to_an_accuracy() -> None:
     point = Point(pace=0.2)
-    scene = replace(scenes.boxed(point, 1e-2, scenes.gentle(point)), formulation="redundant")
+    scene = replace(scenes.boxed(point, 1e-2, scenes.gentle(point)), formulation="exudyn")
     result = simulate(scene)
     assert judged(lambda: scene, result).outcome == GOOD
     found = judged(lambda: scene, boasting(result))
@@ -382,7 +382,7 @@ def test_a_check_by_steps_does_not_damp_out_what_the_loaded_contact_still_does(
     assert independent(scene) is None
     for other in made:
         # three runs, the last of which has a quarter of the steps: they agreed on what all of them had lost
-        assert other.formulation == "redundant"
+        assert other.formulation == "exudyn"
         assert other.step <= ringing_step(other)
     # what would take too many steps is not checked; all else is
     assert len(made) == (0 if seconds >= 20.0 else 1)

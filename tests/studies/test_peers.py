@@ -15,7 +15,6 @@ from studies.benchmarking.peers.peer_run import PeerRun, impacts
 from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.peers.tree import run_tree
 from support_exudyn import Held
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.scenario.scenario import Scenario
 from tests.cases.run_cases import loose_slider_crank, loose_support
 from tests.formulations.test_drop import SPEEDS as DROP_SPEEDS
@@ -23,6 +22,7 @@ from tests.formulations.test_drop import TIMES as DROP_TIMES
 from tests.formulations.test_slider_crank import SPEEDS as CRANK_SPEEDS
 from tests.formulations.test_slider_crank import TIMES as CRANK_TIMES
 from user_forces import InputError
+from user_forces.contact_state import Onset
 
 EVALUATORS: tuple[Evaluator, ...] = ("built_in", "python", "symbolic")
 DROP_STEP, CRANK_STEP = 1e-5, 2.5e-7  # [s]

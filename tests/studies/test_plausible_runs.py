@@ -40,7 +40,7 @@ def measured(case: str, **changed: object) -> Values:
 @pytest.mark.parametrize("case", [IDEAL, MODE_1_IDEAL])
 def test_errors_of_the_ideal_pin_cover_the_other_formulation(known: Data, case: str) -> None:
     # rigid bodies with constraints at the paper's step; nothing but data and friction law is shared
-    other = measured(case, formulation="redundant", step=1e-3, solver=SolverSettings())
+    other = measured(case, formulation="exudyn", step=1e-3, solver=SolverSettings())
     for name, (value, error) in known[case].items():
         assert abs(other[name] - value) <= error, name
 

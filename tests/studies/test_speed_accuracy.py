@@ -123,7 +123,7 @@ def test_every_scene_has_its_formulations(name: str) -> None:
         assert "compiled" in families
     else:
         assert {"compiled", STOCK} <= families
-    assert {"redundant, python", "redundant, symbolic", "redundant, growing steps"} <= families
+    assert {"exudyn, python", "exudyn, symbolic", "exudyn, growing steps"} <= families
 
 
 def test_a_scene_of_which_every_run_failed_is_drawn_too() -> None:

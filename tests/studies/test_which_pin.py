@@ -157,7 +157,7 @@ def test_every_pin_may_have_its_own_law_and_clearance(out: Path) -> None:
         "shield_canopy": pin(1.5e-3, Hertz(stiffness=2.7e10)),
     }
     plan = which_pin_cases.PinPlan(paper_subject())
-    motion = replace(plan.motion, formulation="redundant")
+    motion = replace(plan.motion, formulation="exudyn")
     plain = Result.load(out / "runs" / "ideal.h5")
     step = plain.scenario.record_period
     scene = replace(motion, pins=own, start="settled", step=step, solver=SolverSettings(impact_steps=16))

@@ -147,19 +147,9 @@ def test_a_process_that_cannot_be_started_as_another_ends_is_started_later(
     assert not errors
 
 
-def test_the_pool_is_as_large_as_before(pool: Workers, tmp_path: Path) -> None:
-    # the first waits for a process beside it
-    assert pool.run([(tmp_path,), (tmp_path,)], meet, silent) == [True, True]
-
-
 def meet(place: int, folder: Path) -> bool:
     (folder / f"here {place}").touch()
     return wait_until((folder / f"here {1 - place}").exists, 30.0)
-
-
-def test_a_bug_beside_one_that_ended_is_still_a_bug(tmp_path: Path) -> None:
-    with worker_pool(1) as single, pytest.raises(LookupError, match="a bug"):
-        single.run([("killed", tmp_path), ("refused", tmp_path)], end, silent)
 
 
 def test_one_that_is_killed_between_sweeps_is_replaced(pool: Workers, tmp_path: Path) -> None:
@@ -215,13 +205,6 @@ def test_a_stream_tells_of_every_job_once_whatever_ends(pool: Workers, tmp_path:
     assert set(found) == set(range(len(ways)))
     lost = {number: one for number, one in found.items() if isinstance(one, ProcessEndedError)}
     assert {number: (one.place, one.code) for number, one in lost.items()} == {1: (1, -9), 14: (14, -6)}
-
-
-def test_a_bug_ends_a_stream_and_the_pool_lives_on(pool: Workers, tmp_path: Path) -> None:
-    with pytest.raises(LookupError, match="a bug"):
-        list(pool.stream([("good", tmp_path), ("refused", tmp_path), ("good", tmp_path)], end))
-    assert len(list(pool.stream([("good", tmp_path)] * 9, end))) == 9
-    assert list(pool.stream([], end)) == []
 
 
 # --- interruptions ---

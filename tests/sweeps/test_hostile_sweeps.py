@@ -11,13 +11,11 @@ from typing import Any
 
 import pytest
 
-from support_exudyn import ClearancePin, Held, Scenario, SimulationError, simulate
+from support_exudyn import ClearancePin, Held, Scenario, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.files import free_memory
 from support_exudyn.simulation import memory
-from support_exudyn.sweeps import Plan, Record, read_table, sweep, work
+from support_exudyn.sweeps import Plan, Record, read_table, sweep
 from tests.cases.run_cases import loose_support, paper_contact
-from tests.cases.sweep_cases import run_by, write_sweep
 from tests.processes import soon_started
 from user_forces import FrictionLaw, InputError, value
 
@@ -110,43 +108,6 @@ def test_whatever_happens_at_a_point_is_a_row_with_its_reason(tmp_path: Path) ->
         assert (rows[kind]["tip.x.mean_m"] is not None) is (not reason)
 
 
-@pytest.mark.parametrize(
-    ("values", "told"),
-    [
-        ([1, 2**63 - 1, 3], [1, 2**63 - 1, 3]),
-        ([1, 10**20], [1.0, 1e20]),
-        ([1, 10**19 + 1], ["1", "10000000000000000001"]),  # which a number of 64 bits would round
-        ([1, 10**400], ["1", str(10**400)]),
-        ([-(2**63) - 1, 0.5], ["-9223372036854775809", "0.5"]),
-    ],
-)
-def test_whole_numbers_of_any_size_stand_in_the_table(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, values: list[Any], told: list[Any]
-) -> None:
-    run_by(monkeypatch, lambda tasks, store, *_: (work.run_into(store, task) for task in tasks))
-
-    def scenario(inputs: Any) -> Scenario:
-        if inputs["many"] != values[0]:
-            raise InputError(f"many = {inputs['many']}: allowed: up to 1")
-        return scene()
-
-    done = sweep(Plan(points=[{"many": one} for one in values], scenario=scenario), tmp_path, workers=1)
-    assert (done.done, done.failed) == (1, len(values) - 1)
-    assert read_table(tmp_path).column("many").to_pylist() == told
-
-
-def test_a_file_with_a_whole_number_that_is_too_large_is_swept(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = write_sweep(tmp_path, '"duration_s" = [0.02, 100000000000000000000, 1e9]')
-    with pytest.raises(SystemExit, match="3"):
-        main(["sweep", str(path), "--workers", "1"])
-    assert "1 done, 2 failed" in capsys.readouterr().out
-    reasons = read_table(tmp_path / "sweep_sweep").column("reason").to_pylist()
-    assert reasons[0] == ""
-    assert all("records of" in reason and "GB are free" in reason for reason in reasons[1:])
-
-
 # --- memory ---
 
 
@@ -160,25 +121,7 @@ def test_a_run_that_does_not_fit_into_memory_is_refused_before_it_begins() -> No
     memory.check_room(replace(scene(), duration=1e10, record_period=1e2 * period))
 
 
-def test_what_a_run_takes_follows_from_records_and_channels(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(memory, "available", lambda: 10**6)
-    long = replace(scene(), duration=5.0)
-    with pytest.raises(InputError, match="5e"):
-        memory.check_room(long)
-    memory.check_room(replace(long, channels=("tip.x",)))
-    memory.check_room(replace(long, record_period=0.01))
-
-
-def test_the_memory_that_is_free_is_known() -> None:
-    assert 10**6 < free_memory.available() <= free_memory.UNKNOWN
-
-
 # --- single runs ---
-
-
-def test_a_law_that_ends_the_program_does_not_end_it_as_if_all_was_done() -> None:
-    with pytest.raises(SimulationError, match="the program was asked to end: SystemExit: 0"):
-        simulate(scene("exit"))
 
 
 def test_what_an_own_module_does_wrong_is_said_in_a_line(

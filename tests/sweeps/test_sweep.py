@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +11,6 @@ import pytest
 
 from support_exudyn import Result, Scenario
 from support_exudyn.__main__ import main
-from support_exudyn.files.whole_file import writing_alone
 from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.sweeps import SweepOutcome, read_sweep, read_table, sweep, work
 from support_exudyn.sweeps.run import known
@@ -42,13 +40,6 @@ def do(path: Path, **options: object) -> SweepOutcome:
 
 def store_of(path: Path) -> Store:
     return Store(path.parent / "store")
-
-
-def test_without_a_folder_the_store_lies_beside_the_file(tmp_path: Path, ran: list[Task]) -> None:
-    plan = read_sweep(write_sweep(tmp_path, '"pins.pin.clearance_mm" = [0.5]'))
-    assert sweep(plan).table.parent == tmp_path / "sweep_sweep"
-    with pytest.raises(InputError, match=r"out = None: .*allowed: a folder"):
-        sweep(replace(plan, store=None))
 
 
 # --- the table ---
@@ -97,6 +88,34 @@ def test_without_a_list_the_usual_numbers_are_noted_with_their_errors(tmp_path: 
             assert table[f"{title}_error"][0] == error
 
 
+def test_patterns_note_what_runs_have(tmp_path: Path, ran: list[Task]) -> None:
+    path = write_sweep(tmp_path, speeds(2), record='numbers = ["pin.*.force.m??", "pin.*.force.l*", "*.first"]')
+    names = read_table(do(path).table).column_names
+    assert {"pin.pin.force.largest_N", "pin.pin.force.min_N", "journal.x.first_m"} <= set(names)
+    assert "pin.pin.force.mean_N" not in names
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("md", "| run | machine.speed [m/s] | journal.x.last [mm] |"),
+        ("latex", r"run & machine.speed [m/s] & journal.x.last [mm] \\"),
+        ("csv", "machine.speed_m_per_s,run,status,journal.x.last_m"),
+    ],
+)
+def test_a_table_for_a_text(
+    tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str], kind: str, words: str
+) -> None:
+    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2]'))
+    arguments = ["table", str(tmp_path / "store"), "--format", kind, "journal.*"]
+    assert main(arguments) == 0
+    printed = capsys.readouterr().out
+    assert words in printed
+    assert "speed" in printed.splitlines()[-1] or kind == "latex"
+    assert main([*arguments, "--out", str(tmp_path / "t")]) == 0
+    assert (tmp_path / "t").read_text(encoding="utf-8") == printed
+
+
 def test_runs_that_miss_their_accuracy_are_told(
     tmp_path: Path, ran: list[Task], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -113,25 +132,6 @@ def test_runs_that_miss_their_accuracy_are_told(
     assert "2 runs are less accurate than asked for" in capsys.readouterr().err
 
 
-def test_patterns_note_what_runs_have(tmp_path: Path, ran: list[Task]) -> None:
-    path = write_sweep(tmp_path, speeds(2), record='numbers = ["pin.*.force.m??", "pin.*.force.l*", "*.first"]')
-    names = read_table(do(path).table).column_names
-    assert {"pin.pin.force.largest_N", "pin.pin.force.min_N", "journal.x.first_m"} <= set(names)
-    assert "pin.pin.force.mean_N" not in names
-
-
-def test_runs_that_record_little_have_the_numbers_of_that(tmp_path: Path, ran: list[Task]) -> None:
-    path = write_sweep(tmp_path, '"pins.rear_base.clearance_mm" = [1.0, 1.5]', record="after_s = 0.01")
-    text = path.read_text(encoding="utf-8")
-    rise = 'scenario = {machine = "reference", duration_s = 0.02, channels = ["pin.rear_base.force"]}'
-    path.write_text(rise + text[text.index("[vary]") - 1 :], encoding="utf-8")
-    extra = '"pins.rear_base.bore_radius_mm" = [65.5]\n[record]'
-    path.write_text(path.read_text(encoding="utf-8").replace("[record]", extra), encoding="utf-8")
-    names = read_table(do(path).table).column_names
-    assert "pin.rear_base.force.mean_N" in names
-    assert not [name for name in names if name.startswith("tip.")]
-
-
 def test_a_number_that_no_run_can_have_is_refused_before_any_is_made(tmp_path: Path, ran: list[Task]) -> None:
     path = write_sweep(tmp_path, speeds(2), record='numbers = ["pin.hinge.force.mean"]')
     with pytest.raises(InputError, match=r"runs have no channel 'pin.hinge.force'; allowed"):
@@ -146,19 +146,6 @@ def test_the_same_run_twice_in_a_plan_is_made_once(tmp_path: Path, ran: list[Tas
     table = columns(path.parent / "store")
     assert table["key"][0] == table["key"][2] == table["key"][3]
     assert table["pin.pin.force.mean_N"][0] == table["pin.pin.force.mean_N"][2]
-
-
-def test_the_same_run_twice_fills_both_rows_also_while_it_is_under_way(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def all_at_once(tasks, store, workers):  # type: ignore[no-untyped-def]
-        yield from [work.run_into(store, task) for task in list(tasks)]
-
-    run_by(monkeypatch, all_at_once)
-    path = write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2, 0.1]')
-    assert do(path).done == 3
-    assert columns(tmp_path / "store")["status"] == ["done"] * 3
-    assert do(path).found == 2  # runs, not rows
 
 
 def test_what_ends_after_an_interruption_stands_in_the_table(
@@ -200,16 +187,6 @@ def test_a_changed_input_makes_only_what_it_touches(tmp_path: Path, ran: list[Ta
     assert len(rows(tmp_path / "store")) == 4  # that which is no longer asked for stays,
     assert do(path, prune=True).pruned == 1  # until it is removed
     assert set(rows(tmp_path / "store")) == set(columns(tmp_path / "store")["key"])
-
-
-def test_another_program_makes_everything_again(
-    tmp_path: Path, ran: list[Task], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    path = write_sweep(tmp_path, speeds(2))
-    do(path)
-    monkeypatch.setattr("support_exudyn.sweeps.key.program", lambda: {"exudyn": "another"})
-    assert do(path).found == 0
-    assert len(ran) == 4
 
 
 def test_other_numbers_are_noted_of_runs_that_are_kept(tmp_path: Path, ran: list[Task]) -> None:
@@ -288,27 +265,6 @@ def test_if_all_are_refused_the_sweep_is(tmp_path: Path, ran: list[Task]) -> Non
         do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [-0.5, -0.6]'))
 
 
-def test_two_at_once_are_kept_apart(tmp_path: Path, ran: list[Task]) -> None:
-    path = write_sweep(tmp_path, speeds(2))
-    (tmp_path / "store").mkdir()
-    with writing_alone(tmp_path / "store"), pytest.raises(BlockingIOError, match=r"another process.*store"):
-        do(path)
-    assert not ran
-
-
-def test_clearance_zero_is_the_ideal_pin(tmp_path: Path) -> None:
-    path = tmp_path / "sweep.toml"
-    numbers = ["pin.rear_base.force.mean", "pin.rear_base.depth.max"]  # of which an ideal pin has the first
-    path.write_text(
-        'scenario = {machine = "reference", duration_s = 0.01, pins = {rear_base = {bore_radius_mm = 60}}}\n'
-        f'[vary]\n"pins.rear_base.clearance_mm" = [0, 1.0]\n[record]\nnumbers = {numbers}\n',
-        encoding="utf-8",
-    )
-    plan = read_sweep(path)
-    assert [sorted(plan.scenario(point).clearance_pins) for point in plan.points] == [[], ["rear_base"]]
-    assert known(plan, tmp_path / "store").runs == 2
-
-
 def test_runs_have_readable_names_in_the_store(tmp_path: Path, ran: list[Task]) -> None:
     do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2]'))
     store = tmp_path / "store"
@@ -318,31 +274,6 @@ def test_runs_have_readable_names_in_the_store(tmp_path: Path, ran: list[Task]) 
     (store / "named" / "mine.h5").write_text("no run", encoding="utf-8")
     do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.2]'))
     assert {one.name for one in (store / "named").iterdir()} == {"speed_m_per_s_0.2.h5", "mine.h5"}
-
-
-def test_the_time_of_an_extreme_is_a_number(tmp_path: Path, ran: list[Task]) -> None:
-    record = 'numbers = ["pin.pin.force.largest_time", "journal.x.*_time"]'
-    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.2]', record=record))
-    table = columns(tmp_path / "store")
-    (file,) = (tmp_path / "store" / "named").iterdir()
-    run = Result.load(file)
-    assert table["pin.pin.force.largest_time_s"] == [run.window("pin.pin.force").largest[1]]
-    assert table["journal.x.max_time_s"] == [run.window("journal.x").greatest[1]]
-
-
-@pytest.mark.parametrize(
-    ("number", "message"),
-    [
-        ("pin.pin.force.max", "did you mean 'pin.pin.force.largest'"),
-        ("journal.x.larges", "did you mean 'journal.x.largest'"),
-        ("pin.pin.forse.mean", "such as pin.pin.force"),
-    ],
-)
-def test_a_number_that_no_run_has_is_told_with_what_it_may_mean(
-    tmp_path: Path, ran: list[Task], number: str, message: str
-) -> None:
-    with pytest.raises(InputError, match=message):
-        do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.2]', record=f'numbers = ["{number}"]'))
 
 
 # --- the command ---
@@ -399,27 +330,6 @@ def test_a_drawn_sweep_is_told_shown_and_drawn(
     assert {"pin.pin.force.largest_histogram.png", "pin.pin.force.largest_tornado.png"} <= files
     for wrong in (["pin.pin.force.median"], ["pin.pin.force.largest", "--by", "x", "a", "b"]):
         assert main(["chart", store, *wrong]) == 1
-
-
-@pytest.mark.parametrize(
-    ("kind", "words"),
-    [
-        ("md", "| run | machine.speed [m/s] | journal.x.last [mm] |"),
-        ("latex", r"run & machine.speed [m/s] & journal.x.last [mm] \\"),
-        ("csv", "machine.speed_m_per_s,run,status,journal.x.last_m"),
-    ],
-)
-def test_a_table_for_a_text(
-    tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str], kind: str, words: str
-) -> None:
-    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2]'))
-    arguments = ["table", str(tmp_path / "store"), "--format", kind, "journal.*"]
-    assert main(arguments) == 0
-    printed = capsys.readouterr().out
-    assert words in printed
-    assert "speed" in printed.splitlines()[-1] or kind == "latex"
-    assert main([*arguments, "--out", str(tmp_path / "t")]) == 0
-    assert (tmp_path / "t").read_text(encoding="utf-8") == printed
 
 
 def test_a_chart_is_drawn_of_it(tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str]) -> None:

@@ -119,45 +119,6 @@ def test_a_scheduler_that_is_not_there_is_told(tmp_path: Path) -> None:
     assert done.stderr.splitlines()[-1].startswith("error: scheduler = 'tcp://127.0.0.1:1': cannot be reached")
 
 
-@needs_dask
-@linux_only
-@pytest.mark.slow
-def test_a_scheduler_that_is_lost_midway_is_told_in_a_line(tmp_path: Path, started: Started) -> None:
-    path = write_sweep(tmp_path, speeds(500), duration=0.04)
-    file, store = tmp_path / "scheduler.json", tmp_path / "store"
-    scheduler = started("scheduler", "--port", "0", "--host", "127.0.0.1", "--scheduler-file", str(file))
-    assert wait_until(lambda: file.exists() and file.stat().st_size > 0, SOON)  # it is there before its text
-    started("worker", "--scheduler-file", str(file), "--nthreads", "1", "--no-nanny")
-    address = json.loads(file.read_text(encoding="utf-8"))["address"]
-    # what the client asks in the moment of the loss may wait that long
-    process = subprocess.Popen(
-        [*command(3.0), "sweep", str(path), "--scheduler", address, "--out", str(store)],
-        cwd=ROOT,
-        env=environment(),
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
-        assert wait_until(lambda: len(rows(store)) >= 2, SOON)
-        scheduler.kill()
-        _, errors = process.communicate(timeout=SOON)
-    finally:
-        process.kill()
-    assert process.returncode == 1
-    lines = [
-        line for line in errors.splitlines() if not line.endswith("waiting")
-    ]  # that no worker was there yet
-    assert lines == [f"error: scheduler = {address!r}: was lost; the same command goes on from here"]
-    assert columns(store)["status"].count("done") == len(rows(store))
-
-
-@needs_dask
-def test_what_is_no_address_is_refused_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = write_sweep(tmp_path, speeds(2))
-    assert main(["sweep", str(path), "--scheduler", "nonsense"]) == 1
-    assert "allowed: an address such as tcp://10.0.0.5:8786" in capsys.readouterr().err
-
-
 def test_without_dask_it_is_told_what_to_install(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import os
 import signal
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
@@ -18,9 +16,7 @@ from support_exudyn import Result, Scenario
 from support_exudyn.files.temporary import PREFIX
 from support_exudyn.sweeps import read_sweep, sweep, work
 from support_exudyn.sweeps.plan import Inputs
-from support_exudyn.sweeps.run import can_be_sent
 from support_exudyn.sweeps.store import Store
-from support_exudyn.sweeps.work import Wanted
 from support_exudyn.sweeps.workers import ProcessEndedError
 from tests.cases.sweep_cases import columns, rows, run_by, speeds, start, write_sweep
 from tests.processes import linux_only, session_of, soon_started, wait_until
@@ -84,18 +80,6 @@ def test_processes_make_the_same_as_this_one_and_the_same_run_once(
         assert all(np.array_equal(one[name], other[name]) for name in other.channels)
         assert one.scenario == other.scenario
     assert not list((tmp_path / "store").rglob(f"{PREFIX}*"))
-
-
-def test_what_other_processes_cannot_read_is_made_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    plan = read_sweep(write_sweep(tmp_path, speeds(12)))
-    typed = ModuleType("typed_into_a_console")  # of which there is no file
-    typed.__dict__.update(plan=plan)
-    exec("def made(inputs):\n    return plan.scenario(inputs)\n", typed.__dict__)
-    monkeypatch.setitem(sys.modules, typed.__name__, typed)
-    assert can_be_sent(Wanted(typed.made, plan.record))
-    outcome = sweep(replace(plan, scenario=typed.made), tmp_path / "store", workers=2)
-    assert (outcome.done, outcome.failed) == (12, 0)
-    assert columns(tmp_path / "store")[SPEED] == [float(point[SPEED]) for point in plan.points]
 
 
 @pytest.mark.slow  # three sweeps of three processes

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from support_exudyn.sweeps.distributions import MeasuredNumbers, NormalNumbers, distribution_of
-from support_exudyn.sweeps.plan import Plan, Range, latin_hypercube
 from support_exudyn.sweeps.statistics import percentiles, ranking
 from user_forces.values.value import InputError
 
@@ -43,13 +42,6 @@ def test_measured_numbers_are_all_equally_likely(tmp_path: Path) -> None:
     )
 
 
-def test_uniform_ones_are_ranges() -> None:
-    ends = {"from": Decimal(1), "to": Decimal(100)}
-    assert distribution_of({"distribution": "uniform", **ends}, "", HERE) == Range(Decimal(1), Decimal(100))
-    logarithmic = distribution_of({"distribution": "log_uniform", **ends}, "", HERE)
-    assert float(logarithmic.at(0.5)) == pytest.approx(10.0)
-
-
 @pytest.mark.parametrize(
     ("given", "message"),
     [
@@ -59,8 +51,6 @@ def test_uniform_ones_are_ranges() -> None:
         ({"distribution": "normal", "mean": 1, "std": 1, "from": 2, "to": 1}, "from < to"),
         ({"distribution": "uniform", "from": 0, "to": 1, "std": 1}, "vary.e.std: unknown key"),
         ({"distribution": "log_uniform", "from": 0, "to": 1}, "> 0"),
-        ({"distribution": "normal", "mean": "x", "std": 1}, "mean = 'x': allowed: a number"),
-        ({"distribution": "file"}, "vary.e.file: missing"),
     ],
 )
 def test_what_is_no_distribution_is_refused(given: dict[str, object], message: str) -> None:
@@ -82,27 +72,7 @@ def test_what_is_no_column_of_numbers_is_refused(tmp_path: Path, text: str, mess
         distribution_of({"distribution": "file", "file": "e.csv"}, "vary.e", tmp_path)
 
 
-def test_a_hypercube_of_a_distribution_has_one_point_in_each_likely_part() -> None:
-    points = latin_hypercube({"e": NormalNumbers(0.0, 1.0)}, 200, 0)
-    drawn = np.array([float(point["e"]) for point in points])
-    assert drawn.mean() == pytest.approx(0.0, abs=0.01)
-    assert drawn.std() == pytest.approx(1.0, abs=0.03)
-
-
 # --- statistics ---
-
-
-def test_the_interval_of_a_median_is_between_the_runs_that_tables_say() -> None:
-    (median,) = percentiles(list(np.arange(1.0, 101.0)), [0.5])
-    # of 100 runs: the 40th and the 61st
-    assert (median.low, median.high) == (40.0, 61.0)
-    assert median.value == 50.5
-
-
-def test_too_few_runs_do_not_bound_a_far_percentile() -> None:
-    (found,) = percentiles([1.0, 2.0, 3.0], [0.95])
-    assert np.isnan(found.high)
-    assert found.value <= 3.0
 
 
 def test_intervals_hold_the_percentile_as_often_as_they_say() -> None:
@@ -140,28 +110,3 @@ def test_rank_intervals_hold_the_correlation_as_often_as_they_say() -> None:
         (found,) = ranking({"x": x.tolist()}, (rho * x + np.sqrt(1.0 - rho**2) * noise).tolist())
         within += found.low <= true <= found.high
     assert 0.92 <= within / 300 <= 0.99
-
-
-@pytest.mark.parametrize(
-    ("points", "names"),
-    [
-        (
-            [
-                {"pins.a.clearance_mm": Decimal("0.5"), "law": "Flores"},
-                {"pins.a.clearance_mm": 1, "law": "Hertz"},
-            ],
-            ["clearance_mm_0.5_law_Flores", "clearance_mm_1_law_Hertz"],
-        ),
-        (
-            [
-                {"pins.a.friction": 0.1, "pins.b.friction": 0.2},
-                {"pins.a.friction": 0.1, "pins.b.friction": 0.3},
-            ],
-            ["a_friction_0.1_b_friction_0.2", "a_friction_0.1_b_friction_0.3"],
-        ),
-        ([{"a": 1.00000001}, {"a": 1.00000002}], ["run_1", "run_2"]),
-        ([dict.fromkeys("abcd", n) for n in range(10)], [f"run_{n:02}" for n in range(1, 11)]),
-    ],
-)
-def test_runs_bear_readable_names(points: list[dict[str, object]], names: list[str]) -> None:
-    assert Plan(points, lambda inputs: None).run_names == names  # type: ignore[arg-type, return-value]

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import os
-import pickle
-import subprocess
-import sys
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -29,7 +26,6 @@ from support_exudyn.sweeps.plan import Plan, Record
 from support_exudyn.sweeps.store import Store, StoredNumber, StoredRun
 from support_exudyn.sweeps.table import SweepTable, read_table
 from tests.hostile import left_behind, posix_only, with_own_files
-from tests.processes import ROOT, environment
 
 STAND = """
 duration_s = 0.02
@@ -54,7 +50,7 @@ CHANGES: dict[str, Any] = {
     "start": "settled",
     "gravity": (0.0, -9.82),
     "accuracy": "draft",
-    "formulation": "redundant",
+    "formulation": "exudyn",
     "step": 4e-4,
     "record_period": 2e-3,
     "channels": ("tip.*",),
@@ -77,61 +73,7 @@ def test_a_key_depends_on_every_input_and_on_how_it_is_run(tmp_path: Path) -> No
     assert keys.key(scenario(tmp_path)) == found[0]
 
 
-def test_the_program_is_told_by_names_and_contents_of_its_sources(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for package in ("user_forces", "support_exudyn"):
-        (tmp_path / package / "postprocessing").mkdir(parents=True)
-    monkeypatch.setattr(keys.resources, "files", lambda package: tmp_path / package)
-    file = tmp_path / "support_exudyn" / "law.py"
-    found = []
-    for text in ("a = 1", "a = 2"):
-        file.write_text(text, encoding="utf-8")
-        found.append(keys._sources())
-    found.append(keys._sources())
-    assert found[0] != found[1] == found[2]
-    file.rename(file.with_name("other.py"))
-    assert keys._sources() != found[1]
-    file.with_name("other.py").rename(file)
-    (tmp_path / "support_exudyn" / "postprocessing" / "style.py").write_text("a = 3", encoding="utf-8")
-    assert keys._sources() == found[1]  # it only looks
-
-
-def test_what_is_left_out_of_the_program_is_not_asked_by_a_run() -> None:
-    script = (
-        "import sys\n"
-        "from support_exudyn import Scenario, reference_support, simulate\n"
-        "simulate(Scenario(machine=reference_support(), duration=0.01, step=1e-3))\n"
-        "print(*(name.split('.')[1] for name in sys.modules if name.startswith('support_exudyn.')))\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", script], cwd=ROOT, env=environment(), capture_output=True, text=True, check=True
-    )
-    loaded = set(done.stdout.split())
-    assert {"files", "formulations", "machines"} <= loaded
-    assert not loaded & set(keys.LOOKS)
-
-
 # --- a machine is read once ---
-
-
-def test_a_key_depends_on_the_source_of_laws_of_ones_own(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    law = tmp_path / "law_of_ones_own.py"
-    text = "from user_forces import Flores, value\n@value\nclass OnesOwn(Flores):\n    pass\n"
-    law.write_text(text, encoding="utf-8")
-    monkeypatch.syspath_prepend(str(tmp_path))
-    own = import_module("law_of_ones_own").OnesOwn(stiffness=1e10, restitution=0.9)
-    usual = scenario(tmp_path)
-    pin = usual.clearance_pins["rear_base"]
-    with_clearance = replace(usual, pins={"rear_base": replace(pin, contact=replace(pin.contact, normal=own))})
-    before = keys.key(with_clearance), keys.key(usual)
-    law.write_text(text + "# changed\n", encoding="utf-8")
-    own_sources._source.cache_clear()  # as in a new process
-    after = keys.key(with_clearance), keys.key(usual)
-    assert after[0] != before[0]
-    assert after[1] == before[1]
 
 
 PACK = {
@@ -178,47 +120,6 @@ def test_a_key_depends_on_what_a_law_of_ones_own_imports(
     own_sources._source.cache_clear()
 
 
-def test_the_same_text_of_a_machine_is_one_machine_and_another_text_another(tmp_path: Path) -> None:
-    assert reference_support() is reference_support()
-    text = (ROOT / "support_exudyn" / "files" / "machines" / "reference.toml").read_text(encoding="utf-8")
-    (tmp_path / "ours.toml").write_text(text, encoding="utf-8")
-    path = tmp_path / "scenario.toml"
-    path.write_text('machine = "ours.toml"\nduration_s = 0.02\n', encoding="utf-8")
-    first = read_scenario(path)
-    (tmp_path / "ours.toml").write_text(f"# a remark\n{text}", encoding="utf-8")
-    assert keys.key(read_scenario(path)) == keys.key(first)
-    assert "start_hinge_height_mm = " in text
-    changed = "\n".join(
-        "start_hinge_height_mm = 2000" if line.startswith("start_hinge_height_mm") else line
-        for line in text.splitlines()
-    )
-    (tmp_path / "ours.toml").write_text(changed, encoding="utf-8")
-    again = read_scenario(path)
-    assert again.machine.start_hinge_height == 2.0  # type: ignore[attr-defined]
-    assert keys.key(again) != keys.key(first)
-
-
-def test_what_a_machine_remembers_is_not_sent(tmp_path: Path) -> None:
-    machine = reference_support()
-    known = replace(scenario(tmp_path), drive=CubicStep(), duration=5.0).machine
-    assert known is machine
-    assert machine._followed
-    sent = pickle.loads(pickle.dumps(machine))
-    assert sent == machine
-    assert not {"_followed", "_closing"} & vars(sent).keys()
-    assert machine._followed  # it still knows
-
-
-def test_what_a_scenario_remembers_of_its_channels_is_not_sent(tmp_path: Path) -> None:
-    one = scenario(tmp_path)
-    assert one.plain == one.to_data()
-    assert "tip.x" in one.channel_definitions
-    sent = pickle.loads(pickle.dumps(one))
-    assert sent == one
-    assert not {"channel_definitions", "plain"} & vars(sent).keys()
-    assert sent.channel_definitions.keys() == one.channel_definitions.keys()
-
-
 # --- the store ---
 
 
@@ -231,14 +132,6 @@ def kept(store: Store, name: str) -> StoredRun:
     store.rows.mkdir(parents=True, exist_ok=True)
     store.run_file(name).write_bytes(with_checksum(b"a run", FORMAT))
     return store.put(row(name))
-
-
-def test_a_row_under_another_name_is_none(tmp_path: Path) -> None:
-    store = Store(tmp_path)
-    kept(store, "a")
-    (store.rows / "b.json").write_bytes((store.rows / "a.json").read_bytes())
-    assert store.row("b") is None
-    assert store.row("a") is not None
 
 
 def test_a_run_is_read_again_if_its_file_is_older_or_newer_than_its_row(tmp_path: Path) -> None:

@@ -78,14 +78,6 @@ def test_results_come_back_in_the_order_of_the_jobs(pool: Workers) -> None:
     assert len(processes) <= 2
 
 
-def test_a_pool_that_is_there_is_used_and_left_running(pool: Workers) -> None:
-    with worker_pool(pool) as same:
-        assert same is pool
-        before = {process for *_, process in same.run([(n,) for n in range(8)], squared, silent)}
-    after = {process for *_, process in pool.run([(n,) for n in range(8)], squared, silent)}
-    assert len(before | after) <= 2
-
-
 def run_until_told(pool: Workers, jobs: int, folder: Path) -> list[list[float]]:
     """The shares that are told of jobs of which each goes on until it is told of."""
     told: list[list[float]] = []
@@ -109,10 +101,6 @@ def test_shares_are_told_while_a_job_works_and_end_at_one(pool: Workers, tmp_pat
     pool.run([(0.0,)] * 3, stay, lambda shares: told.append(list(shares)))
     assert all(set(shares) <= {0.0, 0.5, 1.0} for shares in told)
     assert told[-1] == [1.0, 1.0, 1.0]
-
-
-def test_more_jobs_than_are_under_way_at_once_are_told_of_too(pool: Workers, tmp_path: Path) -> None:
-    assert run_until_told(pool, 9, tmp_path)[-1] == [1.0] * 9
 
 
 def test_an_exception_of_a_job_is_raised_here_and_the_rest_is_dropped(pool: Workers, tmp_path: Path) -> None:

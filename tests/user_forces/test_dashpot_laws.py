@@ -14,7 +14,7 @@ from tests.cases.law_cases import NORMAL_LAWS, kind_of, law_rebound
 from tests.often import often
 from tests.ranges import from_zero
 from user_forces import AdamsImpact, Anagnostopoulos, Hertz, InputError, KelvinVoigt, NormalLaw
-from user_forces.normal.kelvin_voigt import cut_dashpot_restitution
+from user_forces.normal.dashpots import cut_dashpot_restitution
 
 stiffnesses = st.floats(1e6, 1e10)
 masses = st.floats(0.5, 5e3)

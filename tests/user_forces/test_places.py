@@ -19,9 +19,9 @@ from user_forces.values.value import Value
 assert "support_exudyn.model.hydraulic_cylinder" not in sys.modules
 inlet = Value.from_data({"type": "ClosedInlet"})
 assert inlet is not None and type(inlet) is support_exudyn.ClosedInlet
-assert "user_forces.normal.hertz" not in sys.modules
-assert Value.of_name("Hertz").__module__ == "user_forces.normal.hertz"
-assert "user_forces.normal.flores" not in sys.modules
+assert "user_forces.normal.power_laws" not in sys.modules
+assert Value.of_name("Hertz").__module__ == "user_forces.normal.power_laws"
+assert "user_forces.normal.power_laws" not in sys.modules
 assert Value.of_name("CoupledDrive") is not None  # which no package offers
 """
 ALL = """
@@ -46,9 +46,9 @@ class Goldsmith(PowerLaw):
     def factor(self, restitution: float) -> float:
         return 1.0 - restitution
 
-assert "user_forces.normal.goldsmith" not in sys.modules
+assert "user_forces.normal.cylinders" not in sys.modules
 assert kinds_of(Value)["Goldsmith"] is Goldsmith
-assert "user_forces.normal.goldsmith" in sys.modules
+assert "user_forces.normal.cylinders" in sys.modules
 assert type(Value.from_data({"type": "Goldsmith", "stiffness": 1e9, "restitution": 0.5})) is Goldsmith
 """
 

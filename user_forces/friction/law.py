@@ -1,12 +1,16 @@
-"""What a friction law is."""
+"""The contract of a friction law."""
+
+from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Callable
+from functools import cache, cached_property
 
 from pydantic import model_validator
 from typing_extensions import Self
 
-from user_forces.expressions.scalar import sign
+from user_forces.kernel import Formula, formula_of, kernel, sign
 from user_forces.values.value import Coefficient, Value, value
 
 LONG = 1.0  # [s], in which a deflection becomes that of steady slip
@@ -20,34 +24,62 @@ MOMENT = 1e-10  # [s], in which no bristle moves by more than a share of 1e-4 of
 class FrictionLaw(Value, ABC):
     """Tangential force as a function of slip speed and normal force.
 
+    A law is a data class of parameters with a function of numbers, its `force`: a static method whose first
+    arguments are slip and normal force, and whose others are names of parameters or properties of the law. It
+    is plain Python with `if` and `math`, which numba compiles, see `kernel`.
+
     The contract:
     1. `law(slip, normal_force, deflection)` gives the force along t on the journal, where slip is the speed of
        the journal's surface relative to the bore's along the same t.
     2. A law without a state never does positive work: force times slip <= 0; it ignores `deflection`.
-    3. A law with a state says so by `has_state`. The state is one number, the deflection, zero at the impact.
-       The law owns no memory: `next_deflection` is handed its value at the start of a step and returns that
-       at the end, and the solver makes the step with it. `swing_time` says how short steps
-       have to be.
-    4. It is written with the functions of `user_forces.expressions.scalar`, so that it can be compiled too.
+    3. A law with a state has a second function of numbers, `advance(deflection, slip, step)`: the deflection
+       [m] after a step [s] at a constant slip. Its `force` then takes the deflection as third argument. The
+       state is a number, zero at the impact. The law owns no memory: the solver keeps the deflection and makes
+       the step with it. A third function, `rate(deflection, slip)`, is the rate of the deflection [m/s]; by
+       default what `advance` makes of a step that tends to nothing. `swing_time` limits the steps.
     """
 
+    @staticmethod
     @abstractmethod
-    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
-        """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection [m]."""
+    def force(slip: float, normal_force: float) -> float:
+        """Tangential force [N] for a slip [m/s] and a normal force [N] >= 0; parameters follow."""
 
     @property
     def has_state(self) -> bool:
         """Whether the force depends on the deflection."""
-        return False
+        return hasattr(type(self), "advance")
+
+    @cached_property
+    def force_formula(self) -> Formula:
+        """The force as a function of numbers, with this law's parameters."""
+        return formula_of(self, self.force, 3 if self.has_state else 2)
+
+    @cached_property
+    def advance_formula(self) -> Formula:
+        """The deflection after a step as a function of numbers, of a law with a state."""
+        return formula_of(self, getattr(self, "advance"), 3)  # noqa: B009 - laws without a state have none
+
+    @cached_property
+    def rate_formula(self) -> Formula:
+        """The rate of the deflection as a function of numbers, of a law with a state."""
+        rate = getattr(self, "rate", None)
+        if rate is not None:
+            return formula_of(self, rate, 2)
+        return Formula(_rate_of(self.advance_formula.function), self.advance_formula.parameters)
+
+    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
+        """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection [m]."""
+        if self.has_state:
+            return self.force_formula(slip, normal_force, deflection)
+        return self.force_formula(slip, normal_force)
 
     def next_deflection(self, deflection: float, slip: float, step: float) -> float:
-        """Deflection after a step [s] over which the slip [m/s] was this one on average."""
-        del slip, step
-        return deflection
+        """Deflection [m] after a step [s] over which the slip [m/s] was this one on average."""
+        return self.advance_formula(deflection, slip, step) if self.has_state else deflection
 
     def deflection_rate(self, deflection: float, slip: float) -> float:
-        """Rate of the deflection [m/s]: what `next_deflection` makes of a step that tends to nothing."""
-        return (self.next_deflection(deflection, slip, MOMENT) - deflection) / MOMENT
+        """Rate of the deflection [m/s] at a slip [m/s]."""
+        return self.rate_formula(deflection, slip) if self.has_state else 0.0
 
     def steady_deflection(self, slip: float) -> float:
         """Deflection [m] of a slip [m/s] that has lasted long: that of a joint which moves at the start."""
@@ -80,6 +112,15 @@ class FrictionLaw(Value, ABC):
         return math.inf
 
 
+@cache
+def _rate_of(advance: Callable[..., float]) -> Callable[..., float]:
+    def rate(deflection: float, slip: float, *parameters: float) -> float:
+        return (advance(deflection, slip, MOMENT, *parameters) - deflection) / MOMENT
+
+    return kernel(rate)
+
+
+@kernel
 def against(slip: float, force: float) -> float:
     """A force [N] that points against the slip; zero where there is none."""
     return -sign(slip) * force

@@ -3,8 +3,8 @@
 import math
 from typing import ClassVar
 
-from user_forces.expressions.scalar import exp, magnitude, sign
 from user_forces.friction.law import TwoCoefficients
+from user_forces.kernel import kernel, sign
 from user_forces.values.units import MetresPerSecond, PerMetre, SecondsPerMetre
 from user_forces.values.value import NonNegative, Positive, value
 
@@ -41,26 +41,49 @@ class LuGre(TwoCoefficients):
     bristle_damping: SecondsPerMetre[NonNegative] = 10.0
     viscosity: SecondsPerMetre[NonNegative] = 0.0
 
-    @property
-    def has_state(self) -> bool:
-        """The state is the deflection of the bristles [m]."""
-        return True
-
     def largest_deflection(self, slip: float) -> float:
         """Size [m] of the deflection in steady slip, g / s0."""
-        ratio = slip / self.stribeck_speed
-        extra = (self.static_coefficient - self.sliding_coefficient) * exp(-ratio * ratio)
-        return (self.sliding_coefficient + extra) / self.bristle_stiffness
+        return steady_deflection(
+            slip,
+            self.static_coefficient,
+            self.sliding_coefficient,
+            self.stribeck_speed,
+            self.bristle_stiffness,
+        )
 
-    def deflection_rate(self, deflection: float, slip: float) -> float:
+    @staticmethod
+    @kernel
+    def rate(
+        deflection: float,
+        slip: float,
+        static_coefficient: float,
+        sliding_coefficient: float,
+        stribeck_speed: float,
+        bristle_stiffness: float,
+    ) -> float:
         """dz/dt [m/s]."""
-        return slip - magnitude(slip) / self.largest_deflection(slip) * deflection
+        size = steady_deflection(
+            slip, static_coefficient, sliding_coefficient, stribeck_speed, bristle_stiffness
+        )
+        return slip - abs(slip) / size * deflection
 
-    def next_deflection(self, deflection: float, slip: float, step: float) -> float:
-        """z [m] after a step [s] at constant slip [m/s]: nears the steady one as exp(-abs(slip) step s0/g)."""
-        size = self.largest_deflection(slip)
+    @staticmethod
+    @kernel
+    def advance(
+        deflection: float,
+        slip: float,
+        step: float,
+        static_coefficient: float,
+        sliding_coefficient: float,
+        stribeck_speed: float,
+        bristle_stiffness: float,
+    ) -> float:
+        """z [m] after a step [s] at a slip [m/s]: nears the steady value as exp(-abs(slip) step s0/g)."""
+        size = steady_deflection(
+            slip, static_coefficient, sliding_coefficient, stribeck_speed, bristle_stiffness
+        )
         steady = sign(slip) * size
-        return steady + (deflection - steady) * exp(-magnitude(slip) * step / size)
+        return steady + (deflection - steady) * math.exp(-abs(slip) * step / size)
 
     def swing_time(self, mass: float, normal_force: float) -> float:
         """The shorter of sqrt(m / (s0 F_n)) and 4 m / (s1 F_n) [s]; infinite without a normal force [N].
@@ -74,8 +97,36 @@ class LuGre(TwoCoefficients):
         damping = self.bristle_damping * normal_force
         return min(swing, 4.0 * mass / damping) if damping > 0.0 else swing
 
-    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
+    @staticmethod
+    @kernel
+    def force(
+        slip: float,
+        normal_force: float,
+        deflection: float,
+        static_coefficient: float,
+        sliding_coefficient: float,
+        stribeck_speed: float,
+        bristle_stiffness: float,
+        bristle_damping: float,
+        viscosity: float,
+    ) -> float:
         """Tangential force [N] for a slip [m/s], a normal force [N] >= 0 and a deflection z [m]."""
-        lost = self.bristle_damping * magnitude(slip) / self.largest_deflection(slip)
-        bristles = (self.bristle_stiffness - lost) * deflection
-        return -normal_force * (bristles + (self.bristle_damping + self.viscosity) * slip)
+        size = steady_deflection(
+            slip, static_coefficient, sliding_coefficient, stribeck_speed, bristle_stiffness
+        )
+        bristles = (bristle_stiffness - bristle_damping * abs(slip) / size) * deflection
+        return -normal_force * (bristles + (bristle_damping + viscosity) * slip)
+
+
+@kernel
+def steady_deflection(
+    slip: float,
+    static_coefficient: float,
+    sliding_coefficient: float,
+    stribeck_speed: float,
+    bristle_stiffness: float,
+) -> float:
+    """Size [m] of the deflection of `LuGre` in steady slip [m/s], g / s0."""
+    ratio = slip / stribeck_speed
+    extra = (static_coefficient - sliding_coefficient) * math.exp(-ratio * ratio)
+    return (sliding_coefficient + extra) / bristle_stiffness

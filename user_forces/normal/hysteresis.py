@@ -1,15 +1,17 @@
 """Laws F = F_el (1 + chi rate / w): an elastic force that is larger on the way in than on the way out."""
 
+from __future__ import annotations
+
 import math
 import warnings
-from abc import abstractmethod
-from collections.abc import Mapping
-from functools import cached_property
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from functools import cache, cached_property
 from typing import Any, ClassVar
 
-from user_forces.expressions.roots import bracketed_root
-from user_forces.expressions.scalar import maximum
+from user_forces.kernel import Formula, kernel
 from user_forces.normal.law import NormalLaw
+from user_forces.roots import bracketed_root
 from user_forces.values.units import MetresPerSecond
 from user_forces.values.value import Fraction, Positive, value
 
@@ -17,7 +19,7 @@ REST_VELOCITY = 0.01  # [m/s], see the study `contact_laws`
 
 
 @value
-class Hysteresis(NormalLaw):
+class Hysteresis(NormalLaw, ABC):
     """F = F_el(depth) (1 + chi rate / w) with a damping factor chi made from the restitution.
 
     What a free impact delivers depends on chi alone, not on F_el, masses or speed: with u = rate / v0 and m
@@ -61,10 +63,31 @@ class Hysteresis(NormalLaw):
         """Restitution [-] that a free impact delivers."""
         return delivered_restitution(self.damping_factor)
 
-    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
-        """Normal force [N] at depth [m] > 0, rate [m/s]."""
-        w = maximum(impact_velocity, self.rest_velocity)
-        return self.elastic_force(depth) * (1.0 + self.damping_factor / w * rate)
+    @staticmethod
+    @kernel
+    def force(
+        elastic_force: float, rate: float, impact_velocity: float, damping_factor: float, rest_velocity: float
+    ) -> float:
+        """F_el (1 + chi rate / w) [N] for an elastic force [N] and a rate [m/s]."""
+        w = impact_velocity if impact_velocity > rest_velocity else rest_velocity
+        return elastic_force * (1.0 + damping_factor / w * rate)
+
+    @cached_property
+    def force_formula(self) -> Formula:
+        """The force as a function of depth, rate and impact velocity, from the elastic force of the law."""
+        elastic = self.elastic_formula
+        own = self.damping_factor, self.rest_velocity
+        return Formula(_damped(self.force, elastic.function), (*own, *elastic.parameters))
+
+
+@cache
+def _damped(force: Callable[..., float], elastic: Callable[..., float]) -> Callable[..., float]:
+    def damped(
+        depth: float, rate: float, impact_velocity: float, factor: float, rest: float, *others: float
+    ) -> float:
+        return force(elastic(depth, *others), rate, impact_velocity, factor, rest)
+
+    return kernel(damped)
 
 
 def without_damping_speed(given: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -1,56 +1,103 @@
-"""What a normal contact law is."""
+"""The contract of a normal contact law."""
+
+from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from functools import cached_property
 
-from user_forces.expressions.roots import bracketed_root
+from user_forces.kernel import Formula, formula_of, quadrature
+from user_forces.roots import bracketed_root
 from user_forces.values.value import InputError, Value
 
 
 class LoadError(InputError):
-    """A contact law was pressed deeper than it is valid."""
+    """A contact is indented deeper than its law is valid, or loaded by more than the law can carry."""
 
 
 class NormalLaw(Value, ABC):
-    """Normal contact force as a function of depth, its rate and the impact velocity, and of nothing else.
+    """Normal contact force as a function of indentation, indentation rate and impact velocity.
+
+    A law is a data class of parameters with a function of numbers, its `force`. The function is a static method
+    whose first arguments are indentation, rate and impact velocity, and whose others are names of parameters or
+    properties of the law. It is plain Python with `if` and `math`, which numba compiles, see `kernel`.
 
     The contract:
     1. `law(depth, rate, impact_velocity)` is called with depth > 0 only, all in SI.
-    2. `impact_velocity` [m/s] >= 0 is the rate of depth at zero depth when the contact began; 0 for a contact
-       that is closed at the start. It stays the same until the surfaces part. The law owns no memory: the
-       caller keeps the impact velocity.
+    2. `impact_velocity` [m/s] >= 0 is the indentation rate at zero indentation when the contact began; 0 for a
+       contact that is closed at the start. It is constant until the surfaces separate.
     3. The result may be negative (tension). The caller cuts it at zero and counts that it did.
-    4. `elastic_force` and `elastic_energy` are the part that is given back; the rest is dissipated.
-    5. It is written with the functions of `user_forces.expressions.scalar`, so that it can be compiled too.
-    6. A law that is valid up to some depth raises LoadError beyond it.
-    7. A law that needs a mass has a field `mass` [kg]. If that is None, a scenario takes the joint's effective
+    4. `elastic` is the part that is given back, and `energy` its integral; the rest is dissipated. By default
+       `elastic` is the force at no rate, and the energy a Gauss quadrature of it.
+    5. A law that is valid up to some indentation says so by `largest_depth`.
+    6. A law that needs a mass has a field `mass` [kg]. If that is None, a scenario takes the joint's effective
        mass in the start posture, a constant of the run.
     """
 
+    @staticmethod
     @abstractmethod
+    def force(depth: float, rate: float, impact_velocity: float) -> float:
+        """Normal force [N], positive pushes apart, at depth [m] > 0 and rate [m/s]; parameters follow."""
+
+    @cached_property
+    def force_formula(self) -> Formula:
+        """The force as a function of numbers, with this law's parameters."""
+        return formula_of(self, self.force, 3)
+
+    @cached_property
+    def elastic_formula(self) -> Formula:
+        """The force at rest as a function of numbers, with this law's parameters."""
+        elastic = getattr(self, "elastic", None)
+        if elastic is not None:
+            return formula_of(self, elastic, 1)
+        return self.force_formula.at_rest()
+
+    @cached_property
+    def energy_formula(self) -> Formula:
+        """The stored energy as a function of numbers, with this law's parameters."""
+        energy = getattr(self, "energy", None)
+        return quadrature(self.elastic_formula) if energy is None else formula_of(self, energy, 1)
+
     def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
         """Normal force [N], positive pushes apart, at depth [m] > 0 and rate [m/s]."""
+        self.check(depth)
+        return self.force_formula(depth, rate, impact_velocity)
 
-    @abstractmethod
     def elastic_force(self, depth: float) -> float:
         """Force [N] at rest at this depth [m] > 0."""
+        self.check(depth)
+        return self.elastic_formula(depth)
 
-    @abstractmethod
     def elastic_energy(self, depth: float) -> float:
         """Energy [J] stored at this depth [m] > 0."""
+        self.check(depth)
+        return self.energy_formula(depth)
 
     @property
     def largest_depth(self) -> float:
         """Depth [m] up to which the law is valid."""
         return math.inf
 
+    def check(self, depth: float) -> None:
+        """Raise LoadError if this depth [m] is outside the law's range."""
+        if depth > self.largest_depth:
+            raise LoadError(
+                f"{type(self).__name__}: depth = {depth:.6g} m is outside its range; allowed: up to "
+                f"{self.largest_depth:.6g} m{self._range_note}"
+            )
+
+    @property
+    def _range_note(self) -> str:
+        """What the message about a depth outside the range adds."""
+        return ""
+
     def force_in_search(self, depth: float, load: float = 0.0, allowed: float = 0.0) -> float:
         """Elastic force [N] at a depth [m] > 0, for the search of an equilibrium.
 
-        Beyond the largest depth it goes on in proportion to the depth, for trials may lie there. Of a stiff law
-        the search finds the end only from an equilibrium that is nearly so: if a depth is allowed [m], the law
-        is softened until it holds the load [N] there, unless it is as soft by itself.
+        Beyond the largest depth it is continued in proportion to the depth, for trials may lie there. The
+        search of a stiff law converges only near its equilibrium: if a depth is allowed [m], the law is
+        softened until it holds the load [N] there, unless it is as soft by itself.
         """
         valid = min(depth, (1.0 - 1e-9) * self.largest_depth)
         force = self.elastic_force(valid) * (depth / valid)

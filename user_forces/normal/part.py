@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache, cached_property
+
 from pydantic import model_validator
 
+from user_forces.kernel import Formula, kernel
 from user_forces.normal.law import NormalLaw
 from user_forces.values.value import Share, value
 
@@ -37,17 +41,30 @@ class PartOf(NormalLaw):
             f"law: is a part of a part, and so on; allowed: up to {MOST_PARTS - 1} parts of each other"
         )
 
-    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
+    @staticmethod
+    @kernel
+    def force(whole: float, share: float) -> float:
+        """The share [N] of the force of the whole [N]."""
+        return share * whole
+
+    @cached_property
+    def force_formula(self) -> Formula:
         """Normal force [N] of the section."""
-        return self.share * self.law(depth, rate, impact_velocity)
+        return self._of(self.law.force_formula)
 
-    def elastic_force(self, depth: float) -> float:
-        """Force [N] at rest."""
-        return self.share * self.law.elastic_force(depth)
+    @cached_property
+    def elastic_formula(self) -> Formula:
+        """Force [N] of the section at rest."""
+        return self._of(self.law.elastic_formula)
 
-    def elastic_energy(self, depth: float) -> float:
-        """Energy [J] stored."""
-        return self.share * self.law.elastic_energy(depth)
+    @cached_property
+    def energy_formula(self) -> Formula:
+        """Energy [J] stored in the section."""
+        return self._of(self.law.energy_formula)
+
+    def _of(self, whole: Formula) -> Formula:
+        variables = 3 if whole is self.law.force_formula else 1
+        return Formula(_share(self.force, whole.function, variables), (self.share, *whole.parameters))
 
     @property
     def largest_depth(self) -> float:
@@ -61,3 +78,18 @@ class PartOf(NormalLaw):
     def initial_force(self, speed: float, mass: float) -> float:
         """Force [N] just after the impact."""
         return self.share * self.law.initial_force(speed, mass)
+
+
+@cache
+def _share(force: Callable[..., float], whole: Callable[..., float], variables: int) -> Callable[..., float]:
+    if variables == 1:
+
+        def of_depth(depth: float, share: float, *parameters: float) -> float:
+            return force(whole(depth, *parameters), share)
+
+        return kernel(of_depth)
+
+    def of_impact(depth: float, rate: float, impact_velocity: float, share: float, *parameters: float) -> float:
+        return force(whole(depth, rate, impact_velocity, *parameters), share)
+
+    return kernel(of_impact)

@@ -12,9 +12,9 @@ from numpy.polynomial import chebyshev
 from pydantic import model_validator
 
 from user_forces.conformal import relative_depth, relative_load
-from user_forces.expressions.scalar import log, maximum, where
-from user_forces.normal.cylinder import CylinderLaw
-from user_forces.normal.power_law import PowerLaw
+from user_forces.kernel import Formula, kernel
+from user_forces.normal.cylinders import CylinderLaw
+from user_forces.normal.power_laws import PowerLaw
 from user_forces.values.units import NewtonsPerMetre
 from user_forces.values.value import Positive, Value, is_kind_of, kinds_of, known_class, value
 
@@ -24,7 +24,7 @@ LOWEST = math.log(SHALLOWEST)
 WIDEST = math.radians(60.0)  # half angle up to which the law is valid
 NARROWEST = 1e-9  # half angle [rad] below all that a force makes
 HALVINGS = 60
-FORCES = ("__call__", "elastic_force", "elastic_energy")
+FORCES = ("force", "elastic", "energy")
 
 Array = npt.NDArray[np.float64]
 
@@ -90,20 +90,21 @@ class PinInBore(CylinderLaw):
         """Depth [m] at a half contact angle of 60 degrees."""
         return self.bearing.clearance * math.exp(self._inverse.highest)
 
-    def elastic_force(self, depth: float) -> float:
-        """F_el [N]."""
-        self.check(depth)
-        return self._stiffness * depth * _polynomial(self._inverse.force, self._place(depth))
+    @cached_property
+    def elastic_formula(self) -> Formula:
+        """F_el [N], see `pin_force`."""
+        return Formula(pin_force, (*self._scales, *self._inverse.force))
 
-    def elastic_energy(self, depth: float) -> float:
-        """Integral of the force [J]."""
-        self.check(depth)
-        inverse, unit = self._inverse, self._stiffness * SHALLOWEST**2 * self.bearing.clearance**2
-        rest = unit * (0.5 * _polynomial(inverse.force, -1.0) - _polynomial(inverse.energy, -1.0))
-        square = self._stiffness * depth * depth
-        deep = square * _polynomial(inverse.energy, self._place(depth)) + rest
-        linear = 0.5 * square * _polynomial(inverse.force, -1.0)
-        return where(depth < SHALLOWEST * self.bearing.clearance, linear, deep)
+    @cached_property
+    def energy_formula(self) -> Formula:
+        """Integral of the force [J], see `pin_energy`."""
+        return Formula(pin_energy, (*self._scales, *self._inverse.force, *self._inverse.energy))
+
+    @property
+    def _scales(self) -> tuple[float, float, float, float]:
+        """Stiffness [N/m], clearance [m], middle and half width of the inverted law's logarithm of depth."""
+        middle, half = 0.5 * (self._inverse.highest + LOWEST), 0.5 * (self._inverse.highest - LOWEST)
+        return self._stiffness, self.bearing.clearance, math.log(self.bearing.clearance) + middle, half
 
     @cached_property
     def _stiffness(self) -> float:
@@ -114,12 +115,37 @@ class PinInBore(CylinderLaw):
     def _inverse(self) -> _Inverse:
         return _inverse(0.0 if self.backing_stiffness is None else self._stiffness / self.backing_stiffness)
 
-    def _place(self, depth: float) -> float:
-        """Where a depth lies between the ends of the inverted law, from -1 to 1."""
-        inverse = self._inverse
-        middle, half = 0.5 * (inverse.highest + LOWEST), 0.5 * (inverse.highest - LOWEST)
-        shift = math.log(self.bearing.clearance) + middle
-        return maximum((log(depth) - shift) / half, -1.0)
+
+@kernel
+def pin_force(
+    depth: float, stiffness: float, clearance: float, middle: float, half: float, *coefficients: float
+) -> float:
+    """Elastic force [N] of a pin in its bore: stiffness times depth times a polynomial in its logarithm."""
+    x = max((math.log(depth) - middle) / half, -1.0)
+    return stiffness * depth * polynomial(x, 0, coefficients)
+
+
+@kernel
+def pin_energy(
+    depth: float, stiffness: float, clearance: float, middle: float, half: float, *coefficients: float
+) -> float:
+    """Integral of `pin_force` [J]; coefficients of the force, then those of the energy."""
+    shallow = SHALLOWEST * clearance
+    linear = 0.5 * polynomial(-1.0, 0, coefficients)
+    if depth < shallow:
+        return stiffness * depth * depth * linear
+    x = max((math.log(depth) - middle) / half, -1.0)
+    rest = shallow * shallow * (linear - polynomial(-1.0, DEGREE + 1, coefficients))
+    return stiffness * (depth * depth * polynomial(x, DEGREE + 1, coefficients) + rest)
+
+
+@kernel
+def polynomial(x: float, first: int, coefficients: tuple[float, ...]) -> float:
+    """The sum of DEGREE + 1 coefficients from a place on times powers of x, by Horner's scheme."""
+    total = coefficients[first + DEGREE]
+    for n in range(DEGREE - 1, -1, -1):
+        total = total * x + coefficients[first + n]
+    return total
 
 
 class _Inverse(NamedTuple):
@@ -158,11 +184,3 @@ def _inverse(backing: float) -> _Inverse:
         energy[n] = 0.5 * (force[n] - carried)
         carried = n * energy[n] / half
     return _Inverse(highest, tuple(force.tolist()), tuple(energy.tolist()))
-
-
-def _polynomial(coefficients: tuple[float, ...], x: float) -> float:
-    """The sum of coefficients times powers of x, by Horner's scheme."""
-    found = coefficients[-1]
-    for one in reversed(coefficients[:-1]):
-        found = found * x + one
-    return found

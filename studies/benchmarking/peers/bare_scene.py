@@ -27,7 +27,7 @@ from support_exudyn.model.drives.drive import Steady
 from support_exudyn.model.linkage import GROUND, Body, Linkage, Slide
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
-from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError, Vector2
 
 

@@ -7,15 +7,15 @@ from typing import Any, Literal
 
 import exudyn
 import numpy as np
+from support_exudyn.formulations.redundant.clearance.pin_motion import PinMotion
+from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 
 from studies.benchmarking.peers.bare_scene import BareScene, bare_scene, clearance_contact
 from studies.benchmarking.peers.peer_run import ASIDE, PeerRun, PinSeries, add_ball, pin_sensors
 from studies.benchmarking.peers.stock import Watch, fixed_steps, solved
-from support_exudyn.formulations.redundant.clearance.pin_motion import PinMotion
-from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError
 
 UNDAMPED = 1e30  # impact velocity [m/s] against which every rate is nothing

@@ -18,8 +18,7 @@ from studies.benchmarking.peers.bare_scene import BareScene, bare_scene, ideal_s
 from studies.benchmarking.peers.peer_run import PeerRun, contact_numbers, impacts, undisturbed
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
-from user_forces.friction.ambrosio import Ambrosio
-from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.laws import Ambrosio, Frictionless
 from user_forces.values.value import InputError
 
 SPECTRAL_RADIUS = 0.5

@@ -21,12 +21,12 @@ from support_exudyn.files.scenarios.short_laws import (
 from support_exudyn.files.toml.shapes import GroupShape, Names
 from support_exudyn.model.guides import ClearanceGuide, Gaps, Guide, IdealGuide
 from support_exudyn.model.simple_laws import friction_of
-from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
+from user_forces.friction.laws import Frictionless
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
-from user_forces.normal.exact import Exact
 from user_forces.normal.hysteresis import without_damping_speed
 from user_forces.normal.law import NormalLaw
+from user_forces.normal.power_laws import Exact
 from user_forces.values.units import Metres, MetresPerSecond, NewtonsPerMetreToN
 from user_forces.values.value import Coefficient, InputError, NonNegative, Positive, Restitution, Value, value
 

@@ -11,7 +11,7 @@ from support_exudyn.files.toml.shapes import GroupShape, Names
 from user_forces.friction.law import FrictionLaw
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
 from user_forces.normal.law import NormalLaw
-from user_forces.normal.power_law import ElasticPower
+from user_forces.normal.power_laws import ElasticPower
 from user_forces.values.value import InputError, Value
 
 MATERIALS: Mapping[str, Material] = MappingProxyType({one.name: one for one in (STEEL, STEEL_35CRMO)})

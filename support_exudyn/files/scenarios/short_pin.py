@@ -25,8 +25,8 @@ from support_exudyn.model.pin_surroundings import contact_length, links_stiffnes
 from support_exudyn.model.pins import CYLINDERS, ClearancePin, IdealPin, Stiffness, on_cylinders
 from support_exudyn.model.simple_laws import friction_of
 from user_forces.backing import in_series, pin_stiffness
-from user_forces.friction.frictionless import Frictionless
 from user_forces.friction.law import FrictionLaw
+from user_forces.friction.laws import Frictionless
 from user_forces.materials import STEEL, STEEL_35CRMO, Material
 from user_forces.normal.hysteresis import without_damping_speed
 from user_forces.normal.law import NormalLaw

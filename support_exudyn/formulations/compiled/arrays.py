@@ -50,7 +50,7 @@ PAIR = _record("i j side other", "")
 ONE_SIDED = 2
 CONTACT = _record(
     "first second slot constants state",
-    "law clearance radius angle closed impact_velocity "
+    "law clearance radius angle arm closed impact_velocity "
     "depth rate slip normal friction damping push x y vx vy nx ny fx fy "
     "largest largest_at asked_depth asked_rate asked_slip asked_deflection",
 )
@@ -64,8 +64,6 @@ CYLINDER = _record(
 # of these at the start, `first` and `second`; with the first of its own courses, and how many
 FORCE, MOMENT, STRETCH = range(3)
 LOAD = _record("point origin kind constants course courses", "law first second fx fy work loss")
-# what a load is told of its own courses, and where in `SceneArrays.out`
-FIRST_COURSE, COURSES_OF_LOAD = 4, 8
 BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")
 # friction of an ideal pin (BOLT) or guide (GUIDED; BLOCK with a moment); row: the first of the joint; state: of
 # the friction law in y | direction and speed along a guide, slip, arm of the friction force, the force and its

@@ -5,8 +5,8 @@ from support_exudyn.formulations.compiled.arrays import JUMP_ENERGY, WORK, Matri
 from support_exudyn.formulations.compiled.motion import SINGULAR, solve
 from support_exudyn.formulations.compiled.recording import write_record
 from support_exudyn.formulations.compiled.step import evaluate
-from support_exudyn.formulations.contact_events import STILL
 from support_exudyn.formulations.hydraulics.gaps import begin_sides
+from user_forces.contact_events import STILL
 
 
 @once

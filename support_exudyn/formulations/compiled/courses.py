@@ -7,7 +7,7 @@ is halved. So any drive is followed as its own, and its speed and acceleration a
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -16,6 +16,7 @@ from numpy.polynomial import chebyshev
 
 from support_exudyn.formulations.compiled.arrays import COURSE, PIECE, Matrix, Records, Vector
 from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.loads.load import TimeFunction
 from user_forces.lawful import LawError
 
 DEGREE = 8  # of a piece: powers of the place, from -1 to 1, lose two digits by it
@@ -27,8 +28,6 @@ NODES = chebyshev.chebpts1(DEGREE + 1)
 TO_SERIES = 2.0 / (DEGREE + 1) * np.cos(np.outer(np.arange(DEGREE + 1), np.arccos(NODES)))
 TO_SERIES[0] /= 2.0
 BETWEEN = np.array([-0.99, -0.37, 0.03, 0.51, 0.995])  # where a piece is looked at
-
-TimeFunction = Callable[[float], float]
 
 
 class Courses(NamedTuple):

@@ -2,17 +2,15 @@
 
 from typing import NoReturn
 
-from support_exudyn.formulations.compiled.written import load_source
+from support_exudyn.formulations.compilation import UncompiledLawError, address_of, contact_law, load_law
+from support_exudyn.formulations.compiled.setup import friction_law
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.compilation.flat import UnwrittenLawError, friction_source, law_source
 from user_forces.values.value import InputError
 
-WRITTEN = (
-    "laws and loads written with the functions of user_forces.expressions.scalar, `where` in place of `if`"
-)
+COMPILED = "laws and loads that are functions of numbers, in what numba knows of Python"
 PINS: tuple[type[Pin], ...] = (IdealPin, ClearancePin, BushingPin)  # kinds of pins that it has records for
 
 
@@ -23,32 +21,32 @@ def check(scenario: Scenario) -> None:
     for name, pin in scenario.pins.items():
         if type(pin) not in PINS:
             _refuse(f"pins.{name}", type(pin).__name__, ", ".join(kind.__name__ for kind in PINS))
-    if scenario.solver.backend not in ("auto", "compiled"):
-        _refuse("solver.backend", repr(scenario.solver.backend), "'auto', 'compiled'")
-    _check_written(scenario)
+    _check_compiled(scenario)
     if repeated_count(scenario.held)[1]:
         _refuse("machine", "its start posture is a dead centre", "one beside it")
 
 
-def _check_written(scenario: Scenario) -> None:
-    """Raise InputError if a law or a load cannot be written out."""
-    where = ""
+def _check_compiled(scenario: Scenario) -> None:
+    """Raise InputError if a law or a load cannot be compiled."""
+    where = what = ""
     try:
         for name, place in scenario.contact_places.items():
-            where = f"{place.of}.contact" if name in scenario.pins else place.of
-            law_source(place.contact)
+            where, what = f"{place.of}.contact" if name in scenario.pins else place.of, "a law"
+            address_of(contact_law(place.contact.law_kernel, len(place.contact.law_constants)))
         for name, friction in scenario.friction_laws.items():
-            where = f"{name}.friction"
-            friction_source(friction)
+            where, what = f"{name}.friction", type(friction).__name__
+            address_of(friction_law(friction)[0])
         for name, load in scenario.acting_loads.items():
-            where = f"loads.{name}"
-            load_source(load)
-    except UnwrittenLawError as error:
-        _refuse(where, str(error), WRITTEN)
+            where, what = f"loads.{name}", type(load).__name__
+            if load.own_methods:
+                raise UncompiledLawError(f"it has no action, but {', '.join(load.own_methods)} of its own")
+            address_of(load_law(load)[0])
+    except UncompiledLawError as error:
+        _refuse(where, f"{what} ({error})", COMPILED)
 
 
 def _refuse(where: str, what: str, allowed: str) -> NoReturn:
     raise InputError(
         f"{where} = {what}: not covered by formulation = 'compiled'; allowed: {allowed}. "
-        "formulation = 'redundant' covers it."
+        "formulation = 'exudyn' covers it."
     )

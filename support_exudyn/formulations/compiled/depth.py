@@ -5,7 +5,7 @@ step is too long, and is made again shorter.
 """
 
 from support_exudyn.formulations.compilation import compiled
-from support_exudyn.formulations.contact_events import DepthPath
+from user_forces.contact_events import DepthPath
 
 # CUT: the law begins or ceases to ask for tension
 NOTHING, IMPACT, SEPARATION, CUT, TOO_LONG = range(5)

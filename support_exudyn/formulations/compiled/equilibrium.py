@@ -6,7 +6,7 @@ Places q and multipliers L at which elastic contacts without friction, oil, load
 
 by Newton's method. A journal in the middle of its bore has no stiffness: springs centre all of them at first,
 stiff enough to hold the weight of the machine within the clearance, and are then taken away; contacts give way
-meanwhile. That is how the redundant formulation settles, too.
+meanwhile. That is how the Exudyn formulation settles, too.
 """
 
 from __future__ import annotations

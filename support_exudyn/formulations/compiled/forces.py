@@ -2,10 +2,9 @@
 
 import math
 
-from support_exudyn.formulations.compilation import call_law, compiled, inlined, once
+from support_exudyn.formulations.compilation import FIRST_COURSE, call_law, compiled, inlined, once
 from support_exudyn.formulations.compiled.arrays import (
     DAMPING_LOSS,
-    FIRST_COURSE,
     FRICTION_LOSS,
     MOMENT,
     ONE_SIDED,
@@ -15,8 +14,11 @@ from support_exudyn.formulations.compiled.arrays import (
     Vector,
 )
 from support_exudyn.formulations.compiled.motion import push, push_point, spin_of
-from user_forces.contact import SHALLOWEST, SMALLEST
+from user_forces.contact import SHALLOWEST
+from user_forces.face import point_on_face
+from user_forces.journal import journal_in_bore
 from user_forces.lawful import ROUNDING
+from user_forces.slot import corner_in_slot
 
 
 @inlined
@@ -28,15 +30,9 @@ def observe(scene: SceneArrays, n: int, y: Vector) -> None:
     x, y_ = journal.x - bore.x, journal.y - bore.y
     vx, vy = journal.vx - bore.vx, journal.vy - bore.vy
     if contact.slot == 0:
-        eccentricity = math.sqrt(x * x + y_ * y_)
-        away = max(eccentricity, SMALLEST)
-        nx, ny = x / away, y_ / away
-        depth = eccentricity - contact.clearance
-        rate = nx * vx + ny * vy
-        if eccentricity == 0.0:
-            rate = math.sqrt(vx * vx + vy * vy)
-        bore_arm = contact.radius + 0.5 * depth
-        arm = bore_arm - depth - contact.clearance
+        contact.depth, contact.rate, contact.slip, nx, ny, contact.arm = journal_in_bore(
+            x, y_, vx, vy, bore_spin, journal_spin, contact.radius, contact.clearance
+        )
     else:
         c, s = math.cos(contact.angle), math.sin(contact.angle)
         if bore.body >= 0:
@@ -45,15 +41,14 @@ def observe(scene: SceneArrays, n: int, y: Vector) -> None:
         along, across = c * x + s * y_, c * y_ - s * x
         # the plain rate across, less what the slot's turning moves the walls there
         speed, rise = c * vx + s * vy, c * vy - s * vx - bore_spin * along
-        side = 1.0 if across >= 0.0 or contact.slot == ONE_SIDED else -1.0
+        motion = 0.0, across, speed, rise, bore_spin, journal_spin, contact.radius, contact.clearance
+        if contact.slot == ONE_SIDED:
+            contact.depth, contact.rate, contact.slip, _, side, contact.arm = point_on_face(*motion)
+        else:
+            contact.depth, contact.rate, contact.slip, _, side, contact.arm = corner_in_slot(*motion)
         nx, ny = -s * side, c * side
-        depth = side * across - contact.clearance
-        rate = side * rise
-        bore_arm, arm = contact.clearance + depth + contact.radius, contact.radius
         x, y_ = -s * across, c * across
         vx, vy = c * speed - s * rise, s * speed + c * rise
-    contact.depth, contact.rate = depth, rate
-    contact.slip = nx * vy - ny * vx + journal_spin * arm - bore_spin * bore_arm
     contact.x, contact.y, contact.vx, contact.vy, contact.nx, contact.ny = x, y_, vx, vy, nx, ny
 
 
@@ -110,10 +105,7 @@ def push_contact(scene: SceneArrays, n: int) -> None:
     if contact.closed == 0.0:
         return
     bore, journal = scene.points[contact.first], scene.points[contact.second]
-    arm = contact.radius
-    if contact.slot == 0:
-        arm -= contact.clearance + 0.5 * contact.depth
-    x, y = arm * contact.nx, arm * contact.ny  # from the journal's centre
+    x, y = contact.arm * contact.nx, contact.arm * contact.ny  # from the journal's centre
     fx, fy = contact.fx, contact.fy
     push(scene, journal.body, fx, fy, (journal.rx + x) * fy - (journal.ry + y) * fx)
     x, y = x + journal.x - bore.x, y + journal.y - bore.y

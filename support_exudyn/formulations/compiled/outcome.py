@@ -13,12 +13,12 @@ from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.bushing import bushing_series
 from support_exudyn.mechanics.channels import DataNeeds
-from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.joint_slip import friction_series
 from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, OilEvent, Series, Trajectory
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.scenario.recorded_channels import needs
+from user_forces.contact_state import PinMemory
 
 
 def record_width(model: Model) -> int:

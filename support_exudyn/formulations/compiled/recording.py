@@ -17,8 +17,8 @@ from support_exudyn.formulations.compiled.arrays import (
 from support_exudyn.formulations.compiled.events import look
 from support_exudyn.formulations.compiled.landing import copy_contacts
 from support_exudyn.formulations.compiled.step import close_joints, evaluate, within
-from support_exudyn.formulations.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK, NEAR_TOP, PEAK_SAMPLES
 from support_exudyn.formulations.statistics.steps import INNER, OF_STEP
+from user_forces.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK, NEAR_TOP, PEAK_SAMPLES
 
 
 @compiled

@@ -39,20 +39,19 @@ from support_exudyn.formulations.limits import ENDS, past_ends
 from support_exudyn.formulations.statistics.collected import RunStatistics, within_steps
 from support_exudyn.formulations.statistics.steps import OF_STEP
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Outcome
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.hydraulic_cylinder import Inlet
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.expressions.scalar import maximum
+from user_forces.contact_state import Onset
 from user_forces.lawful import UNLAWFUL, LawError, look
 from user_forces.normal.law import LoadError
 
 FIRST_STEP = 1e-5  # at most [s]
 AT_FIRST = 1e-6  # tolerance below which the first step is shorter
 FEWER_STEPS = "Allow a larger tolerance, a shorter duration, or more steps (`solver.most_steps`)."
-STEEP = ' Very small hoses and very steep valves need fewer with `formulation = "redundant"`.'
+STEEP = ' Very small hoses and very steep valves need fewer with `formulation = "exudyn"`.'
 AT_ONCE = 80_000  # steps times bodies, some 0.3 s: until then it cannot be interrupted, and tells no progress
 NUMBERS_AT_ONCE = 400_000  # of the nodes of steps, 3 MB: then they become statistics
 CLOSES = "Look whether the posture is near a dead centre, or a pin is pressed far out of its place."
@@ -269,7 +268,7 @@ def _broken_law(going: _Run) -> tuple[str, str] | None:
         depth, rate, slip = (float(record[f"asked_{what}"]) for what in ("depth", "rate", "slip"))
         try:
             asked = contact.normal(depth, rate, float(record["impact_velocity"]))
-            normal, elastic = maximum(asked, 0.0), contact.normal.elastic_force(depth)
+            normal, elastic = 0.0 if asked < 0.0 else asked, contact.normal.elastic_force(depth)
             friction = contact.friction(slip, normal, float(record["asked_deflection"]))
             look(contact, depth, rate, slip, normal, friction, elastic, name)
         except LoadError as error:

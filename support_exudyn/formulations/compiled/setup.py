@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -10,18 +10,22 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from support_exudyn.formulations.compilation import compiled_law
+from support_exudyn.formulations.compilation import (
+    FIRST_COURSE,
+    address_of,
+    contact_law,
+    joint_friction,
+    load_law,
+)
 from support_exudyn.formulations.compiled import arrays
 from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
 from support_exudyn.formulations.compiled.courses import (
     Courses,
-    TimeFunction,
     courses,
     extension_of,
     segment_edges,
 )
 from support_exudyn.formulations.compiled.motion import rounds_of
-from support_exudyn.formulations.compiled.written import load_source
 from support_exudyn.formulations.hydraulics.fill import Legs, fill_legs
 from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.mechanics.closing import repeated_count
@@ -31,10 +35,10 @@ from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.linkage import GROUND, Linkage
-from support_exudyn.model.loads.load import Load
+from support_exudyn.model.loads.load import Load, TimeFunction
 from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.compilation.flat import friction_source, law_source
+from user_forces.friction.law import FrictionLaw
 from user_forces.values.value import Vector2
 
 
@@ -82,12 +86,11 @@ class _Builder:
             self.points.append((self.numbers[body], (point[0] - x, point[1] - y)))
         return self.known[key]
 
-    def law(self, source: tuple[str, Sequence[float]]) -> tuple[float, int]:
-        """Address of a compiled function and where its constants begin."""
-        text, constants = source
+    def law(self, law: Callable[..., float], constants: Sequence[float]) -> tuple[float, int]:
+        """Address of the machine code of a function for `call_law`, and where its constants begin."""
         place = len(self.constants)
         self.constants += constants
-        return float(compiled_law(text).address), place
+        return float(address_of(law)), place
 
 
 def model_of(scenario: Scenario) -> Model:
@@ -101,9 +104,8 @@ def model_of(scenario: Scenario) -> Model:
     edges = segment_edges(scenario.breaks, scenario.duration)
     functions: list[TimeFunction] = [extension_of(scenario.drive_of(name)) for name in moving]
     functions += [scenario.valved[name].inlet.opening for name in valves]
-    sources = {name: load_source(load) for name, load in scenario.acting_loads.items()}
     of_loads = len(functions)
-    functions += [function for *_, own in sources.values() for function in own]
+    functions += [function for load in scenario.acting_loads.values() for function in load.courses]
     found = courses(functions, edges)
     course = {name: n for n, name in enumerate((*moving, *valves))}
     joints, order, held = _joints(scenario, build, rigid, course)
@@ -123,7 +125,7 @@ def model_of(scenario: Scenario) -> Model:
         _oil(record, filled, build, course.get(name, -1))
     legs = _legs(scenario, build, course, states)
     states += legs.states
-    loads = _loads(scenario, build, sources, of_loads)
+    loads = _loads(scenario, build, of_loads)
     bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
     rubbing = _rubbing(scenario, build, joints, states)
@@ -156,7 +158,7 @@ def model_of(scenario: Scenario) -> Model:
         bushings=bushings,
         rubbing=rubbing,
         constants=np.array([*build.constants, 0.0]),
-        out=np.zeros(arrays.FIRST_COURSE + arrays.COURSES_OF_LOAD),
+        out=np.zeros(FIRST_COURSE + int(loads["courses"].max(initial=0))),
     )
     return Model(
         scenario=scenario,
@@ -304,13 +306,22 @@ def _contact(record: Any, place: ContactPlace, build: _Builder, linkage: Linkage
     record["first"] = build.point(place.bore, place.bore_point)
     record["second"] = build.point(place.journal, place.journal_point)
     record["slot"] = arrays.ONE_SIDED if bearing.is_one_sided else bearing.is_slot
-    record["law"], record["constants"] = build.law(law_source(contact))
-    record["clearance"] = bearing.clearance
-    # distance of the contact point from the bore's centre at no depth, less the clearance in a slot
-    record["radius"] = bearing.contact_arms(0.0)[1] if bearing.is_slot else bearing.contact_arms(0.0)[0]
+    record["law"], record["constants"] = build.law(
+        contact_law(contact.law_kernel, len(contact.law_constants)), contact.law_constants
+    )
+    record["radius"], record["clearance"] = bearing.constants
     record["angle"] = place.axes(linkage)
     record["state"] = states if contact.friction.has_state else -1
     return states + contact.friction.has_state
+
+
+def friction_law(law: FrictionLaw) -> tuple[Callable[..., float], tuple[float, ...]]:
+    """The friction law of an ideal joint for `call_law`, and its constants."""
+    force, own = law.force_formula
+    if not law.has_state:
+        return joint_friction(force, len(own), None, 0), own
+    rate, others = law.rate_formula
+    return joint_friction(force, len(own), rate, len(others)), (*own, *others)
 
 
 def _cylinder(record: Any, one: PreloadedCylinder, build: _Builder, course: int, state: int) -> None:
@@ -351,12 +362,7 @@ def _oil(record: Any, one: PreloadedActuator, build: _Builder, course: int) -> N
     record["natural"] = one.natural_length(0.0)
 
 
-def _loads(
-    scenario: Scenario,
-    build: _Builder,
-    sources: Mapping[str, tuple[str, list[float], list[TimeFunction]]],
-    course: int,
-) -> Records:
+def _loads(scenario: Scenario, build: _Builder, course: int) -> Records:
     """Loads with their compiled functions; course: the first of theirs."""
     found = np.zeros(len(scenario.acting_loads), arrays.LOAD)
     for record, (name, load) in zip(found, scenario.acting_loads.items(), strict=True):
@@ -368,10 +374,9 @@ def _loads(
             kind, against, (point, origin) = arrays.STRETCH, load.body, load.points
         record["kind"], record["first"], record["second"] = kind, point[1], origin[1]
         record["point"], record["origin"] = build.point(load.body, point), build.point(against, origin)
-        source, constants, own = sources[name]
-        record["law"], record["constants"] = build.law((source, constants))
-        record["course"], record["courses"] = course, len(own)
-        course += len(own)
+        record["law"], record["constants"] = build.law(*load_law(load))
+        record["course"], record["courses"] = course, len(load.courses)
+        course += len(load.courses)
     return found
 
 
@@ -392,7 +397,7 @@ def _rubbing(scenario: Scenario, build: _Builder, joints: Records, states: int) 
     laws, linkage = scenario.friction_laws.values(), scenario.linkage
     found = np.zeros(len(laws), arrays.RUBBING)
     for record, law in zip(found, laws, strict=True):
-        record["law"], record["constants"] = build.law(friction_source(law))
+        record["law"], record["constants"] = build.law(*friction_law(law))
         record["state"] = states if law.has_state else -1
         states += law.has_state
     pins, held = scenario.friction_pins, list(scenario.held_pins)

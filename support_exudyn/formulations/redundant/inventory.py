@@ -1,4 +1,4 @@
-"""What the engine holds for a scenario in the redundant formulation, counted in the engine itself."""
+"""What the engine holds for a scenario in the Exudyn formulation, counted in the engine itself."""
 
 from dataclasses import dataclass
 from typing import Any

@@ -1,4 +1,4 @@
-"""The redundant formulation: Exudyn's rigid bodies with constraints, generalised alpha, located impacts.
+"""The Exudyn formulation: Exudyn's rigid bodies with constraints, generalised alpha, located impacts.
 
 It covers every scenario but friction in pins whose forces rigid bodies do not determine, and is the reference
 for the others.
@@ -10,7 +10,6 @@ from typing import TypeVar
 import numpy as np
 
 from support_exudyn.formulations.contract import Progress
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.cylinder_item import UNIT, CylinderItem
 from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
 from support_exudyn.formulations.redundant.scene.record_forces import (
@@ -38,6 +37,7 @@ from support_exudyn.mechanics.oil_column import OilSeries, oil_series
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.connector.contact_connector import ContactConnector
 from user_forces.values.value import InputError
 
 EDGES = {"left": 0, "right": -1}  # of bearings in space: the first and the last section
@@ -55,11 +55,6 @@ def model(scenario: Scenario) -> Model:
 
 def check(scenario: Scenario) -> None:
     """Raise InputError if the settings do not fit the scenario."""
-    if scenario.solver.backend == "compiled":
-        raise InputError(
-            "solver.backend = 'compiled': only formulation = 'compiled' has it; allowed: 'auto', 'python', "
-            "'symbolic', or 'compiled' with formulation = 'compiled'"
-        )
     rigid = [
         name
         for name in scenario.linkage.actuators
@@ -81,7 +76,7 @@ def check(scenario: Scenario) -> None:
         parts = [f"{FIELDS.get(kind, kind)}.{name}" for kind, name in one.parts]
         if rough := [name for name in parts if name in scenario.friction_laws]:
             raise InputError(
-                f"{rough[0]}.friction: not covered by formulation = 'redundant', for {one.said()}, and "
+                f"{rough[0]}.friction: not covered by formulation = 'exudyn', for {one.said()}, and "
                 "the engine takes any forces that fit; allowed: formulation = 'compiled', which takes the "
                 "least, or a bushing in one of them"
             )
@@ -129,7 +124,7 @@ def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
     edges = {
         f"{name}.{side}": group[n] for name, group in groups for side, n in EDGES.items() if len(group) > 1
     }
-    single: dict[str, ClearanceJoint] = {**edges, **scene.faces}
+    single: dict[str, ContactConnector] = {**edges, **scene.faces}
     return Outcome(
         trajectory=SpatialObservation(scene, recorder.history()),
         onsets={name: tuple(group[0].whole.onsets) for name, group in groups}

@@ -15,7 +15,7 @@ import math
 from collections.abc import Sequence
 
 from support_exudyn.machines.strength.strength_data import CylinderStage, CylinderStrength
-from user_forces.expressions.roots import bracketed_root
+from user_forces.roots import bracketed_root
 from user_forces.values.value import InputError
 
 Segment = tuple[float, float]  # length [m] and bending stiffness [N m^2]

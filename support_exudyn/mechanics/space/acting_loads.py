@@ -16,13 +16,14 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from support_exudyn.mechanics.acting_loads import actions
 from support_exudyn.mechanics.channels import LOADED, ChannelDefinition, ChannelDefinitions
 from support_exudyn.mechanics.space.motion import SpatialMotion
 from support_exudyn.mechanics.trajectory import LoadSeries, Series
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel, LoadedPoint
-from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
-from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
+from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel
+from support_exudyn.model.loads.moment_load import MomentLoad
+from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.model.to_space import at
 
 
@@ -49,11 +50,10 @@ def load_series(load: ActingLoad, name: str, motion: SpatialMotion, time: Series
 def _of_force(load: Load, name: str, motion: SpatialMotion, time: Series) -> LoadSeries:
     point = motion.point(load.body, at(load.point, load.lateral))
     origin = motion.point(load.against(name), at(load.origin, load.origin_lateral))
-    x, y, z = (point.position - origin.position).T.tolist()
-    vx, vy, vz = (point.velocity - origin.velocity).T.tolist()
-    seen = [LoadedPoint(*one) for one in zip(time.tolist(), x, y, vx, vy, z, vz, strict=True)]
-    force = np.array([(*load.force(one), load.sideways(one)) for one in seen]).reshape(-1, 3)
-    return LoadSeries(force, np.zeros_like(force), *_observed(load, seen))
+    x, y, z = (point.position - origin.position).T
+    vx, vy, vz = (point.velocity - origin.velocity).T
+    force, stored, observed = actions(load, np.column_stack([time, x, y, vx, vy, z, vz]))
+    return LoadSeries(force, np.zeros_like(force), stored, observed)
 
 
 @load_series.register
@@ -64,9 +64,9 @@ def _of_moment(load: MomentLoad, name: str, motion: SpatialMotion, time: Series)
     axis = np.einsum("nij,jn->ni", frame, np.array(turning_axis(*forward)))
     turn = np.unwrap(np.arctan2(forward[1], forward[0]))
     rate = np.einsum("ni,ni->n", axis, motion.spin_of(load.body) - motion.spin_of(load.other))
-    seen = [TurnedBody(*one) for one in zip(time.tolist(), turn.tolist(), rate.tolist(), strict=True)]
-    moment = np.array([load.moment(one) for one in seen])[:, None] * axis
-    return LoadSeries(np.zeros_like(moment), moment, *_observed(load, seen))
+    found, stored, observed = actions(load, np.column_stack([time, turn, rate]))
+    moment = found * axis
+    return LoadSeries(np.zeros_like(moment), moment, stored, observed)
 
 
 @load_series.register
@@ -75,18 +75,10 @@ def _of_stretch(load: StretchLoad, name: str, motion: SpatialMotion, time: Serie
     ends = [motion.point(load.body, at(point, load.lateral)) for point in load.points]
     ways = [end.position[:, 1] - point[1] for end, point in zip(ends, load.points, strict=True)]
     rates = [end.velocity[:, 1] for end in ends]
-    seen = [LoadedStretch(*one) for one in np.column_stack([time, *ways, *rates]).tolist()]
-    forces = np.array([load.forces(one) for one in seen]).reshape(-1, 2)
+    forces, stored, observed = actions(load, np.column_stack([time, *ways, *rates]))
     up = np.array([0.0, 1.0, 0.0])
     moment = np.cross(ends[1].position - ends[0].position, forces[:, 1:] * up)
-    return LoadSeries(forces.sum(axis=1)[:, None] * up, moment, *_observed(load, seen))
-
-
-def _observed(load: ActingLoad, seen: list[Any]) -> tuple[Series, dict[str, Series]]:
-    """Stored energy [J], and the values of its channels by name."""
-    observed = [load.observed(one) for one in seen]
-    stored = np.array([load.stored(one) for one in seen])
-    return stored, {name: np.array([values[name] for values in observed]) for name in load.channels}
+    return LoadSeries(forces.sum(axis=1)[:, None] * up, moment, stored, observed)
 
 
 def add_load(

@@ -10,7 +10,6 @@ import numpy as np
 from pydantic import model_validator
 
 from support_exudyn.model.drives.drive import Drive
-from user_forces.expressions.scalar import in_time
 from user_forces.values.units import Travel
 from user_forces.values.value import InputError, NonNegative, Real, value
 
@@ -53,14 +52,10 @@ class CoupledDrive(Drive):
 
     def extension(self, t: float) -> float:
         """Extension [m] at time t [s]."""
-        if (known := in_time(self.extension, t)) is not None:
-            return known
         return self._value(self.lead.extension(t)) - self._at_start
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]; at a jump the value before it."""
-        if (known := in_time(self.speed, t)) is not None:
-            return known
         return self._slope(self.lead.extension(t)) * self.lead.speed(t)
 
     def speed_jump(self, t: float) -> float:

@@ -7,7 +7,6 @@ from abc import ABC, abstractmethod
 
 from pydantic import model_validator
 
-from user_forces.expressions.scalar import cos, in_time, is_number, maximum, minimum, sin
 from user_forces.values.units import Seconds, Travel, TravelRate
 from user_forces.values.value import NonNegative, Positive, Real, Value, value
 
@@ -16,9 +15,7 @@ class Drive(Value, ABC):
     """Extension of an actuator from its start length [m], or of a crank from its start angle [rad], over time.
 
     The contract: `extension` is continuous; `speed` is its derivative; between two neighbouring `breaks`
-    both are smooth; at a break the speed may jump by `speed_jump`. The solver lands on every break. An
-    `extension` written as laws are, see `expressions.scalar`, is handed to the engine as an expression where
-    that takes one: for cranks.
+    both are smooth; at a break the speed may jump by `speed_jump`. The solver lands on every break.
     """
 
     @abstractmethod
@@ -102,9 +99,7 @@ class Stroke(Drive, ABC):
     def phase(self, t: float) -> float:
         """Share of the stroke's time that is over at t [s]: 0 before its start, 1 after its end."""
         x = (t - self.start) / (self.end - self.start)
-        if is_number(x):  # asked for in every step
-            return 0.0 if x <= 0.0 else 1.0 if x >= 1.0 else x
-        return minimum(1.0, maximum(0.0, x))
+        return 0.0 if x <= 0.0 else 1.0 if x >= 1.0 else x
 
 
 @value
@@ -147,8 +142,6 @@ class UniformSpeed(Stroke):
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]; at the jumps the value before."""
-        if (known := in_time(self.speed, t)) is not None:
-            return known
         return self.stroke / (self.end - self.start) if self.start < t <= self.end else 0.0
 
     def speed_jump(self, t: float) -> float:
@@ -212,11 +205,11 @@ class Reciprocating(Drive):
 
     def extension(self, t: float) -> float:
         """Extension [m] at time t [s]."""
-        return 0.5 * self.stroke * (1.0 - cos(self._phase(t)))
+        return 0.5 * self.stroke * (1.0 - math.cos(self._phase(t)))
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]."""
-        return 0.5 * self.stroke * self.frequency * sin(self._phase(t))
+        return 0.5 * self.stroke * self.frequency * math.sin(self._phase(t))
 
     def _phase(self, t: float) -> float:
         """Angle [rad] of the cosine.
@@ -224,7 +217,7 @@ class Reciprocating(Drive):
         Whole periods are left out, which is exact. With them the angle would be rounded the more the longer
         the run: after 1000 s positions by 1e-14 m, and accelerations by that over the step squared.
         """
-        return self.frequency * (math.fmod(t, self.period) if is_number(t) else t)
+        return self.frequency * math.fmod(t, self.period)
 
     @property
     def breaks(self) -> tuple[float, ...]:

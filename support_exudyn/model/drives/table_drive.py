@@ -10,7 +10,6 @@ from typing import Annotated, Literal, NamedTuple
 from pydantic import Field, model_validator
 
 from support_exudyn.model.drives.drive import Drive
-from user_forces.expressions.scalar import in_time
 from user_forces.values.units import Seconds, Travel
 from user_forces.values.value import NonNegative, Real, value
 
@@ -68,8 +67,6 @@ class TableDrive(Drive):
 
     def extension(self, t: float) -> float:
         """Extension [m] at time t [s]."""
-        if (known := in_time(self.extension, t)) is not None:
-            return known
         n = self._piece(t)
         if n == 0:
             return self.extensions[0]
@@ -88,8 +85,6 @@ class TableDrive(Drive):
 
     def speed(self, t: float) -> float:
         """Speed [m/s] at time t [s]; at a jump the value before it."""
-        if (known := in_time(self.speed, t)) is not None:
-            return known
         n = self._piece(t)
         if n in (0, len(self.times)):
             return 0.0

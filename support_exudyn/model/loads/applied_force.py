@@ -7,7 +7,8 @@ from functools import cached_property
 from pydantic import model_validator
 
 from support_exudyn.model.loads.course import Coming, LoadCourse
-from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
+from support_exudyn.model.loads.load import Load, LoadChannel, TimeFunction
+from user_forces.kernel import kernel
 from user_forces.values.units import Newtons, Seconds
 from user_forces.values.value import NonNegative, Vector2, value
 
@@ -43,19 +44,27 @@ class AppliedForce(Load):
     def _coming(self) -> Coming:
         return Coming(self.start, self.end, self.course)
 
-    def force(self, at: LoadedPoint) -> Vector2:
-        """Force on the point, forward and up [N]."""
-        share = self._coming.share(at.time)
-        return self.full_force[0] * share, self.full_force[1] * share
+    @property
+    def courses(self) -> tuple[TimeFunction, ...]:
+        """The share of the full force that acts."""
+        return (self._coming.share,)
 
-    def stored(self, at: LoadedPoint) -> float:
-        """Stored energy, which is 0 J."""
-        return 0.0
-
-    def powers(self, at: LoadedPoint) -> Powers:
-        """Power [W] of the force on the point, and no loss."""
-        along, up = self.force(at)
-        return Powers(along * at.vx + up * at.vy, 0.0)
+    @staticmethod
+    @kernel
+    def action(
+        t: float,
+        x: float,
+        y: float,
+        vx: float,
+        vy: float,
+        z: float,
+        vz: float,
+        share: float,
+        *full_force: float,
+    ) -> tuple[float, ...]:
+        """The force, all of whose power is work; see `ActingLoad`."""
+        along, up = full_force[0] * share, full_force[1] * share
+        return along, up, 0.0, 0.0, along * vx + up * vy, 0.0, along, up
 
     @property
     def channels(self) -> dict[str, LoadChannel]:
@@ -64,11 +73,6 @@ class AppliedForce(Load):
             "force_x": LoadChannel("N", "of the load, forward"),
             "force_y": LoadChannel("N", "of the load, up"),
         }
-
-    def observed(self, at: LoadedPoint) -> dict[str, float]:
-        """Both components [N]."""
-        along, up = self.force(at)
-        return {"force_x": along, "force_y": up}
 
     @property
     def breaks(self) -> tuple[float, ...]:

@@ -7,7 +7,9 @@ from functools import cached_property
 from pydantic import model_validator
 
 from support_exudyn.model.loads.course import Coming, LoadCourse
-from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
+from support_exudyn.model.loads.load import TimeFunction
+from support_exudyn.model.loads.moment_load import MomentLoad
+from user_forces.kernel import kernel
 from user_forces.values.units import NewtonMetres, Seconds
 from user_forces.values.value import NonNegative, Real, value
 
@@ -39,9 +41,17 @@ class AppliedTorque(MomentLoad):
     def _coming(self) -> Coming:
         return Coming(self.start, self.end, self.course)
 
-    def moment(self, at: TurnedBody) -> float:
-        """Torque on the body [N m]."""
-        return self.full_torque * self._coming.share(at.time)
+    @property
+    def courses(self) -> tuple[TimeFunction, ...]:
+        """The share of the full torque that acts."""
+        return (self._coming.share,)
+
+    @staticmethod
+    @kernel
+    def action(t: float, turn: float, spin: float, share: float, full_torque: float) -> tuple[float, ...]:
+        """The torque, all of whose power is work; see `ActingLoad`."""
+        moment = full_torque * share
+        return moment, 0.0, moment * spin, 0.0, moment
 
     @property
     def breaks(self) -> tuple[float, ...]:

@@ -1,19 +1,17 @@
 """A roof that lies on a stretch of a machine, as on a bed of springs."""
 
-from __future__ import annotations
-
+import math
 from collections.abc import Mapping
-from typing import NamedTuple
 
 from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.loads.load import LoadChannel, Powers
-from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
-from user_forces.expressions.scalar import maximum, minimum, sqrt
+from support_exudyn.model.loads.load import LoadChannel, TimeFunction
+from support_exudyn.model.loads.stretch_load import StretchLoad
+from user_forces.kernel import kernel, limited
 from user_forces.values.units import Metres, Pascals, SecondsPerMetre
 from user_forces.values.value import NonNegative, Positive, Vector2, value
 
 SMALLEST = 1e-300  # only so that nothing is divided by zero
-GAUSS = 0.5 / sqrt(3.0)  # of the length of an interval, from its middle: two points are exact up to cubics
+GAUSS = 0.5 / math.sqrt(3.0)  # of the length of an interval, from its middle: two points are exact up to cubics
 
 
 @value
@@ -44,67 +42,47 @@ class BeddedRoof(StretchLoad):
     gaps: Metres[tuple[NonNegative, NonNegative]] = (0.0, 0.0)
     damping: SecondsPerMetre[NonNegative] = 0.0
 
-    def forces(self, at: LoadedStretch) -> Vector2:
-        """F1 and F2, up [N], which are not positive."""
-        depths, rates = self._depths(at), self._rates(at)
-        found = self._pressed_part(depths)
-        if self.damping > 0.0:
-            found = found.within(_positive_part(*self._growths(rates)))
-        first = second = 0.0
-        for s, weight in found.points():
-            force = self._spread(s, depths, rates) * weight
-            first, second = first - (1.0 - s) * force, second - s * force
-        return first, second
+    @property
+    def courses(self) -> tuple[TimeFunction, ...]:
+        """Way down [m] and speed [m/s] of the face."""
+        return self.descent.extension, self.descent.speed
 
-    def _spread(self, s: float, depths: Vector2, rates: Vector2) -> float:
-        """Force per share of the stretch [N] at a share s of it that is pressed."""
-        elastic = self.bedding * self.length * _between(s, depths)
-        return elastic if self.damping == 0.0 else elastic * _between(s, self._growths(rates))
+    @staticmethod
+    @kernel
+    def action(
+        t: float,
+        first: float,
+        second: float,
+        first_rate: float,
+        second_rate: float,
+        down: float,
+        speed: float,
+        length: float,
+        bedding: float,
+        damping: float,
+        *gaps: float,
+    ) -> tuple[float, ...]:
+        """F1 and F2, energy of the cushion, power of the descent, integral of (q - k depth) rate.
 
-    def _growths(self, rates: Vector2) -> Vector2:
-        """1 + b rate at both ends."""
-        first, second = rates
-        return 1.0 + self.damping * first, 1.0 + self.damping * second
-
-    def _depths(self, at: LoadedStretch) -> Vector2:
-        """The depth at both ends, negative while there is a gap [m]."""
-        down = self.descent.extension(at.time)
-        return down + at.first - self.gaps[0], down + at.second - self.gaps[1]
-
-    def _rates(self, at: LoadedStretch) -> Vector2:
-        """Rates of the depth at both ends [m/s]; without damping the descent need not know its speed."""
-        if self.damping == 0.0:
-            return 0.0, 0.0
-        speed = self.descent.speed(at.time)
-        return speed + at.first_rate, speed + at.second_rate
-
-    def _pressed_part(self, depths: Vector2) -> Pressed:
-        return _positive_part(*depths)
-
-    def stored(self, at: LoadedStretch) -> float:
-        """Integral of k depth^2/2 [J]."""
-        depths = self._depths(at)
-        return sum(
-            0.5 * self.bedding * self.length * _between(s, depths) ** 2 * weight
-            for s, weight in self._pressed_part(depths).points()
-        )
-
-    def powers(self, at: LoadedStretch) -> Powers:
-        """The force times the speed of the descent, and the integral of (q - k depth) rate [W]."""
-        first, second = self.forces(at)
-        return Powers(-(first + second) * self.descent.speed(at.time), self._lost(at))
-
-    def _lost(self, at: LoadedStretch) -> float:
-        """The force times the rate, less what the cushion takes up [W]."""
-        if self.damping == 0.0:
-            return 0.0
-        depths, rates = self._depths(at), self._rates(at)
-        first, second = self.forces(at)
-        taken: float = 0.0
-        for s, weight in self._pressed_part(depths).points():
-            elastic = self.bedding * self.length * _between(s, depths)
-            taken = taken + elastic * _between(s, rates) * weight
-        return -first * rates[0] - second * rates[1] - taken
+        See `ActingLoad`.
+        """
+        one, two = down + first - gaps[0], down + second - gaps[1]  # depths at both ends, negative: gaps
+        one_rate = two_rate = 0.0
+        if damping > 0.0:
+            one_rate, two_rate = speed + first_rate, speed + second_rate
+        f1, f2 = pressing(one, two, one_rate, two_rate, bedding * length, damping)
+        begin, end = positive_part(one, two)
+        stored = taken = 0.0
+        for side in (-1.0, 1.0):
+            s, weight = gauss_point(begin, end, side)
+            depth = one + s * (two - one)
+            stored += 0.5 * bedding * length * (depth * depth) * weight
+            taken += bedding * length * depth * (one_rate + s * (two_rate - one_rate)) * weight
+        force = -(f1 + f2)
+        place = -f2 / force * length if force > 0.0 else 0.0
+        pressed = limited(end - begin, 0.0, math.inf) * length
+        loss = -f1 * one_rate - f2 * two_rate - taken if damping > 0.0 else 0.0
+        return f1, f2, stored, force * speed, loss, force, place, pressed, -one, -two
 
     @property
     def channels(self) -> Mapping[str, LoadChannel]:
@@ -115,18 +93,6 @@ class BeddedRoof(StretchLoad):
             "pressed": LoadChannel("m", "length of the stretch that is pressed"),
             "gap_first": LoadChannel("m", "between roof and first point; negative: depth"),
             "gap_second": LoadChannel("m", "between roof and second point; negative: depth"),
-        }
-
-    def observed(self, at: LoadedStretch) -> Mapping[str, float]:
-        """Force [N]; place, pressed length and gaps [m]."""
-        first, second = self.forces(at)
-        force, depths = -(first + second), self._depths(at)
-        return {
-            "force": force,
-            "place": -second / force * self.length if force > 0.0 else 0.0,
-            "pressed": self._pressed_part(depths).size * self.length,
-            "gap_first": -depths[0],
-            "gap_second": -depths[1],
         }
 
     @property
@@ -143,42 +109,49 @@ class BeddedRoof(StretchLoad):
     def largest(self, duration: float) -> Vector2:
         """F1 and F2 at the lowest place of the face [N], without damping."""
         lowest = self.descent.span(duration)[1]
-        depths = lowest - self.gaps[0], lowest - self.gaps[1]
-        first = second = 0.0
-        for s, weight in self._pressed_part(depths).points():
-            force = self.bedding * self.length * _between(s, depths) * weight
-            first, second = first - (1.0 - s) * force, second - s * force
-        return first, second
+        one, two = lowest - self.gaps[0], lowest - self.gaps[1]
+        return pressing(one, two, 0.0, 0.0, self.bedding * self.length, 0.0)
 
 
-class Pressed(NamedTuple):
-    """A part of a stretch, from one share of its length to another; nothing if they are in the wrong order."""
+@kernel
+def positive_part(first: float, second: float) -> Vector2:
+    """Where what goes evenly from a first number to a second is positive.
 
-    begin: float
-    end: float
-
-    @property
-    def size(self) -> float:
-        """Its share of the stretch."""
-        return maximum(0.0, self.end - self.begin)
-
-    def within(self, other: Pressed) -> Pressed:
-        """What both have in common."""
-        return Pressed(maximum(self.begin, other.begin), minimum(self.end, other.end))
-
-    def points(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Gauss's two points, as shares of the stretch, and their weights: exact for cubics."""
-        size, middle = self.size, 0.5 * (self.begin + self.end)
-        return (middle - GAUSS * size, 0.5 * size), (middle + GAUSS * size, 0.5 * size)
+    Shares of the way, from one to another; nothing if they are in the wrong order.
+    """
+    before, after = limited(-first, 0.0, math.inf), limited(-second, 0.0, math.inf)
+    begin = before / (before + limited(second, 0.0, math.inf) + SMALLEST)
+    return begin, 1.0 - after / (after + limited(first, 0.0, math.inf) + SMALLEST)
 
 
-def _positive_part(first: float, second: float) -> Pressed:
-    """Where what goes evenly from a first number to a second is positive."""
-    before, after = maximum(0.0, -first), maximum(0.0, -second)
-    begin = before / (before + maximum(0.0, second) + SMALLEST)
-    return Pressed(begin, 1.0 - after / (after + maximum(0.0, first) + SMALLEST))
+@kernel
+def gauss_point(begin: float, end: float, side: float) -> Vector2:
+    """Gauss's point on a side, -1 or 1, of the middle of an interval, and its weight: exact for cubics."""
+    size = limited(end - begin, 0.0, math.inf)
+    return 0.5 * (begin + end) + side * GAUSS * size, 0.5 * size
 
 
-def _between(s: float, ends: Vector2) -> float:
-    """What goes evenly from one number to another, at a share of the way."""
-    return ends[0] + s * (ends[1] - ends[0])
+@kernel
+def pressing(
+    first: float, second: float, first_rate: float, second_rate: float, stiffness: float, damping: float
+) -> Vector2:
+    """F1 and F2 of a bed, up [N], which are not positive.
+
+    first, second: depths at both ends [m], with their rates [m/s]. stiffness: of the whole stretch [N/m].
+    """
+    begin, end = positive_part(first, second)
+    one, two = 1.0 + damping * first_rate, 1.0 + damping * second_rate
+    if damping > 0.0:
+        first_growing, last_growing = positive_part(one, two)
+        begin = begin if begin > first_growing else first_growing
+        end = end if end < last_growing else last_growing
+    f1 = f2 = 0.0
+    for side in (-1.0, 1.0):
+        s, weight = gauss_point(begin, end, side)
+        spread = stiffness * (first + s * (second - first))
+        if damping > 0.0:
+            spread *= one + s * (two - one)
+        force = spread * weight
+        f1 -= (1.0 - s) * force
+        f2 -= s * force
+    return f1, f2

@@ -10,7 +10,7 @@ from typing import Annotated, Literal, NamedTuple
 from pydantic import Field, model_validator
 
 from support_exudyn.model.drives.table_drive import MOST_POINTS, TableDrive
-from user_forces.expressions.scalar import is_number, sin, step
+from user_forces.kernel import smooth_step
 from user_forces.values.units import Radians, Seconds
 from user_forces.values.value import NonNegative, Positive, Real, Value, value
 
@@ -110,8 +110,8 @@ class HarmonicCourse(LoadCourse):
     def share(self, t: float) -> float:
         """Share at a time t [s]."""
         # whole periods are left out, which is exact, so that long runs do not round the angle
-        since = math.fmod(t, self.period) if is_number(t) else t
-        return self.mean + sin(2.0 * math.pi / self.period * since + self.phase)
+        since = math.fmod(t, self.period)
+        return self.mean + math.sin(2.0 * math.pi / self.period * since + self.phase)
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -154,7 +154,7 @@ class Coming(NamedTuple):
             return self.course.share(t)
         if self.end == 0.0:
             return 1.0
-        return step((t - self.start) / (self.end - self.start))
+        return smooth_step((t - self.start) / (self.end - self.start))
 
     @property
     def breaks(self) -> tuple[float, ...]:

@@ -15,7 +15,7 @@ from support_exudyn.model.spatial_linkage import UP, Bearing, SpatialBody, Spati
 from support_exudyn.model.to_space import at
 from user_forces.contact import FaceContact
 from user_forces.face import Face
-from user_forces.normal.exact import Exact
+from user_forces.normal.power_laws import Exact
 from user_forces.values.units import (
     Kilograms,
     KilogramsPerCubicMetre,

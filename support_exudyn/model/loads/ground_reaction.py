@@ -8,8 +8,8 @@ from pydantic import Field, model_validator
 from typing_extensions import Self
 
 from support_exudyn.model.drives.table_drive import TableDrive
-from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
-from user_forces.expressions.scalar import maximum, minimum
+from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint
+from user_forces.kernel import kernel, limited
 from user_forces.values.units import Metres, Newtons
 from user_forces.values.value import NonNegative, Vector2, value
 
@@ -55,34 +55,28 @@ class GroundReaction(Load):
         return TableDrive(times=self.convergences, extensions=gains, between=self.between)
 
     @cached_property
-    def _pieces(self) -> tuple[tuple[float, float, float, float, float], ...]:
-        """Where each piece of the curve begins, its length [m], and the coefficients of what it adds [N]."""
-        found = []
+    def pieces(self) -> tuple[float, ...]:
+        """The first force [N], and five numbers of each piece of the curve.
+
+        Where it begins, its length [m], and the coefficients of what it adds [N].
+        """
+        found = [self.forces[0]]
         for begin, end in zip(self.convergences, self.convergences[1:], strict=False):
             piece = self._rise.cubic(0.5 * (begin + end))
-            found.append((begin, end - begin, piece.a1, piece.a2, piece.a3))
+            found += begin, end - begin, piece.a1, piece.a2, piece.a3
         return tuple(found)
 
-    def push(self, convergence: float) -> float:
-        """The force at a convergence [m], downward [N]."""
-        force: float = self.forces[0]
-        for begin, length, a1, a2, a3 in self._pieces:
-            x = minimum(1.0, maximum(0.0, (convergence - begin) / length))
-            force = force + x * (a1 + x * (a2 + x * a3))
-        return force
-
-    def force(self, at: LoadedPoint) -> Vector2:
-        """Force on the point: nothing forward, and down [N]."""
-        return 0.0, -self.push(-at.y)
-
-    def stored(self, at: LoadedPoint) -> float:
-        """Stored energy, which is 0 J."""
-        del at
-        return 0.0
-
-    def powers(self, at: LoadedPoint) -> Powers:
-        """Power [W] of the force on the point, and no loss."""
-        return Powers(-self.push(-at.y) * at.vy, 0.0)
+    @staticmethod
+    @kernel
+    def action(
+        t: float, x: float, y: float, vx: float, vy: float, z: float, vz: float, *pieces: float
+    ) -> tuple[float, ...]:
+        """The force, nothing forward and down, all of whose power is work; see `ActingLoad`."""
+        push = pieces[0]
+        for n in range(len(pieces) // 5):
+            share = limited((-y - pieces[5 * n + 1]) / pieces[5 * n + 2], 0.0, 1.0)
+            push += share * (pieces[5 * n + 3] + share * (pieces[5 * n + 4] + share * pieces[5 * n + 5]))
+        return 0.0, -push, 0.0, 0.0, -push * vy, 0.0, push, -y
 
     @property
     def channels(self) -> Mapping[str, LoadChannel]:
@@ -91,10 +85,6 @@ class GroundReaction(Load):
             "force": LoadChannel("N", "of the roof, downward"),
             "convergence": LoadChannel("m", "way down of roof and point since the start posture"),
         }
-
-    def observed(self, at: LoadedPoint) -> Mapping[str, float]:
-        """Force [N] and convergence [m]."""
-        return {"force": self.push(-at.y), "convergence": -at.y}
 
     @property
     def steepness(self) -> Vector2:
@@ -110,4 +100,4 @@ class GroundReaction(Load):
     def largest(self, duration: float) -> Vector2:
         """The force in the start posture, down [N]."""
         del duration
-        return 0.0, -self.push(0.0)
+        return self.force(LoadedPoint(0.0, 0.0, 0.0, 0.0, 0.0))

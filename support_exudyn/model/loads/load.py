@@ -1,14 +1,20 @@
 """What every load is; most are a force or a moment that follows from time and the motion of what it acts on."""
 
+from __future__ import annotations
+
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import Any, ClassVar, NamedTuple
 
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import GROUND
+from user_forces.kernel import Formula, formula_of
 from user_forces.values.units import Metres
 from user_forces.values.value import Real, Value, Vector2, value
+
+TimeFunction = Callable[[float], float]
 
 
 class LoadedPoint(NamedTuple):
@@ -59,21 +65,76 @@ class AnyLoad(Value, ABC):
 
 @value
 class ActingLoad(AnyLoad, ABC):
-    """What acts on a body: `Load` is a force on a point of it, `MomentLoad` a moment.
+    """What acts on a body: `Load` is a force on a point, `MomentLoad` a moment, `StretchLoad` spread forces.
 
-    What it is told of the motion, `at`, is a `LoadedPoint` or a `TurnedBody`.
+    What a load does is one function of numbers, its `action`, which Python runs and numba compiles:
+
+        action(*at, *values of its courses, *parameters)
+            = (*forces, stored energy, power of what moves it, power that is lost, *values of its channels)
+
+    It is a static method and a `user_forces.kernel.kernel`, in plain Python with `if` and `math`. `at` is the
+    motion, a `LoadedPoint`, `TurnedBody` or `LoadedStretch`. Parameters are named as attributes of the load.
+    The last one may be `*name`, for a tuple.
+
+    A load that no function of numbers describes has methods of its own, in any Python: that of its forces,
+    `stored` and `powers`. The compiled formulation does not cover it.
 
     Arguments:
         body: name of the body.
     """
 
-    @abstractmethod
-    def stored(self, at: Any) -> float:
-        """Energy that the load has stored [J]."""
+    action: ClassVar[Callable[..., tuple[float, ...]] | None] = None
+    MOTION: ClassVar[Any]  # the tuple of what a load follows
+    FORCES: ClassVar[int]  # how many numbers of the action come before the stored energy
+    METHODS: ClassVar[tuple[str, ...]]  # that follow from the action, unless a class has its own
+
+    @property
+    def courses(self) -> tuple[TimeFunction, ...]:
+        """Functions of time [s] whose values the action takes after the motion; none by default."""
+        return ()
+
+    @cached_property
+    def formula(self) -> Formula:
+        """The action as a function of numbers, with this load's parameters."""
+        if self.action is None:
+            raise NotImplementedError(
+                f"{type(self).__name__}: has no `action`; allowed without it: all of {', '.join(self.METHODS)}"
+            )
+        return formula_of(self, self.action, len(self.MOTION._fields) + len(self.courses))
+
+    @cached_property
+    def own_methods(self) -> tuple[str, ...]:
+        """Names of the methods that the load's class has in place of its action."""
+        kind: Any = next(one for one in type(self).__mro__ if "METHODS" in vars(one))
+        return tuple(name for name in kind.METHODS if getattr(type(self), name) is not getattr(kind, name))
+
+    def acts(self, at: Any) -> tuple[float, ...]:
+        """What the action gives; of a load with methods of its own, the same from these."""
+        if not self.own_methods:
+            return self._acted(at)
+        observed = self.observed(at)
+        return (
+            *self.pushes(at),
+            self.stored(at),
+            *self.powers(at),
+            *(observed[name] for name in self.channels),
+        )
+
+    def _acted(self, at: Any) -> tuple[float, ...]:
+        found: tuple[float, ...] = self.formula(*at, *(course(at.time) for course in self.courses))
+        return found
 
     @abstractmethod
+    def pushes(self, at: Any) -> tuple[float, ...]:
+        """Its forces [N] or its moment [N m], as the action gives them."""
+
+    def stored(self, at: Any) -> float:
+        """Energy that the load has stored [J]."""
+        return self._acted(at)[self.FORCES]
+
     def powers(self, at: Any) -> Powers:
         """What moves the load does, and what is lost in it."""
+        return Powers(*self._acted(at)[self.FORCES + 1 : self.FORCES + 3])
 
     @property
     def channels(self) -> Mapping[str, LoadChannel]:
@@ -82,8 +143,9 @@ class ActingLoad(AnyLoad, ABC):
 
     def observed(self, at: Any) -> Mapping[str, float]:
         """Values of its `channels`, by name."""
-        del at
-        return {}
+        if self.action is None:
+            return {}
+        return dict(zip(self.channels, self._acted(at)[self.FORCES + 3 :], strict=True))
 
     @property
     def drives(self) -> tuple[Drive, ...]:
@@ -113,16 +175,14 @@ class ActingLoad(AnyLoad, ABC):
 
 @value
 class Load(ActingLoad, ABC):
-    """A force on a point of a body. A new one is a class with the methods below.
+    """A force on a point of a body: forward, up, and to the right, which counts in space alone.
 
-    The contract: `force` is continuous in time and motion, and smooth between two neighbouring `breaks` but for
-    kinks; the energy `stored` changes by what `powers` say and by the work that is done on the point,
+    A new one is a class with an `action`, see `ActingLoad`, or with `force`, `stored` and `powers`.
+
+    The contract: the force is continuous in time and motion, and smooth between two neighbouring `breaks` but
+    for kinks; the energy `stored` changes by what `powers` say and by the work that is done on the point,
 
         d stored/dt = work - loss - force . velocity
-
-    A `force` written as laws are, see `expressions.scalar`, is evaluated by the engine without Python.
-
-    In space the force has a third part, `sideways`, which is 0 by default, and counts in the work.
 
     Arguments:
         body: name of the body.
@@ -134,14 +194,22 @@ class Load(ActingLoad, ABC):
     point: Metres[Vector2]
     lateral: Metres[Real] = 0.0
 
-    @abstractmethod
+    MOTION: ClassVar[Any] = LoadedPoint
+    FORCES: ClassVar[int] = 3
+    METHODS: ClassVar[tuple[str, ...]] = ("force", "sideways", "stored", "powers", "observed")
+
     def force(self, at: LoadedPoint) -> Vector2:
         """Force on the point, forward and up [N]."""
+        along, up = self._acted(at)[:2]
+        return along, up
 
     def sideways(self, at: LoadedPoint) -> float:
-        """Force on the point to the right [N], in space."""
-        del at
-        return 0.0
+        """Force on the point to the right [N], in space; 0 of a load without an action."""
+        return 0.0 if self.action is None else self._acted(at)[2]
+
+    def pushes(self, at: LoadedPoint) -> tuple[float, ...]:
+        """Force on the point, forward, up and to the right [N]."""
+        return (*self.force(at), self.sideways(at)) if self.own_methods else self._acted(at)[:3]
 
     @property
     def origin(self) -> Vector2:

@@ -1,8 +1,8 @@
 """A moment on a body that follows from time and from how the body turns against another."""
 
-from abc import ABC, abstractmethod
+from abc import ABC
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 from pydantic import model_validator
 from typing_extensions import Self
@@ -25,7 +25,10 @@ class TurnedBody(NamedTuple):
 
 @value
 class MomentLoad(ActingLoad, ABC):
-    """A moment on a body, and the opposite one on another. A new one is a class with the methods below.
+    """A moment on a body, and the opposite one on another.
+
+    A new one is a class with an `action`, see `ActingLoad`, or with a method `moment`. With `moment` alone it
+    stores nothing, all that it does counts as work, and the moment is its only channel.
 
     The contract is that of `Load`, with
 
@@ -34,12 +37,14 @@ class MomentLoad(ActingLoad, ABC):
     In space it acts on the turn that the side view shows, about the lateral axis; see
     `mechanics/space/acting_loads.py`.
 
-    By default it stores nothing, all that it does counts as work, and the moment is its only channel.
-
     Arguments:
         body: name of the body.
         other: the body that the opposite moment acts on, or "ground".
     """
+
+    MOTION: ClassVar[Any] = TurnedBody
+    FORCES: ClassVar[int] = 1
+    METHODS: ClassVar[tuple[str, ...]] = ("moment", "stored", "powers", "observed")
 
     other: str = GROUND
 
@@ -48,18 +53,21 @@ class MomentLoad(ActingLoad, ABC):
         check_two(self.body, self.other)
         return self
 
-    @abstractmethod
     def moment(self, at: TurnedBody) -> float:
         """Moment on the body, positive anticlockwise [N m]."""
+        return self._acted(at)[0]
+
+    def pushes(self, at: TurnedBody) -> tuple[float, ...]:
+        """The moment [N m]."""
+        return (self.moment(at),)
 
     def stored(self, at: TurnedBody) -> float:
         """Stored energy [J], 0 by default."""
-        del at
-        return 0.0
+        return 0.0 if self.action is None else super().stored(at)
 
     def powers(self, at: TurnedBody) -> Powers:
         """Power [W] of the moment, and no loss, by default."""
-        return Powers(self.moment(at) * at.spin, 0.0)
+        return Powers(self.moment(at) * at.spin, 0.0) if self.action is None else super().powers(at)
 
     @property
     def channels(self) -> Mapping[str, LoadChannel]:
@@ -68,7 +76,7 @@ class MomentLoad(ActingLoad, ABC):
 
     def observed(self, at: TurnedBody) -> Mapping[str, float]:
         """Moment [N m], by default."""
-        return {"moment": self.moment(at)}
+        return {"moment": self.moment(at)} if self.action is None else super().observed(at)
 
     def against(self, name: str) -> str:
         """The opposite moment acts on the other body."""

@@ -1,10 +1,11 @@
 """A roof that comes down on a machine."""
 
+import math
 from collections.abc import Mapping
 
 from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
-from user_forces.expressions.scalar import maximum
+from support_exudyn.model.loads.load import Load, LoadChannel, TimeFunction
+from user_forces.kernel import kernel, limited
 from user_forces.values.units import Metres, NewtonsPerMetre, SecondsPerMetre
 from user_forces.values.value import NonNegative, Positive, Vector2, value
 
@@ -35,35 +36,35 @@ class Roof(Load):
     gap: Metres[NonNegative] = 0.0
     damping: SecondsPerMetre[NonNegative] = 0.0
 
-    def force(self, at: LoadedPoint) -> Vector2:
-        """Force on the point: nothing forward, and down [N]."""
-        return 0.0, -self._push(at)
+    @property
+    def courses(self) -> tuple[TimeFunction, ...]:
+        """Way down [m] and speed [m/s] of the face."""
+        return self.descent.extension, self.descent.speed
 
-    def _push(self, at: LoadedPoint) -> float:
-        """F [N]."""
-        elastic = self.stiffness * maximum(0.0, self._closed(at))
-        if self.damping == 0.0:  # then the descent need not know its speed
-            return elastic
-        return elastic * maximum(0.0, 1.0 + self.damping * self._rate(at))
-
-    def _closed(self, at: LoadedPoint) -> float:
-        """The depth, negative while there is a gap [m]."""
-        return self.descent.extension(at.time) + at.y - self.gap
-
-    def _rate(self, at: LoadedPoint) -> float:
-        """Rate of the depth [m/s]."""
-        return self.descent.speed(at.time) + at.vy
-
-    def stored(self, at: LoadedPoint) -> float:
-        """k depth^2/2 [J]."""
-        depth = maximum(0.0, self._closed(at))
-        return 0.5 * self.stiffness * depth * depth
-
-    def powers(self, at: LoadedPoint) -> Powers:
-        """F times the speed of the descent, and (F - k depth) rate [W]."""
-        push = self._push(at)
-        elastic = self.stiffness * maximum(0.0, self._closed(at))
-        return Powers(push * self.descent.speed(at.time), (push - elastic) * self._rate(at))
+    @staticmethod
+    @kernel
+    def action(
+        t: float,
+        x: float,
+        y: float,
+        vx: float,
+        vy: float,
+        z: float,
+        vz: float,
+        down: float,
+        speed: float,
+        stiffness: float,
+        gap: float,
+        damping: float,
+    ) -> tuple[float, ...]:
+        """The force, k depth^2/2, power of the descent and loss (F - k depth) rate; see `ActingLoad`."""
+        closed, rate = down + y - gap, speed + vy
+        depth = limited(closed, 0.0, math.inf)
+        elastic = push = stiffness * depth
+        if damping > 0.0:
+            push = elastic * limited(1.0 + damping * rate, 0.0, math.inf)
+        stored, loss = 0.5 * stiffness * depth * depth, (push - elastic) * rate
+        return 0.0, -push, 0.0, stored, push * speed, loss, push, -closed
 
     @property
     def channels(self) -> Mapping[str, LoadChannel]:
@@ -72,10 +73,6 @@ class Roof(Load):
             "force": LoadChannel("N", "of the roof, downward"),
             "gap": LoadChannel("m", "between roof and point; negative: depth"),
         }
-
-    def observed(self, at: LoadedPoint) -> Mapping[str, float]:
-        """Force [N] and gap [m]."""
-        return {"force": self._push(at), "gap": -self._closed(at)}
 
     @property
     def drives(self) -> tuple[Drive, ...]:

@@ -7,9 +7,9 @@ from pydantic import model_validator
 from typing_extensions import Self
 
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint, Powers
+from support_exudyn.model.loads.load import Load, LoadChannel, LoadedPoint
 from support_exudyn.model.loads.moment_load import check_two
-from user_forces.expressions.scalar import hypot
+from user_forces.kernel import kernel
 from user_forces.values.units import Metres, NewtonSecondsPerMetre, NewtonsPerMetre
 from user_forces.values.value import NonNegative, Real, Vector2, value
 
@@ -74,33 +74,26 @@ class SpringDamper(Load):
         """How far to the right the other end is [m]."""
         return self.other_lateral
 
-    def force(self, at: LoadedPoint) -> Vector2:
-        """Force on the point, forward and up [N]."""
-        share = self._push(at) / _length(at)
-        return share * at.x, share * at.y
-
-    def sideways(self, at: LoadedPoint) -> float:
-        """Force on the point to the right [N]."""
-        return self._push(at) / _length(at) * at.z
-
-    def _push(self, at: LoadedPoint) -> float:
-        """F [N]."""
-        stretch = _length(at) - self.free_length
-        return -self.stiffness * stretch - self.damping * self._rate(at)
-
-    def _rate(self, at: LoadedPoint) -> float:
-        """dl/dt [m/s]."""
-        return (at.x * at.vx + at.y * at.vy + at.z * at.vz) / _length(at)
-
-    def stored(self, at: LoadedPoint) -> float:
-        """k (l - l0)^2/2 [J]."""
-        stretch = _length(at) - self.free_length
-        return 0.5 * self.stiffness * stretch * stretch
-
-    def powers(self, at: LoadedPoint) -> Powers:
-        """Powers [W]: nothing moves it; the damper loses c (dl/dt)^2."""
-        rate = self._rate(at)
-        return Powers(0.0, self.damping * rate * rate)
+    @staticmethod
+    @kernel
+    def action(
+        t: float,
+        x: float,
+        y: float,
+        vx: float,
+        vy: float,
+        z: float,
+        vz: float,
+        stiffness: float,
+        free_length: float,
+        damping: float,
+    ) -> tuple[float, ...]:
+        """The force, the spring's k (l - l0)^2/2 and the damper's loss c (dl/dt)^2; see `ActingLoad`."""
+        length = math.hypot(math.hypot(x, y), z)
+        stretch, rate = length - free_length, (x * vx + y * vy + z * vz) / length
+        push = -stiffness * stretch - damping * rate
+        share, stored = push / length, 0.5 * stiffness * stretch * stretch
+        return share * x, share * y, share * z, stored, 0.0, damping * rate * rate, push, length
 
     @property
     def channels(self) -> Mapping[str, LoadChannel]:
@@ -109,10 +102,6 @@ class SpringDamper(Load):
             "force": LoadChannel("N", "pushes its ends apart if positive"),
             "length": LoadChannel("m", "distance of its ends"),
         }
-
-    def observed(self, at: LoadedPoint) -> Mapping[str, float]:
-        """Force [N] and length [m]."""
-        return {"force": self._push(at), "length": _length(at)}
 
     @property
     def steepness(self) -> Vector2:
@@ -124,8 +113,3 @@ class SpringDamper(Load):
         del duration
         (x, y), (u, v) = self.point, self.other_point
         return self.force(LoadedPoint(0.0, x - u, y - v, 0.0, 0.0))
-
-
-def _length(at: LoadedPoint) -> float:
-    """l [m]."""
-    return hypot(hypot(at.x, at.y), at.z)

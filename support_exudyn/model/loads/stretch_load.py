@@ -1,8 +1,8 @@
 """Forces, up or down, that are spread over a straight stretch of a body."""
 
 import math
-from abc import ABC, abstractmethod
-from typing import NamedTuple
+from abc import ABC
+from typing import Any, ClassVar, NamedTuple
 
 from pydantic import model_validator
 from typing_extensions import Self
@@ -26,7 +26,9 @@ class LoadedStretch(NamedTuple):
 
 @value
 class StretchLoad(ActingLoad, ABC):
-    """Forces, up or down, over the stretch between two points of a body. A new one has the methods below.
+    """Forces, up or down, over the stretch between two points of a body.
+
+    A new one is a class with an `action`, see `ActingLoad`, or with `forces`, `stored` and `powers`.
 
     The body is rigid, so that forces q(s) up, at shares s of the way from the first point to the second, do as
     two forces at its ends,
@@ -43,6 +45,10 @@ class StretchLoad(ActingLoad, ABC):
         lateral: how far to the right of the machine's plane it is in space [m]; without effect in the plane.
     """
 
+    MOTION: ClassVar[Any] = LoadedStretch
+    FORCES: ClassVar[int] = 2
+    METHODS: ClassVar[tuple[str, ...]] = ("forces", "stored", "powers", "observed")
+
     points: Metres[tuple[Vector2, Vector2]]
     lateral: Metres[Real] = 0.0
 
@@ -57,9 +63,14 @@ class StretchLoad(ActingLoad, ABC):
         """Length of the stretch [m]."""
         return math.dist(*self.points)
 
-    @abstractmethod
     def forces(self, at: LoadedStretch) -> Vector2:
         """F1 and F2, up [N]."""
+        first, second = self._acted(at)[:2]
+        return first, second
+
+    def pushes(self, at: LoadedStretch) -> tuple[float, ...]:
+        """F1 and F2, up [N]."""
+        return self.forces(at)
 
     @property
     def steepness(self) -> Vector2:

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 from pydantic import model_validator
 from typing_extensions import Self
 
-from support_exudyn.model.loads.load import LoadChannel, Powers
-from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
+from support_exudyn.model.loads.load import LoadChannel
+from support_exudyn.model.loads.moment_load import MomentLoad
+from user_forces.kernel import kernel
 from user_forces.values.units import NewtonMetreSecondsPerRadian, NewtonMetresPerRadian, Radians
 from user_forces.values.value import NonNegative, Real, value
 
@@ -36,18 +37,15 @@ class TorsionSpring(MomentLoad):
             raise ValueError("stiffness = 0 N m/rad, damping = 0 N m s/rad: allowed: one of them > 0")
         return self
 
-    def moment(self, at: TurnedBody) -> float:
-        """M [N m]."""
-        return -self.stiffness * (at.turn - self.free_turn) - self.damping * at.spin
-
-    def stored(self, at: TurnedBody) -> float:
-        """k (a - a0)^2/2 [J]."""
-        twist = at.turn - self.free_turn
-        return 0.5 * self.stiffness * twist * twist
-
-    def powers(self, at: TurnedBody) -> Powers:
-        """Powers [W]: nothing moves it; the damper loses c (da/dt)^2."""
-        return Powers(0.0, self.damping * at.spin * at.spin)
+    @staticmethod
+    @kernel
+    def action(
+        t: float, turn: float, spin: float, stiffness: float, free_turn: float, damping: float
+    ) -> tuple[float, ...]:
+        """M, the spring's k (a - a0)^2/2 and the damper's loss c (da/dt)^2; see `ActingLoad`."""
+        twist = turn - free_turn
+        moment = -stiffness * twist - damping * spin
+        return moment, 0.5 * stiffness * twist * twist, 0.0, damping * spin * spin, moment, turn
 
     @property
     def channels(self) -> Mapping[str, LoadChannel]:
@@ -56,10 +54,6 @@ class TorsionSpring(MomentLoad):
             "moment": LoadChannel("N m", "on the body, positive anticlockwise"),
             "angle": LoadChannel("rad", "turn of the body against the other since the start posture"),
         }
-
-    def observed(self, at: TurnedBody) -> Mapping[str, float]:
-        """Moment [N m] and angle [rad]."""
-        return {"moment": self.moment(at), "angle": at.turn}
 
     @property
     def steepness(self) -> tuple[float]:

@@ -8,12 +8,12 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.closeness import Closeness, compared_columns
 from support_exudyn.postprocessing.comparing.impacts import match_impacts
 from support_exudyn.postprocessing.comparing.kept_run import MOST_IMPACTS, Column, KeptImpact, KeptRun
 from support_exudyn.postprocessing.figures.units import readable_change
 from support_exudyn.simulation.estimate import Estimate
+from user_forces.contact_state import Onset
 
 Kind = Literal["changed", "new", "gone"]
 # share of a pin's fastest impact, below which rounding decides whether there is a touch at all

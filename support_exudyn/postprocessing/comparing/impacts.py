@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
+from user_forces.contact_state import Onset
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]

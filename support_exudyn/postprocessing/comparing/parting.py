@@ -28,7 +28,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
 from support_exudyn.postprocessing.comparing.impacts import FileImpacts, Onsets, Pair, match_impacts
 from support_exudyn.postprocessing.comparing.with_errors import BesideErrors
@@ -36,6 +35,7 @@ from support_exudyn.simulation.estimate import errors
 from support_exudyn.simulation.horizon import APART
 from support_exudyn.simulation.reported_numbers import impact_numbers
 from support_exudyn.simulation.result import Result
+from user_forces.contact_state import Onset
 
 SUDDEN = 10.0  # times what growth explains
 SMALL = 0.01  # share of the time since the impact before, below which nothing parts

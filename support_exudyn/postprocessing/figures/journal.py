@@ -7,9 +7,9 @@ from difflib import get_close_matches
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.figures.selection import inside
 from support_exudyn.simulation.result import Result
+from user_forces.contact_state import Onset
 from user_forces.values.value import InputError, short
 
 Series = npt.NDArray[np.float64]

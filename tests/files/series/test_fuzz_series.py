@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -84,14 +83,3 @@ def test_damaged_files_of_every_format_are_read_or_refused(tmp_path: Path) -> No
 
 def test_files_that_are_read_apart_are_read_or_refused(tmp_path: Path) -> None:
     fuzzed(cases.apart(), 2, tmp_path)()
-
-
-@pytest.mark.slow
-def test_two_thousand_damaged_files_are_read_or_refused(tmp_path: Path) -> None:
-    fuzzed(cases.in_process(), LONG - APART, tmp_path)()
-    fuzzed(cases.apart(), APART, tmp_path)()
-
-
-@given(data=st.binary(max_size=200) | st.text(max_size=200).map(str.encode))
-def test_any_bytes_are_read_or_refused(data: bytes, tmp_path_factory: pytest.TempPathFactory) -> None:
-    check(tmp_path_factory.getbasetemp() / "any.bin", data)

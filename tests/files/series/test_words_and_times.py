@@ -76,9 +76,3 @@ def test_times_of_another_name_are_those_to_which_a_unit_of_time_is_given(tmp_pa
         read(tmp_path, text)
     found = read(tmp_path, text, units={"Zeit": "ms"})
     assert found.series["Weg"].time.tolist() == [0.0, 0.1]
-
-
-def test_infinite_values_are_not_known_and_told(tmp_path: Path) -> None:
-    found = read(tmp_path, "time_s,x_m\n0,inf\n1,2\n2,-inf\n")
-    np.testing.assert_array_equal(found.series["x"].values, [np.nan, 2.0, np.nan])
-    assert "x: infinite values count as not known: 2." in found.notes

@@ -21,7 +21,7 @@ from support_exudyn import (
 from support_exudyn.model.actuator_model import ActuatorModel
 from tests.formulations.hydraulics.leg_cases import Uprights
 
-FORMULATIONS = ("compiled", "redundant")
+FORMULATIONS = ("compiled", "exudyn")
 COLUMN = OilColumn(bore_area=0.1, oil_length=0.73, bulk_modulus=1.4e9, vapour_pressure=-99e3)
 CYLINDER = HydraulicCylinder(
     bore_area=0.1,
@@ -60,7 +60,7 @@ def jumping(pressure: float) -> YieldValve:
 
 @pytest.mark.parametrize("formulation", FORMULATIONS)
 @pytest.mark.parametrize("leg", [COLUMN, CYLINDER], ids=["column", "cylinder"])
-@pytest.mark.parametrize("pressure", [7.3e6, 8e6, 9.1e6, 1.234567e7])
+@pytest.mark.parametrize("pressure", [7.3e6, 1.234567e7])
 def test_a_leg_set_to_the_pressure_of_its_valve_opens_it_at_once(
     pressure: float, leg: OilColumn | HydraulicCylinder, formulation: str
 ) -> None:
@@ -122,7 +122,7 @@ def test_a_cavity_that_grows_from_the_start_is_told(formulation: str) -> None:
 
 
 @pytest.mark.parametrize("accuracy", ["draft", "standard", 1e-7])
-@pytest.mark.parametrize("below", [1e-4, 3e-5, 1e-5, 3e-6])
+@pytest.mark.parametrize("below", [1e-4, 1e-5, 3e-6])
 def test_a_valve_that_is_just_reached_opens_at_any_accuracy(below: float, accuracy: str | float) -> None:
     # without the valve: a mass on a spring, with the weight that it carries and the speed that it has
     speed, mass = -1.0, 1.2e4

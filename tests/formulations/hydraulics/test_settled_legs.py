@@ -12,7 +12,7 @@ from support_exudyn.scenario.solver_settings import SolverSettings
 from tests.formulations.hydraulics.leg_cases import STAGE, WIDE
 from tests.roof_cases import DAMPED, ON_OIL, OVER_THE_COLUMNS
 
-FORMULATIONS = ("redundant", "compiled")
+FORMULATIONS = ("exudyn", "compiled")
 # how the roof's force falls as it comes down, so that more oil that gives has less to carry
 ROOF = GroundReaction(
     body="canopy",

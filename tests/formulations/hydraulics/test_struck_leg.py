@@ -1,6 +1,6 @@
 """A mass on trapped oil behind a yield valve, struck by a block: peak, flow and times, to nine digits.
 
-The digits of the first case are those of a solution that was made elsewhere, and of scipy here.
+The digits of the first case are those of a solution that was made elsewhere.
 """
 
 from __future__ import annotations
@@ -48,9 +48,7 @@ class Struck(NamedTuple):
     valve: YieldValve = VALVE
 
 
-def scene(
-    case: Struck, record: float = COARSE, formulation: str = "compiled", tolerance: float = 1e-11
-) -> Scenario:
+def scene(case: Struck, record: float = COARSE) -> Scenario:
     block = FallingBlock(
         body="mass0",
         point=(0.0, LENGTH),
@@ -68,16 +66,16 @@ def scene(
         duration=float(np.ceil(end / COARSE) * COARSE),
         record_period=record,
         formulation="compiled",
-        solver=SolverSettings(tolerance=tolerance),
+        solver=SolverSettings(tolerance=1e-11),
     )
 
 
-def by_scipy(case: Struck, record: float = COARSE, rtol: float = 1e-10) -> Trajectory:
+def by_scipy(case: Struck) -> Trajectory:
     """Without the block, which the program counts among the bodies."""
     alone = replace(scene(case), loads={})
-    first = np.floor(np.sqrt(2.0 * case.height / 9.81) / record)
-    late = np.arange(first, round(alone.duration / record) + 1)
-    return Stand(alone, Block(case.block, case.height, case.stiffness)).run(late * record, rtol)
+    first = np.floor(np.sqrt(2.0 * case.height / 9.81) / COARSE)
+    late = np.arange(first, round(alone.duration / COARSE) + 1)
+    return Stand(alone, Block(case.block, case.height, case.stiffness)).run(late * COARSE)
 
 
 def peak(time: np.ndarray, values: np.ndarray) -> tuple[float, float]:
@@ -111,35 +109,14 @@ def test_a_valve_for_40_megapascal_stays_closed() -> None:
     assert result["leg0.yielded"][-1] == 0.0
 
 
-def test_scipy_finds_the_same_digits() -> None:
-    found = by_scipy(Struck(), FINE)
-    when, largest = peak(found.time, found["leg0.p"])
-    assert largest == pytest.approx(10608326.2, abs=0.06)
-    assert when == pytest.approx(0.332696506, abs=1e-9)
-    touched, opened, _, closed = (t for t, *_ in found.events[:4])
-    assert touched == pytest.approx(0.319275428, abs=1e-9)
-    assert (opened, closed) == pytest.approx((0.331221499, 0.337352114), abs=1e-9)
-    assert found["leg0.out"][-1] == pytest.approx(2.22564578e-4, abs=1e-12)
-
-
-EARLY = replace(VALVE, opening_pressure=5e6)
-SLOW = replace(VALVE, poppet=Poppet(mass=2.0, stiffness=1e6, damping=500.0))
 OTHERS = {
-    "heavy block": Struck(block=8e3, height=0.2),
-    "light block from far above": Struck(block=500.0, height=2.0, stiffness=4e8, valve=EARLY),
-    "heavy mass": Struck(mass=5e4, valve=EARLY),
-    "small valve": Struck(valve=replace(VALVE, rated_flow=1e-3)),
+    "heavy mass, small valve": Struck(mass=5e4, valve=replace(VALVE, opening_pressure=5e6, rated_flow=1e-2)),
     "hysteresis": Struck(valve=replace(VALVE, closing_pressure=6e6)),
-    "slow poppet": Struck(valve=SLOW),
+    "slow poppet": Struck(valve=replace(VALVE, poppet=Poppet(mass=2.0, stiffness=1e6, damping=500.0))),
 }
 
 
-QUICK = ("hysteresis", "slow poppet")
-
-
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in OTHERS]
-)
+@pytest.mark.parametrize("name", OTHERS)
 def test_others_are_as_scipy_finds_them(name: str) -> None:
     case = OTHERS[name]
     result, found = simulate(scene(case)), by_scipy(case)

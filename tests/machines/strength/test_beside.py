@@ -13,7 +13,6 @@ from support_exudyn.machines.strength import stand
 from support_exudyn.machines.strength.beside import untold
 from support_exudyn.machines.strength.page import page
 from support_exudyn.model.to_space import Width
-from user_forces import InputError
 
 COLUMNS = ("front_column", "rear_column")
 
@@ -51,12 +50,6 @@ def why(data: MachineData) -> str:
         ("actuators", COLUMNS, "width_mm.columns.front_column, width_mm.columns.rear_column are missing"),
         ("actuators", ("rear_column",), "width_mm.columns.rear_column is missing"),
         ("pairs", ("front_link",), "width_mm.pairs.front_link is missing"),
-        (
-            "spreads",
-            ("rear_link", "shield"),
-            "width_mm.bodies.rear_link, width_mm.bodies.shield are missing",
-        ),
-        ("spreads", ("canopy",), "width_mm.bodies.canopy is missing"),
     ],
 )
 def test_a_missing_width_is_named_and_nothing_is_told(kind: str, names: tuple[str, ...], said: str) -> None:
@@ -81,17 +74,6 @@ def test_all_that_is_missing_is_named_and_the_other_sections_stay() -> None:
         assert f"\n{section} " in text
 
 
-def test_one_cylinder_has_no_distance() -> None:
-    assert why(with_counts(shipped("reference"), rear_column=1)) == (
-        "strength.cylinders.rear_column.count = 1 and width_mm.columns.rear_column, the distance of two; "
-        "allowed: one of them"
-    )
-    assert why(with_counts(without("actuators", "rear_column"), rear_column=1)) == ""
-    assert "count = 4; allowed: 1 in the middle or 2" in why(
-        with_counts(shipped("reference"), **dict.fromkeys(COLUMNS, 4))
-    )
-
-
 def test_one_cylinder_stands_in_the_middle() -> None:
     """Three legs carry no force outside their triangle, but what the weight holds down."""
     found = stand(with_counts(without("actuators", "rear_column"), rear_column=1))
@@ -108,10 +90,3 @@ def test_a_machine_without_any_is_told_so() -> None:
     for width in (None, Width(lengths={"rear_base": 0.7})):
         bare = replace(data, machine=replace(machine, width=width))
         assert why(bare) == "no lateral dimensions of its bodies are known"
-
-
-def test_the_refusal_of_the_model_in_space_names_the_key_of_the_file() -> None:
-    data = without("spreads", "shield")
-    said = r"width\.spreads\.shield: missing; in a machine's file: width_mm\.bodies\.shield; allowed: > 0"
-    with pytest.raises(InputError, match=said):
-        data.machine.in_space(data.machine.linkage())

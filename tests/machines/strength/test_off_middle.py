@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Literal
 
 import numpy as np
@@ -108,21 +107,6 @@ def test_what_the_joints_carry_balances_the_canopy(
         both = sum(found.bearings[part] for part in space.linkage.parts_of_pin(pin))
         assert both[:2] == pytest.approx(expected, abs=1e-6 * size)
     assert set(linkage.pins) == {one.pin for one in space.linkage.bearings.values()}
-
-
-@given(force=st.floats(1e5, 1e7), aside=st.floats(0.01, 0.5))
-def test_from_the_other_side_left_and_right_change_places(force: float, aside: float) -> None:
-    flat, space, _ = middle("reference")
-    roof = RoofForce(force, flat.contact.rear + 1.0)
-    one, other = (space.twist(roof, z, flat.pushes(roof), "moments") for z in (aside, -aside))
-    for side, across in (("left", "right"), ("right", "left")):
-        here, there = (found.bearings[f"front_base_{where}"] for found, where in ((one, side), (other, across)))
-        assert here == pytest.approx(there * [1.0, 1.0, -1.0], rel=1e-6, abs=1e-6 * force)
-    assert not math.isclose(
-        float(np.linalg.norm(one.bearings["front_base_left"])),
-        float(np.linalg.norm(one.bearings["front_base_right"])),
-        rel_tol=1e-3,
-    )
 
 
 def test_the_two_shares_are_the_least_of_their_kind() -> None:

@@ -17,7 +17,6 @@ from support_exudyn.machines.strength.strength_data import (
     CylinderStage,
     CylinderStrength,
     PinStrength,
-    StrengthData,
 )
 from support_exudyn.machines.strength.tipping import tipping_of
 from support_exudyn.model.linkage import Body, Linkage
@@ -54,11 +53,6 @@ def test_a_pin_is_a_beam_under_even_pressure(
     assert found.bearing == pytest.approx(max(pressures), rel=1e-9)
     assert found.safeties["shear"] == pytest.approx(8.35e8 / math.sqrt(3.0) / found.shear)
     assert found.least[1] == min(found.safeties.values())
-
-
-def test_no_force_no_stress() -> None:
-    found = stresses(PinStrength(middle=0.1, outer=0.05), 0.1, 0.0)
-    assert set(found.safeties.values()) == {math.inf}
 
 
 def test_eyes_of_which_only_the_pin_is_known_are_assumed() -> None:
@@ -124,12 +118,3 @@ def test_values_that_cannot_be_are_refused() -> None:
         CylinderStrength(bore=0.2, yield_pressure=1e6, setting_pressure=2e6)
     with pytest.raises(InputError, match="front = 0 m: allowed: > rear = 1 m"):
         BaseFrame(rear=1.0, front=0.0, width=1.0, mass=1.0, centre=(0.0, 0.0))
-
-
-def test_forces_are_pressures_times_areas() -> None:
-    ram = CylinderStrength(bore=0.2, rod=0.1, yield_pressure=4e7, count=2)
-    assert ram.push == pytest.approx(2 * 4e7 * math.pi * 0.01)
-    assert ram.pull == pytest.approx(0.75 * ram.push)
-    assert replace(ram, rod=None).pull == 0.0
-    data = StrengthData(cylinders={"ram": ram}, pins={"one": PinStrength(middle=0.1, outer=0.05)})
-    assert StrengthData.from_data(data.to_data()) == data

@@ -17,7 +17,6 @@ from support_exudyn.machines.strength.used_postures import UsedPosture, used_pos
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.postures import posture
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, TracePoint, pinned
-from tests.metamorphic.moving import MIRROR, moved_linkage
 from user_forces import InputError
 
 G = -GRAVITY[1]
@@ -83,23 +82,6 @@ def test_a_leg_under_a_beam(
     size = 1e-9 * (push + mass * G)
     assert hinge[1] == pytest.approx(least.force + mass * G - push * up, abs=size)
     assert hinge[0] == pytest.approx(-push * up * lean, abs=size)
-
-
-@given(x=st.floats(0.0, 1.0), push=st.floats(4e5, 1e7))
-def test_a_single_leg_holds_no_more_and_no_less_than_its_span(x: float, push: float) -> None:
-    data = shipped("velenje_shield")
-    statics = RoofStatics(data.machine.linkage(), "shield")
-    least, most = statics.span({"leg": push}) or pytest.fail("is held")
-    assert statics.unfelt_at is None
-    assert not any(statics.unbounded(pin) for pin in statics.linkage.pins)
-    at = (1.0 - x) * statics.contact.rear + x * statics.contact.front
-    found = statics.largest_at(at, {"leg": Limits(0.0, push)})
-    assert least.force * (1.0 - 1e-9) <= found <= most.force * (1.0 + 1e-9)
-    # at both ends the leg gives its push
-    for roof in (least, most):
-        assert roof.x in (statics.contact.rear, statics.contact.front)
-        assert statics.pushes(roof)["leg"] == pytest.approx(push, rel=1e-9)
-    assert most.force > 1.5 * least.force
 
 
 # --- virtual work, by finite differences of the posture ---
@@ -225,23 +207,6 @@ def test_no_roof_force_within_the_limits_loads_a_pin_more_than_the_corners(
 
 
 # --- metamorphic ---
-
-
-@given(which=shields, pushes=st.tuples(pushing, pushing), friction=frictions)
-def test_a_mirror_changes_the_side_alone(
-    which: tuple[str, int], pushes: tuple[float, float], friction: float
-) -> None:
-    linkage = postures(which[0])[which[1]].linkage
-    forces = dict(zip(linkage.actuators, pushes, strict=True))
-    one = RoofStatics(linkage, "canopy", friction)
-    other = RoofStatics(moved_linkage(linkage, MIRROR), "canopy", -friction)
-    roof, seen = one.balancing(forces), other.balancing(forces)
-    assert roof is not None
-    assert seen is not None
-    assert seen.force == pytest.approx(roof.force, rel=1e-8)
-    assert seen.x == pytest.approx(-roof.x, rel=1e-8)
-    for pin, force in one.pins(roof).items():
-        assert other.pins(seen)[pin] == pytest.approx(force * [-1.0, 1.0], rel=1e-7, abs=1e-7 * sum(pushes))
 
 
 # --- refusals ---

@@ -15,7 +15,7 @@ from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.strength import StandReport, stand
 from support_exudyn.machines.strength.numbers import numbers
 from support_exudyn.machines.strength.page import page
-from support_exudyn.machines.strength.strength_data import PinStrength, StrengthData
+from support_exudyn.machines.strength.strength_data import StrengthData
 from support_exudyn.machines.strength.tipping import cylinder_masses, tipping_of
 from tests.machines.strength.test_stand import report
 
@@ -74,16 +74,6 @@ def test_legs_are_those_of_the_studies(name: str) -> None:
     assert sum(one.push for one in data.strength.cylinders.values()) == pytest.approx(printed.rated, rel=1e-3)
 
 
-def test_sources_of_legs_are_told() -> None:
-    text = said_of(report("zf18000"))
-    for said in (
-        "source: bore_mm of front_column, rear_column: inferred from the printed setting force, 15270 kN",
-        "source: yield_pressure_MPa of front_column, rear_column: printed rated force",
-        "source: setting_pressure_MPa of front_column, rear_column: printed setting force",
-    ):
-        assert said in text
-
-
 # --- yield stresses ---
 
 
@@ -114,12 +104,6 @@ def test_yield_stresses_are_told_and_defaults_are_called_assumed() -> None:
     assert after[0].safeties["bending"] == pytest.approx(before[0].safeties["bending"] * 700 / 835)
 
 
-def test_without_yield_stresses_a_pin_has_the_usual_ones() -> None:
-    pin = PinStrength(middle=0.1, outer=0.05)
-    assert pin.yields == (8.35e8, 3.45e8)
-    assert replace(pin, eye_yield_stress=2e8).yields == (8.35e8, 2e8)
-
-
 # --- how far a verdict goes ---
 
 
@@ -130,41 +114,6 @@ def test_a_weak_support_is_told_though_the_rule_is_met() -> None:
     strong = with_strength("reference", lambda strength: replace(strength, rated_force=8.9e6))
     assert "reaches only" not in told(strong)
     assert "reaches only" not in said_of(report("reference"))
-
-
-def test_a_column_that_buckles_is_told() -> None:
-    def slender(strength: StrengthData, inner: float) -> StrengthData:
-        cylinders = dict(strength.cylinders)
-        one = cylinders["rear_column"]
-        rod = replace(one.stages[2], inner_diameter=inner)
-        cylinders["rear_column"] = replace(one, stages=(*one.stages[:2], rod))
-        return replace(strength, cylinders=cylinders)
-
-    assert "buckles" not in said_of(report("reference"))
-    for inner, most, said in ((0.1565, 1.0, "its yield force"), (0.1525, 1.2, "1.2 x its yield force")):
-        data = with_strength("reference", lambda strength, i=inner: slender(strength, i))  # type: ignore[misc]
-        found = stand(data)
-        one = found.buckling["rear_column"]
-        safety = one.least / one.force / most
-        assert 0.5 < safety < 1.0
-        text = said_of(found)
-        assert f"rear_column buckles below {said}: safety {safety:.2f}, below 1" in text
-        assert "front_column buckles" not in text
-
-
-def test_it_is_told_of_how_many_pins_is_judged() -> None:
-    data = shipped("reference")
-    assert "judged by 5 of 5 pins" in said_of(report("reference"))
-    assert data.strength is not None
-    width: Any = data.machine.widths()
-    machine: Any = data.machine
-    few = replace(
-        data,
-        machine=replace(machine, width=replace(width, lengths={})),
-        strength=replace(data.strength, pins={"rear_base": data.strength.pins["rear_base"]}),
-    )
-    text = told(few)
-    assert "4.3.2, roof without friction: met, judged by 1 of 5 pins" in text
 
 
 # --- masses of cylinders ---
@@ -183,16 +132,6 @@ def test_cylinders_weigh_where_the_file_says_it(name: str, more: float) -> None:
     assert found.tipping is not None
     assert found.tipping[0].mass == pytest.approx(bare.mass + more)
     assert "left out of section 7" not in said_of(found)
-
-
-def test_cylinders_of_no_known_mass_are_left_out_and_that_is_told() -> None:
-    data = shipped("reference")
-    assert data.strength is not None
-    assert data.strength.base is not None
-    light = stand(replace(data, actuators={}))
-    assert light.tipping is not None
-    assert light.tipping[0].mass == pytest.approx(tipping_of(data.machine.linkage(), data.strength.base).mass)
-    assert "assumed: cylinders of front_column, rear_column: masses not known" in said_of(light)
 
 
 def test_a_cylinder_hangs_between_foot_and_head_and_brings_rods_that_nothing_else_has() -> None:

@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.impacts import impacts_of_force, match_impacts
 from support_exudyn.postprocessing.comparing.parting import parting_of_impacts
 from tests.often import often
 from user_forces import InputError
+from user_forces.contact_state import Onset
 
 
 def onsets(*times: float, speed: float = 1.0) -> tuple[Onset, ...]:

@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
-from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.compared_file import of_run
 from support_exudyn.postprocessing.comparing.impacts import impacts_of, impacts_of_force
 from support_exudyn.postprocessing.comparing.parting import Parting, pair_parting, parting_of_impacts
@@ -25,6 +24,7 @@ from support_exudyn.postprocessing.comparing.with_errors import (
     numbers_beside_errors,
 )
 from tests.cases.run_cases import FORCE, PIN, loose_support
+from user_forces.contact_state import Onset
 
 FINE = 1e-4  # an accuracy beyond "standard", whose tolerance is that of "draft" where steps are chosen by one
 SEED = 20261124

@@ -6,18 +6,16 @@ from typing import Any, Protocol
 
 import exudyn
 
-from support_exudyn.formulations.contact_events import STILL
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.trajectory import CompliantSeries, Impulse, Series
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.connector.contact_connector import ContactConnector
 from user_forces.contact import ContactForce
 
 INITIAL = exudyn.ConfigurationType.Initial
@@ -61,7 +59,7 @@ class EngineScene(ABC):
     container: Any
     mbs: Any
     bodies: Mapping[str, Any]
-    clearance_joints: Mapping[str, ClearanceJoint]
+    clearance_joints: Mapping[str, ContactConnector]
     compliant_pins: Mapping[str, CompliantItem]
     frictions: Mapping[str, JointFriction]
     loads: Mapping[str, LoadItem]
@@ -112,21 +110,17 @@ class EngineScene(ABC):
     def reset_memory(self) -> None:
         """Give every clearance pin the memory that belongs to the initial state of the bodies."""
 
-    @abstractmethod
-    def contact(self, name: str, state: Any) -> ContactForce:
-        """What the laws say of one of `clearance_pins` in a state of the engine, its surfaces being apart."""
-
     def refresh_memory(self, rest: float = 0.0) -> None:
         """Tell every clearance pin that velocities have jumped; contacts that go on go on.
 
         rest: by which positions have moved on with the rates before [s].
         """
-        for name, pin in self.clearance_joints.items():
-            state = self.contact(name, CURRENT)
+        for pin in self.clearance_joints.values():
+            state = pin.observe(CURRENT)
             depth = self.depth_after(pin, state, rest)
             pin.jumped(pin.kept._replace(depth=depth, rate=state.rate, slip=state.slip))
 
-    def depth_after(self, pin: ClearanceJoint, state: ContactForce, rest: float) -> float:
+    def depth_after(self, pin: ContactConnector, state: ContactForce, rest: float) -> float:
         """Depth of a pin [m] that the engine would find in a state, a rest of a step [s] after the last."""
         del pin, rest
         return state.depth
@@ -138,16 +132,6 @@ class EngineScene(ABC):
     @abstractmethod
     def coordinate_masses(self) -> Series:
         """A mass for each of the engine's coordinates [kg], [kg m^2], by which accelerations are weighed."""
-
-
-def first_memory(force: ContactForce) -> PinMemory:
-    """The memory of a pin at the start, from what its laws say: a journal that is pressed impacts just now.
-
-    Surfaces that move towards each other and touch within rounding are apart, so that their impact is seen.
-    """
-    closed = force.depth > (STILL if force.rate > 0.0 else 0.0)
-    speed = max(0.0, force.rate) if closed else 0.0
-    return PinMemory(closed, speed, depth=force.depth, rate=force.rate, slip=force.slip)
 
 
 def slide(scene: EngineScene, rest: float) -> None:

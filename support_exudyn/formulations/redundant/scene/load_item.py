@@ -1,4 +1,3 @@
-# ruff: noqa: N803 - the engine goes by the names of arguments
 """Loads in the engine: a connector between the loaded point or body and what it is loaded from.
 
 They are connectors and no loads of the engine's, for those have no Jacobian, without which Newton's method does
@@ -12,10 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import exudyn
-from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import ObjectConnectorCartesianSpringDamper, ObjectConnectorCoordinateSpringDamper
 
-from support_exudyn.formulations.redundant.clearance.symbolic_force import engine, is_formula, real, unknown
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint, Powers
 from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
 from user_forces.lawful import ROUNDING, LawError
@@ -74,8 +71,7 @@ class ForceItem(LoadItem):
 
     def said(self, at: LoadedPoint) -> tuple[str, float, float]:
         """See `LoadItem`."""
-        along, up = self.load.force(at)
-        aside = self.load.sideways(at)
+        along, up, aside = self.load.pushes(at)
         size = math.hypot(along, up, aside)
         said = f"force of {along:g}, {up:g}" + f", {aside:g}" * (aside != 0.0)
         return f"{said} N", size, size * math.hypot(at.vx, at.vy, at.vz)
@@ -102,10 +98,7 @@ class MomentItem(LoadItem):
 def add_force(mbs: Any, load: Load, origin: Any, point: Any) -> ForceItem:
     """Let a force act between a marker on what it acts against and one on the body."""
     connector = mbs.AddObject(ObjectConnectorCartesianSpringDamper(markerNumbers=[origin, point]))
-    function: Any = _pull(load)
-    known = len(LoadedPoint._fields)
-    if is_formula(lambda *at: (*load.force(LoadedPoint(*at)), load.sideways(LoadedPoint(*at))), known):
-        function = CreateSymbolicUserFunction(mbs, _expression(load), NAME, connector)
+    function = _pull(load)
     mbs.SetObjectParameter(connector, NAME, function)
     return ForceItem(mbs, load, connector, function)
 
@@ -113,54 +106,25 @@ def add_force(mbs: Any, load: Load, origin: Any, point: Any) -> ForceItem:
 def add_moment(mbs: Any, load: MomentLoad, rotations: list[Any]) -> MomentItem:
     """Let a moment act between markers of the rotations of what it acts against and of the body."""
     connector = mbs.AddObject(ObjectConnectorCoordinateSpringDamper(markerNumbers=rotations))
-    function: Any = _twist(load)
-    if is_formula(lambda *known: load.moment(TurnedBody(*known)), len(TurnedBody._fields)):
-        function = CreateSymbolicUserFunction(mbs, _twist_expression(load), NAME, connector)
+    function = _twist(load)
     mbs.SetObjectParameter(connector, NAME, function)
     return MomentItem(mbs, load, connector, function)
 
 
 def _pull(load: Load) -> Callable[..., list[float]]:
-    """The force with which the connector pulls its ends together, of the engine's signature, in Python."""
+    """The force with which the connector pulls its ends together, of the engine's signature."""
 
     def pull(mbs: Any, t: float, item: int, displacement: Any, velocity: Any, *others: Any) -> list[float]:
         (x, y, z), (vx, vy, vz) = displacement, velocity
-        at = LoadedPoint(t, x, y, vx, vy, z, vz)
-        fx, fy = load.force(at)
-        return [-fx, -fy, -load.sideways(at)]
+        return [-push for push in load.pushes(LoadedPoint(t, x, y, vx, vy, z, vz))]
 
     return pull
 
 
-def _expression(load: Load) -> Callable[..., Any]:
-    """The pull as a function that the engine calls once with its symbols; it goes by the names of arguments."""
-
-    def pull(t: Any, displacement: Any, velocity: Any) -> Any:
-        known = (t, displacement[0], displacement[1], velocity[0], velocity[1], displacement[2], velocity[2])
-        at = LoadedPoint(*map(unknown, known))
-        fx, fy = load.force(at)
-        return engine.Vector([real(-fx), real(-fy), real(-load.sideways(at))])
-
-    return lambda mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset: pull(
-        t, displacement, velocity
-    )
-
-
 def _twist(load: MomentLoad) -> Callable[..., float]:
-    """The moment with which the connector turns its ends together, of the engine's signature, in Python."""
+    """The moment with which the connector turns its ends together, of the engine's signature."""
 
     def twist(mbs: Any, t: float, item: int, displacement: Any, velocity: Any, *others: Any) -> float:
         return -load.moment(TurnedBody(t, displacement, velocity))
 
     return twist
-
-
-def _twist_expression(load: MomentLoad) -> Callable[..., Any]:
-    """The moment of `_twist` as a function that the engine calls once, with its symbols."""
-
-    def twist(*known: Any) -> Any:
-        return real(-load.moment(TurnedBody(*map(unknown, known))))
-
-    return lambda mbs, t, itemNumber, displacement, velocity, stiffness, damping, offset: twist(
-        t, displacement, velocity
-    )

@@ -1,4 +1,4 @@
-"""What follows at the records of a redundant run from its motion: accelerations, and forces of what is held."""
+"""What follows at the records of a Exudyn run from its motion: accelerations, and forces of what is held."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -6,12 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import exudyn
 import numpy as np
 
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
-from support_exudyn.formulations.redundant.clearance.pin_motion import PinEnd, PinMotion
-from support_exudyn.formulations.redundant.clearance.slot_frames import between
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
 from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
@@ -20,21 +16,18 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
     INITIAL,
     CompliantItem,
     EngineScene,
-    first_memory,
 )
 from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
-from support_exudyn.mechanics.contact_state import InverseMass
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.trajectory import Impulse
 from support_exudyn.model.linkage import GROUND, Linkage
-from support_exudyn.model.plane_geometry import rotated
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.contact import ContactForce
-from user_forces.values.value import Vector2
+from user_forces.connector.contact_connector import ContactConnector
+from user_forces.contact_state import InverseMass
 
 FRICTION_ROUNDS = 4  # each with an error smaller by the coefficient of friction times radius over lever
 
@@ -50,7 +43,7 @@ class Scene(EngineScene):
     bodies: dict[str, BodyItem]
     ideal_pins: dict[str, IdealItem]
     frictions: dict[str, JointFriction]  # of ideal pins and guides, "pins.NAME" and "guides.NAME"
-    clearance_joints: dict[str, ClearanceJoint]
+    clearance_joints: dict[str, ContactConnector]
     compliant_pins: dict[str, CompliantItem]
     rigid_actuators: dict[str, ActuatorItem]
     oil_columns: dict[str, OilColumnItem]
@@ -188,44 +181,5 @@ class Scene(EngineScene):
 
     def reset_memory(self) -> None:
         """See `EngineScene`."""
-        data = self.mbs.systemData
-        position = data.GetODE2Coordinates(INITIAL)
         for name, pin in self.clearance_joints.items():
-            bore, journal = self.places[name].bore, self.places[name].journal
-            turn = self._turn(journal, position) - self._turn(bore, position)
-            pin.start(first_memory(self.contact(name, INITIAL)), self.inverse_mass(name, INITIAL), turn)
-
-    def pin_motion(self, name: str) -> PinMotion:
-        """How the journal of a clearance pin moves in its bore, or a corner in its slot."""
-        place = self.places[name]
-
-        def end(body: str, point: Vector2, axes: float | None = None) -> PinEnd:
-            if body == GROUND:
-                return PinEnd(None, (0.0, 0.0), axes or 0.0, point)
-            item = self.bodies[body]
-            angle, arm = item.body.angle, item.local(point)
-            if axes is None or axes == angle:
-                return PinEnd(item.first, item.body.centre, angle, arm)
-            return PinEnd(item.first, item.body.centre, axes, rotated(arm, angle - axes))
-
-        bore = end(place.bore, place.bore_point, place.axes(self.linkage))
-        return PinMotion(self.mbs.systemData, bore, end(place.journal, place.journal_point))
-
-    def contact(self, name: str, state: Any) -> ContactForce:
-        """See `EngineScene`."""
-        pin, place = self.clearance_joints[name], self.places[name]
-        if pin.contact.bearing.is_slot:
-            motion = between(*self.pin_motion(name).now(state))[1]
-            return pin.contact.force(*motion[:4], motion.bore_spin, motion.bore_spin + motion.turning, None)
-
-        def relative(what: Any) -> tuple[float, float]:
-            journal = self.mbs.GetMarkerOutput(pin.connector.journal_marker, what, state)
-            bore = self.mbs.GetMarkerOutput(pin.connector.bore_marker, what, state)
-            return float(journal[0] - bore[0]), float(journal[1] - bore[1])
-
-        output = exudyn.OutputVariableType
-        rates = self.mbs.systemData.GetODE2Coordinates_t(state)
-        bore_spin, journal_spin = (self._turn(body, rates) for body in (place.bore, place.journal))
-        return pin.contact.force(
-            *relative(output.Position), *relative(output.Velocity), bore_spin, journal_spin, None
-        )
+            pin.start(self.inverse_mass(name, INITIAL))

@@ -7,7 +7,6 @@ from dataclasses import replace
 from functools import cached_property, partial, singledispatchmethod
 from typing import Any
 
-import exudyn
 import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyRigid,
@@ -24,14 +23,6 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
 )
 
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
-from support_exudyn.formulations.redundant.clearance.connector import (
-    FaceConnector,
-    Mount,
-    PinConnector,
-    SlotConnector,
-    frame,
-)
 from support_exudyn.formulations.redundant.scene.bushing import BushingItem
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
@@ -57,6 +48,9 @@ from support_exudyn.model.loads.moment_load import MomentLoad
 from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.connector.contact_connector import ContactConnector
+from user_forces.connector.item import JointItem, Mount, frame
+from user_forces.contact import Contact
 from user_forces.values.value import Vector2
 
 TURN = np.array([0.0, 0.0, 1.0])  # takes the angle out of a body's coordinates
@@ -69,7 +63,7 @@ class PlaneBuilder(EngineBuilder):
         super().__init__(scenario)
         self.linkage = scenario.linkage
         self.ideal: dict[str, Any] = {}  # joints by name
-        self.connectors: dict[str, PinConnector] = {}  # of clearance pins
+        self.connectors: dict[str, JointItem] = {}  # of all that may make contact
         self.compliant: dict[str, CompliantItem] = {}
         self.bodies = {name: self.add_body(body) for name, body in self.linkage.bodies.items()}
 
@@ -119,12 +113,11 @@ class PlaneBuilder(EngineBuilder):
 
     @add_pin.register
     def _add_clearance(self, pin: ClearancePin, name: str) -> None:
-        self.connectors[name] = PinConnector(self.mbs, pin.contact, *self.mounts(name))
+        self.add_contact(pin.contact, name)
 
-    def add_corner(self, name: str, rest: float) -> None:
-        """Add what stands in the engine for a corner in a slot; rest: see `SlotConnector`."""
-        place = self.scenario.contact_places[name]
-        self.connectors[name] = SlotConnector(self.mbs, place.contact, *self.mounts(name), rest)
+    def add_contact(self, contact: Contact, name: str) -> None:
+        """Add the connector of a contact: of a clearance pin, a corner in a slot, or a block's face."""
+        self.connectors[name] = JointItem(self.mbs, contact, *self.mounts(name))
 
     def mounts(self, name: str) -> tuple[Mount, Mount, float]:
         """Where bore and journal of a contact are, and by what angle the journal's body is turned [rad]."""
@@ -144,22 +137,11 @@ class PlaneBuilder(EngineBuilder):
         turn = axes if ground else axes - self.bodies[body].body.angle
         return Mount(self.item(body), frame(place, turn), ground)
 
-    def clearance_pin(self, scene: Scene, name: str, connector: PinConnector) -> ClearanceJoint:
+    def contact_connector(self, scene: Scene, name: str, item: JointItem) -> ContactConnector:
         """The contact of a connector in the whole scene."""
-        place = scene.places[name]
-        node = self.node(place.bore)
-
-        def bore_spin() -> float:
-            return float(self.mbs.GetNodeOutput(node, exudyn.OutputVariableType.Coordinates_t)[2])
-
-        return ClearanceJoint(
-            place.contact,
-            connector,
-            scene.pin_motion(name),
-            bore_spin,
-            partial(scene.inverse_mass, name),
-            self.scenario.solver,
-        )
+        solver = self.scenario.solver
+        mass = partial(scene.inverse_mass, name)
+        return ContactConnector(item, mass, solver.impact_steps, solver.locate)
 
     def add_frictions(self) -> dict[str, JointFriction]:
         """Add the friction of all ideal pins and guides."""
@@ -257,10 +239,10 @@ class PlaneBuilder(EngineBuilder):
         cranks = {name: self.add_crank(crank) for name, crank in linkage.cranks.items()}
         slides = {name: self.add_slide(slide) for name, slide in scenario.guided_linkage.slides.items()}
         for name, guide in scenario.guides.items():
-            for part, contact in guide.contacts().items():
-                self.add_corner(f"{name}.{part}", contact.point[1])
+            for part in guide.contacts():
+                self.add_contact(scenario.contact_places[f"{name}.{part}"].contact, f"{name}.{part}")
         for name, block in scenario.blocks.items():
-            self.connectors[name] = FaceConnector(mbs, block.contact, *self.mounts(name), block.start_depth)
+            self.add_contact(block.contact, name)
         for gear in linkage.gears.values():
             self.add_gear(gear)
         loads = {name: self.add_load(load, name) for name, load in scenario.acting_loads.items()}
@@ -307,7 +289,7 @@ class PlaneBuilder(EngineBuilder):
             friction.assembled(scene.multiplier_of(friction), bodies)
             friction.lagged = bool(self.connectors) or scenario.jumps
         for name, connector in self.connectors.items():
-            scene.clearance_joints[name] = self.clearance_pin(scene, name, connector)
+            scene.clearance_joints[name] = self.contact_connector(scene, name, connector)
         scene.drive_to(0.0)
         scene.start_moving()
         for cylinder in cylinders.values():

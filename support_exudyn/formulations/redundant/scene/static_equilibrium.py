@@ -12,6 +12,7 @@ from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.limits import CENTRING
 from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL, EngineScene
 from support_exudyn.formulations.redundant.scene.scene import Scene
+from support_exudyn.formulations.redundant.scene.settling import settling
 from support_exudyn.mechanics.acting_loads import forces_at_rest
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.mechanics.resting import resting
@@ -27,6 +28,8 @@ AT_THE_START = 1e-30  # [s]
 BY_CHANGES = 1  # the engine's number for that
 CLOSE = 1e-11  # [m]
 ROUNDINGS = 64.0  # of the coordinates
+HANGS_BY = 0.01  # [m] that the spring by which a block hangs would give under the weight of all bodies
+LEAST = 1.0  # [N], stands for that weight where there is none
 
 
 def find_static_equilibrium(scene: EngineScene) -> None:
@@ -45,8 +48,10 @@ def find_static_equilibrium(scene: EngineScene) -> None:
         data.SetODE2Coordinates(held, INITIAL)
     with ExitStack() as for_a_while:
         for_a_while.enter_context(_weightless(scene))
-        for pin in scene.clearance_joints.values():
-            for_a_while.enter_context(pin.settling(weight, lambda: share))
+        for name, pin in scene.clearance_joints.items():
+            block = scene.scenario.blocks.get(name)
+            hangs = (max(weight, LEAST) / HANGS_BY, block.start_depth) if block is not None else None
+            for_a_while.enter_context(settling(pin, weight, lambda: share, hangs))
         for cylinder in scene.cylinders.values():
             for_a_while.enter_context(cylinder.settling())
         for_a_while.enter_context(scene.legs.settling())

@@ -8,8 +8,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.connector.contact_connector import ContactConnector
 
 ROUNDINGS = 10.0  # of a coordinate, by which steep friction scatters: what the method is asked for then
 # so many steps of a length before one twice as long is tried
@@ -34,7 +34,7 @@ class NewtonMethod:
     """
 
     def __init__(
-        self, solver: Any, settings: Any, scenario: Scenario, pins: Sequence[ClearanceJoint], unknowns: int
+        self, solver: Any, settings: Any, scenario: Scenario, pins: Sequence[ContactConnector], unknowns: int
     ) -> None:
         self._solver = solver
         self._settings = settings
@@ -42,7 +42,7 @@ class NewtonMethod:
         self._unknowns = unknowns
         self._size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())  # [m]
         self._straightened = False  # whether a line has ever stood for friction
-        self._scatters = False  # whether steep friction does, see `ClearanceJoint.rounding`
+        self._scatters = False  # whether steep friction does, see `ContactConnector.rounding`
         self.failures = NewtonFailures(scenario.step)
 
     def begin(self, step: float) -> None:

@@ -13,9 +13,9 @@ from support_exudyn.formulations.redundant.solver.within_steps import RunningInt
 from support_exudyn.formulations.statistics.collected import RunStatistics
 from support_exudyn.formulations.statistics.ends import beside_jumps
 from support_exudyn.mechanics.channels import EVERYTHING, DataNeeds
-from support_exudyn.mechanics.contact_state import PinMemory
 from support_exudyn.mechanics.time_statistics import TimeStatistics
 from support_exudyn.mechanics.trajectory import ObservedRun, Series, Trajectory
+from user_forces.contact_state import PinMemory
 
 # of a StepEnd after its time
 STATE = (DataNeeds.POSITION, DataNeeds.VELOCITY, DataNeeds.CONTACTS)
@@ -307,7 +307,7 @@ class Recorder:
                 lost = (force.normal_force - elastic) * force.rate
                 rubbed = force.friction_force * force.slip
                 if self._looks and not (lost >= 0.0 >= rubbed and elastic >= 0.0):
-                    pin.look(elastic, name)
+                    pin.check(elastic, name)
                 damping += lost
                 friction -= rubbed
         return driving, damping, friction

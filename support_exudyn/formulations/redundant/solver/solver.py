@@ -15,7 +15,6 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn.formulations.contact_events import SHARE
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.formulations.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.formulations.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
@@ -32,7 +31,6 @@ from support_exudyn.formulations.redundant.solver.refusals import (
     why,
 )
 from support_exudyn.formulations.redundant.solver.step_growth import StepGrowth, step_growth
-from support_exudyn.formulations.redundant.solver.symbolic_drive import turns_by_itself
 from support_exudyn.formulations.redundant.solver.uninterrupted_steps import (
     UninterruptedSteps,
     solve_uninterrupted,
@@ -41,6 +39,7 @@ from support_exudyn.formulations.time_grid import StepPlan
 from support_exudyn.mechanics.oil_column import force_rounding
 from support_exudyn.mechanics.trajectory import Counts, Impulse
 from user_forces import Frictionless
+from user_forces.contact_events import SHARE
 from user_forces.lawful import UNLAWFUL, LawError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
@@ -164,7 +163,7 @@ class SolverRun:
                 mbs.SetPostNewtonUserFunction(self._after_newton)
             mbs.SetPostStepUserFunction(self._after_step)
             return
-        if self.has_prescribed_motion and not turns_by_itself(self.scene):
+        if self.has_prescribed_motion:
             mbs.SetPreStepUserFunction(self._follow)
         if self.recorder.integrates or self.recorder.follows:
             mbs.SetPostStepUserFunction(self._result_checks)

@@ -8,100 +8,39 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
 
 import numpy as np
 
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint, FindMass
-from support_exudyn.formulations.redundant.clearance.connector import FaceConnector
-from support_exudyn.formulations.redundant.clearance.connector_force import Relative
-from support_exudyn.formulations.redundant.clearance.pin_motion import Motion
-from support_exudyn.formulations.redundant.clearance.slot_frames import between
-from support_exudyn.formulations.redundant.space.section_motion import BodyState
 from support_exudyn.mechanics.space.constraints import BearingEnd
 from support_exudyn.mechanics.space.kinetics import SpatialKinetics
-from support_exudyn.mechanics.space.motion import COORDINATES
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.spatial_linkage import ACROSS
 from support_exudyn.model.to_space import at
-from support_exudyn.scenario.solver_settings import SolverSettings
+from user_forces.connector.contact_connector import ContactConnector
 from user_forces.values.value import Vector3
 
 
 @dataclass(frozen=True)
-class FaceMover:
-    """How the point of the machine moves at the face of a block.
+class BlockFace:
+    """The face of a falling block.
 
-    Arguments:
-        data: the engine's, once it is assembled.
-        block, body: the first coordinates of the block and of the body that it falls on.
-        reference, point: where the block's contact measures from, and the point, start posture [m].
-        arm: of the point in its body's axes [m].
-        slope: of the face [rad].
+    name: of the block. block: its data. contact: in the engine.
     """
 
-    data: Any
-    block: int
-    body: int
-    reference: Vector3
-    point: Vector3
-    arm: Vector3
-    slope: float
+    name: str
+    block: FallingBlock
+    contact: ContactConnector
 
-    def when(self, position: list[float], velocity: list[float]) -> tuple[Motion, Motion]:
-        """The motions of block and point in the machine's plane; by the engine's coordinates and rates."""
-        end = self.body + COORDINATES
-        (dx, dy, _), (vx, vy, _) = BodyState.of(position[self.body : end], velocity[self.body : end]).point(
-            self.arm
-        )
-        (x, y, _), (rx, ry, _) = self.point, self.reference
-        bx, by, _ = position[self.block : self.block + 3]
-        bvx, bvy, _ = velocity[self.block : self.block + 3]
-        return (rx + bx, ry + by, bvx, bvy, self.slope, 0.0), (x + dx, y + dy, vx, vy, 0.0, 0.0)
-
-    def now(self) -> tuple[Motion, Motion]:
-        """See `Moving`."""
-        data = self.data
-        return self.when(data.GetODE2Coordinates().tolist(), data.GetODE2Coordinates_t().tolist())
-
-    def relative(self, position: list[float], velocity: list[float]) -> Relative:
-        """What counts of the point's motion, in the axes of the face."""
-        return between(*self.when(position, velocity))[1]
-
-
-class BlockFace(ClearanceJoint):
-    """The face of a falling block over a run.
-
-    Arguments:
-        block: that falls. name: its own.
-        connector, moving, find_inverse_mass, settings: as of ClearanceJoint.
-    """
-
-    def __init__(
-        self,
-        name: str,
-        block: FallingBlock,
-        connector: FaceConnector,
-        moving: FaceMover,
-        find_inverse_mass: FindMass,
-        settings: SolverSettings,
-    ) -> None:
-        super().__init__(block.contact, connector, moving, lambda: 0.0, find_inverse_mass, settings)
-        self.name, self.block, self.moving = name, block, moving
-
-    @cached_property
+    @property
     def ends(self) -> tuple[BearingEnd, BearingEnd]:
         """The block's place from which is measured, and the point of the machine."""
-        return (
-            BearingEnd(self.name, self.moving.reference, ACROSS),
-            BearingEnd(self.block.body, self.moving.point, ACROSS),
-        )
+        reference, point = places(self.block)
+        return BearingEnd(self.name, reference, ACROSS), BearingEnd(self.block.body, point, ACROSS)
 
     def rate(self, kinetics: SpatialKinetics) -> Series:
         """Rows that give the point's velocity against the block, along the face and across, (2, 6 bodies)."""
-        c, s = math.cos(self.moving.slope), math.sin(self.moving.slope)
+        c, s = math.cos(self.block.slope), math.sin(self.block.slope)
         return np.array([[c, s], [-s, c]]) @ kinetics.bearing_rate(*self.ends)
 
 

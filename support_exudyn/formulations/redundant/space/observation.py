@@ -22,7 +22,7 @@ from support_exudyn.mechanics.space.motion import SpatialMotion, cross, motion_o
 from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
 from support_exudyn.mechanics.trajectory import ContactSeries, LegSeries, LoadSeries, Series
 from support_exudyn.model.linkage import GROUND
-from user_forces.friction.frictionless import Frictionless
+from user_forces.friction.laws import Frictionless
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ class SpatialObservation:
         y = (journal.position - bore.position) @ across
         rate = (journal.velocity - bore.velocity) @ across
         moving = RelativeMotion(still, y, still, rate, still, still)
-        found = series(face.contact, moving, memory)
+        found = series(face.block.contact, moving, memory)
         return replace(found, force_x=-s * found.force_y, force_y=c * found.force_y)
 
     def contacts_of(self, pin: str) -> list[ContactSeries]:
@@ -107,7 +107,7 @@ class SpatialObservation:
 
     def _section(self, pin: SectionPin, memory: Series) -> SectionSeries:
         bore, journal = pin.ends
-        moving = section_motion(self.motion, bore, journal, pin.section.place, pin.connector.at, pin.slides)
+        moving = section_motion(self.motion, bore, journal, pin.section.place, pin.item.at, pin.slides)
         relative = RelativeMotion(
             moving.x, moving.y, moving.vx, moving.vy, moving.bore_spin, moving.journal_spin
         )

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
 from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
@@ -17,7 +16,6 @@ from support_exudyn.formulations.redundant.scene.engine_scene import (
     INITIAL,
     CompliantItem,
     EngineScene,
-    first_memory,
 )
 from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
@@ -25,7 +23,6 @@ from support_exudyn.formulations.redundant.space.block_face import BlockFace
 from support_exudyn.formulations.redundant.space.section_pin import SectionPin
 from support_exudyn.formulations.redundant.space.sections import ends
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
-from support_exudyn.mechanics.contact_state import InverseMass
 from support_exudyn.mechanics.space.constraints import (
     SHIFTS,
     BearingEnd,
@@ -40,7 +37,9 @@ from support_exudyn.mechanics.space.reactions import reactions
 from support_exudyn.mechanics.trajectory import Impulse, Series
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.connector.contact_connector import ContactConnector
 from user_forces.contact import ContactForce
+from user_forces.contact_state import InverseMass
 from user_forces.values.value import Vector3
 
 
@@ -68,7 +67,7 @@ class SpatialScene(EngineScene):
     bodies: dict[str, SpatialBodyItem]
     rows: Sequence[Constraint]
     all_rows: Sequence[Constraint]
-    clearance_joints: dict[str, ClearanceJoint]
+    clearance_joints: dict[str, ContactConnector]
     sections: dict[str, list[SectionPin]]  # of every clearance bearing
     rigid_actuators: dict[str, ActuatorItem]
     oil_columns: dict[str, OilColumnItem]
@@ -130,11 +129,6 @@ class SpatialScene(EngineScene):
         kinetics = self.kinetics(state)
         return InverseMass.of(kinetics.answers(self.faces[name].rate(kinetics)))
 
-    def coordinates(self, state: Any) -> tuple[list[float], list[float]]:
-        """The engine's coordinates and their rates."""
-        data = self.mbs.systemData
-        return data.GetODE2Coordinates(state).tolist(), data.GetODE2Coordinates_t(state).tolist()
-
     def ends_of(self, name: str) -> tuple[BearingEnd, BearingEnd]:
         """Bore and journal of a clearance bearing."""
         bearing = self.linkage.bearings[name]
@@ -173,7 +167,7 @@ class SpatialScene(EngineScene):
         self.set_velocities(before + change)
         return -float(impulses @ wanted)
 
-    def depth_after(self, pin: ClearanceJoint, state: ContactForce, rest: float) -> float:
+    def depth_after(self, pin: ContactConnector, state: ContactForce, rest: float) -> float:
         """See `EngineScene`.
 
         To the engine a section that is tilted is less deep than it is, by tilt^2/24 of its way. With the true
@@ -215,31 +209,12 @@ class SpatialScene(EngineScene):
 
     def reset_memory(self) -> None:
         """See `EngineScene`."""
-        at = self.coordinates(INITIAL)
-        for pin in (pin for group in self.sections.values() for pin in group):
-            pin.look_beside(*at)
         for name, face in self.faces.items():
-            face.start(first_memory(self.contact(name, INITIAL)), self.face_mass(name, INITIAL), 0.0)
+            face.contact.start(self.face_mass(name, INITIAL))
         for name, group in self.sections.items():
             inverse_mass = self.inverse_mass(name, INITIAL)
-            for n, pin in enumerate(group):
-                memory = first_memory(self.contact(f"{name}[{n}]", INITIAL))
-                pin.start(memory, inverse_mass, pin.moving.when(*at)[1][4])
-
-    def contact(self, name: str, state: Any) -> ContactForce:
-        """See `EngineScene`."""
-        at = self.coordinates(state)
-        if name in self.faces:
-            face = self.faces[name]
-            return face.contact.force(*face.moving.relative(*at)[:4], 0.0, 0.0, None)
-        pin = self._section(name)
-        bore, (x, y, vx, vy, _, spin) = pin.moving.when(*at)
-        return pin.contact.force(x, y, vx, vy, bore[5], spin, None)
-
-    def _section(self, name: str) -> SectionPin:
-        """A section, such as "rear_base[0]"."""
-        bearing, number = name[:-1].split("[")
-        return self.sections[bearing][int(number)]
+            for pin in group:
+                pin.start(inverse_mass)
 
 
 def rates(rows: Sequence[Constraint], speeds: Mapping[str, float]) -> Series:

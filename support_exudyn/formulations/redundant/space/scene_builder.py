@@ -16,18 +16,13 @@ from exudyn.itemInterface import (
     ObjectRigidBody,
 )
 
-from support_exudyn.formulations.redundant.clearance.connector import FaceConnector, Mount, PinConnector, frame
-from support_exudyn.formulations.redundant.clearance.connector_force import attachment
 from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
-from support_exudyn.formulations.redundant.space.bearing_connector import BearingConnector
-from support_exudyn.formulations.redundant.space.bearing_source import BearingGeometry
-from support_exudyn.formulations.redundant.space.block_face import BlockFace, FaceMover, places
+from support_exudyn.formulations.redundant.space.block_face import BlockFace, places
 from support_exudyn.formulations.redundant.space.loads import add_load
 from support_exudyn.formulations.redundant.space.scene import SpatialBodyItem, SpatialScene
-from support_exudyn.formulations.redundant.space.section_motion import SectionEnd, SectionMover, marker_frame
 from support_exudyn.formulations.redundant.space.section_pin import SectionJournal, SectionPin, part_of
-from support_exudyn.formulations.redundant.space.sections import ends, sections
+from support_exudyn.formulations.redundant.space.sections import ends, marker_frame, sections
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg, preloaded_legs
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
@@ -46,7 +41,8 @@ from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from support_exudyn.scenario.scenario import Scenario
-from user_forces.contact import JournalContact
+from user_forces.connector.contact_connector import ContactConnector
+from user_forces.connector.item import JointItem, Mount, frame
 from user_forces.values.value import Vector3
 
 TILTS: tuple[Kind, ...] = ("tilt_1", "tilt_2")
@@ -91,14 +87,12 @@ class _SpaceBuilder(EngineBuilder):
         frame = marker_frame(end, place, self.centre(end.body))
         return Mount(self.item(end.body), frame, end.body == GROUND)
 
-    def add_connectors(self, bearing: Bearing) -> Sequence[PinConnector]:
+    def add_connectors(self, bearing: Bearing) -> list[JointItem]:
         """The connectors of all sections of a bearing."""
         pin = self.scenario.clearance_pins[bearing.pin]
         bore, journal = ends(bearing, pin.bore)
-        if self.scenario.solver.backend != "symbolic":
-            return self.add_bearing(bearing, bore, journal, pin.contact)
         return [
-            PinConnector(
+            JointItem(
                 self.mbs,
                 part_of(pin.contact, section),
                 self.mount(bore, section.place),
@@ -108,71 +102,30 @@ class _SpaceBuilder(EngineBuilder):
             for section in sections(bearing, self.scenario.solver.sections)
         ]
 
-    def add_bearing(
-        self, bearing: Bearing, bore: BearingEnd, journal: BearingEnd, contact: JournalContact
-    ) -> Sequence[PinConnector]:
-        """The connector of all sections of a bearing."""
-        parts = sections(bearing, self.scenario.solver.sections)
-        moving = [end.body for end in (bore, journal) if end.body != GROUND]
-        firsts = {body: COORDINATES * n for n, body in enumerate(moving)}
-        geometry = BearingGeometry(
-            bore=self.section_end(bore, 0.0, firsts.get(bore.body)),
-            journal=self.section_end(journal, 0.0, firsts.get(journal.body)),
-            at=attachment(contact, bore.body == GROUND, journal.body == GROUND),
-            places=[part.place for part in parts],
-            slides="along" not in bearing.holds,
-        )
-        contacts, nodes = [part_of(contact, part) for part in parts], [self.node(body) for body in moving]
-        return BearingConnector(self.mbs, geometry, contacts, nodes).sections
-
-    def section_pins(
-        self, scene: SpatialScene, name: str, connectors: Sequence[PinConnector]
-    ) -> list[SectionPin]:
+    def section_pins(self, scene: SpatialScene, name: str, items: Sequence[JointItem]) -> list[SectionPin]:
         """The sections of a bearing in the whole scene."""
-        bearing = self.linkage.bearings[name]
-        pin, (bore, journal) = self.scenario.clearance_pins[bearing.pin], scene.ends_of(name)
-        data, places = self.mbs.systemData, sections(bearing, self.scenario.solver.sections)
-
-        def mover(place: float, connector: PinConnector) -> SectionMover:
-            at_bore, at_journal = (
-                self.section_end(end, place, None if end.body == GROUND else scene.bodies[end.body].first)
-                for end in (bore, journal)
-            )
-            return SectionMover(data, at_bore, at_journal, connector.at)
-
-        whole = SectionJournal(mover(0.0, connectors[0]), partial(scene.inverse_mass, name))
+        bearing, solver = self.linkage.bearings[name], self.scenario.solver
+        pin, both = self.scenario.clearance_pins[bearing.pin], scene.ends_of(name)
+        whole = SectionJournal(partial(scene.inverse_mass, name), slides="along" not in bearing.holds)
         return [
-            SectionPin(
-                pin.contact,
-                connector,
-                mover(section.place, connector),
-                whole,
-                section,
-                (bore, journal),
-                slides="along" not in bearing.holds,
-                settings=self.scenario.solver,
-            )
-            for section, connector in zip(places, connectors, strict=True)
+            SectionPin(pin.contact, item, whole, section, both, solver)
+            for section, item in zip(sections(bearing, solver.sections), items, strict=True)
         ]
 
-    def add_face(self, name: str, block: FallingBlock) -> FaceConnector:
+    def add_face(self, name: str, block: FallingBlock) -> JointItem:
         """The connector of a block's face, which turns as little as the ground, and the point it falls on."""
         reference, point = places(block)
         face, plain = np.array(frame((0.0, 0.0), block.slope)), np.eye(4)
         face[:3, 3], plain[:3, 3] = self.local(name, reference), self.local(block.body, point)
         bore = Mount(self.item(name), face.tolist(), on_ground=True)
         journal = Mount(self.item(block.body), plain.tolist(), on_ground=False)
-        return FaceConnector(self.mbs, block.contact, bore, journal, 0.0, block.start_depth)
+        return JointItem(self.mbs, block.contact, bore, journal, 0.0)
 
-    def block_face(self, scene: SpatialScene, name: str, connector: FaceConnector) -> BlockFace:
+    def block_face(self, scene: SpatialScene, name: str, item: JointItem) -> BlockFace:
         """The face of a block in the whole scene."""
-        block, bodies = self.scenario.blocks[name], scene.bodies
-        reference, point = places(block)
-        firsts = bodies[name].first, bodies[block.body].first
-        arm = self.local(block.body, point)
-        moving = FaceMover(self.mbs.systemData, *firsts, reference, point, arm, block.slope)
-        mass = partial(scene.face_mass, name)
-        return BlockFace(name, block, connector, moving, mass, self.scenario.solver)
+        solver, mass = self.scenario.solver, partial(scene.face_mass, name)
+        contact = ContactConnector(item, mass, solver.impact_steps, solver.locate)
+        return BlockFace(name, self.scenario.blocks[name], contact)
 
     def local(self, body: str, point: Vector3) -> Vector3:
         """A point of the start posture in a body's axes [m]."""
@@ -241,7 +194,8 @@ class _SpaceBuilder(EngineBuilder):
             scene.sections[name] = pins = self.section_pins(scene, name, group)
             scene.clearance_joints.update({f"{name}[{n}]": pin for n, pin in enumerate(pins)})
         for name, connector in faces.items():  # after all sections, as in `SpatialObservation`
-            scene.faces[name] = scene.clearance_joints[name] = self.block_face(scene, name, connector)
+            scene.faces[name] = self.block_face(scene, name, connector)
+            scene.clearance_joints[name] = scene.faces[name].contact
         scene.drive_to(0.0)
         scene.start_moving()
         scene.legs.begin()
@@ -267,12 +221,6 @@ class _SpaceBuilder(EngineBuilder):
             for name, one in self.linkage.actuators.items()
             if (whole := plane.get(one.actuator)) is not None
         ]
-
-    def section_end(self, end: BearingEnd, place: float, first: int | None) -> SectionEnd:
-        """Where a section of a bore or a journal stands; first: of its body's coordinates, see `SectionEnd`."""
-        frame = np.array(marker_frame(end, place, self.centre(end.body)))
-        arm, *axes = (tuple(frame[:3, k].tolist()) for k in (3, 0, 1, 2))
-        return SectionEnd(first, self.centre(end.body), arm, (axes[0], axes[1]), axes[2])
 
 
 def joint(bearing: Bearing, held: Collection[Kind], markers: list[Any]) -> Any:

@@ -1,59 +1,47 @@
-"""One section of a bearing with clearance over a run: a clearance pin like those of the plane."""
+"""One section of a bearing with clearance over a run: a clearance joint like those of the plane."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
-from typing import cast
 
-from support_exudyn.formulations.impact_steps import ImpactSteps
-from support_exudyn.formulations.peak_force import NEAR_PEAK, has_a_top, peak
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint, FindMass
-from support_exudyn.formulations.redundant.clearance.connector import PinConnector
-from support_exudyn.formulations.redundant.clearance.pin_frames import PinFrames
-from support_exudyn.formulations.redundant.clearance.pin_motion import Moving
-from support_exudyn.formulations.redundant.clearance.steep_friction import EngineForce
-from support_exudyn.formulations.redundant.space.bearing_connector import (
-    SectionConnector,
-    SectionForce,
-    SectionFrames,
-)
-from support_exudyn.formulations.redundant.space.section_motion import SectionMover
 from support_exudyn.formulations.redundant.space.sections import Section
-from support_exudyn.mechanics.contact_state import InverseMass, Onset, PinMemory
 from support_exudyn.mechanics.space.constraints import BearingEnd
 from support_exudyn.scenario.solver_settings import SolverSettings
+from user_forces.connector.attachment import Attachment
+from user_forces.connector.contact_connector import ContactConnector, FindMass
+from user_forces.connector.item import INITIAL, JointItem
 from user_forces.contact import JournalContact
+from user_forces.contact_state import InverseMass, Onset, PinMemory
+from user_forces.impact_steps import ImpactSteps
 from user_forces.normal.part import PartOf
+from user_forces.peak_force import NEAR_PEAK, has_a_top, peak
 from user_forces.values.value import Vector2
 
 
 class SectionJournal:
     """What the sections of one clearance bearing share: where its middle is and how it answers impulses.
 
-    Both are asked for by every section in every step of an impact, and found once.
+    Both are needed by every section in every step of an impact, and computed once.
 
     Arguments:
-        moving: how its middle moves.
-        find_inverse_mass: tells how its middle answers impulses, in the axes of its bore.
+        find_inverse_mass: computes how its middle answers impulses, in the axes of its bore.
+        slides: the journal may shift along the bore.
     """
 
-    def __init__(self, moving: SectionMover, find_inverse_mass: FindMass) -> None:
-        self.moving = moving
-        self._find_inverse_mass = find_inverse_mass
+    def __init__(self, find_inverse_mass: FindMass, *, slides: bool) -> None:
+        self._find_inverse_mass, self.slides = find_inverse_mass, slides
         self._inverse_mass: InverseMass | None = None
-        self._place: Vector2 | None = None
         self.sections: list[SectionPin] = []
-        self.onsets: list[Onset] = []  # of the journal, which was all apart
+        self.onsets: list[Onset] = []  # of the journal, all sections of which were separated
         self.largest_force = 0.0  # [N], at any time
         self.largest_force_time = 0.0  # end of the step that has it [s]
         self._bound = 0.0  # of the force at the end of the last step [N]
         self._places: list[Vector2] = []  # of the sections in the bore at its end, bore's axes [m]
 
-    def moved(self, place: Vector2 | None = None) -> None:
-        """The bodies are elsewhere now; place: of the middle, if it is known [m]."""
-        self._inverse_mass, self._place = None, place
+    def moved(self) -> None:
+        """The bodies are elsewhere now."""
+        self._inverse_mass = None
 
     def inverse_mass(self) -> InverseMass:
         """How the middle of the journal answers impulses, in the axes of its bore."""
@@ -61,12 +49,11 @@ class SectionJournal:
             self._inverse_mass = self._find_inverse_mass()
         return self._inverse_mass
 
+    @property
     def place(self) -> Vector2:
-        """The place of the journal's middle in its bore, in the bore's axes [m]."""
-        if self._place is None:
-            _, (x, y, *_) = self.moving.now()
-            self._place = x, y
-        return self._place
+        """The place of the journal's middle in its bore [m]: midway between the outermost sections."""
+        (x, y), (other_x, other_y) = self.sections[0].place, self.sections[-1].place
+        return 0.5 * (x + other_x), 0.5 * (y + other_y)
 
     def accepted(self, t: float) -> None:
         """All sections have kept a step to t [s]."""
@@ -83,7 +70,7 @@ class SectionJournal:
         near = max(before, self._bound) > NEAR_PEAK * self.largest_force
         has = near and has_a_top(self._bound_within, before, self._bound)
         if has or self._bound > self.largest_force:
-            self._places = [pin.moving.now()[1][:2] for pin in self.sections]
+            self._places = [pin.place for pin in self.sections]
             was_largest = self.largest_force
             self.largest_force = max(self.largest_force, self._resultant(1.0))
             if has:
@@ -119,107 +106,100 @@ class SectionJournal:
         return math.hypot(total_x, total_y)
 
 
-class SectionPin(ClearanceJoint):
+class SectionPin(ContactConnector):
     """One section of a clearance bearing.
+
+    Where the journal may shift along the bore, the markers move along before every step, so that sections of
+    bore and journal act on each other that are abreast.
 
     Arguments:
         contact: of the whole pin.
-        connector, moving, settings: as of ClearanceJoint.
+        item: markers and connector.
         whole: what it shares with the other sections.
         section: its place and share.
         ends: bore and journal.
-        slides: whether the journal may shift along the bore. The markers then move along before every step,
-            so that sections of both meet that are abreast of each other.
+        settings: of the solver.
     """
 
     def __init__(
         self,
         contact: JournalContact,
-        connector: PinConnector,
-        moving: SectionMover,
+        item: JointItem,
         whole: SectionJournal,
         section: Section,
         ends: tuple[BearingEnd, BearingEnd],
-        *,
-        slides: bool,
         settings: SolverSettings,
     ) -> None:
-        part = part_of(contact, section)
-        super().__init__(
-            part,
-            connector,
-            moving,
-            lambda: moving.now()[0][5],
-            whole.inverse_mass,
-            settings,
-            section.share,
-        )
+        super().__init__(item, whole.inverse_mass, settings.impact_steps, settings.locate, section.share)
         self.impact_steps = ImpactSteps(contact.normal, settings.impact_steps)  # steps of the whole
-        self.section, self.whole, self.moving, self.ends, self.slides = section, whole, moving, ends, slides
+        self.section, self.whole, self.ends, self.slides = section, whole, ends, whole.slides
         whole.sections.append(self)
         self._is_first = whole.sections[0] is self
         # whether it was in contact before the last accepted step, and its impact in that
-        self.was_in_contact, self.struck = False, cast(Onset | None, None)
-        self._beside = 0.0, 0.0  # where the journal is along the bore at the last accepted step [m], [m/s]
+        self.was_in_contact = False
+        self.struck: Onset | None = None
+        self._shift = self._shift_rate = 0.0  # of the journal along the bore at the last step's end [m], [m/s]
+        self._shifted = 0.0  # by which the markers have been moved [m]
 
-    def _make_frames(self, moving: Moving, bore_spin: Callable[[], float]) -> PinFrames:
-        if isinstance(self.connector, SectionConnector):
-            return SectionFrames(self.connector, moving, bore_spin)
-        return super()._make_frames(moving, bore_spin)
-
-    def _make_force(self, backend: str, bore_spin: Callable[[], float], straight: bool) -> EngineForce:
-        if isinstance(self.connector, SectionConnector):
-            return SectionForce(self.connector, straight)
-        return super()._make_force(backend, bore_spin, straight)
-
-    def look_beside(self, position: list[float], velocity: list[float]) -> None:
-        """See where the journal is along the bore at the engine's coordinates and their rates."""
+    def start(self, inverse_mass: InverseMass, state: object = INITIAL) -> None:
+        """See `ContactConnector`."""
         if self.slides:
-            self._beside = self.moving.beside(position, velocity)
-            self._meet(self._beside[0])
+            self._move_markers(0.0)
+            motion = self.item.relative(state)
+            self._shift, self._shift_rate = motion.displacement[2], motion.velocity[2]
+            self._move_markers(self._shift)
+        super().start(inverse_mass, state)
 
-    def _meet(self, apart: float) -> None:
-        self.moving.meet(apart)
-        self.connector.slide(*self.moving.shifts)
+    def _move_markers(self, shift: float) -> None:
+        """Let the sections act on each other that are so far from each other along the axis [m].
+
+        Those of the bore move, or half and half where the force acts in the middle: in either case what the
+        force follows, the displacement across its axis, is not changed by it.
+        """
+        if shift != self._shifted:
+            self._shifted = shift
+            both = (0.5 * shift, -0.5 * shift) if self.item.at is Attachment.MIDDLE else (shift, 0.0)
+            self.item.slide(*both)
 
     def begin_try(self, step: float) -> None:
-        """See `ClearanceJoint`."""
+        """See `ContactConnector`."""
         if self.slides:
-            self._meet(self._beside[0] + step * self._beside[1])
+            self._move_markers(self._shift + step * self._shift_rate)
         super().begin_try(step)
 
     def after_newton(self, t: float) -> float | None:
-        """See `ClearanceJoint`."""
+        """See `ContactConnector`."""
         if self._is_first:
-            connector = self.connector
-            self.whole.moved(connector.whole.middle if isinstance(connector, SectionConnector) else None)
+            self.whole.moved()
         return super().after_newton(t)
 
     def jumped(self, memory: PinMemory) -> None:
-        """See `ClearanceJoint`."""
+        """See `ContactConnector`."""
         if self._is_first:
             self.whole.moved()
         super().jumped(memory)
-        self.look_beside(*self.moving.coordinates())
+        if self.slides:
+            self._shift_rate = self.item.relative().velocity[2]
 
     def accept(self, t: float) -> None:
-        """See `ClearanceJoint`."""
+        """See `ContactConnector`."""
         self.was_in_contact, self.struck = self.kept.in_contact, self.onset
         super().accept(t)
         if self.slides:
-            self._beside = self.moving.beside(*self.moving.coordinates())
+            along, self._shift_rate = self.user_function.along
+            self._shift = self._shifted + along
         if self.whole.sections[-1] is self:
             self.whole.accepted(t)
 
     def _look_for_largest(self, t: float) -> None:
-        # of those in the middle nobody asks for it, see `run`
+        # those in the middle are not reported, see `run`
         if self._is_first or self.whole.sections[-1] is self:
             super()._look_for_largest(t)
         elif self.force.clamped:
             self.clamped_steps += 1
 
-    def _place(self) -> Vector2:
-        return self.whole.place()
+    def _mass_place(self) -> Vector2:
+        return self.whole.place
 
 
 def part_of(contact: JournalContact, section: Section) -> JournalContact:

@@ -13,11 +13,12 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from support_exudyn.formulations.redundant.clearance.connector_force import Attachment
 from support_exudyn.mechanics.space.constraints import BearingEnd, frame_of
 from support_exudyn.mechanics.space.motion import SpatialMotion, cross
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.spatial_linkage import Bearing
+from user_forces.connector.attachment import Attachment
+from user_forces.values.value import Vector3
 
 # where the force depends on the distance of both centres, which stands for that across the axis
 
@@ -85,7 +86,7 @@ def section_motion(
         bore, journal: where it is.
         place: of the section [m].
         at: what its force acts on; in the middle between both bodies the axes, too, are half-way.
-        slides: the journal may shift along the bore; see `SectionMover.meet`.
+        slides: the journal may shift along the bore; see `SectionPin`.
     """
     start = frame_of(bore.axis)
     axes = np.stack([motion.carried(bore.body, start[:, k]) for k in range(3)], axis=-1)
@@ -108,7 +109,7 @@ def section_motion(
     spins = spin, spin + np.einsum("ni,ni->n", journal_spin - bore_spin, axes[:, :, 2])
     x, y, z = np.einsum("nji,nj->in", axes, displacement)
     vx, vy, vz = np.einsum("nji,nj->in", axes, velocity)
-    if at is not Attachment.LINE:
+    if at is not Attachment.CENTRES:
         return SectionMotion(x, y, vx, vy, *spins, axes, displacement, centre)
     across = np.hypot(x, y)
     away = across > 0.0
@@ -139,3 +140,12 @@ def half_way(axes: Series, along: Series) -> Series:
     )
     across = axes[:, :, :2] - np.einsum("ni,nk->nik", own + middle, share)
     return np.concatenate([across, middle[:, :, None]], axis=2)
+
+
+def marker_frame(end: BearingEnd, place: float, centre: Vector3) -> list[list[float]]:
+    """Frame of a section on its body, in the body's axes (4 x 4), its z along the bearing."""
+    frame = np.eye(4)
+    frame[:3, :3] = frame_of(end.axis)
+    frame[:3, 3] = np.array(end.centre(place)) - np.array(centre)
+    found: list[list[float]] = frame.tolist()
+    return found

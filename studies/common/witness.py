@@ -1,0 +1,156 @@
+"""Studies of the paper: every case on Exudyn, and the witness, the same case by the compiled formulation.
+
+A case is run on Exudyn at one setting, and once more at twice its steps. From the distance of both runs the
+error of a number follows as for every run of two settings, see `support_exudyn.simulation.estimate`: that
+distance times the safety factor of the formulation, nine times the error itself where that is of second order.
+
+The witness shares data and laws with these runs, but neither equations nor integrator. It says whether the
+errors are true: the difference of a number from that of the witness has to lie within the printed error.
+"""
+
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+
+from studies.common.chapter import Chapter
+from studies.common.numbers import Number, cell, rounded
+from studies.common.options import Options
+from studies.common.runs import run_with_errors
+from studies.common.words import TextTable
+from support_exudyn import Result, Scenario, SolverSettings
+from support_exudyn.formulations.registry import formulation
+from support_exudyn.postprocessing.page.pieces import Sheet
+from support_exudyn.simulation.automatic_settings import settings_for
+from support_exudyn.simulation.provenance import installed
+
+LONGER = 0.0256  # goal whose settings the longer steps have: for the paper's machine 1 ms and 32 an impact
+HALVED = 1  # times
+TOLERANCE = 1e-9  # of the witness; one more run has 8e-9, from which its own errors follow
+TABLE = "witness"  # its name
+HEADER = ("case", "quantity", "unit", "Exudyn", "witness", "difference", "within the error")
+WAITING = "The witness is still being computed; this page is written again when it is there."
+
+
+@dataclass(frozen=True)
+class Witness:
+    """What the witness of a study computes, and what is told again once it has.
+
+    cases: by the names that they have on Exudyn. measure: all numbers of the study from runs of these cases.
+    tables: all tables of the study from its numbers.
+    """
+
+    cases: Mapping[str, Scenario]
+    measure: Callable[[Mapping[str, Result]], Sequence[Number]]
+    tables: Callable[[Sequence[Number]], Mapping[str, TextTable]]
+
+    def compared(self, numbers: Sequence[Number], chosen: Options) -> list[Number]:
+        """The numbers with those of the witness; as they are where it does not cover their cases."""
+        cases = {name: by_witness(case) for name, case in self.cases.items()}
+        if not all(formulation("compiled").covers(case) for case in cases.values()):
+            return list(numbers)
+        results = run_with_errors(cases, replace(chosen, kept=chosen.witnesses), HALVED)
+        known = {(one.name, one.case): one.value for one in self.measure(results)}
+        return [replace(one, witness=known.get((one.name, one.case))) for one in numbers]
+
+
+def on_exudyn(case: Scenario) -> Scenario:
+    """A case on Exudyn, at the longer of both steps."""
+    plain = replace(case, accuracy=None, formulation="exudyn", solver=SolverSettings())
+    return settings_for(plain, LONGER)
+
+
+def by_witness(case: Scenario) -> Scenario:
+    """A case by the compiled formulation, at the larger of both tolerances."""
+    solver = SolverSettings(tolerance=8.0 * TOLERANCE)
+    return replace(case, accuracy=None, formulation="compiled", solver=solver)
+
+
+def run_on_exudyn(cases: Mapping[str, Scenario], chosen: Options) -> dict[str, Result]:
+    """Run every case on Exudyn at two settings; see `run_with_errors`."""
+    return run_with_errors({name: on_exudyn(case) for name, case in cases.items()}, chosen, HALVED)
+
+
+@contextmanager
+def compiling() -> Iterator[None]:
+    """Compile the witness meanwhile, in a process of low priority; what is compiled is kept on disk."""
+    code = (
+        "import os; getattr(os, 'nice', int)(19); "
+        "from support_exudyn.sweeps.precompile import precompile; precompile()"
+    )
+    process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
+    try:
+        yield
+    finally:
+        process.terminate()
+        process.wait()
+
+
+# --- what is told ---
+
+
+def computed_by() -> str:
+    """Engine and method of the numbers, and those of the witness."""
+    return (
+        f"Computed by Exudyn {installed('exudyn')}: rigid bodies in redundant coordinates, generalised-alpha "
+        "time integration, Python user-function connector; witness: own Runge-Kutta method with error "
+        f"control, tolerance {TOLERANCE:g}."
+    )
+
+
+def is_within(number: Number) -> bool:
+    """Whether the witness differs by no more than the printed error; only of a number that has one."""
+    assert number.witness is not None
+    return abs(number.value - number.witness) <= number.numerical_error
+
+
+def verdict(numbers: Sequence[Number]) -> str:
+    """How many numbers the witness confirms, and which it does not, in a sentence or two."""
+    judged = [one for one in numbers if one.witness is not None]
+    if not judged:
+        return WAITING
+    beyond = [f"{one.name.replace('_', ' ')} ({one.case})" for one in judged if not is_within(one)]
+    said = (
+        f"The witness has {len(judged)} of the {len(numbers)} numbers, and differs from Exudyn by no more than "
+        f"the printed error in {len(judged) - len(beyond)} of them ([@{TABLE}])."
+    )
+    return f"{said} Beyond it: {'; '.join(beyond)}." if beyond else said
+
+
+def told(
+    chapter: Chapter, sheets: Mapping[str, Sheet], numbers: Sequence[Number]
+) -> tuple[Chapter, dict[str, Sheet]]:
+    """A chapter and its tables with engine and method in every caption, and with what the witness says."""
+    by = computed_by()
+    signed = {name: replace(one, caption=f"{one.caption} {by}".strip()) for name, one in sheets.items()}
+    shown = tuple(signed[one.name] for one in chapter.sheets)
+    findings = (*chapter.findings, verdict(numbers))
+    return replace(
+        chapter, sheets=shown, computed_by=by, method=(*chapter.method, by), findings=findings
+    ), signed
+
+
+def witness_table(numbers: Sequence[Number]) -> TextTable:
+    """A row a number: by Exudyn with its error, by the witness, and the difference."""
+    rows = []
+    for one in numbers:
+        name = one.name.replace("_", " ")
+        rows.append((one.case, name, one.unit, cell(one), witnessed(one), difference(one), _judged(one)))
+    return TextTable(HEADER, tuple(rows), left=3, width=170)
+
+
+def witnessed(number: Number) -> str:
+    """The value by the witness, with the digits that the error of the number leaves; empty if there is none."""
+    if number.witness is None:
+        return ""
+    return rounded(number.witness, number.numerical_error).partition(" ± ")[0]
+
+
+def difference(number: Number) -> str:
+    """By how much the number is above the witness, to two digits; empty if there is no witness."""
+    return "" if number.witness is None else f"{number.value - number.witness:+.2g}"
+
+
+def _judged(number: Number) -> str:
+    return "" if number.witness is None else "yes" if is_within(number) else "no"

@@ -1,1 +1,0 @@
-"""A clearance pin in the engine: its connector, force and memory."""

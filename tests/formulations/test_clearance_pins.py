@@ -1,0 +1,120 @@
+"""Pins with clearance: any pin may be one, and a run may start with its journal anywhere in its bore."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from studies.common.paper_machine import oil_columns
+from support_exudyn import ClearancePin, Held, IdealPin, Scenario, reference_support, simulate
+from tests.cases.run_cases import FORCE, PIN, paper_contact, support
+
+CLEARANCE = 1.5e-3  # [m]
+DEPTH = f"pin.{PIN}.depth"
+
+
+def eccentric(x: float, y: float, bore: str = "first", **changes: Any) -> Scenario:
+    """The held support with its clearance journal there [m] at the start."""
+    pin = ClearancePin(contact=paper_contact(1e3 * CLEARANCE, 0.0), bore=bore, eccentricity=(x, y))
+    return support(**{"pins": {PIN: pin}, "drive": Held(), "duration": 0.03} | changes)
+
+
+def sense(bore: str) -> float:
+    """Which way the journal goes in its bore as the support falls: down, or up if the bore falls."""
+    return -1.0 if bore == "first" else 1.0
+
+
+BORES = pytest.mark.parametrize("bore", ["first", "second"])
+
+
+@BORES
+def test_the_first_record_is_as_eccentric_as_asked(bore: str) -> None:
+    result = simulate(eccentric(1e-3, -5e-4, bore))
+    first = [result[f"pin.{PIN}.eccentricity_{axis}"][0] for axis in "xy"]
+    np.testing.assert_allclose(first, (1e-3, -5e-4), rtol=0, atol=1e-12)  # rounding of coordinates
+    assert result[FORCE][0] == 0.0
+    # against the pin's clearance, what is turned over falls 1 mm: 3e4 N of weight and more
+    assert result.energy_error < 0.01
+
+
+@BORES
+def test_a_journal_pressed_in_starts_with_the_force_of_its_law(bore: str) -> None:
+    deep = 1e-4
+    scenario = eccentric(0.0, sense(bore) * (CLEARANCE + deep), bore)
+    normal = scenario.clearance_pins[PIN].contact.normal
+    result = simulate(scenario)
+    assert result[DEPTH][0] == pytest.approx(deep, abs=1e-12)  # rounding of coordinates
+    # 1.5 times the rounding of the depth, relative
+    assert result[FORCE][0] == pytest.approx(normal.elastic_force(deep), rel=1e-7)
+    # 1 J of the contact is set free by steps that follow it: 7e-5 J, where the step of 0.5 ms left 0.06 J
+    assert result.energy_error < 5e-4
+    assert result["energy.elastic"][0] == pytest.approx(normal.elastic_energy(deep), rel=1e-7)
+
+
+@pytest.mark.parametrize(("bore", "over"), [("first", 1e-4), ("second", 0.0)])
+def test_the_compiled_formulation_and_space_start_and_go_on_alike(bore: str, over: float) -> None:
+    # pressed in on the side from which it flies across the bore, or free
+    place = (0.0, -sense(bore) * (CLEARANCE + over)) if over else (1e-3, -5e-4)
+    scenario = eccentric(*place, bore, actuators=oil_columns())
+    flat = simulate(scenario)
+    compiled = simulate(replace(scenario, formulation="compiled"))
+    space = simulate(replace(scenario, dimensions=3))
+    assert len(flat.onsets[PIN]) >= 1
+    for other, close in ((compiled, 1e-5), (space, 1e-7)):
+        assert other[FORCE][0] == pytest.approx(flat[FORCE][0], rel=1e-7, abs=1e-6)  # rounding of the depth
+        first, theirs = flat.onsets[PIN][0], other.onsets[PIN][0]
+        # 14 ms of flight by both methods; measured 7e-7 s and 5e-6 of the speed compiled, else 1e-10
+        assert theirs.time == pytest.approx(first.time, abs=0.2 * close)
+        assert theirs.speed == pytest.approx(first.speed, rel=10.0 * close)
+        assert other.energy_error < 5e-3
+        # at rest at the start, in the same place
+        for name in ("tip.x", "tip.y", f"pin.{PIN}.eccentricity_x", f"pin.{PIN}.eccentricity_y"):
+            assert other[name][0] == pytest.approx(flat[name][0], abs=1e-11)
+
+
+@BORES
+def test_a_journal_that_touches_without_speed_has_no_impact(bore: str) -> None:
+    resting = simulate(eccentric(0.0, sense(bore) * CLEARANCE, bore, duration=0.01))
+    assert resting.onsets[PIN] == ()
+    # it sinks in under the weight, at most twice as deep as at rest; a fall through the clearance is 8 times
+    fallen = simulate(eccentric(0.0, 0.0, bore, duration=0.03))
+    assert resting.largest_force[PIN] < 0.4 * fallen.largest_force[PIN]
+    assert resting[FORCE].max() > 0.0
+
+
+# --- any pin ---
+
+PINS = tuple(reference_support().linkage().pins)
+
+
+def test_an_ideal_pin_is_the_default() -> None:
+    said = simulate(support(duration=0.05, drive=Held(), pins=dict.fromkeys(PINS, IdealPin())))
+    unsaid = simulate(support(duration=0.05, drive=Held()))
+    for name in PINS:
+        np.testing.assert_array_equal(said[f"pin.{name}.force"], unsaid[f"pin.{name}.force"])
+
+
+@pytest.mark.parametrize("name", PINS)
+@pytest.mark.parametrize("bore", ["first", "second"])
+def test_a_tight_loose_pin_carries_what_the_ideal_one_does(name: str, bore: str) -> None:
+    ideal = simulate(support(duration=0.01, drive=Held()))
+    pin = ClearancePin(contact=paper_contact(0.01, 0.0), bore=bore)
+    with_clearance = simulate(support(duration=0.01, drive=Held(), pins={name: pin}, start="settled"))
+    for part in ("force_x", "force_y"):
+        # the posture moves by 0.01 mm and the depth of 0.1 to 0.2 mm, of lengths of 400 mm and more
+        scale = ideal[f"pin.{name}.force"][0]
+        assert with_clearance[f"pin.{name}.{part}"][0] == pytest.approx(
+            ideal[f"pin.{name}.{part}"][0], abs=5e-3 * scale
+        )
+
+
+def test_all_pins_can_be_loose_at_once() -> None:
+    pins = {name: ClearancePin(contact=paper_contact(0.5, 0.1)) for name in PINS}
+    result = simulate(support(duration=0.02, drive=Held(), pins=pins))
+    assert set(result.onsets) == set(PINS)
+    assert all(len(result.onsets[name]) >= 1 for name in PINS)
+    # energy of impacts in five pins at the default step
+    assert result.energy_error < 1e-3 * result.dissipated

@@ -1,0 +1,159 @@
+"""The compiled formulation: how a run in it fails, its energy balance, and the same bits everywhere."""
+
+from __future__ import annotations
+
+import importlib
+import multiprocessing
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    ClearancePin,
+    CubicStep,
+    Drive,
+    Held,
+    Scenario,
+    SimulationError,
+    UniformSpeed,
+)
+from support_exudyn.sweeps.precompile import precompile
+from tests.cases.machine_cases import contact, support
+from tests.compiled_runs import simulate_compiled
+from user_forces import (
+    Exact,
+    Hertz,
+    JournalBearing,
+    JournalContact,
+    LankaraniNikravesh,
+    NormalLaw,
+    value,
+)
+
+PIN = "rear_base"
+FORCE = "pin.rear_base.force"
+
+
+def scene(pin: ClearancePin | None = None, **changes: Any) -> Scenario:
+    fields = {"machine": support(), "duration": 0.05, "pins": {PIN: pin or ClearancePin(contact=contact())}}
+    return Scenario(**fields | changes)
+
+
+def hertz(stiffness: float) -> ClearancePin:
+    bearing = JournalBearing(bore_radius=0.0655, clearance=0.0015)
+    return ClearancePin(contact=JournalContact(bearing=bearing, normal=Hertz(stiffness=stiffness)))
+
+
+@value
+class Softened(LankaraniNikravesh):
+    """A law whose force is no longer that of its family."""
+
+    def elastic_force(self, depth: float) -> float:
+        return 0.5 * super().elastic_force(depth)
+
+    def elastic_energy(self, depth: float) -> float:
+        return 0.5 * super().elastic_energy(depth)
+
+
+def pin_with(law: NormalLaw) -> ClearancePin:
+    return ClearancePin(contact=replace(contact(), normal=law))
+
+
+def test_a_changed_law_is_not_taken_for_one_of_its_family() -> None:
+    softened = simulate_compiled(scene(pin_with(Softened(stiffness=1e10, restitution=0.5))))
+    original = simulate_compiled(scene(pin_with(LankaraniNikravesh(stiffness=1e10, restitution=0.5))))
+    assert softened.counts.user_function_calls == original.counts.user_function_calls == 0
+    assert softened.largest_force[PIN] < 0.9 * original.largest_force[PIN]
+
+
+# --- failures ---
+
+
+@value
+class Untold(Drive):
+    """A drive that jumps at a time that is none of its breaks."""
+
+    at: float = 0.03
+
+    def extension(self, t: float) -> float:
+        return 0.01 * (t > self.at)
+
+    def speed(self, t: float) -> float:
+        return 0.0
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return ()
+
+    def span(self, duration: float) -> tuple[float, float]:
+        return 0.0, 0.01
+
+
+def test_a_jump_of_a_drive_at_no_break_is_refused() -> None:
+    with pytest.raises(SimulationError, match=r"jumps by .* near 0\.(03|02999)"):
+        simulate_compiled(scene(drive=Untold()))
+
+
+def test_a_support_that_falls_through_its_pin_is_refused() -> None:
+    with pytest.raises(SimulationError) as caught:
+        simulate_compiled(scene(hertz(1e3), duration=5.0))
+    failure = caught.value.failure
+    assert "deep in a bore of 65.5 mm radius" in failure.reason
+    assert 0.5 < failure.time < 2.0  # a fall of metres
+
+
+def test_a_run_with_too_many_steps_is_given_up() -> None:
+    with pytest.raises(SimulationError, match="more than 10 steps") as caught:
+        simulate_compiled(scene(), most_steps=10)
+    assert 0.0 < caught.value.failure.time < 0.05
+
+
+def test_a_run_with_too_many_touches_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    module = importlib.import_module("support_exudyn.formulations.compiled.run")
+    monkeypatch.setattr(module, "MOST_IMPACTS", 1)
+    with pytest.raises(SimulationError, match="more than 1 impacts"):
+        simulate_compiled(scene(hertz(1e10), duration=0.3))
+
+
+@pytest.mark.parametrize(
+    ("law", "bore", "drive"),
+    [
+        (Hertz(stiffness=2.7e10), "first", CubicStep(stroke=0.05, start=0.05, end=0.25)),
+        (Hertz(stiffness=2.7e10), "second", UniformSpeed(stroke=0.02, start=0.05, end=0.2)),
+        (Exact(stiffness=2.7e10, restitution=0.6), "first", UniformSpeed(stroke=0.02, start=0.05, end=0.2)),
+        (Exact(stiffness=2.7e10, restitution=0.6), "second", Held()),
+    ],
+)
+def test_energy_adds_up(law: Hertz | Exact, bore: str, drive: Drive) -> None:
+    pin = ClearancePin(contact=replace(contact(), normal=law), bore=bore)
+    result = simulate_compiled(scene(pin, duration=0.3, gravity=(2.0, -9.0), drive=drive), 1e-10)
+    # measured 3e-7 at this tolerance, in proportion to it; friction's kinks leave the most
+    assert result.dissipated > 1.0
+    assert result.energy_error < 1e-6 * result.dissipated
+    assert (np.abs(result["energy.work"]).max() > 100.0) == (not isinstance(drive, Held))
+
+
+# --- the same numbers everywhere ---
+
+
+def _bytes() -> bytes:
+    result = simulate_compiled(scene(duration=0.2))
+    return b"".join(channel.values.tobytes() for channel in result.channels.values())
+
+
+def test_runs_are_the_same_bit_for_bit_also_in_another_process() -> None:
+    precompile()
+    here = _bytes()
+    assert _bytes() == here
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        assert pool.submit(_bytes).result() == here
+
+
+def test_records_do_not_change_the_run() -> None:
+    coarse = simulate_compiled(scene(duration=0.2, record_period=0.1))
+    fine = simulate_compiled(scene(duration=0.2, record_period=1e-4))
+    assert coarse.onsets == fine.onsets
+    assert coarse[FORCE][-1] == fine[FORCE][-1]

@@ -1,0 +1,107 @@
+"""Drives of a support: of its own for each part, and through points, beside those that these stand for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import root
+
+from support_exudyn import CubicStep, Drive, Held, Result, TableDrive, UniformSpeed, simulate
+from support_exudyn.files.machines import reference_support
+from support_exudyn.postprocessing.pytest_plugin import SimulateCached
+from tests.cases.run_cases import support
+from tests.commands import test_scenario_commands
+from tests.commands.test_scenario_commands import same
+
+FRONT = CubicStep(stroke=0.12, start=0.05, end=0.45)
+REAR = CubicStep(stroke=-0.03, start=0.15, end=0.35)
+
+
+@pytest.fixture(scope="module")
+def apart(simulate_cached: SimulateCached) -> Result:
+    return simulate_cached(support(drive=FRONT, drives={"rear_column": REAR}, duration=0.5, step=1e-3))
+
+
+def test_actuators_driven_apart_bring_the_support_where_their_lengths_say(apart: Result) -> None:
+    machine = reference_support()
+    start = machine.start()
+    before = np.array(machine.column_lengths(start))
+    turns = np.array([start.rear_link, start.canopy])
+    for n in range(0, 501, 25):
+        t = float(apart.time[n])
+        wanted = before + np.array([FRONT.extension(t), REAR.extension(t)])
+
+        def misfit(trial: np.ndarray, wanted: np.ndarray = wanted) -> np.ndarray:
+            posture = machine.posture(*trial.tolist())
+            assert posture is not None
+            return np.array(machine.column_lengths(posture)) - wanted
+
+        turns = root(misfit, turns, tol=1e-14).x
+        posture = machine.posture(*turns.tolist())
+        assert posture is not None
+        # both solve the same closed loops: Newton's tolerance of 1e-8 on lengths of 3 m
+        np.testing.assert_allclose([apart["tip.x"][n], apart["tip.y"][n]], posture.tip, atol=1e-8)
+        turned = apart["rear_link.angle"][n] - apart["rear_link.angle"][0]
+        assert turned == pytest.approx(posture.rear_link - start.rear_link, abs=1e-8)
+
+
+def test_energy_adds_up_where_actuators_are_driven_apart(apart: Result) -> None:
+    assert apart["energy.work"].max() > 500.0
+    # Each by its own force and speed. At a break of one drive the force on the other, which moves, jumps, and
+    # overshoots for some of the refined steps after it: 6e-5 at 1 ms, of first order in the step
+    assert apart.energy_error < 1e-4 * apart["energy.work"].max()
+    finer = simulate(apart.scenario.refined())
+    assert finer.energy_error < 0.6 * apart.energy_error
+
+
+def test_a_part_that_is_told_the_same_drive_changes_nothing(apart: Result) -> None:
+    told = {"front_column": FRONT, "rear_column": FRONT}
+    one = simulate(support(drive=FRONT, duration=0.1))
+    other = simulate(support(drive=Held(), drives=told, duration=0.1))
+    for name in one.channels:
+        np.testing.assert_array_equal(one[name], other[name])  # the same numbers in the same order
+
+
+def test_a_jump_of_one_actuator_strikes_the_other_too() -> None:
+    drive = UniformSpeed(stroke=0.05, start=0.1, end=0.3)
+    result = simulate(support(drives={"front_column": drive}, duration=0.2))
+    (impulse,) = result.impulses
+    # only the front column moves, and so only its impulse does work: the impulse times half the speed; rounding
+    assert impulse.energy == pytest.approx(0.5 * 0.25 * impulse.actuators["front_column"], rel=1e-9)
+    assert abs(impulse.actuators["rear_column"]) > 1.0
+    np.testing.assert_allclose(result["rear_column.length"], result["rear_column.length"][0], atol=1e-11)
+    # a step after the jump is known by its end only: second order of the step, of 40 J
+    assert result.energy_error < 1e-3 * impulse.energy
+
+
+# --- tables ---
+
+STROKE = CubicStep(stroke=0.02, start=0.02, end=0.08)
+BASE = replace(test_scenario_commands.BASE, drive=STROKE, duration=0.1, record_period=1e-3)
+
+
+def test_a_fine_table_of_a_cubic_step_drives_as_it_does() -> None:
+    times = np.linspace(0.02, 0.08, 61)
+    points = TableDrive(times=times.tolist(), extensions=[STROKE.extension(t) for t in times.tolist()])
+    scenario = replace(BASE, pins={}, step=1e-4)
+    one, other = simulate(replace(scenario, drive=points)), simulate(scenario)
+    # a smooth table is of second order near the ends, where it rests, and of third elsewhere: its rise differs
+    # by the acceleration there, 33 m/s^2, over an interval of 1 ms, squared, over 2: 17 um of 20 mm
+    difference = np.abs(one["tip.y"] - other["tip.y"]).max()
+    assert difference < 17e-6 * 4.0  # the tip goes up to four times as far as the actuators
+    assert difference > 0.0
+
+
+@pytest.mark.parametrize("formulation", ["exudyn", "compiled"])
+@pytest.mark.parametrize(
+    ("between", "drive"), [("smooth", STROKE), ("linear", UniformSpeed(stroke=0.02, start=0.02, end=0.08))]
+)
+def test_two_points_drive_as_what_they_stand_for_to_the_bit(
+    between: str, drive: Drive, formulation: str
+) -> None:
+    points = TableDrive(times=(0.02, 0.08), extensions=(0.0, 0.02), between=between)
+    one, other = (simulate(replace(BASE, drive=made, formulation=formulation)) for made in (points, drive))
+    assert len(one.impulses) == (2 if between == "linear" else 0)
+    same(one, other)

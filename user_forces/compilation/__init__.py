@@ -1,1 +1,0 @@
-"""The source of a law as plain code, for compilers."""

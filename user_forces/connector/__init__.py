@@ -1,0 +1,1 @@
+"""Clearance joints in Exudyn: connector, user function, memory, and steps that end at impacts."""

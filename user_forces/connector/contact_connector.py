@@ -1,0 +1,337 @@
+"""A contact in the engine over a run: its memory, its impacts, its largest force, and how long steps may be.
+
+A solver calls `begin_try` before it tries a step, `after_newton` when the step is solved, and `accept` when it
+stands. The stock solver does without them, see `ClearanceJoint`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from user_forces.connector.attachment import connector_kernel
+from user_forces.connector.friction_line import FrictionLine, can_be_line, with_line
+from user_forces.connector.item import INITIAL, JointItem
+from user_forces.connector.user_function import ConnectorForce
+from user_forces.contact import ContactForce
+from user_forces.contact_events import STILL, Action, DepthPath, Verdict, goes_on, judge, judge_at_ends
+from user_forces.contact_state import InverseMass, Onset, PinMemory
+from user_forces.impact_steps import ImpactSteps
+from user_forces.lawful import PROBED, look
+from user_forces.peak_force import NEAR_PEAK, has_a_top, peak
+
+SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been in contact
+FIRST, LAST = 4, 14  # where `ContactForce` stands in what the kernel gives; the place x, y follows
+FindMass = Callable[[], InverseMass]  # how a journal answers impulses now, in the axes of its bore
+NOT_KNOWN = InverseMass(math.nan, math.nan, math.nan)
+
+
+class ContactConnector:
+    """A contact of two bodies in the engine.
+
+    Arguments:
+        item: markers and connector.
+        find_inverse_mass: computes how the journal answers impulses, by which steps are chosen.
+        impact_steps: number of steps in an undamped impact.
+        locates: whether steps end at impacts and separations.
+        share: of the contact that the inverse effective mass is of.
+
+    `onsets` are the impacts so far, `largest_force` [N] the largest contact force, also between the ends of
+    steps, and `largest_force_time` [s] the end of the step that has it.
+    """
+
+    def __init__(
+        self,
+        item: JointItem,
+        find_inverse_mass: FindMass,
+        impact_steps: int,
+        locates: bool = True,
+        share: float = 1.0,
+    ) -> None:
+        self.item, self.contact, self.find_inverse_mass = item, item.contact, find_inverse_mass
+        self.locates, self.share = locates, share
+        self.impact_steps = ImpactSteps(self.contact.normal, impact_steps)
+        self.user_function = ConnectorForce(self.contact, item.at, item.bore_spin)
+        item.set_force(self.user_function)
+        self.elastic_force = self.contact.normal.elastic_force
+        self._force = self.contact.force_kernel
+        self._has_state = self.contact.friction.has_state
+        self._line: FrictionLine | None = None  # that stands for steep friction
+        # at the last accepted step
+        self.kept = PinMemory(False, 0.0, 0.0, 0.0)
+        self._turn = 0.0  # between the marker frames [rad]
+        self._turn_rate = 0.0  # [rad/s]
+        self._swing_step = math.inf  # see `longest_step`
+        self._inverse_mass, self._lightest = (
+            NOT_KNOWN,
+            NOT_KNOWN.lightest,
+        )  # at the last impact; least mass [kg]
+        # the step being tried
+        self.memory = self.kept  # with which its force is computed
+        self.reached = self.memory  # at its end
+        self.force = self.contact.force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None)
+        self.place = 0.0, 0.0  # of the journal in its bore at its end [m]
+        self.onset: Onset | None = None
+        self.wants_cut = False
+        self.landing = math.inf  # where steps are to end, seen in a step that was then cut [s]
+        self._step = 0.0  # its length [s]
+        # over the run
+        self.onsets: list[Onset] = []
+        self.clamped_steps = 0
+        self.largest_force = self.largest_force_time = 0.0
+        self._size = 0.0  # of the force at the end of the last step [N]
+        self._went_on_from: PinMemory | None = None  # of a step just accepted in which the contact lasted
+
+    @property
+    def calls(self) -> int:
+        """Evaluations of the user function."""
+        return self.user_function.calls
+
+    @property
+    def longest_step(self) -> float:
+        """The longest step [s] in the present impact, or for what friction holds at the end of the last."""
+        return min(self.impact_steps.step, self._swing_step) if self._has_state else self.impact_steps.step
+
+    def observe(self, state: Any) -> ContactForce:
+        """Kinematics of the contact in a state of the engine, the surfaces being separated."""
+        self._read(state)
+        return self.force
+
+    def _read(self, state: Any) -> None:
+        """Evaluate the contact without its memory in a state of the engine."""
+        motion = self.item.relative(state)
+        function = self.user_function
+        spins = motion.turn, motion.turning, motion.bore_spin
+        memory = False, 0.0, 0.0, 0.0, 0.0
+        result = function.kernel(*motion.displacement, *motion.velocity, *spins, *memory, function.constants)
+        self.force, self.place = ContactForce(*result[FIRST:LAST]), result[LAST:]
+        self._turn, self._turn_rate = motion.turn, motion.turning
+
+    # --- called by the solver ---
+
+    def start(self, inverse_mass: InverseMass, state: Any = INITIAL) -> None:
+        """Begin the run in a state of the engine: a journal that is pressed makes contact just now.
+
+        inverse_mass: of the journal in that state.
+
+        Surfaces that approach and touch within rounding are separated, so that their impact is located.
+        """
+        depth, rate, slip, *_ = self.observe(state)
+        closed = depth > (STILL if rate > 0.0 else 0.0)
+        speed = max(0.0, rate) if closed else 0.0
+        self.kept = self.reached = PinMemory(closed, speed, depth, rate, slip)
+        self._weigh(inverse_mass)
+
+    def jumped(self, memory: PinMemory) -> None:
+        """Velocities have jumped after the last step; the memory since then."""
+        self.kept = self.reached = memory
+
+    def begin_try(self, step: float) -> None:
+        """Begin to try a step of this length [s] from the last accepted state: line up the marker frames."""
+        self.onset, self.wants_cut, self._step = None, False, step
+        if self._line is not None:
+            self._line.begin()
+        expected = self._turn + self._turn_rate * step
+        if self.item.line_up(expected):
+            self._turn -= expected
+        self._recall(self.kept)
+
+    def after_newton(self, t: float) -> float | None:
+        """Decide on a solved step that would end at t [s]: None if it may stand.
+
+        Else with which length [s] it is to be repeated; infinite: with the same, for the force has changed.
+        """
+        # the residual that satisfied Newton's method was evaluated at this same state
+        result, start = self.user_function.last, self.memory
+        self.force = force = tuple.__new__(ContactForce, result[FIRST:LAST])
+        self.place = result[LAST:]
+        depth, rate, slip, normal, friction, *_, deflection = force
+        if not -math.inf < normal + friction < math.inf:
+            look(self.contact, depth, rate, slip, normal, friction)
+        if self._line is not None and start.in_contact and (again := self._check_line(self._line)) is not None:
+            self._recall(start)
+            return again
+        if goes_on(start, depth, rate, self._step):
+            self.reached = start.at(depth, rate, slip, deflection)
+            return None
+        return self._decided(start, self._verdict(start, t))
+
+    def accept(self, t: float) -> None:
+        """Keep what happened in a step that ends at t [s] and stands."""
+        start, onset = self.kept, self.onset
+        self._went_on_from = start if self.memory.in_contact and onset is None else None
+        self.kept = reached = self.reached
+        self._turn, self._turn_rate = self.user_function.turn
+        if not reached.in_contact:
+            if self._line is not None:
+                self._line = None
+                self.user_function.use()
+            if start.in_contact and self.onsets:
+                self.onsets[-1] = self.onsets[-1].separated(t, -reached.rate)
+        if self.locates:
+            steps, depth, rate = self.impact_steps, reached.depth, reached.rate
+            if onset is not None:
+                steps.impact(depth, rate, self._find_least_mass())
+            else:
+                steps.follow(depth, rate, self._lightest, self._find_least_mass)
+            if self._has_state:
+                self._swing_step = steps.swing_step(self._swing_time())
+        if onset is not None:
+            self.onsets.append(onset)
+            self.onset = None
+        self._look_for_largest(t)
+
+    def begin_impact(self) -> None:
+        """Let the depth of a closed joint oscillate from now on: at the start, or after a jump of speed."""
+        if self.locates and self.kept.depth > 0.0:
+            self.impact_steps.begin(self.kept.depth, self.kept.rate, self._find_least_mass())
+
+    def act_without_memory(self, impact_velocity: float) -> None:
+        """Let the force act whenever there is depth, as for an impact with this speed [m/s].
+
+        For recipes that do without `begin_try`, `after_newton` and `accept`.
+        """
+        self._recall(self.kept._replace(in_contact=True, impact_velocity=impact_velocity))
+
+    def straighten(self) -> bool:
+        """Newton's method has failed: let a straight line stand for friction; whether that is new."""
+        if self._line is not None or not self.kept.in_contact or not can_be_line(self.contact.friction):
+            return False
+        self._line = FrictionLine(self.contact.friction)
+        self._line.lay(self.kept.slip, self.force.normal_force)
+        kernel, constants = with_line(self.contact)
+        in_axes = connector_kernel(kernel, self.item.at, self.contact.bearing.is_slot)
+        self.user_function.use(in_axes, np.array(constants))
+        return True
+
+    def rounding(self, step: float, size: float) -> float:
+        """The scatter of friction in a step [N], see `FrictionLine.rounding`."""
+        return 0.0 if self._line is None else self._line.rounding(self.force.normal_force, size, step)
+
+    def check(self, elastic: float, name: str) -> None:
+        """Raise LawError if the force at the end of the last step, elastic to this part [N], cannot exist."""
+        depth, rate, slip, normal, friction, *_ = self.force
+        look(self.contact, depth, rate, slip, normal, friction, elastic, name)
+
+    def probe(self, name: str) -> None:
+        """Raise LawError if a law is no number where the last step began, or a little deeper and faster."""
+        memory, contact = self.memory, self.contact
+        for more in PROBED:
+            depth, slip = more * max(memory.depth, SHALLOW), more * memory.slip
+            if depth > contact.normal.largest_depth:  # of which the law has its own message
+                return
+            normal = contact.normal(depth, memory.rate, memory.impact_velocity)
+            friction = contact.friction(slip, max(0.0, normal), memory.deflection)
+            look(contact, depth, memory.rate, slip, normal, friction, pin=name)
+
+    # --- decisions on a step ---
+
+    def _check_line(self, line: FrictionLine) -> float | None:
+        """With which length [s] a step is to be repeated if the line does not meet the law; None if it does."""
+        force, softness = self.force, self.force.normal_force * self._step / self._lightest
+        if line.meets(force.slip, force.normal_force, softness):
+            return None
+        return 0.5 * self._step if line.exhausted else math.inf
+
+    def _decided(self, start: PinMemory, verdict: Verdict) -> float | None:
+        """The answer to the engine that follows from a verdict."""
+        if verdict.action is Action.CUT:
+            self.wants_cut = True
+            self.landing = verdict.landing
+            return verdict.step
+        memory = self._completed(verdict)
+        if verdict.onset is not None:
+            self.onset = verdict.onset
+        if verdict.action is Action.REPEAT:
+            self._recall(memory)
+            return math.inf
+        self.reached = memory
+        return None
+
+    def _verdict(self, start: PinMemory, end_time: float) -> Verdict:
+        """Whether the step that has been tried may stand."""
+        step = (start, self.force.depth, self.force.rate, end_time, self._step)
+        return judge(*step, self._impact_step) if self.locates else judge_at_ends(*step)
+
+    def _impact_step(self, speed: float) -> float:
+        """Length of the steps [s] in an impact of this speed [m/s] that begins where the journal is."""
+        return self.impact_steps.length(speed, self.find_inverse_mass().mass(*self._mass_place()))
+
+    def _completed(self, verdict: Verdict) -> PinMemory:
+        """The verdict's memory with what the laws need besides."""
+        memory = verdict.memory
+        if verdict.onset is not None:
+            self._weigh(self.find_inverse_mass())
+        if verdict.action is Action.REPEAT:
+            return memory._replace(deflection=0.0)
+        sticks = memory.in_contact and verdict.onset is None
+        return memory.slid(self.force.slip, self.force.deflection if sticks else 0.0)
+
+    def _weigh(self, inverse_mass: InverseMass) -> None:
+        """Let steps follow an inverse effective mass from now on."""
+        self._inverse_mass, self._lightest = inverse_mass, inverse_mass.lightest
+
+    def _find_least_mass(self) -> float:
+        """Mass [kg] that moves at least as the depth does, where the journal is now."""
+        return self._inverse_mass.mass(*self._mass_place())
+
+    def _mass_place(self) -> tuple[float, ...]:
+        """The place [m] in the bore whose direction effective masses are of."""
+        return self.place
+
+    def _swing_time(self) -> float:
+        """The time of the swing of what friction holds, with the least mass that moves along the surface [s].
+
+        It is that of the journal's centre. Its turning adds little: pins are thin against what they join.
+        """
+        force = self.force.normal_force
+        if force == 0.0:
+            return math.inf
+        x, y = self._mass_place()
+        return self.contact.friction.swing_time(self._inverse_mass.mass(-y, x), force / self.share)
+
+    def _recall(self, memory: PinMemory) -> None:
+        """Let the force of the step being tried follow from a memory, and from the line if there is any."""
+        self.memory = memory
+        function = self.user_function
+        function.closed, function.speed = memory.in_contact, memory.impact_velocity
+        if self._has_state:
+            function.deflection, function.slip, function.step = memory.deflection, memory.slip, self._step
+        if self._line is not None:
+            function.constants[-2:] = self._line.offset, self._line.slope
+
+    # --- the largest force ---
+
+    def _look_for_largest(self, t: float) -> None:
+        """Update the largest force by the step to t [s], at its end and within it."""
+        force, before, was_largest = self.force, self._size, self.largest_force
+        if force.clamped:
+            self.clamped_steps += 1
+        self._size = size = math.hypot(force.normal_force, force.friction_force)
+        near = self._went_on_from is not None and max(before, size) > NEAR_PEAK * max(was_largest, size)
+        self.largest_force = max(was_largest, size)
+        if near and has_a_top(self._size_within, before, size):
+            self.largest_force = peak(self._size_within, self.largest_force)
+        if self.largest_force > was_largest:
+            self.largest_force_time = t
+
+    def force_within(self, x: float) -> ContactForce:
+        """The force at a fraction of the step just accepted; at its end, if the contact did not last in it.
+
+        The depth is the cubic through both ends, and the slip changes evenly.
+        """
+        start, end = self._went_on_from, self.force
+        if start is None:
+            return end
+        path = DepthPath(start.depth, start.rate, end.depth, end.rate, self._step)
+        slip = start.slip + x * (end.slip - start.slip)
+        motion = self.contact.bearing.placed(path.depth(x), path.rate(x), slip)
+        memory = self.memory.impact_velocity, self.memory.deflection, self.memory.slip, x * self._step
+        return ContactForce(*self._force(*motion, True, *memory, self.contact.constants))
+
+    def _size_within(self, x: float) -> float:
+        force = self.force_within(x)
+        return math.hypot(force.normal_force, force.friction_force)

@@ -1,0 +1,147 @@
+"""The engine's side of a clearance joint: two markers and a rigid-body connector between them.
+
+If both bodies move and there is friction, the connector is the intrinsic one, whose force acts in the middle
+between both marker points. It conserves angular momentum only while both marker frames are parallel: turned by
+an angle a against each other, the arm of the force is longer by (a/2)/sin(a/2). The journal's marker frame is
+therefore turned along, so that a stays small.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import exudyn
+import numpy as np
+from exudyn.itemInterface import (
+    MarkerBodyRigid,
+    ObjectConnectorRigidBodySpringDamper,
+    VObjectConnectorRigidBodySpringDamper,
+)
+
+from user_forces.connector.attachment import Attachment, attachment
+from user_forces.contact import Contact
+
+# Largest turn between the marker frames before they are lined up again [rad]: the displacement is then
+# right within 4e-10 of itself, and the rest is corrected.
+FRAME_TURN = 1e-4
+OUTPUT = exudyn.OutputVariableType
+CURRENT, INITIAL = exudyn.ConfigurationType.Current, exudyn.ConfigurationType.Initial
+Frame = list[list[float]]
+
+
+class Mount(NamedTuple):
+    """Where a bore or a journal is in the engine.
+
+    item: its body. frame: on the body, in the body's axes (4 x 4): its centre, and its axis as z.
+    """
+
+    item: Any
+    frame: Frame
+    on_ground: bool
+
+
+class Relative(NamedTuple):
+    """How the journal's marker moves against the bore's, as the engine hands it to the user function.
+
+    displacement, velocity: in the connector's axes [m], [m/s]. turn, turning: of the marker frames against each
+    other about the axis [rad], [rad/s]. bore_spin: of the bore about the axis [rad/s].
+    """
+
+    displacement: list[float]
+    velocity: list[float]
+    turn: float
+    turning: float
+    bore_spin: float
+
+
+class JointItem:
+    """Markers and connector of a clearance joint, of a corner in a slot, or of a point at a face.
+
+    Arguments:
+        mbs: the engine's system.
+        contact: bearing and laws, from which follows where the force acts.
+        bore, journal: where they are.
+        turn: of the journal's frame relative to the bore's about the axis [rad].
+        options: of the connector, such as a post-Newton step for the stock solver.
+    """
+
+    def __init__(
+        self, mbs: Any, contact: Contact, bore: Mount, journal: Mount, turn: float, **options: Any
+    ) -> None:
+        self.mbs, self.contact = mbs, contact
+        self.clearance = contact.bearing.clearance
+        self.at = attachment(contact, bore.on_ground, journal.on_ground)
+        self._bore, self._journal = np.array(bore.frame), np.array(journal.frame)
+        self._shift = 0.0
+        self._frame_turn = -turn if self.at is Attachment.MIDDLE else 0.0  # of the journal's frame [rad]
+        self.bore_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=bore.item, localHT=bore.frame))
+        self.journal_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=journal.item, localHT=self._frame()))
+        self.object = mbs.AddObject(
+            ObjectConnectorRigidBodySpringDamper(
+                markerNumbers=[self.bore_marker, self.journal_marker],
+                useIntrinsicFormulation=self.at is Attachment.MIDDLE,
+                visualization=VObjectConnectorRigidBodySpringDamper(show=False),
+                **options,
+            )
+        )
+
+    def set_force(self, function: Callable[..., list[float]]) -> None:
+        """Let a user function give force and moment."""
+        self.mbs.SetObjectParameter(self.object, "springForceTorqueUserFunction", function)
+
+    def bore_spin(self, state: Any = CURRENT) -> float:
+        """Angular velocity of the bore about its axis [rad/s]."""
+        return float(self.mbs.GetMarkerOutput(self.bore_marker, OUTPUT.AngularVelocityLocal, state)[2])
+
+    def relative(self, state: Any = CURRENT) -> Relative:
+        """How the journal moves against the bore in a state of the engine."""
+        bore, journal = (
+            [np.asarray(self.mbs.GetMarkerOutput(marker, kind, state)) for kind in KINDS]
+            for marker in (self.bore_marker, self.journal_marker)
+        )
+        axes, other = bore[2].reshape(3, 3), journal[2].reshape(3, 3)
+        d, v = axes.T @ (journal[0] - bore[0]), axes.T @ (journal[1] - bore[1])
+        against = axes.T @ other
+        turn = math.atan2(against[1, 0] - against[0, 1], against[0, 0] + against[1, 1])
+        spins = bore[3] @ axes[:, 2], journal[3] @ axes[:, 2]
+        if self.at is Attachment.MIDDLE:
+            c, s = math.cos(0.5 * turn), math.sin(0.5 * turn)
+            half = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+            stretch = 0.5 * turn / s if s else 1.0
+            d, v = stretch * (half @ d), half @ v
+        return Relative(d.tolist(), v.tolist(), turn, float(spins[1] - spins[0]), float(spins[0]))
+
+    def line_up(self, turn: float) -> bool:
+        """Line up the marker frames if the journal's will have turned by so much [rad]; whether it was done."""
+        if self.at is not Attachment.MIDDLE or abs(turn) <= FRAME_TURN:
+            return False
+        self._frame_turn = math.remainder(self._frame_turn - turn, 2.0 * math.pi)
+        self.mbs.SetMarkerParameter(self.journal_marker, "localHT", self._frame())
+        return True
+
+    def slide(self, bore: float, journal: float) -> None:
+        """Let the force act away from both centres, by so much along bore and journal [m]."""
+        slid = self._bore.copy()
+        slid[:3, 3] += bore * slid[:3, 2]
+        self.mbs.SetMarkerParameter(self.bore_marker, "localHT", slid.tolist())
+        if journal != self._shift:
+            self._shift = journal
+            self.mbs.SetMarkerParameter(self.journal_marker, "localHT", self._frame())
+
+    def _frame(self) -> Frame:
+        turned = self._journal @ np.array(frame((0.0, 0.0), self._frame_turn))
+        turned[:3, 3] += self._shift * turned[:3, 2]
+        rows: Frame = turned.tolist()
+        return rows
+
+
+KINDS = (OUTPUT.Position, OUTPUT.Velocity, OUTPUT.RotationMatrix, OUTPUT.AngularVelocity)
+
+
+def frame(centre: tuple[float, float], turn: float = 0.0) -> Frame:
+    """A frame in the plane, turned by an angle [rad], as the engine wants it (4 x 4)."""
+    c, s = math.cos(turn), math.sin(turn)
+    x, y = centre
+    return [[c, -s, 0.0, x], [s, c, 0.0, y], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]

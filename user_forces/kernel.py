@@ -1,0 +1,237 @@
+"""Kernels: plain functions of numbers that Python runs and numba compiles.
+
+A kernel is written once, with `if`, `math` and other kernels. Python calls it as it stands; compiled code
+calls the same function. Numba is imported with the first function that is compiled, not with the kernels.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import re
+import threading
+import warnings
+from collections.abc import Callable, Sequence
+from functools import cache
+from inspect import Parameter, signature
+from pathlib import Path
+from types import CodeType, FunctionType
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+KERNELS: list[Callable[..., Any]] = []  # that numba does not know yet, as long as nothing is compiled
+NUMBERS = (int, float, bool, str, type(None))
+_lock = threading.RLock()
+_is_prepared: list[bool] = []  # filled when numba is imported
+
+
+def kernel(function: Function) -> Function:
+    """Decorator: a function of numbers that compiled code may call; Python goes on calling it as it is."""
+    KERNELS.append(function)
+    if _is_prepared:
+        prepare()
+    return function
+
+
+@kernel
+def limited(x: float, lowest: float, highest: float) -> float:
+    """A number that is not outside of two limits, which NaN passes."""
+    if x < lowest:
+        return lowest
+    return highest if x > highest else x
+
+
+@kernel
+def sign(x: float) -> float:
+    """The sign of a number, -1, 0 or 1."""
+    if x > 0.0:
+        return 1.0
+    return -1.0 if x < 0.0 else 0.0
+
+
+@kernel
+def smooth_step(x: float) -> float:
+    """The cubic STEP from 0 at x = 0 to 1 at x = 1, constant beyond: x^2 (3 - 2 x)."""
+    inside = limited(x, 0.0, 1.0)
+    return inside * inside * (3.0 - 2.0 * inside)
+
+
+class Formula(NamedTuple):
+    """A function of numbers, and the parameters that it takes last."""
+
+    function: Callable[..., Any]
+    parameters: tuple[float, ...] = ()
+
+    def __call__(self, *arguments: float) -> Any:
+        """The function's value."""
+        return self.function(*arguments, *self.parameters)
+
+    def at_rest(self) -> Formula:
+        """The force of a normal law at rest, as a function of the indentation alone."""
+        return Formula(_at_rest(self.function), self.parameters)
+
+
+def formula_of(owner: object, function: Callable[..., Any], variables: int) -> Formula:
+    """A function of numbers whose last arguments are named as attributes of its owner.
+
+    Arguments:
+        owner: the law or load.
+        function: of so many variables, which come first, and of parameters; a last one, `*name`, is a tuple.
+        variables: their number.
+    """
+    found: list[float] = []
+    for name, parameter in list(signature(function).parameters.items())[variables:]:
+        known = getattr(owner, name)
+        found += known if parameter.kind is Parameter.VAR_POSITIONAL else [known]
+    return Formula(function, tuple(map(float, found)))
+
+
+@cache
+def _at_rest(force: Callable[..., float]) -> Callable[..., float]:
+    def elastic(depth: float, *parameters: float) -> float:
+        return force(depth, 0.0, 1.0, *parameters)
+
+    return kernel(elastic)
+
+
+def quadrature(elastic: Formula) -> Formula:
+    """The integral of a force over the indentation, by Gauss's rule in its fourth root."""
+    return Formula(_quadrature(elastic.function), elastic.parameters)
+
+
+NODES, WEIGHTS = (tuple(part.tolist()) for part in np.polynomial.legendre.leggauss(24))
+
+
+@cache
+def _quadrature(elastic: Callable[..., float]) -> Callable[..., float]:
+    def energy(depth: float, *parameters: float) -> float:
+        total = 0.0
+        for n in range(len(NODES)):
+            share = 0.5 * (NODES[n] + 1.0)
+            total += WEIGHTS[n] * share**3 * elastic(depth * share**4, *parameters)
+        return 2.0 * depth * total
+
+    return kernel(energy)
+
+
+def numbers(constants: Sequence[float], first: int, count: int) -> tuple[float, ...]:
+    """So many of the constants as a tuple, from a place on; compiled, the count is known beforehand."""
+    return tuple(constants[first : first + count])
+
+
+def prepare() -> Any:
+    """Import numba, let it know all kernels, and return it."""
+    import numba
+
+    with _lock:
+        _teach_numbers()
+        _is_prepared.append(True)
+        while KERNELS:
+            numba.extending.register_jitable(error_model="numpy")(KERNELS.pop())
+    return numba
+
+
+@cache
+def _teach_numbers() -> None:
+    """Let compiled code take numbers from an array: a tuple whose length is part of its type."""
+    import numba
+    from numba.np.unsafe.ndarray import to_fixed_tuple
+
+    @numba.extending.overload(numbers)  # type: ignore[untyped-decorator]
+    def of_array(constants, first, count):  # type: ignore[no-untyped-def] # numba compares signatures
+        if not isinstance(count, numba.types.IntegerLiteral):
+            return None
+        length = count.literal_value
+        return lambda constants, first, count: to_fixed_tuple(constants[first:], length)
+
+
+def compiled(function: Function) -> Function:
+    """A function of numbers and arrays compiled by numba, for calls from Python.
+
+    Machine code is kept on disk, under a name that follows from the code of all kernels in the closure.
+    """
+    numba = prepare()
+    wrapped = copied(function)
+    try:
+        return numba.njit(cache=True, error_model="numpy", nogil=True)(wrapped)  # type: ignore[no-any-return]
+    except RuntimeError:  # there is no folder in which files may be written
+        return numba.njit(error_model="numpy", nogil=True)(wrapped)  # type: ignore[no-any-return]
+
+
+def compiled_or_plain(function: Function, arguments: tuple[Any, ...]) -> Function:
+    """A function compiled for arguments of these types; itself, with a note, if numba cannot compile it."""
+    numba = prepare()
+    machine = compiled(function)
+    try:
+        machine.compile(tuple(map(numba.typeof, arguments)))  # type: ignore[attr-defined]
+    except numba.core.errors.NumbaError as error:
+        warnings.warn(f"computed in Python, since numba cannot compile it: {reason(error)}", stacklevel=2)
+        return function
+    return machine
+
+
+def reason(error: Exception) -> str:
+    """Why numba cannot compile a function, in a line without colours: the innermost cause that it names."""
+    lines = [re.sub(r"\x1b\[\d+m", "", line).strip(" -") for line in str(error).splitlines()]
+    causes = [line for line in lines if line.startswith(("Unknown", "Use of", "Untyped", "Cannot", "Invalid"))]
+    return (causes or [line for line in lines if line] or [type(error).__name__])[-1 if causes else 0]
+
+
+def copied(function: Function) -> Function:
+    """The same function under a name of its own, see `name_of`, by which machine code is kept."""
+    assert isinstance(function, FunctionType)
+    name = name_of(function)
+    same = FunctionType(
+        function.__code__, function.__globals__, name, function.__defaults__, function.__closure__
+    )
+    same.__qualname__ = name
+    return same  # type: ignore[return-value]
+
+
+def name_of(function: Callable[..., Any]) -> str:
+    """A name that differs where the function, a kernel of its closure or our own source differs."""
+    digest = hashlib.sha256(_stamp())
+    _add_code(function, digest, set())
+    return f"{function.__name__.partition('_k')[0]}_k{digest.hexdigest()[:20]}"
+
+
+@cache
+def _stamp() -> bytes:
+    """What identifies the source of this package."""
+    files = sorted(Path(__file__).parent.rglob("*.py"))
+    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).digest()
+
+
+def _add_code(item: Any, digest: Any, seen: set[int]) -> None:
+    """Add to a digest the code of a function and of those that it reaches by closure or global names."""
+    if not isinstance(item, FunctionType):
+        digest.update(repr(item).encode() if isinstance(item, NUMBERS) else type(item).__name__.encode())
+        return
+    if id(item) in seen:
+        return
+    seen.add(id(item))
+    digest.update(f"{item.__module__}.{item.__name__}".encode())
+    _add_constants(item.__code__, digest)
+    for cell in item.__closure__ or ():
+        _add_code(cell.cell_contents, digest, seen)
+    if not item.__module__.startswith(("user_forces", "support_exudyn")):
+        for name in item.__code__.co_names:
+            if name in item.__globals__:
+                _add_code(item.__globals__[name], digest, seen)
+
+
+def _add_constants(code: CodeType, digest: Any) -> None:
+    digest.update(code.co_code)
+    for item in code.co_consts:
+        if isinstance(item, CodeType):
+            _add_constants(item, digest)
+        else:
+            digest.update(repr(item).encode())
+
+
+@kernel
+def is_finite(x: float) -> bool:
+    """Whether a number is neither infinite nor NaN."""
+    return -math.inf < x < math.inf
