@@ -10,7 +10,7 @@ import numpy as np
 
 from support_exudyn.postprocessing.comparing.closeness import Closeness, compared_columns
 from support_exudyn.postprocessing.comparing.impacts import match_impacts
-from support_exudyn.postprocessing.comparing.kept_run import MOST_IMPACTS, Column, KeptImpact, KeptRun
+from support_exudyn.postprocessing.comparing.kept_run import MOST_IMPACTS, KeptColumn, KeptImpact, KeptRun
 from support_exudyn.postprocessing.figures.units import readable_change
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.contact_state import Onset
@@ -89,7 +89,7 @@ def _gone_and_new(what: str, was: Mapping[str, Any], now: Mapping[str, Any]) -> 
 
 def _value(item: Any) -> Estimate | None:
     """The value of a number; None of all else."""
-    return _at(item, 0.0) if isinstance(item, Column) and not item.time.size else None
+    return _at(item, 0.0) if isinstance(item, KeptColumn) and not item.time.size else None
 
 
 def _words(what: str, item: Any) -> str:
@@ -97,7 +97,7 @@ def _words(what: str, item: Any) -> str:
 
 
 def _columns(
-    what: str, old: Mapping[str, Column], new: Mapping[str, Column], end: float
+    what: str, old: Mapping[str, KeptColumn], new: Mapping[str, KeptColumn], end: float
 ) -> Iterator[RunChange]:
     """Changes of curves up to a time [s], or of numbers."""
     yield from _gone_and_new(what, old, new)
@@ -105,7 +105,9 @@ def _columns(
         yield from _column(what, name, old[name], new[name], end)
 
 
-def _column(what: str, name: str, was: Column, now: Column, end: float = math.inf) -> Iterator[RunChange]:
+def _column(
+    what: str, name: str, was: KeptColumn, now: KeptColumn, end: float = math.inf
+) -> Iterator[RunChange]:
     if was.unit != now.unit:
         yield RunChange("changed", what, name, said=f"in {was.unit} -> in {now.unit}")
     elif not was.time.size or was.time[0] <= end:
@@ -116,14 +118,14 @@ def _column(what: str, name: str, was: Column, now: Column, end: float = math.in
             yield RunChange("changed", what, name, first, second, time, one.ratio, curve=one)
 
 
-def _at(column: Column, time: float) -> Estimate:
+def _at(column: KeptColumn, time: float) -> Estimate:
     """A column at the record next to a time [s], with its error; of a number its value."""
     n = int(np.abs(column.time - time).argmin()) if column.time.size else 0
     return Estimate(float(column.values[n]), float(column.errors[n]), column.unit or "")
 
 
-def _number(one: Estimate) -> Column:
-    return Column(one.unit, np.zeros(0), np.array([one.value]), np.array([one.error]))
+def _number(one: Estimate) -> KeptColumn:
+    return KeptColumn(one.unit, np.zeros(0), np.array([one.value]), np.array([one.error]))
 
 
 def _impacts(old: KeptRun, new: KeptRun, end: float) -> Iterator[RunChange]:

@@ -19,7 +19,7 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.comparing.common_times import on_common_times
 from support_exudyn.postprocessing.comparing.compared_channel import ToleranceVerdict
 from support_exudyn.postprocessing.comparing.compared_file import is_own
-from support_exudyn.postprocessing.comparing.kept_run import Column, kept_impacts
+from support_exudyn.postprocessing.comparing.kept_run import KeptColumn, kept_impacts
 from support_exudyn.postprocessing.comparing.mapping import PERCENT, Tolerance, tolerance
 from support_exudyn.postprocessing.comparing.with_errors import safe_errors
 from support_exudyn.postprocessing.figures import style
@@ -167,7 +167,7 @@ def _rule(allowed: float | str | None) -> Tolerance | None:
 
 def _pairs(
     result: Measured, reference: Any, channels: Sequence[str], window: tuple[float, float]
-) -> list[tuple[str, Column, Column]]:
+) -> list[tuple[str, KeptColumn, KeptColumn]]:
     """Names, and the columns of both."""
     several = isinstance(reference, (Result, SeriesFile, Mapping))
     if not isinstance(result, Result):
@@ -208,20 +208,20 @@ def _pairs(
     return [(name, mine[name], its[name]) for name in names]
 
 
-def _columns(run: Result, names: Sequence[str]) -> dict[str, Column]:
+def _columns(run: Result, names: Sequence[str]) -> dict[str, KeptColumn]:
     """Channels of a run with safe errors."""
     errors = safe_errors(run, names)
-    return {name: Column(run.unit(name), run.time, run[name], errors[name]) for name in names}
+    return {name: KeptColumn(run.unit(name), run.time, run[name], errors[name]) for name in names}
 
 
-def _column(item: Any) -> Column:
+def _column(item: Any) -> KeptColumn:
     """A curve or number as a column. Raises InputError if it is none."""
     if isinstance(item, NamedSeries):
-        return Column(item.unit, item.time, item.values, np.full(item.time.size, math.nan))
+        return KeptColumn(item.unit, item.time, item.values, np.full(item.time.size, math.nan))
     if isinstance(item, Estimate):
-        return Column(item.unit, np.zeros(0), np.array([item.value]), np.array([item.error]))
+        return KeptColumn(item.unit, np.zeros(0), np.array([item.value]), np.array([item.error]))
     if isinstance(item, (int, float)) and not isinstance(item, bool):
-        return Column(None, np.zeros(0), np.array([float(item)]), np.array([math.nan]))
+        return KeptColumn(None, np.zeros(0), np.array([float(item)]), np.array([math.nan]))
     raise InputError(f"{short(item)}: cannot be compared; allowed: {KINDS}")
 
 
@@ -230,8 +230,8 @@ def _column(item: Any) -> Column:
 
 def compared_columns(
     name: str,
-    mine: Column,
-    its: Column,
+    mine: KeptColumn,
+    its: KeptColumn,
     rule: Tolerance | None = None,
     after: float = -math.inf,
     until: float = math.inf,

@@ -41,7 +41,7 @@ MEND = (
 )
 
 
-class Column(NamedTuple):
+class KeptColumn(NamedTuple):
     """A curve at times [s] (n,), with values and errors (n,); a number has no times and a single value.
 
     unit: of all but the times; None: not known. An error that is NaN is not known.
@@ -76,7 +76,7 @@ class KeptRun:
     numbers: Mapping[str, Estimate]
     provenance: Mapping[str, str]
     scenario: Mapping[str, Any] = field(default_factory=dict)
-    curves: Mapping[str, Column] = field(default_factory=dict)
+    curves: Mapping[str, KeptColumn] = field(default_factory=dict)
     impacts: Mapping[str, tuple[KeptImpact, ...]] = field(default_factory=dict)
     horizon: float = math.inf
     history: tuple[Mapping[str, str], ...] = ()
@@ -105,7 +105,7 @@ def kept_run(result: Result) -> KeptRun:
         numbers={name: number for name, number in numbers.items() if ONSET not in name},
         provenance={**result.provenance, "sources": program()["sources"], **own},
         curves={
-            name: Column(result.unit(name), result.time[rows], result[name][rows], known[name][rows])
+            name: KeptColumn(result.unit(name), result.time[rows], result[name][rows], known[name][rows])
             for name in names
         },
         impacts=impacts,
@@ -231,7 +231,9 @@ def read_baseline(path: Path) -> KeptRun:
             provenance=data["provenance"],
             scenario=data["scenario"],
             curves={
-                name: Column(curve["unit"], time, _series(curve["values"]), _series(curve["errors"], math.inf))
+                name: KeptColumn(
+                    curve["unit"], time, _series(curve["values"]), _series(curve["errors"], math.inf)
+                )
                 for name, curve in data["curves"].items()
             },
             impacts={

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from support_exudyn import InputError
 from support_exudyn.postprocessing.comparing.changes import changes
 from support_exudyn.postprocessing.comparing.kept_run import (
-    Column,
+    KeptColumn,
     KeptImpact,
     KeptRun,
     read_baseline,
@@ -28,7 +28,7 @@ WHOLE = KeptRun(
     numbers={"pin.B.force.mean": Estimate(1.0 / 3.0, 1e-9, "N"), "unknown": Estimate(math.nan, math.inf, "m")},
     provenance={"python": "3.11"},
     scenario={"gravity": [0.0, -9.81], "pins": {"B": {"of": "Clearance"}}},
-    curves={"tip.x": Column("m", TIMES, np.array([1.0, math.nan, 2.0]), ERRORS)},
+    curves={"tip.x": KeptColumn("m", TIMES, np.array([1.0, math.nan, 2.0]), ERRORS)},
     impacts={"B": (IMPACT, IMPACT), "C": ()},
     horizon=0.15,
     history=({"date": "2026", "changes": "first"},),
