@@ -15,8 +15,7 @@ from pathlib import Path
 from studies.common.paper_machine import CLEARANCE_PIN, STEP, clearance_joint, ideal_rise, oil_columns
 from support_exudyn import CubicStep, Scenario, simulate
 from support_exudyn.commands.command_line import Parser, answered, folder, say
-from support_exudyn.postprocessing.instruments.measured_table import write_measured
-from support_exudyn.postprocessing.instruments.station import measure, read_station
+from support_exudyn.postprocessing.instruments.station import measure, read_station, write_measured
 
 EXAMPLES = Path(__file__).parent / "examples"
 INSTRUMENTS, MEASURED = "measured_rise.toml", "measured_rise.csv"

@@ -9,8 +9,8 @@ from typing import Any
 
 from support_exudyn.commands.command_line import add_json, answer, folder, refusing, say, shown_progress, warn
 from support_exudyn.commands.tables import printed, show_table
-from support_exudyn.postprocessing.baselines import told
-from support_exudyn.postprocessing.baselines.folder import BaselineFolder, Looked
+from support_exudyn.postprocessing.comparing.baselines import BaselineFolder, Looked
+from support_exudyn.postprocessing.comparing.changes import HEADER, rows
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError
 
@@ -94,7 +94,7 @@ def _kept_of(one: Looked) -> str:
     impacts = sum(map(len, one.now.impacts.values()))
     said = f"{len(one.now.numbers)} numbers, {len(one.now.curves)} channels, {impacts} impacts"
     if math.isfinite(one.now.horizon):
-        said += f"; determined up to {one.now.horizon:.4g} s, means and spreads alone beyond"
+        said += f"; determined up to {one.now.horizon:.4g} s, nothing is kept beyond"
     return said
 
 
@@ -119,7 +119,7 @@ def _tell(found: Sequence[Looked]) -> None:
 
 def _show_changes(one: Looked) -> None:
     title = f"{one.name}: {len(one.changes)} changed by more than both errors, new, or gone"
-    printed(lambda console: show_table(console, title, told.HEADER, told.rows(one.changes)))
+    printed(lambda console: show_table(console, title, HEADER, rows(one.changes)))
 
 
 def _versions(one: Looked) -> str:
@@ -166,6 +166,7 @@ def _object(one: Looked) -> dict[str, Any]:
         return None if item is None else item._asdict()
 
     changed = [
-        {**change._asdict(), "was": number(change.was), "now": number(change.now)} for change in one.changes
+        change._replace(curve=None)._asdict() | {"was": number(change.was), "now": number(change.now)}
+        for change in one.changes
     ]
     return {"state": one.state, "failed": one.failed or None, "changes": changed}

@@ -60,12 +60,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--map",
         type=folder,
         metavar="FILE",
-        help="compare.toml: which column is which channel, tolerances, bands",
-    )
-    add(
-        "--propose",
-        action="store_true",
-        help="print a compare.toml for columns that are alike, to be confirmed",
+        help="compare.toml: which column is which channel, tolerances",
     )
     add(
         "--shift",
@@ -101,16 +96,10 @@ def _compared(given: argparse.Namespace) -> str:
     """Print and write; returns the verdict."""
     files, channels = files_and_channels(given.names)
     _check_outputs(given)
-    from support_exudyn.postprocessing.comparing.files_compared import compare_files, read_files
+    from support_exudyn.postprocessing.comparing.files_compared import compare_files
 
     with shown_progress("reading") as progress:
-        if given.propose:
-            from support_exudyn.postprocessing.comparing.propose import proposal
-
-            read = read_files(files, given.map, channels, progress)
-            say(proposal(*read, find_shift=given.shift).rstrip("\n"))
-            return "told"
-        found = compare_files(
+        compared = compare_files(
             *files,
             channels=channels,
             mapping=given.map,
@@ -120,16 +109,16 @@ def _compared(given: argparse.Namespace) -> str:
             find_shift=given.shift,
             progress=progress,
         )
-    written = _write(given, found)
+    written = _write(given, compared)
     if given.json:
-        from support_exudyn.postprocessing.comparing.as_data import as_data
+        from support_exudyn.postprocessing.comparing.for_programs import as_data
 
-        answer(as_data(found) | {"written": written})
-        return found.verdict
-    _print(found)
+        answer(as_data(compared) | {"written": written})
+        return compared.verdict
+    _print(compared)
     for path in written:
         say(str(path))
-    return found.verdict
+    return compared.verdict
 
 
 def files_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:
@@ -166,42 +155,34 @@ def _check_outputs(given: argparse.Namespace) -> None:
         check_page(given.page)
 
 
-def _write(given: argparse.Namespace, found: FilesCompared) -> list[Path]:
+def _write(given: argparse.Namespace, compared: FilesCompared) -> list[Path]:
     """Write what is asked for; returns the paths."""
     if given.junit is not None:
-        from support_exudyn.postprocessing.comparing.junit import write_junit
+        from support_exudyn.postprocessing.comparing.for_programs import write_junit
 
-        write_junit(found, given.junit)
+        write_junit(compared, given.junit)
     if given.figure is not None:
         from support_exudyn.postprocessing.comparing.compare_figure import write_figure
 
-        write_figure(found, given.figure)
+        write_figure(compared, given.figure)
     if given.page is not None:
         from support_exudyn.postprocessing.comparing.compare_page import write_page
 
-        write_page(found, given.page)
+        write_page(compared, given.page)
     return [path for path in (given.junit, given.figure, given.page) if path is not None]
 
 
-def _print(found: FilesCompared) -> None:
-    """Print the tables and what has to be known of them."""
-    from support_exudyn.postprocessing.comparing import further_tables as further
-    from support_exudyn.postprocessing.comparing import told
-    from support_exudyn.postprocessing.comparing.sentences import sentences
+def _print(compared: FilesCompared) -> None:
+    """Print the tables and the notes on them."""
+    from support_exudyn.postprocessing.comparing import tables
+    from support_exudyn.postprocessing.comparing.notes import notes
 
-    def tables(console: Console) -> None:
-        for pair in found.pairs:
-            show_table(console, told.title(pair), told.header(pair), told.rows(pair))
-            if rows := further.brief_statistics_rows(pair):
-                title = f"after {pair.parting.time:.6g} s: means, and what else differs (all: --page)"
-                show_table(console, title, further.STATISTICS, rows)
-            if rows := further.impacts_rows(pair):
-                show_table(console, "impacts", further.IMPACTS, rows)
-            if rows := further.bands_rows(pair):
-                show_table(console, "RMS in bands of frequency", further.BANDS, rows)
-            lines = [*sentences(pair), *filter(None, map(told.fault, pair.channels.values()))]
-            for line in lines:
+    def shown(console: Console) -> None:
+        for pair in compared.pairs:
+            for table in tables.tables(pair, brief=True):
+                show_table(console, table.title, table.header, table.rows)
+            for line in (*notes(pair), *filter(None, map(tables.fault, pair.channels.values()))):
                 console.print(line, markup=False, soft_wrap=True)
-        console.print(told.VERDICTS[found.verdict], markup=False, soft_wrap=True)
+        console.print(tables.VERDICTS[compared.verdict], markup=False, soft_wrap=True)
 
-    printed(tables)
+    printed(shown)

@@ -23,8 +23,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(given: argparse.Namespace) -> None:
     """Write the table, and print what is in it."""
-    from support_exudyn.postprocessing.instruments.measured_table import write_measured
-    from support_exudyn.postprocessing.instruments.station import measure, read_station, usual_station
+    from support_exudyn.postprocessing.instruments.station import (
+        measure,
+        read_station,
+        usual_station,
+        write_measured,
+    )
 
     result = Result.load(given.run)
     if given.instruments is None:

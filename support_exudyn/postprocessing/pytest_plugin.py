@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 import pytest
 
 if TYPE_CHECKING:
-    from support_exudyn.postprocessing.baselines.cached_run import RunCache
-    from support_exudyn.postprocessing.baselines.closeness import Measured, Reference
-    from support_exudyn.postprocessing.baselines.in_tests import SessionBaselines
+    from support_exudyn.postprocessing.comparing.baselines import SessionBaselines
+    from support_exudyn.postprocessing.comparing.cached_run import RunCache
+    from support_exudyn.postprocessing.comparing.closeness import Measured, Reference
     from support_exudyn.scenario.scenario import Scenario
     from support_exudyn.scenario.scenario_data import Accuracy
     from support_exudyn.simulation.estimate import Estimate
@@ -105,7 +105,7 @@ def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPa
         from dataclasses import replace
 
         from support_exudyn.files.scenarios.scenario_file import read_scenario_file
-        from support_exudyn.postprocessing.baselines.cached_run import RunCache
+        from support_exudyn.postprocessing.comparing.cached_run import RunCache
         from support_exudyn.scenario.scenario import Scenario
         from user_forces.values.value import InputError, short
 
@@ -152,8 +152,8 @@ def assert_close(tmp_path_factory: pytest.TempPathFactory) -> AssertClose:
         until: float = float("inf"),
     ) -> None:
         __tracebackhide__ = True
-        from support_exudyn.postprocessing.baselines.closeness import closeness
-        from support_exudyn.postprocessing.baselines.in_tests import said_apart
+        from support_exudyn.postprocessing.comparing.baselines import said_apart
+        from support_exudyn.postprocessing.comparing.closeness import closeness
 
         found = closeness(result, reference, tolerance, channels=channels, after=after, until=until)
         if any(not one.is_close for one in found):
@@ -164,7 +164,7 @@ def assert_close(tmp_path_factory: pytest.TempPathFactory) -> AssertClose:
 
 @pytest.fixture(scope="session")
 def _baselines(pytestconfig: pytest.Config) -> SessionBaselines:
-    from support_exudyn.postprocessing.baselines.in_tests import SessionBaselines
+    from support_exudyn.postprocessing.comparing.baselines import SessionBaselines
 
     return SessionBaselines(pytestconfig.getoption(OPTION))
 

@@ -14,7 +14,7 @@ import pytest
 from support_exudyn.commands.command_line import Parser
 from support_exudyn.commands.parser import NAMES, parser
 from support_exudyn.files.scenarios.scenario_file import read_scenario
-from support_exudyn.postprocessing.comparing.compare_file import read_compare_file
+from support_exudyn.postprocessing.comparing.mapping import read_compare_file
 from support_exudyn.sweeps import read_sweep
 from tests.pages import README, ROOT, Listing, links, listings, named, pages
 

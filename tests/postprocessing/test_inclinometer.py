@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from support_exudyn import CubicStep, Result, Scenario, machine, reference_support, simulate
-from support_exudyn.postprocessing.instruments.felt import felt
-from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer
+from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer, specific_force
 from support_exudyn.postprocessing.instruments.station import MeasuringStation, measure
 from tests import synthetic
 
@@ -52,7 +51,7 @@ def test_at_a_constant_rate_gravity_and_the_centripetal_acceleration_are_felt(
 ) -> None:
     angle = start + rate * TIME
     run = turning(angle, np.full(TIME.size, rate), (x, y))
-    found = felt(run, "rear_link", "rear_shield")
+    found = specific_force(run, "rear_link", "rear_shield")
     # in the body's axes: the place is carried round its pivot, towards which it is accelerated
     body = PLANE.linkage.bodies["rear_link"]
     arm = np.subtract(PLANE.linkage.pins["rear_shield"].first_point, body.centre) - (x, y)
@@ -70,7 +69,7 @@ def test_an_acceleration_that_grows_evenly_is_felt_exactly_to_both_ends() -> Non
     still = np.zeros(TIME.size)
     channels = {"angle": still, "angular_velocity": still, "velocity_x": 4.0 * TIME**2, "velocity_y": still}
     run = synthetic.result(PLANE, TIME, {f"canopy.{name}": (one, "") for name, one in channels.items()})
-    np.testing.assert_allclose(felt(run, "canopy")[:, 0], -8.0 * TIME, atol=1e-11)
+    np.testing.assert_allclose(specific_force(run, "canopy")[:, 0], -8.0 * TIME, atol=1e-11)
 
 
 def test_a_run_at_rest_reads_as_its_angles_and_a_base_as_none() -> None:
@@ -132,7 +131,7 @@ def test_in_space_a_constant_rate_is_felt_as_its_closed_form() -> None:
     exact = turn.inv().apply([0.0, -G, 0.0] - np.cross(rate, np.cross(rate, arm)))
     start = SPACE.space.bodies["canopy"].angle
     assert start == 0.0  # its axes are those of the start
-    np.testing.assert_allclose(felt(run, "canopy", "tip")[1:-1], exact[1:-1], atol=1e-6)
+    np.testing.assert_allclose(specific_force(run, "canopy", "tip")[1:-1], exact[1:-1], atol=1e-6)
 
 
 def test_a_symmetric_machine_in_space_reads_as_in_the_plane() -> None:

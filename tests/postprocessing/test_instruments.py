@@ -16,14 +16,13 @@ from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge
 from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer
-from support_exudyn.postprocessing.instruments.instrument import Instrument
-from support_exudyn.postprocessing.instruments.low_pass import LowPass
-from support_exudyn.postprocessing.instruments.measured_table import write_measured
+from support_exudyn.postprocessing.instruments.instrument import Instrument, LowPass
 from support_exudyn.postprocessing.instruments.station import (
     MeasuringStation,
     measure,
     read_station,
     usual_station,
+    write_measured,
 )
 from tests import synthetic
 from user_forces.values.value import InputError
@@ -76,24 +75,29 @@ def test_a_filter_answers_a_step_as_its_closed_form(order: int, response: object
 
 
 @pytest.mark.parametrize("order", [1, 2, 4, 8])
-def test_a_wave_at_the_corner_loses_three_decibels(order: int) -> None:
+def test_a_wave_at_the_corner_loses_three_decibels_and_a_constant_nothing(order: int) -> None:
     time = np.arange(20000) * 1e-3
-    wave = np.sin(2.0 * math.pi * 2.0 * time)
-    late = LowPass(order=order, corner=2.0).filtered(wave[:, None], 1e-3)[10000:, 0]
-    assert np.abs(late).max() == pytest.approx(1.0 / math.sqrt(2.0), rel=2e-4)
+    wave = np.stack([np.sin(2.0 * math.pi * 2.0 * time), np.full(time.size, -7.0)], axis=-1)
+    late = LowPass(order=order, corner=2.0).filtered(wave, 1e-3)
+    assert np.abs(late[10000:, 0]).max() == pytest.approx(1.0 / math.sqrt(2.0), rel=2e-4)
+    np.testing.assert_array_equal(late[:, 1], -7.0)
 
 
-def test_too_coarse_records_are_refused() -> None:
-    gauge = PressureGauge(column="front_column", bore=0.25, low_pass=LowPass(corner=60.0))
-    with pytest.raises(
-        InputError, match=r"corner = 60 Hz.*record_period <= 0.000833333 s, or a corner up to 50"
-    ):
-        read(pushed(TIME), gauge)
-    with pytest.raises(InputError, match=r"rate = 2000 Hz: the records are 0.001 s apart; allowed: up to 1000"):
-        read(pushed(TIME), PressureGauge(column="front_column", bore=0.25, rate=2000.0))
-    uneven = np.array([0.0, 0.1, 0.3, 0.4])
-    with pytest.raises(InputError, match=r"0.1 s apart, and 0.2 s at t = 0.1"):
-        read(pushed(uneven, time=uneven), PressureGauge(column="front_column", bore=0.25))
+UNEVEN = np.array([0.0, 0.1, 0.3, 0.4])
+BORE = {"column": "front_column", "bore": 0.25}
+
+
+@pytest.mark.parametrize(
+    ("chosen", "time", "said"),
+    [
+        ({"low_pass": LowPass(corner=60.0)}, TIME, r"corner = 60 Hz.*<= 0.000833333 s, or a corner up to 50"),
+        ({"rate": 2000.0}, TIME, r"rate = 2000 Hz: the records are 0.001 s apart; allowed: up to 1000"),
+        ({}, UNEVEN, r"0.1 s apart, and 0.2 s at t = 0.1"),
+    ],
+)
+def test_too_coarse_records_are_refused(chosen: dict[str, object], time: np.ndarray, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        read(pushed(time, time=time), PressureGauge(**BORE, **chosen))
 
 
 # --- columns ---

@@ -39,7 +39,7 @@ OTHER_FILES = {  # by a key that they have
     "scenario": "is the file of a sweep; allowed: a scenario; or `sweep` it",
     "instruments": "is a file of instruments; allowed: a scenario; or `measure RUN` with it",
     **dict.fromkeys(
-        ("files", "units", "tolerances", "bands_Hz"),
+        ("files", "units", "tolerances"),
         "is the file of a comparison; allowed: a scenario; or `compare` with it as --map",
     ),
 }

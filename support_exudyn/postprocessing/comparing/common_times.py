@@ -1,7 +1,7 @@
-"""Two curves at different times are laid on each other.
+"""Two curves at common times, and a curve at equally spaced times.
 
-The times are those of the coarser curve inside the overlap; the finer one is interpolated there by straight
-lines, and what that may add is estimated. At a time that both have, both values are taken as they are.
+Common times are those of the coarser curve inside the overlap. The finer curve is interpolated there by
+straight lines, and the error of that is estimated. At a time that both have, both values are taken as they are.
 """
 
 import math
@@ -15,6 +15,8 @@ from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
 SAME = 1e-3  # share of the shortest time between two records by which equal times may differ, at most
+EVEN = 1e-6  # share of the spacing by which evenly spaced times may be off
+MOST = 2**22  # samples
 
 
 class CommonCurves(NamedTuple):
@@ -23,7 +25,7 @@ class CommonCurves(NamedTuple):
     time: [s], (n,). reference, other: their values, (n,).
     interpolation_error: by how much interpolation may have changed their difference, (n,), >= 0, in the unit of
         the curves; 0 at times that both have.
-    interpolated: at how many of the times one was interpolated.
+    interpolated: number of times at which one of them was interpolated.
     """
 
     time: Values
@@ -31,6 +33,18 @@ class CommonCurves(NamedTuple):
     other: Values
     interpolation_error: Values
     interpolated: int
+
+    def part(self, chosen: npt.NDArray[np.bool_]) -> tuple[Values, Values, Values]:
+        """Times, reference and other at the chosen times, (n,) as a mask."""
+        return self.time[chosen], self.reference[chosen], self.other[chosen]
+
+
+class EvenSamples(NamedTuple):
+    """A curve at equally spaced times: their start and spacing [s], and the values (n,)."""
+
+    start: float
+    spacing: float
+    values: Values
 
 
 def on_common_times(
@@ -41,16 +55,16 @@ def on_common_times(
     after: float = -math.inf,
     until: float = math.inf,
 ) -> CommonCurves:
-    """Two curves at the times of the coarser one of them, between two times [s].
+    """Two curves at the times of the coarser of them, between two times [s].
 
-    The coarser one has the fewer times there; of equally many the reference.
+    The coarser curve has the fewer times there; of equally many the reference.
 
     Arguments:
         reference_time, other_time: [s], (n,) and (m,), increasing.
-        reference, other: values of one unit, (n,) and (m,); NaN where one is not known.
+        reference, other: values of one unit, (n,) and (m,); NaN where a value is not known.
         after, until: [s].
 
-    Raises InputError if no time of the coarser one lies there.
+    Raises InputError if no time of the coarser curve lies there.
     """
     both = bool(reference_time.size and other_time.size)
     start = max(reference_time[0], other_time[0], after) if both else math.inf
@@ -60,24 +74,23 @@ def on_common_times(
     )
     if not (mine.any() or its.any()):
         between = "" if math.isinf(after) and math.isinf(until) else f" between {after:g} and {until:g} s"
+        spans = [f"from {t[0]:g} to {t[-1]:g} s" if t.size else "(none)" for t in (reference_time, other_time)]
         raise InputError(
-            f"times {_said(reference_time)} and {_said(other_time)}: none lies{between} where both curves are; "
+            f"times {spans[0]} and {spans[1]}: none lies{between} where both curves are; "
             "allowed: curves that overlap there"
         )
     if its.any() and (not mine.any() or its.sum() < mine.sum()):
-        at, values = other_time[its], other[its]
-        found, error, count = interpolated(reference_time, reference, at)
-        return CommonCurves(at, found, values, error, count)
-    at, values = reference_time[mine], reference[mine]
-    found, error, count = interpolated(other_time, other, at)
-    return CommonCurves(at, values, found, error, count)
+        values, error, count = interpolated(reference_time, reference, other_time[its])
+        return CommonCurves(other_time[its], values, other[its], error, count)
+    values, error, count = interpolated(other_time, other, reference_time[mine])
+    return CommonCurves(reference_time[mine], reference[mine], values, error, count)
 
 
 def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Values, int]:
     """A curve at other times, by straight lines between its own.
 
     Between two times a and b the line differs from the curve f by (t - a) (b - t) f''/2 at most. As f''/2 the
-    larger one of both divided second differences at a and b is taken. Where the curve has a kink or a jump,
+    larger of the divided second differences at a and b is taken. Where the curve has a kink or a jump,
     these are of the size of the step itself, so the estimate is, too.
 
     Arguments:
@@ -86,33 +99,47 @@ def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Valu
 
     Returns:
         The values (m,), by how much they may be wrong (m,), and how many are not a record's own. Values next to
-        one that is not known are not known, and so are their errors.
+        an unknown value are not known, and so are their errors.
     """
-    same = min(CLEARANCE, SAME * float(np.diff(time).min(initial=math.inf)))
-    right = np.clip(np.searchsorted(time, at), 1, max(time.size - 1, 1)) if time.size > 1 else None
-    if right is None:
+    if time.size < 2:
         return np.repeat(values, at.size), np.zeros(at.size), 0
+    same = min(CLEARANCE, SAME * float(np.diff(time).min()))
+    right = np.clip(np.searchsorted(time, at), 1, time.size - 1)
     left = right - 1
     nearest = np.where(at - time[left] <= time[right] - at, left, right)
     own = np.abs(time[nearest] - at) <= np.maximum(same, 4.0 * np.spacing(np.abs(at)))
     span = time[right] - time[left]
     share = np.clip((at - time[left]) / span, 0.0, 1.0)
-    found = np.where(own, values[nearest], (1.0 - share) * values[left] + share * values[right])
-    bent = _bent(time, values)
+    result = np.where(own, values[nearest], (1.0 - share) * values[left] + share * values[right])
+    bent = np.zeros(time.size)
+    if time.size > 2:
+        inside = np.abs(np.diff(np.diff(values) / np.diff(time)) / (time[2:] - time[:-2]))
+        bent = np.pad(inside, 1, mode="edge")
     error = share * (1.0 - share) * span**2 * np.fmax(bent[left], bent[right])
-    error = np.where(np.isfinite(found), error, math.nan)
-    return found, np.where(own, 0.0, error), int(np.count_nonzero(~own))
+    error = np.where(np.isfinite(result), error, math.nan)
+    return result, np.where(own, 0.0, error), int(np.count_nonzero(~own))
 
 
-def _bent(time: Values, values: Values) -> Values:
-    """Magnitudes of half the second derivative, (n,), by divided differences; at ends as beside them."""
-    if time.size < 3:
-        return np.zeros(time.size)
-    slopes = np.diff(values) / np.diff(time)
-    inside = np.abs(np.diff(slopes) / (time[2:] - time[:-2]))
-    found: Values = np.concatenate((inside[:1], inside, inside[-1:]))
-    return found
+def even_samples(time: Values, values: Values, spacing: float | None = None) -> EvenSamples:
+    """The known values of a curve, at equally spaced times.
 
+    Arguments:
+        time: [s], (n,), increasing. values: (n,); an unknown value is bridged by a straight line.
+        spacing: of the samples [s]; None: that of the times, the median.
 
-def _said(time: Values) -> str:
-    return f"from {time[0]:g} to {time[-1]:g} s" if time.size else "(none)"
+    Raises InputError if fewer than two values are known, or if the samples would be more than `MOST`.
+    """
+    known = np.isfinite(values)
+    time, values = time[known], values[known]
+    if time.size < 2:
+        raise InputError(f"{time.size} known values; allowed: a curve with at least 2")
+    wanted = float(np.median(np.diff(time))) if spacing is None else spacing
+    count = int((time[-1] - time[0]) / wanted * (1.0 + EVEN) + EVEN) + 1
+    if count > MOST:
+        raise InputError(
+            f"{count} samples of {wanted:g} s would be needed; allowed: at most {MOST}, so a shorter piece"
+        )
+    at = time[0] + wanted * np.arange(count)
+    if count == time.size and float(np.abs(at - time).max()) <= EVEN * wanted:
+        return EvenSamples(float(time[0]), wanted, values)
+    return EvenSamples(float(time[0]), wanted, interpolated(time, values, np.minimum(at, time[-1]))[0])

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import glob
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cache, cached_property, partial
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.files.series.asked import Progress, silent
-from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
+from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.series.own_runs import is_run
 from support_exudyn.files.series.read import read_series
-from support_exudyn.files.series.units import converted
+from support_exudyn.files.series.units import converted, scaled, unit_checked
 from support_exudyn.files.toml.faults import nearest
-from support_exudyn.postprocessing.comparing.compare_file import MappedColumn, MappedFile
-from support_exudyn.postprocessing.comparing.whole_turns import ANGLE, unwrapped
+from support_exudyn.postprocessing.comparing.mapping import MappedColumn, MappedFile
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -27,17 +27,24 @@ from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
 ENDING = ".h5"  # of runs
-HEAD = 64  # bytes by which a run is told
-AS_IT_IS = MappedFile()
+HEAD = 64  # bytes by which a run is recognised
+ANGLE, TURN = "rad", 2.0 * math.pi
+ROUNDING = 1e-6  # of a turn, by which a file's digits may leave the range of a wrapped angle
+# the house's units, each of another kind; of a work and a moment the words decide
+UNITS = (
+    "s", "m", "m/s", "m/s^2", "N", "N m", "rad", "rad/s", "rad/s^2", "Pa", "m^3/s", "kg", "Hz", "W", "N/m",
+    "N s", "m^2", "m^3", "1",
+)  # fmt: skip
+WORK = re.compile(r"joule|J|Wh")
 
 
 @dataclass(frozen=True)
 class ComparedFile:
     """A file that is compared.
 
-    name: by which tables and figures call it. path: of it. kind: what it is, in words.
-    run: with its errors, if it is one of this program. series: of it, by the names of the file.
-    mapped: what is said of its columns; `shift` is added to its times [s].
+    name: by which tables and figures call it. path: of it. kind: of file, in words.
+    run: with its errors, if it is a run of this program. series: of it, by the names of the file.
+    mapped: what a mapping states of its columns; `shift` is added to its times [s].
     notes: what a reader of the numbers has to know. turns: full turns that are taken off angles [rad], by
         channel.
     """
@@ -47,9 +54,8 @@ class ComparedFile:
     kind: str
     run: Result | None
     series: Mapping[str, NamedSeries]
-    mapped: MappedFile = AS_IT_IS
+    mapped: MappedFile = field(default_factory=MappedFile)
     notes: tuple[str, ...] = ()
-    meanings: Mapping[str, str] = field(default_factory=dict)
     turns: Mapping[str, float] = field(default_factory=dict)
 
     @property
@@ -62,10 +68,15 @@ class ComparedFile:
         """Names of the channels: those that are mapped first, then columns under their own names."""
         return list(dict.fromkeys([*self.mapped.columns, *self.series]))
 
+    @property
+    def start(self) -> float:
+        """Its first time [s]."""
+        return min(float(one.time[0]) for one in self.series.values() if one.time.size) + self.mapped.shift
+
     def column(self, channel: str) -> MappedColumn:
         """The column that is a channel. Raises InputError if there is none."""
-        if found := self.mapped.columns.get(channel):
-            return found
+        if column := self.mapped.columns.get(channel):
+            return column
         if channel not in self.series:
             raise InputError(
                 f"{channel}: {self.name} has no such channel; {nearest(channel, self.channels[:12])}"
@@ -77,33 +88,35 @@ class ComparedFile:
         return self.series[self.column(channel).column].unit
 
     def meaning(self, channel: str) -> str:
-        """What a channel is, in words; empty if the file does not say."""
-        return self.meanings.get(self.column(channel).column, "")
+        """The meaning of a channel, in words; empty if the file does not state it."""
+        known = None if self.run is None else self.run.channels.get(self.column(channel).column)
+        return "" if known is None else known.meaning
 
     def time(self, channel: str) -> Values:
         """Times of a channel, shifted [s], (n,)."""
         time = self.series[self.column(channel).column].time
         return time + self.mapped.shift if self.mapped.shift else time
 
+    def curve(self, channel: str, unit: str) -> tuple[Values, Values]:
+        """Times [s] and values of a channel in a unit, (n,) each. Raises InputError as `values`."""
+        return self.time(channel), self.values(channel, unit)
+
     def values(self, channel: str, unit: str) -> Values:
         """Values of a channel in a unit, (n,); an angle that the file wraps is unwrapped.
 
         Raises InputError if its own unit is not known or of another kind.
         """
-        found = self._converted(channel, unit)
-        if unit == ANGLE and self.run is None:
-            found = unwrapped(found)
-        return found - self.turns[channel] if self.turns.get(channel) else found
-
-    def _converted(self, channel: str, unit: str) -> Values:
         column = self.column(channel)
         series = self.series[column.column]
+        if column.sign != 1 or column.offset:
+            series = replace(series, values=column.sign * series.values + column.offset)
         try:
-            if column.sign == 1 and column.offset == 0.0:
-                return series.values if series.unit == unit else converted(series, unit)
-            return converted(replace(series, values=column.sign * series.values + column.offset), unit)
+            values = series.values if series.unit == unit else converted(series, unit)
         except InputError as error:
             raise InputError(f"{self.path}: {error}") from None
+        if unit == ANGLE and self.run is None:
+            values = unwrapped(values)
+        return values - self.turns[channel] if self.turns.get(channel) else values
 
     def mean(self, channel: str, unit: str, after: float, until: float) -> Estimate | None:
         """The mean of a channel over time with its error, from every step of a run between two times [s].
@@ -115,13 +128,13 @@ class ComparedFile:
             return None
         ends = column.column, after - shift, until - shift
         window = run.window(*ends)
-        error = run.estimate(lambda one: one.window(*ends).mean).error if self.has_errors else math.nan
+        error = run.estimate(lambda run: run.window(*ends).mean).error if self.has_errors else math.nan
         return Estimate(column.sign * window.mean + column.offset, error + window.mean_doubt, unit)
 
     def errors(self, channel: str) -> Values:
         """Numerical errors of a channel in SI, (n,); NaN: not known, infinite from the horizon on."""
-        found = self._errors.get(self.column(channel).column)
-        return np.full(self.time(channel).size, np.nan) if found is None else found
+        errors = self._errors.get(self.column(channel).column)
+        return np.full(self.time(channel).size, np.nan) if errors is None else errors
 
     @cached_property
     def _errors(self) -> Mapping[str, Values]:
@@ -129,7 +142,7 @@ class ComparedFile:
         return {} if self.run is None else curve_errors(self.run, self.series)
 
     def of(self, run: Result) -> ComparedFile:
-        """The file with another run of the scene in it, such as one with longer steps."""
+        """The file with another run of the scene in it, such as a run with longer steps."""
         return replace(self, run=run, series=_series(run))
 
     def shifted(self, seconds: float) -> ComparedFile:
@@ -147,7 +160,7 @@ def is_own(path: Path) -> bool:
 
 def compared_file(
     path: Path,
-    mapped: MappedFile = AS_IT_IS,
+    mapped: MappedFile,
     name: str = "",
     channels: Sequence[str] = (),
     progress: Progress = silent,
@@ -156,54 +169,121 @@ def compared_file(
 
     Arguments:
         path: of a run, or of whatever `read_series` reads.
-        mapped: what is said of its columns.
+        mapped: what a mapping states of its columns.
         name: by which tables and figures call it; its file name if it is empty.
         channels: patterns of those that are wanted, all if there are none: others take no memory.
-        progress: is told the share that is read.
+        progress: receives the share that is read.
 
     Raises InputError if it cannot be read, or lacks a column that `mapped` names; OSError if it is not there.
     """
     name = name or path.name
     if is_own(path):
-        return _mapped(of_run(Result.load(path), path, name), mapped)
-    found = _series_of(path, mapped, channels, progress)
-    return _mapped(ComparedFile(name, path, found.kind, None, found.series, AS_IT_IS, found.notes), mapped)
-
-
-def _series_of(path: Path, mapped: MappedFile, channels: Sequence[str], progress: Progress) -> SeriesFile:
-    """The series of a file that may be wanted; all if none is, so that it can be told which there are."""
-    columns = [one.column for one in mapped.columns.values()]  # they have to be there, wanted or not
-    names = [*channels, *map(glob.escape, columns)] if channels else []
-    try:
-        return read_series(path, units=mapped.units, analysis=mapped.analysis, names=names, progress=progress)
-    except InputError:
-        if not names:
-            raise
-        return read_series(path, units=mapped.units, analysis=mapped.analysis, progress=progress)
-
-
-def of_run(run: Result, path: Path, name: str) -> ComparedFile:
-    """A run as a file that is compared."""
-    meanings = {channel: one.meaning for channel, one in run.channels.items()}
-    return ComparedFile(name, path, "run of this program", run, _series(run), meanings=meanings)
-
-
-def _series(run: Result) -> Mapping[str, NamedSeries]:
-    return {
-        channel: NamedSeries(channel, one.unit, run.time, one.values)
-        for channel, one in run.channels.items()
-        if channel != "time"
-    }
-
-
-def _mapped(file: ComparedFile, mapped: MappedFile) -> ComparedFile:
-    """The file with what is said of its columns. Raises InputError with a line for each that it lacks."""
+        file = of_run(Result.load(path), path, name)
+    else:
+        columns = [column.column for column in mapped.columns.values()]  # they have to be there, wanted or not
+        names = [*channels, *map(glob.escape, columns)] if channels else []
+        read_names = partial(read_series, path, units=mapped.units, analysis=mapped.analysis, progress=progress)
+        try:
+            read = read_names(names=names)
+        except InputError:
+            if not names:
+                raise
+            read = read_names()  # all, so that an error can name the columns that there are
+        file = ComparedFile(name, path, read.kind, None, read.series, notes=read.notes)
     lacking = [
-        f"{file.path}: has no column {one.column!r}, which is to be {channel}; "
-        f"{nearest(one.column, list(file.series))}"
-        for channel, one in mapped.columns.items()
-        if one.column not in file.series
+        f"{path}: has no column {column.column!r}, which is to be {channel}; "
+        f"{nearest(column.column, list(file.series))}"
+        for channel, column in mapped.columns.items()
+        if column.column not in file.series
     ]
     if lacking:
         raise InputError("\n".join(lacking))
     return replace(file, mapped=mapped)
+
+
+def of_run(run: Result, path: Path, name: str) -> ComparedFile:
+    """A run as a file that is compared."""
+    return ComparedFile(name, path, "run of this program", run, _series(run))
+
+
+def _series(run: Result) -> Mapping[str, NamedSeries]:
+    return {
+        name: NamedSeries(name, channel.unit, run.time, channel.values)
+        for name, channel in run.channels.items()
+        if name != "time"
+    }
+
+
+# --- angles: those that differ by full turns are equal ---
+
+
+def unwrapped(angle: Values) -> Values:
+    """A continuous angle [rad] from one that a file has wrapped into a single turn; others stay as they are.
+
+    An angle was wrapped if all values lie within a turn and neighbours are more than half a turn apart.
+    """
+    known = np.isfinite(angle)
+    values = angle[known]
+    jumps = np.abs(np.diff(values)).max(initial=0.0) > 0.5 * TURN
+    if not jumps or np.ptp(values) > (1.0 + ROUNDING) * TURN:
+        return angle
+    continuous = angle.copy()
+    continuous[known] = np.unwrap(values)
+    return continuous
+
+
+def turns_apart(reference: Values, other: Values) -> float:
+    """The full turns [rad] by which another angle begins apart from a reference; 0 without overlap."""
+    known = np.flatnonzero(np.isfinite(reference) & np.isfinite(other))
+    return TURN * round((other[known[0]] - reference[known[0]]) / TURN) if known.size else 0.0
+
+
+# --- the unit in SI in which a quantity is compared ---
+
+
+@cache
+def si_unit(unit: str) -> str:
+    """The house's unit of the kind of a unit: "N" of kN, "m" of inch; itself if it is of no kind of the house.
+
+    Raises InputError if it is no unit.
+    """
+    known = ("J", *UNITS) if WORK.search(unit) else (*UNITS, "J")
+    unit_checked(unit, "unit")
+    return next((each for each in known if of_a_kind(unit, each)), unit)
+
+
+@cache
+def of_a_kind(first: str, second: str) -> bool:
+    """Whether quantities in the first unit can be given in the second."""
+    try:
+        scaled(np.ones(1), first, second, "unit")
+    except InputError:
+        return False
+    return True
+
+
+def channel_unit(reference: ComparedFile, other: ComparedFile, channel: str) -> str:
+    """The unit in which a channel is compared: that of a run, else the SI unit of what the files name.
+
+    Raises InputError if a file names none, or if both are of two kinds.
+    """
+    files = (reference, other)
+    units = [unit for file in files if (unit := file.unit(channel)) is not None]
+    if len(units) < len(files):
+        file = next(file for file in files if file.unit(channel) is None)
+        column = file.column(channel).column
+        which = (
+            f"{file.path}: {column}: its file gives no unit" if units else f"{channel}: has a unit in neither"
+        )
+        raise InputError(
+            f"{which}; allowed: one in the column's title, such as '{column} [mm]', or in compare.toml, "
+            f'[units] "{column}" = "mm"'
+        )
+    runs = [unit for file, unit in zip(files, units, strict=True) if file.run is not None]
+    for unit in runs[:1] or [si_unit(unit) for unit in units]:  # g may be of an acceleration, not where kg are
+        if all(of_a_kind(each, unit) for each in units):
+            return unit
+    mine, its = (unit or "pure numbers" for unit in units)
+    raise InputError(
+        f"{channel}: is in {mine} in {reference.name}, and in {its} in {other.name}; allowed: units of one kind"
+    )

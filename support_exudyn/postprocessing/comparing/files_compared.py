@@ -7,40 +7,60 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple
 
 from support_exudyn.files.series.asked import Progress, silent
-from support_exudyn.postprocessing.comparing.compare_file import CompareFile, read_compare_file, tolerances_of
+from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.comparing.compared_channel import (
     JUDGED,
     ComparedChannel,
     ComparedWindow,
+    ToleranceVerdict,
+    common_curves,
     compared_channel,
+    worst,
 )
-from support_exudyn.postprocessing.comparing.compared_file import ComparedFile, compared_file, of_run
-from support_exudyn.postprocessing.comparing.found_shift import FoundShift, found_shift
-from support_exudyn.postprocessing.comparing.laid_curves import LaidCurves
-from support_exudyn.postprocessing.comparing.matched_channels import (
-    CommonChannels,
-    check_named,
-    common_channels,
+from support_exudyn.postprocessing.comparing.compared_file import (
+    ANGLE,
+    ComparedFile,
+    channel_unit,
+    compared_file,
+    of_run,
+    turns_apart,
 )
-from support_exudyn.postprocessing.comparing.matched_impacts import MatchedImpacts, match_impacts
-from support_exudyn.postprocessing.comparing.own_runs import same_to_the_bit
-from support_exudyn.postprocessing.comparing.pair_parting import NEVER, impacts_of, pair_parting
-from support_exudyn.postprocessing.comparing.parting import Parting
-from support_exudyn.postprocessing.comparing.tolerances import (
+from support_exudyn.postprocessing.comparing.impacts import MatchedImpacts, impacts_of, match_impacts
+from support_exudyn.postprocessing.comparing.mapping import (
+    CompareFile,
     Tolerance,
+    check_patterns,
     of_channel,
+    read_compare_file,
     read_tolerances,
+    tolerances_of,
 )
-from support_exudyn.postprocessing.comparing.verdict import ToleranceVerdict, worst
-from support_exudyn.postprocessing.comparing.whole_turns import ANGLE, turns_apart
+from support_exudyn.postprocessing.comparing.parting import NEVER, Parting, pair_parting
+from support_exudyn.postprocessing.comparing.shift import FoundShift, found_shift
 from support_exudyn.postprocessing.comparing.with_errors import BesideErrors, numbers_beside_errors
+from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
 FEWEST = 2  # files
+SHOWN = 6  # names that are listed of many
 Comparable = Result | str | Path
+
+
+class CommonChannels(NamedTuple):
+    """The channels of two files.
+
+    units: those that are compared, each with the unit of the comparison. lacking: those of the reference that
+    the other file has not. not_alike: those that both have and that cannot be compared, each with the reason:
+    a unit that a file does not name, or units of two kinds.
+    """
+
+    units: Mapping[str, str]
+    lacking: tuple[str, ...]
+    not_alike: Mapping[str, str]
 
 
 @dataclass(frozen=True)
@@ -49,9 +69,9 @@ class ComparedPair:
 
     channels: by their names. parting: when both part, and why; never, if all is the same to the bit.
     impacts: of contacts that both know.
-    shift: the shift in time that was found, which `other` has been given; None: none was asked for.
-    same: how many channels there are, if both are runs and all records are the same to the bit; else 0.
-    common: which channels are compared, and which are not. after, until: what is compared, [s].
+    shift: the shift in time that was determined, and applied to `other`; None: none was asked for.
+    same: number of channels, if both are runs and all records are the same to the bit; else 0.
+    common: which channels are compared, and which are not. after, until: the part that is compared, [s].
     """
 
     reference: ComparedFile
@@ -67,7 +87,7 @@ class ComparedPair:
 
     @cached_property
     def numbers(self) -> Mapping[str, BesideErrors]:
-        """The numbers that two runs report, see `Result.numbers`, beside their errors; none without errors."""
+        """The numbers that two runs report, see `Result.numbers`, with their errors; none without errors."""
         first, second = self.reference.run, self.other.run
         if first is None or second is None or not (self.reference.has_errors and self.other.has_errors):
             return {}
@@ -76,12 +96,12 @@ class ComparedPair:
     @property
     def verdict(self) -> ToleranceVerdict:
         """The worst of those on the channels."""
-        return worst(one.verdict for one in self.channels.values())
+        return worst(channel.verdict for channel in self.channels.values())
 
 
 @dataclass(frozen=True)
 class FilesCompared:
-    """Files compared with a reference. after, until: what of them [s]."""
+    """Files compared with a reference. after, until: the part that is compared [s]."""
 
     reference: ComparedFile
     pairs: tuple[ComparedPair, ...]
@@ -113,65 +133,52 @@ def compare_files(
         reference, others: runs, or paths of files of any kind that can be read.
         channels: names, or patterns as in a shell. Without: of two runs forces and traced points, else all that
             both files have.
-        mapping: the file of the comparison, compare.toml, or what it says.
+        mapping: the file of the comparison, compare.toml, or its contents.
         tolerance: as on a command line, 'pin.*.force=2%,tip.*=0.1mm'; goes before those of the mapping.
-        after, until: what is compared [s].
-        find_shift: find by how much every file lags behind the reference, and take it off.
-        progress: is told the share of the files that is read.
+        after, until: the part that is compared [s].
+        find_shift: determine by how much every file lags behind the reference, and take it off.
+        progress: receives the share of the files that is read.
 
     Raises InputError if something cannot be read, mapped or compared: what, where, and what is allowed; OSError
     if a file is not there.
     """
-    given = [reference, *others]
+    given = [one if isinstance(one, Result) else Path(one) for one in (reference, *others)]
     if len(given) < FEWEST:
         raise InputError(f"{len(given)} file: allowed: {FEWEST} or more, the first is the reference")
-    files, said = read_files(given, mapping, channels, progress)
+    if isinstance(mapping, (str, Path)):
+        mapping = read_compare_file(Path(mapping), [path for path in given if isinstance(path, Path)])
+    mapping = mapping or CompareFile()
+    first, *rest = _read(given, mapping, channels, progress)
     asked = read_tolerances(tolerance) if isinstance(tolerance, str) else list(tolerance)
-    tolerances = [*asked, *tolerances_of(said)]
-    first, *rest = files
+    tolerances = [*asked, *tolerances_of(mapping)]
     chosen = [common_channels(first, other, channels) for other in rest]
     check_named(tolerances, chosen)
     pairs = tuple(
-        _pair(first, other, common, (after, until), said, tolerances, find_shift)
+        _pair(first, other, common, (after, until), tolerances, find_shift)
         for other, common in zip(rest, chosen, strict=True)
     )
     return FilesCompared(first, pairs, after, until)
 
 
-def read_files(
-    given: Sequence[Comparable],
-    mapping: str | Path | CompareFile | None = None,
-    channels: Sequence[str] = (),
-    progress: Progress = silent,
-) -> tuple[list[ComparedFile], CompareFile]:
-    """Files, each with what a mapping says of it; and the mapping. Raises as `compare_files`."""
-    paths = [one if isinstance(one, Result) else Path(one) for one in given]
-    if isinstance(mapping, (str, Path)):
-        mapping = read_compare_file(Path(mapping), [path for path in paths if isinstance(path, Path)])
-    said = mapping or CompareFile()
+def _read(
+    given: Sequence[Path | Result], mapping: CompareFile, channels: Sequence[str], progress: Progress
+) -> list[ComparedFile]:
+    """Files, called by their names; with folder or place if another file has the same name."""
     files: list[ComparedFile] = []
-    for n, path in enumerate(paths):
-        name = _name(path, n, [one.name for one in files], paths)
+    for n, path in enumerate(given):
         if isinstance(path, Result):
-            files.append(of_run(path, Path(name), name))
+            files.append(of_run(path, Path(f"run {n + 1}"), f"run {n + 1}"))
             continue
-        files.append(compared_file(path, said.of(path), name, channels, _piece(progress, n, len(paths))))
+        alike = {other for other in given if isinstance(other, Path) and other.name == path.name}
+        name = path.name if len(alike) == 1 else str(path)
+        name = f"{name} ({n + 1})" if name in [file.name for file in files] else name
+
+        def piece(share: float, n: int = n) -> None:
+            progress((n + share) / len(given))
+
+        files.append(compared_file(path, mapping.of(path), name, channels, piece))
     progress(1.0)
-    return files, said
-
-
-def _piece(progress: Progress, number: int, count: int) -> Progress:
-    """What is told of one of several files, as a share of all."""
-    return lambda share: progress((number + share) / count)
-
-
-def _name(path: Path | Result, number: int, taken: Sequence[str], paths: Sequence[Path | Result]) -> str:
-    """By which a file is called: its name; with its folder or its place if another has the same."""
-    if isinstance(path, Result):
-        return f"run {number + 1}"
-    alike = {other for other in paths if isinstance(other, Path) and other.name == path.name}
-    name = path.name if len(alike) == 1 else str(path)
-    return name if name not in taken else f"{name} ({number + 1})"
+    return files
 
 
 def _pair(
@@ -179,43 +186,132 @@ def _pair(
     other: ComparedFile,
     common: CommonChannels,
     ends: tuple[float, float],
-    said: CompareFile,
     tolerances: Sequence[Tolerance],
     find_shift: bool,
 ) -> ComparedPair:
     """Compare two files."""
-    units, names = common.units, list(common.units)
+    units = common.units
     shift = found_shift(reference, other, units) if find_shift else None
     if shift is not None:
         other = other.shifted(-shift.found.shift)
-    angles = [name for name in names if units[name] == ANGLE]
-    laid = {name: LaidCurves(reference, other, name, ANGLE, *ends).common for name in angles}
-    other = replace(other, turns={name: turns_apart(one.reference, one.other) for name, one in laid.items()})
-    known = impacts_of(reference, names), impacts_of(other, names)
-    same = 0
-    if reference.run is not None and other.run is not None and other.mapped == reference.mapped:
-        same = same_to_the_bit(reference.run, other.run)
+    other = replace(other, turns=_turns(reference, other, units, ends))
+    same = same_to_the_bit(reference, other)
+    known = impacts_of(reference, units), impacts_of(other, units)
     parting = NEVER if same else pair_parting(reference, other, known)
-    onsets = known[0].onsets, known[1].onsets
-    contacts = [name for name in onsets[0] if name in onsets[1]]
+    mine, its = (impacts.onsets for impacts in known)
+    contacts = [contact for contact in mine if contact in its]
     run = reference.run or other.run
-    stems = {one: f"pin.{one}" if run is None else run.scenario.contact_stem(one) for one in contacts}
-    told = len(names) * len(JUDGED) + len(contacts)
-    window = ComparedWindow(*ends, parting.time, said.bands, max(told, 1))
+    stems = {name: f"pin.{name}" if run is None else run.scenario.contact_stem(name) for name in contacts}
+    among = len(units) * len(JUDGED) + len(contacts)
+    window = ComparedWindow(*ends, parting.time, max(among, 1))
     channels = {}
-    for name in names:
+    for name, unit in units.items():
         contact = next((one for one in contacts if name.startswith(f"{stems[one]}.")), None)
         impacts = None
         if contact is not None:
-            impacts = tuple([one.time for one in side[contact]] for side in onsets)
-        channels[name] = compared_channel(
-            reference,
-            other,
-            name,
-            units[name],
-            window,
-            of_channel(tolerances, name),
-            impacts,  # type: ignore[arg-type]
-        )
-    matched = {name: match_impacts(onsets[0][name], onsets[1][name]) for name in contacts}
+            impacts = [one.time for one in mine[contact]], [one.time for one in its[contact]]
+        tolerance = of_channel(tolerances, name)
+        channels[name] = compared_channel(reference, other, name, unit, window, tolerance, impacts)
+    matched = {name: match_impacts(mine[name], its[name]) for name in contacts}
     return ComparedPair(reference, other, channels, parting, matched, shift, same, common, *ends)
+
+
+def _turns(
+    reference: ComparedFile, other: ComparedFile, units: Mapping[str, str], ends: tuple[float, float]
+) -> Mapping[str, float]:
+    """The full turns by which angles of both files begin apart, by channel [rad]."""
+    angles = [name for name, unit in units.items() if unit == ANGLE]
+    laid = {name: common_curves(reference, other, name, ANGLE, *ends) for name in angles}
+    return {name: turns_apart(common.reference, common.other) for name, common in laid.items()}
+
+
+def same_to_the_bit(reference: ComparedFile, other: ComparedFile) -> int:
+    """The number of channels of two runs with one mapping, if all records are the same bits; else 0."""
+    first, second = reference.run, other.run
+    if first is None or second is None or other.mapped != reference.mapped:
+        return 0
+    names = list(first.channels)
+    if set(names) != set(second.channels) or first.time.tobytes() != second.time.tobytes():
+        return 0
+    return len(names) if all(first[name].tobytes() == second[name].tobytes() for name in names) else 0
+
+
+# --- the channels that two files have in common ---
+
+
+def common_channels(reference: ComparedFile, other: ComparedFile, patterns: Sequence[str]) -> CommonChannels:
+    """The channels that are compared, and those that are not, though they are asked for.
+
+    patterns: names, or patterns as in a shell; without, of two runs forces and traced points, else all.
+
+    Raises InputError if nothing is left, or if a channel that is asked for by its name, or that is mapped,
+    cannot be compared.
+    """
+    mine, its = reference.channels, set(other.channels)
+    asked = matching(mine, patterns) if patterns else _usual(reference, other)
+    for name in patterns:
+        if name in mine and name not in its:
+            raise InputError(f"{name}: {other.name} has no such channel; {_way_out(reference, other)}")
+    if its.isdisjoint(asked):
+        raise InputError(
+            f"{reference.path}, {other.path}: have no channel in common; {_way_out(reference, other)}"
+        )
+    known = {name: _unit_or_why(reference, other, name) for name in asked if name in its}
+    named = {*patterns, *reference.mapped.columns, *other.mapped.columns}
+    units = {name: unit for name, (unit, why) in known.items() if not why}
+    not_alike = {name: why for name, (_, why) in known.items() if why}
+    if refused := [why for name, why in not_alike.items() if name in named]:
+        raise InputError(refused[0])
+    if not units:
+        raise InputError("\n".join(list(not_alike.values())[:SHOWN]))
+    return CommonChannels(units, tuple(name for name in asked if name not in its), not_alike)
+
+
+def _unit_or_why(reference: ComparedFile, other: ComparedFile, name: str) -> tuple[str, str]:
+    """The unit in which a channel is compared, or why there is none; the other is empty."""
+    try:
+        return channel_unit(reference, other, name), ""
+    except InputError as error:
+        return "", str(error)
+
+
+def check_named(tolerances: Sequence[Tolerance], common: Sequence[CommonChannels]) -> None:
+    """Raise InputError for a tolerance of no channel that is compared.
+
+    Of several files, a channel whose tolerance has its name has to be compared in each.
+    """
+    for each in tolerances:
+        for of_pair in common:
+            if each.pattern in of_pair.not_alike:
+                raise InputError(of_pair.not_alike[each.pattern])
+            if each.pattern in of_pair.lacking:
+                raise InputError(
+                    f"{each.pattern}: has a tolerance, {each.text}, and is not in all files; allowed: channels "
+                    "that are, or patterns"
+                )
+    check_patterns(tolerances, list(dict.fromkeys(name for of_pair in common for name in of_pair.units)))
+
+
+def _usual(reference: ComparedFile, other: ComparedFile) -> list[str]:
+    """The channels that are compared if none is asked for."""
+    its = set(other.channels)
+    if reference.run is None:  # of which nothing is lost without a word, but columns that are mapped
+        used = {column.column for column in reference.mapped.columns.values()}
+        return [name for name in reference.channels if name in its or name not in used]
+    if other.run is None:
+        return [name for name in reference.channels if name in its]
+    mapped = [name for file in (reference, other) for name in file.mapped.columns if name in reference.channels]
+    usual = [name for name in summary.telling(reference.run) if not name.startswith("energy.")]
+    return list(dict.fromkeys([*mapped, *usual]))
+
+
+def _way_out(reference: ComparedFile, other: ComparedFile) -> str:
+    shown = []
+    for file in (reference, other):
+        more = f" and {len(file.channels) - SHOWN} more" if len(file.channels) > SHOWN else ""
+        shown.append(f"{file.name} has {', '.join(file.channels[:SHOWN])}{more}")
+    return (
+        f"{'; '.join(shown)}; allowed: columns called as channels, or --map compare.toml, which says which "
+        f'column is which: [files."{other.path.name}".columns] "{reference.channels[0]}" = '
+        f'"{other.channels[0]}"'
+    )

@@ -1,8 +1,8 @@
-"""What a difference means beside the numerical errors of both numbers or curves.
+"""Differences against the numerical errors of both numbers or curves.
 
 Errors of runs are estimates from coarser runs (`simulation.estimate`), and some are too small: of 16 481
 numbers that were judged by far finer runs 91 had larger errors than estimated, the worst 7.1 times
-(`accuracy.md`). So a difference that is larger than both errors is told as a multiple of them, and only from
+(`accuracy.md`). So a difference that is larger than both errors is given as a multiple of them, and only from
 `DOUBT` times on it is certain that both are different.
 """
 
@@ -30,6 +30,9 @@ AROUND = 5  # records to either side of which the largest error is taken
 LEFT = 0.1  # share of the largest error before that is left
 SINGLE = 3.0  # times what is estimated of numbers, which average
 ARM = 1.0  # [m], of a body, by which places become angles
+# Share of the largest value of a unit, of the whole run, that a safe error is at least: what is nothing in
+# truth, as the force of a pin that carries nothing or what is missing of an energy, is rounding of others.
+ROUNDED = 1e-12
 
 
 class BesideErrors(NamedTuple):
@@ -70,22 +73,17 @@ class BesideErrors(NamedTuple):
         return f"larger: {float(f'{self.times:.2g}'):.15g} times"  # 310, and not 3.1e+02
 
 
-def beside_errors(first: float, second: float, first_error: float, second_error: float) -> BesideErrors:
-    """The difference of two numbers, second less first, beside their errors; NaN: an error is not known."""
-    return BesideErrors(second - first, first_error + second_error)
-
-
 def numbers_beside_errors(
     first: Result, second: Result, after: float = 0.0, until: float = math.inf
 ) -> dict[str, BesideErrors]:
-    """The numbers that both runs report between two times [s], see `Result.numbers`, by their names.
+    """Differences of the numbers that both runs report between two times [s], see `Result.numbers`, by name.
 
     Raises InputError if a run was made without an accuracy, or if no record lies between the times.
     """
     mine, its = first.numbers(after, until), second.numbers(after, until)
     return {
-        name: beside_errors(mine[name].value, its[name].value, mine[name].error, its[name].error)
-        for name in mine
+        name: BesideErrors(its[name].value - number.value, number.error + its[name].error)
+        for name, number in mine.items()
         if name in its
     }
 
@@ -110,6 +108,22 @@ def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
         near = np.maximum(near, LEFT * np.maximum.accumulate(near)) + least.get(result.unit(name), 0.0)
         found[name] = np.where(beyond, math.inf, SINGLE * near)
     return found
+
+
+def safe_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
+    """Errors of channels that hold for all of their records together, and on other processors, (n,), by name.
+
+    Those of `curve_errors`, at least the largest before: of thousands of records none is to differ by chance,
+    and in chaos what is behind an impact is not more certain than that is. Rounding is added.
+    """
+    largest: dict[str, float] = {}
+    for channel in result.channels.values():
+        size = float(np.abs(channel.values[np.isfinite(channel.values)]).max(initial=0.0))
+        largest[channel.unit] = max(largest.get(channel.unit, 0.0), size)
+    return {
+        name: np.maximum.accumulate(errors) + ROUNDED * largest[result.unit(name)]
+        for name, errors in curve_errors(result, names).items()
+    }
 
 
 def least_errors(result: RecordedRun) -> Mapping[str, float]:

@@ -10,11 +10,10 @@ from matplotlib.figure import Figure
 
 from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.series.units import converted
-from support_exudyn.postprocessing.comparing.own_runs import common_records
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.channels import error_over_time, label_values
 from support_exudyn.postprocessing.figures.journal import Series
-from support_exudyn.postprocessing.figures.selection import inside, matching, said
+from support_exudyn.postprocessing.figures.selection import common_records, inside, matching, said
 from support_exudyn.postprocessing.figures.units import readable
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError

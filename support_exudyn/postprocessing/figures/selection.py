@@ -78,3 +78,23 @@ def nearest(time: Series, asked: Series) -> npt.NDArray[np.intp]:
         return np.zeros(asked.size, dtype=np.intp)
     after = np.clip(np.searchsorted(time, asked), 1, time.size - 1)
     return np.where(asked - time[after - 1] <= time[after] - asked, after - 1, after).astype(np.intp)
+
+
+def common_records(
+    first: Result, second: Result, after: float, until: float
+) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
+    """The records of two runs that are of the same times, between two times [s].
+
+    Raises InputError if there are none.
+    """
+    for run in (first, second):
+        inside(run, after, until, fewest=1)  # says which times there are
+    ticks = [np.round(run.time / CLEARANCE).astype(np.int64) for run in (first, second)]
+    _, mine, its = np.intersect1d(ticks[0], ticks[1], assume_unique=True, return_indices=True)
+    within = inside(first, after, until, fewest=1)[mine]
+    if not within.any():
+        raise InputError(
+            f"record_period = {first.scenario.recorded_every:g} and {second.scenario.recorded_every:g} s: the "
+            "runs have no record at the same time there; allowed: periods with a common multiple"
+        )
+    return mine[within], its[within]

@@ -9,7 +9,6 @@ from pydantic import Field
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
-from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.postprocessing.instruments.instrument import Instrument
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
@@ -50,10 +49,11 @@ class PressureGauge(Instrument):
 
     def signals(self, result: Result) -> Series:
         """The pressure (n, 1) [Pa]."""
-        whole, _ = column_of(result.scenario, self.column)
-        area = self.area(result.scenario)
         scenario = result.scenario
-        if self._is_recorded(scenario.hydraulics.get(whole), whole in scenario.oil_columns):
+        whole, _ = column_of(scenario, self.column)
+        area, leg = self.area(scenario), scenario.hydraulics.get(whole)
+        plain = isinstance(leg, OilColumn) and (self.side == "rod" or whole in scenario.oil_columns)
+        if leg is not None and not plain:
             name = f"{self.column}.{'pressure' if self.side == 'piston' else 'rod_pressure'}"
             return result.recorded(name, "a gauge shows it")[:, None]
         force = result.recorded(f"{self.column}.force", "a pressure gauge needs it")
@@ -89,12 +89,6 @@ class PressureGauge(Instrument):
         if isinstance(leg, HydraulicCylinder):
             return share * (leg.bore_area if self.side == "piston" else leg.rod_side_area)
         return share * leg.bore_area if isinstance(leg, OilColumn) and self.side == "piston" else None
-
-    def _is_recorded(self, leg: HydraulicLeg | None, plain: bool) -> bool:
-        """Whether a run has the pressure of its side; plain: the leg is a plain column of oil."""
-        if isinstance(leg, OilColumn):
-            return self.side == "piston" and not plain
-        return leg is not None
 
     def _own_area(self) -> float | None:
         """The area that the gauge says [m^2]."""

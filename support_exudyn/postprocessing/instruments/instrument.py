@@ -1,18 +1,55 @@
 """What all instruments have in common: a signal of a run is filtered, sampled, made noisy and rounded."""
 
 from abc import ABC, abstractmethod
-from typing import ClassVar
+from typing import Annotated, ClassVar
 from zlib import crc32
 
 import numpy as np
+from pydantic import Field
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.instruments.low_pass import LowPass
 from support_exudyn.simulation.result import Result
 from user_forces.values.units import Hertz
-from user_forces.values.value import InputError, NonNegative, Positive, Value, value
+from user_forces.values.value import InputError, NonNegative, Positive, Value, Whole, value
 
 CLOSE = 1e-6  # share of a period by which records that are evenly spaced may be off
+RECORDS = 20  # in a period of a filter's corner frequency, at least
+
+
+@value
+class LowPass(Value):
+    """A Butterworth filter as a device has it: causal, so that its output comes late.
+
+    Gain at a frequency f: 1 / sqrt(1 + (f / corner)^(2 order)). Before the first record its input was as there.
+
+    Arguments:
+        order: 1 to 8; 1 is a resistor and a capacitor. 2 by default.
+        corner: frequency at which the gain is 1 / sqrt(2) [Hz], > 0.
+    """
+
+    order: Annotated[Whole, Field(ge=1, le=8)] = 2
+    corner: Hertz[Positive]
+
+    @property
+    def longest_period(self) -> float:
+        """Time between records [s] that is just fine enough for it.
+
+        A wave at the corner frequency loses 0.8 % of its height by the straight lines between such records,
+        and 1.6 % where it is a derivative by them.
+        """
+        return 1.0 / (RECORDS * self.corner)
+
+    def filtered(self, values: Series, period: float) -> Series:
+        """The filter's output at the records (n, m), from its input there (n, m), straight lines between.
+
+        For such an input it is exact. period: between records [s].
+        """
+        from scipy import signal  # takes a while to import
+
+        time = 2.0 * np.pi * self.corner * period * np.arange(len(values))
+        system = signal.butter(self.order, 1.0, analog=True)
+        columns = [column[0] + signal.lsim(system, column - column[0], time)[1] for column in values.T]
+        return np.stack(columns, axis=-1)
 
 
 @value
@@ -24,11 +61,11 @@ class Instrument(Value, ABC):
     Arguments:
         rate: samples per second [Hz], > 0, 10 by default; the first at the start of the run.
         low_pass: filter before the samples are taken; None: there is none.
-        noise: RMS of white, normally distributed noise, in the unit of what it reads, >= 0, 0 by default.
+        noise: RMS of white, normally distributed noise, in the unit of the reading, >= 0, 0 by default.
         resolution: step of its digits, in the same unit, >= 0, 0 by default: digits without end.
     """
 
-    UNIT: ClassVar[str]  # of what it reads, in SI
+    UNIT: ClassVar[str]  # of the reading, in SI
 
     rate: Hertz[Positive] = 10.0
     low_pass: LowPass | None = None
@@ -37,20 +74,20 @@ class Instrument(Value, ABC):
 
     @abstractmethod
     def signals(self, result: Result) -> Series:
-        """What it feels at every record, shape (n, m).
+        """The signals that act on it at every record, shape (n, m).
 
-        Raises InputError if the run has not recorded it, or has no such part.
+        Raises InputError if the run has not recorded them, or has no such part.
         """
 
     def reading(self, signals: Series) -> Series:
-        """What it shows (n,) of filtered signals (n, m); the first, unless it says otherwise."""
+        """The reading (n,) of filtered signals (n, m); the first, unless an instrument defines another."""
         return signals[:, 0]
 
 
 def samples(instrument: Instrument, name: str, result: Result, seed: int) -> tuple[Series, Series]:
     """The samples of an instrument: times (k,) [s] and readings (k,) in SI.
 
-    Between two records a reading is on the straight line.
+    Between two records a reading is on the straight line. A last record at a shorter distance is left out.
 
     Arguments:
         instrument: on the machine of the run. name: of it, which with the seed decides its noise.
@@ -58,7 +95,17 @@ def samples(instrument: Instrument, name: str, result: Result, seed: int) -> tup
 
     Raises InputError if the records are too far apart for the filter or the samples, or are not evenly spaced.
     """
-    time, period = _even(result.time, name)
+    time, steps = result.time, np.diff(result.time)
+    if time.size < 3:
+        raise InputError(f"{name}: the run has {time.size} records; allowed: at least 3")
+    period = float(steps[0])
+    uneven = np.flatnonzero(np.abs(steps - period) > CLOSE * period)
+    if uneven.size and uneven[0] < steps.size - 1:
+        raise InputError(
+            f"{name}: the records are {period:g} s apart, and {steps[uneven[0]]:g} s at t = "
+            f"{time[uneven[0]]:g} s; allowed: runs with one record_period"
+        )
+    time = time[: time.size - uneven.size]
     _check_fine(instrument, name, period)
     signals = instrument.signals(result)[: len(time)]
     if instrument.low_pass is not None:
@@ -72,20 +119,6 @@ def samples(instrument: Instrument, name: str, result: Result, seed: int) -> tup
     if instrument.resolution:
         values = instrument.resolution * np.round(values / instrument.resolution) + 0.0  # no -0
     return when, values
-
-
-def _even(time: Series, name: str) -> tuple[Series, float]:
-    """The records that are evenly spaced, all but perhaps the last, and the time between them [s]."""
-    steps = np.diff(time)
-    if time.size < 3:
-        raise InputError(f"{name}: the run has {time.size} records; allowed: at least 3")
-    uneven = np.flatnonzero(np.abs(steps - steps[0]) > CLOSE * steps[0])
-    if uneven.size and uneven[0] < steps.size - 1:
-        raise InputError(
-            f"{name}: the records are {steps[0]:g} s apart, and {steps[uneven[0]]:g} s at t = "
-            f"{time[uneven[0]]:g} s; allowed: runs with one record_period"
-        )
-    return time[: steps.size - uneven.size + 1], float(steps[0])
 
 
 def _check_fine(instrument: Instrument, name: str, period: float) -> None:

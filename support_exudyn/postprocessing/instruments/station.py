@@ -1,16 +1,20 @@
-"""A measuring station: the instruments on a machine, by name; what they read of a run; its file."""
+"""A measuring station: the instruments on a machine, by name; their readings of a run; its file and table."""
 
+import csv
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 from pydantic import Field
 
 from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.toml.reading import read_value
 from support_exudyn.files.toml.text import load_toml
-from support_exudyn.files.whole_file import missing_file
+from support_exudyn.files.whole_file import missing_file, whole_file
 from support_exudyn.model.linkage import GROUND
+from support_exudyn.postprocessing.export.whole_set import check_is_no_run
 from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge
 from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer
 from support_exudyn.postprocessing.instruments.instrument import Instrument, samples
@@ -20,6 +24,9 @@ from user_forces.values.units import Seconds
 from user_forces.values.value import InputError, Real, Value, Whole, value
 
 BASE = "base"  # what mines call the ground of the model
+WRITTEN = {"Pa": ("MPa", 1e-6), "m": ("mm", 1e3), "rad": ("deg", 180.0 / math.pi)}
+DIGITS = 10  # of a number: far more than instruments have
+DECIMALS = 7  # of MPa, mm, deg: smaller is what rounding of a run leaves of nothing
 
 
 @value
@@ -38,7 +45,7 @@ class MeasuringStation(Value):
 
 
 def measure(result: Result, station: MeasuringStation) -> dict[str, NamedSeries]:
-    """What the instruments read of a run, by their names, in SI; times are those of the station's clock.
+    """The readings of the instruments of a run, by their names, in SI; times are those of the station's clock.
 
     Raises InputError that names the instrument if the run has not recorded what it needs, or too coarsely; if
     the machine lacks its column, body or place; or if the bore of a column is not known.
@@ -55,7 +62,7 @@ def measure(result: Result, station: MeasuringStation) -> dict[str, NamedSeries]
 
 
 def usual_station(scenario: Scenario) -> tuple[MeasuringStation, dict[str, InputError]]:
-    """What mines measure, on any machine, 10 times a second, by perfect instruments.
+    """The usual instruments of mines, on any machine, 10 times a second, without errors.
 
         COLUMN.pressure, COLUMN.extension     of every actuator
         BODY.tilt                             of every body, at its centre of mass
@@ -102,3 +109,29 @@ def read_station(path: str | Path) -> MeasuringStation:
     except FileNotFoundError as error:
         raise missing_file(path, "the TOML file of instruments") from error
     return read_value(MeasuringStation, table, str(path))
+
+
+def write_measured(measured: Mapping[str, NamedSeries], path: str | Path) -> Path:
+    """Write readings as a CSV table with columns such as `front_column.pressure_MPa`, which `compare` reads.
+
+    A row for every time of any of them. Numbers have ten digits, and readings at most seven decimals; a cell is
+    empty where an instrument with another rate has no sample.
+
+    Raises InputError if a run is at the path; OSError if it cannot be written.
+    """
+    path = Path(path)
+    check_is_no_run(path)
+    columns = {"time_s": np.unique(np.concatenate([one.time for one in measured.values()]))}
+    for name, one in measured.items():
+        unit, scale = WRITTEN[one.unit or ""]
+        column = np.full(columns["time_s"].size, math.nan)
+        column[np.searchsorted(columns["time_s"], one.time)] = (
+            np.round(scale * one.values, DECIMALS) + 0.0
+        )  # no -0
+        columns[f"{name}_{unit}"] = column
+    with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        for row in zip(*(column.tolist() for column in columns.values()), strict=True):
+            writer.writerow("" if math.isnan(cell) else f"{cell:.{DIGITS}g}" for cell in row)
+    return path

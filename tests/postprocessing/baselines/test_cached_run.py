@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import Failure, SimulationError, simple_scenario
-from support_exudyn.postprocessing.baselines import cached_run
-from support_exudyn.postprocessing.baselines.cached_run import OLD, RunCache
-from tests.postprocessing.baselines.scenes import rocker
+from support_exudyn.postprocessing.comparing import cached_run
+from support_exudyn.postprocessing.comparing.cached_run import RunCache
 
 SCENE = simple_scenario(
     "crank_rocker", duration_s=0.01, drives={"crank": {"type": "Steady", "rate_rad_per_s": 60}}
@@ -34,63 +33,53 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[object]:
 
 
 def test_a_run_is_made_once(made: list[object], tmp_path: Path) -> None:
-    first = RunCache(tmp_path).run(SCENE)
-    again = RunCache(tmp_path).run(SCENE)
+    first, again = (RunCache(tmp_path).run(SCENE) for _ in range(2))
     assert len(made) == 1
     assert all(np.array_equal(first[name], again[name]) for name in first.channels)
-    assert first.scenario == again.scenario
     again["crank.moment"][:] = 0.0  # what a test does to its result
     assert np.abs(RunCache(tmp_path).run(SCENE)["crank.moment"]).max() > 0.0
     with_errors = RunCache(tmp_path).run(SCENE, errors=True)
     assert (len(made), with_errors.coarser is not None, first.coarser) == (2, True, None)
 
 
-def test_another_program_makes_its_own(
-    made: list[object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    RunCache(tmp_path).run(SCENE)
-    monkeypatch.setattr(cached_run, "program", lambda: {"sources": "others"})
-    other = RunCache(tmp_path)
-    other.run(SCENE)
-    assert len(made) == 2
-    # what another program has left is removed once it is old
-    (first,) = set(tmp_path.iterdir()) - {other.folder}
-    os.utime(first, (0.0, 0.0))
-    monkeypatch.setattr(cached_run, "program", lambda: {"sources": "third"})
-    RunCache(tmp_path)
-    assert not first.exists()
-    assert other.folder.exists()
-    assert OLD > 3600.0
-
-
 @pytest.mark.parametrize("damage", [b"", b"no run", b"\x89HDF"])
 def test_a_damaged_run_is_made_again(damage: bytes, made: list[object], tmp_path: Path) -> None:
     cache = RunCache(tmp_path)
     cache.run(SCENE)
-    (path,) = tmp_path.rglob("run.h5")
-    path.write_bytes(damage)
+    next(tmp_path.rglob("run.h5")).write_bytes(damage)
     assert cache.run(SCENE).time.size
     assert len(made) == 2
 
 
-def test_who_asks_for_the_same_waits(made: list[object], tmp_path: Path) -> None:
+def test_another_program_makes_its_own(
+    made: list[object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = RunCache(tmp_path)
+    first.run(SCENE)
+    monkeypatch.setattr(cached_run, "program", lambda: {"sources": "others"})
+    RunCache(tmp_path).run(SCENE)
+    assert len(made) == 2
+    os.utime(first.folder, (0.0, 0.0))  # what another program has left is removed once it is old
+    monkeypatch.setattr(cached_run, "program", lambda: {"sources": "third"})
+    RunCache(tmp_path)
+    assert not first.folder.exists()
+
+
+def test_who_asks_for_the_same_waits_and_a_run_that_fails_is_not_kept(
+    made: list[object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(scenario: object, **more: bool) -> object:
+        raise SimulationError(Failure("stuck", "take shorter steps", 0.1))
+
     cache, found = RunCache(tmp_path), []
-    threads = [threading.Thread(target=lambda: found.append(cache.run(rocker()))) for _ in range(3)]
+    with monkeypatch.context() as patch:
+        patch.setattr(cached_run, "simulate", fails)
+        with pytest.raises(SimulationError, match="stuck"):
+            cache.run(SCENE)
+    assert list(tmp_path.rglob("run.h5")) == []  # and nothing is locked
+    threads = [threading.Thread(target=lambda: found.append(cache.run(SCENE))) for _ in range(3)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
     assert (len(found), len(made)) == (3, 1)
-
-
-def test_a_run_that_fails_is_not_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fails(scenario: object, **more: bool) -> object:
-        raise SimulationError(Failure("stuck", "take shorter steps", 0.1))
-
-    cache = RunCache(tmp_path)
-    with monkeypatch.context() as patch:
-        patch.setattr(cached_run, "simulate", fails)
-        with pytest.raises(SimulationError, match="stuck"):
-            cache.run(SCENE)
-    assert list(tmp_path.rglob("run.h5")) == []
-    assert cache.run(SCENE).time.size  # and nothing is locked

@@ -5,17 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from support_exudyn import InputError, Result, simulate
 from support_exudyn.files.series.named_series import NamedSeries
-from support_exudyn.postprocessing.baselines.closeness import Closeness, closeness
-from support_exudyn.postprocessing.baselines.difference_figure import difference_figure
-from support_exudyn.postprocessing.baselines.in_tests import said_apart
+from support_exudyn.postprocessing.comparing.baselines import said_apart
+from support_exudyn.postprocessing.comparing.closeness import closeness, difference_figure
 from support_exudyn.postprocessing.export.tables import to_hdf5
 from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
 from support_exudyn.simulation.estimate import Estimate
@@ -35,101 +33,87 @@ def curve(
     return NamedSeries(name, unit, time, values)
 
 
-def only(found: list[Closeness]) -> Closeness:
-    (one,) = found
-    return one
+# --- numbers and curves ---
 
-
-# --- numbers ---
-
-
-@given(value=st.floats(0.1, 1e6), off=st.floats(-3.0, 3.0), share=st.floats(1e-6, 0.5))
-def test_a_share_is_of_the_reference(value: float, off: float, share: float) -> None:
-    one = only(closeness(value * (1.0 + off * share), value, share))
-    assert one.is_close == (abs(one.values[0] - value) <= share * value)
-    assert one.ratio == pytest.approx(abs(off), abs=1e-6)
+SINE = np.sin(2.0 * math.pi * TIME)
+OFF = SINE + 0.05 * (np.arange(TIME.size) == 30)
+HOLES = np.where(np.arange(TIME.size) == 5, math.nan, TIME**2)
+FINE = np.linspace(0.0, 1.0, 1001)
 
 
 @pytest.mark.parametrize(
-    ("now", "is_close"),
-    [((1.05, 0.04), True), ((1.15, 0.04), False), ((1.05, 0.2), True), ((0.85, 0.04), False)],
+    ("now", "was", "allowed", "verdict", "said"),
+    [
+        # without a tolerance both errors are allowed
+        (Estimate(1.05, 0.04, "N"), Estimate(1.0, 0.1, "N"), None, "within", ""),
+        (Estimate(1.15, 0.04, "N"), Estimate(1.0, 0.1, "N"), None, "not within", "(both errors)"),
+        (Estimate(1500.0, 1.0, "N"), Estimate(1.5, 1e-3, "kN"), None, "within", ""),
+        (Estimate(1.0, math.inf, "N"), Estimate(1.0, 0.1, "N"), None, "not decided", "error is not known"),
+        # a share is of a number's reference
+        (1.019, 1.0, 0.02, "within", ""),
+        (1.021, 1.0, "2 %", "not within", "differ by 0.021; allowed: 0.02 (2 % of the value of the reference)"),
+        (
+            1e-9,
+            0.0,
+            0.01,
+            "not within",
+            "it: 1e-09, where the reference is 0: they differ by 1e-09; allowed: 0",
+        ),
+        (Estimate(0.0015, 0.0, "m"), 0.0017, "0.3 mm", "within", ""),
+        (Estimate(0.0015, 0.0, "m"), 0.0017, "0.1 mm", "not within", "allowed: 0.0001 m (0.1 mm)"),
+        # an error that is larger than the tolerance decides nothing, unless the difference is larger still
+        (
+            Estimate(1.0, 0.5, "N"),
+            1.1,
+            0.2,
+            "not decided",
+            "it: 1 N, where the reference is 1.1 N: it cannot be told whether they are close, for the "
+            "numerical error is 0.5 N; allowed: 0.22 N (20 % of the value of the reference); a higher accuracy "
+            "may tell",
+        ),
+        (Estimate(9.0, 0.5, "N"), 1.1, 0.2, "not within", "they differ by 7.9 N"),
+        # a share is of a curve's range
+        (curve(OFF), curve(SINE), "2 %", "not within", "differ by 0.05 mm; allowed: 0.04 mm (2 % of the range"),
+        (curve(OFF), curve(SINE), "2 %", "not within", "tip.x: 1.00105652 mm at t = 0.3 s, where"),
+        (curve(OFF), curve(SINE), "3 %", "within", ""),
+        (curve(OFF), curve(1e-3 * SINE, "m"), "51 um", "within", ""),
+        (curve(FINE**2, time=FINE), curve(TIME**2), 1e-4, "within", ""),
+        # where the reference has no value there is nothing to compare with
+        (curve(TIME**2), curve(HOLES), 1e-4, "within", ""),
+        (curve(HOLES), curve(TIME**2), 1e-4, "not within", ""),
+    ],
 )
-def test_without_a_tolerance_both_errors_are_allowed(now: tuple[float, float], is_close: bool) -> None:
-    assert only(closeness(Estimate(*now, "N"), Estimate(1.0, 0.1, "N"))).is_close is is_close
+def test_what_is_close(now: Any, was: Any, allowed: float | str | None, verdict: str, said: str) -> None:
+    (one,) = closeness(now, was, allowed)
+    assert (one.verdict, one.is_close) == (verdict, verdict == "within")
+    assert said in str(one)
 
 
-def test_units_of_numbers_are_converted() -> None:
-    assert only(closeness(Estimate(1500.0, 1.0, "N"), Estimate(1.5, 1e-3, "kN"))).is_close
-    assert only(closeness(Estimate(0.0015, 0.0, "m"), 0.0017, "0.3 mm")).is_close
-    assert not only(closeness(Estimate(0.0015, 0.0, "m"), 0.0017, "0.1 mm")).is_close
-    with pytest.raises(InputError, match="cannot be given in"):
-        closeness(Estimate(1.0, 0.1, "N"), Estimate(1.0, 0.1, "m"))
+@pytest.mark.parametrize(
+    ("now", "was", "allowed", "said"),
+    [
+        (Estimate(1.0, 0.1, "N"), Estimate(1.0, 0.1, "m"), None, "cannot be given in"),
+        (1.0, 1.0, None, "no numerical error is known"),
+        (curve(TIME), curve(TIME, None), 0.1, "gives no unit"),
+        (curve(TIME), 1.0, 0.1, "is a curve beside a number"),
+        (1.0, {"a": 1.0}, 0.1, "has one value, its reference several; allowed:"),
+        ("a text", 1.0, 0.1, "allowed:"),
+        *((1.0, 1.0, bad, "allowed:") for bad in ("", "2", "-1 %", "2 bananas", -0.1, math.nan, True, [1])),
+    ],
+)
+def test_what_cannot_be_compared_is_refused(now: Any, was: Any, allowed: Any, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        closeness(now, was, allowed)
 
 
-def test_an_error_larger_than_the_tolerance_decides_nothing() -> None:
-    one = only(closeness(Estimate(1.0, 0.5, "N"), 1.1, 0.2))
-    assert (one.verdict, one.is_close) == ("not decided", False)
-    assert str(one) == (
-        "it: 1 N, where the reference is 1.1 N: it cannot be told whether they are close, for the numerical "
-        "error is 0.5 N; allowed: 0.22 N (20 % of the value of the reference); a higher accuracy may tell"
-    )
-    assert only(closeness(Estimate(9.0, 0.5, "N"), 1.1, 0.2)).verdict == "not within"
-
-
-def test_unknown_errors_allow_nothing() -> None:
-    one = only(closeness(Estimate(1.0, math.inf, "N"), Estimate(1.0, 0.1, "N")))
-    assert one.verdict == "not decided"
-    assert "the numerical error is not known" in str(one)
-    assert str(only(closeness(1e-9, 0.0, 0.01))) == (
-        "it: 1e-09, where the reference is 0: they differ by 1e-09; allowed: 0 (1 % of the value of the "
-        "reference)"
-    )
-    with pytest.raises(InputError, match="no numerical error is known"):
-        closeness(1.0, 1.0)
-
-
-# --- curves ---
-
-
-def test_a_share_of_a_curve_is_of_its_range_and_the_worst_time_is_told(tmp_path: Path) -> None:
-    reference = np.sin(2.0 * math.pi * TIME)
-    result = reference.copy()
-    result[30] += 0.05
-    found = closeness(curve(result), curve(reference), "2 %")
-    one = only(found)
-    assert not one.is_close
-    assert one.time[one.where] == pytest.approx(0.3)
-    assert "at t = 0.3 s" in str(one)
-    assert "they differ by 0.05 mm; allowed: 0.04 mm (2 % of the range of the reference)" in str(one)
-    assert only(closeness(curve(result), curve(reference), "3 %")).is_close
-    assert only(closeness(curve(result), curve(1e-3 * reference, "m"), "51 um")).is_close
-    said = said_apart(found, tmp_path)
+def test_a_failure_has_a_figure_of_both_curves_and_the_difference(tmp_path: Path) -> None:
+    found = closeness(curve(TIME + 0.1), curve(TIME), "0.05 mm")
+    assert said_apart(found, tmp_path).endswith(f"figure: {tmp_path / 'tip.x.png'}")
     assert (tmp_path / "tip.x.png").read_bytes().startswith(b"\x89PNG")
-    assert said.endswith(f"figure: {tmp_path / 'tip.x.png'}")
-
-
-def test_the_figure_shows_both_curves_and_the_difference() -> None:
-    one = only(closeness(curve(TIME + 0.1), curve(TIME), "0.05 mm"))
-    above, below = difference_figure(one).axes
+    above, below = difference_figure(found[0]).axes
     assert [line.get_label() for line in above.lines] == ["reference", "result"]
     assert np.asarray(below.lines[0].get_ydata()) == pytest.approx(0.1)
     assert below.get_ylabel() == "difference [mm]"
-    texts = " ".join(text.get_text() for text in difference_figure(one._replace(verdict="not decided")).texts)
-    assert "where the numerical error is largest" in texts
-
-
-def test_times_may_be_others_and_what_is_not_known_is_left_out() -> None:
-    fine = np.linspace(0.0, 1.0, 1001)
-    assert only(closeness(curve(fine**2, time=fine), curve(TIME**2), 1e-4)).is_close
-    holes = TIME**2
-    holes[5] = math.nan
-    assert only(closeness(curve(TIME**2), curve(holes), 1e-4)).is_close
-    assert only(closeness(curve(holes), curve(TIME**2), 1e-4)).verdict == "not within"
-
-
-def test_a_column_without_unit_is_not_guessed() -> None:
-    with pytest.raises(InputError, match="gives no unit"):
-        closeness(curve(TIME), curve(TIME, None), 0.1)
 
 
 # --- runs ---
@@ -171,24 +155,9 @@ def test_a_run_beside_files(run: Result, assert_close: AssertClose, tmp_path: Pa
     assert_close(run, channels, 1e-6, channels=["middle.*"])  # channels alone, also called .h5
 
 
-def test_chaos_is_compared_up_to_where_it_is_determined() -> None:
-    scene = replace(rocker(0.2, restitution=0.95, friction=0), accuracy="draft", record_period=1e-3)
-    one, other = (simulate(replace(scene, gravity=(0.0, g))) for g in (-9.81, -9.81 * (1.0 + 2.0**-50)))
-    assert np.abs(one["pin.B.force"] - other["pin.B.force"]).max() > 10.0
-    assert all(found.is_close and found.time[-1] < one.horizon for found in closeness(one, other))
-
-
-@pytest.mark.parametrize("bad", ["", "2", "-1 %", "2 bananas", -0.1, math.nan, True, [1]])
-def test_what_is_no_tolerance_is_refused(bad: object, run: Result) -> None:
-    with pytest.raises(InputError, match="allowed:"):
-        closeness(run.numbers()["pin.B.force.mean"], 1.0, bad)  # type: ignore[arg-type]
-
-
 @pytest.mark.parametrize("bad", [None, "no_file.csv", {}, 1.0, [1.0]])
 def test_what_is_no_reference_is_refused(bad: object, run: Result) -> None:
     with pytest.raises(InputError, match=r"no such channel or number .*; did you mean 'pin\.B\.force'"):
         closeness(run, {"pin.B.forc": 1.0}, 0.1)
     with pytest.raises((InputError, FileNotFoundError), match="allowed:"):
         closeness(run, bad, 0.1)  # type: ignore[arg-type]
-    with pytest.raises(InputError, match="allowed:"):
-        closeness("a text", 1.0, 0.1)  # type: ignore[arg-type]

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from support_exudyn import InputError, Result
-from support_exudyn.postprocessing.baselines.in_tests import SessionBaselines
+from support_exudyn.postprocessing.comparing.baselines import SessionBaselines
 from support_exudyn.postprocessing.pytest_plugin import SimulateCached
 from support_exudyn.simulation.estimate import Estimate
 from tests.postprocessing.baselines.scenes import rocker

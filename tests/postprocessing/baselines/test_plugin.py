@@ -16,7 +16,7 @@ from tests.pages import ROOT, listings
 from tests.processes import environment
 
 PLUGIN = "support_exudyn.postprocessing.pytest_plugin"
-PAGE = ROOT / "support_exudyn" / "postprocessing" / "baselines" / "baselines.md"
+PAGE = ROOT / "support_exudyn" / "postprocessing" / "comparing" / "baselines.md"
 NAME = "test_rocker.test_nothing_has_changed"
 
 

@@ -10,8 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from support_exudyn.postprocessing.comparing.found_impacts import impacts_of_force
-from support_exudyn.postprocessing.comparing.matched_impacts import match_impacts
+from support_exudyn.postprocessing.comparing.impacts import impacts_of_force, match_impacts
 from support_exudyn.postprocessing.comparing.parting import parting_of_impacts
 from tests.often import often
 from user_forces import InputError
@@ -22,28 +21,24 @@ def onsets(*times: float, speed: float = 1.0) -> tuple[Onset, ...]:
     return tuple(Onset(time, speed) for time in times)
 
 
-def pairs(first: tuple[Onset, ...], second: tuple[Onset, ...]) -> list[tuple[float, float]]:
-    return [(one.time, other.time) for one, other in match_impacts(first, second).pairs]
-
-
-def test_an_impact_that_one_run_lacks_leaves_the_others_matched() -> None:
-    first, second = onsets(1.0, 1.1, 1.15, 1.2, 1.3), onsets(1.001, 1.101, 1.202, 1.303)
-    found = match_impacts(first, second)
-    assert [one.time for one in found.only_first] == [1.15]
-    assert found.only_second == ()
-    assert pairs(first, second) == [(1.0, 1.001), (1.1, 1.101), (1.2, 1.202), (1.3, 1.303)]
-
-
-def test_a_late_burst_is_matched_in_its_order() -> None:
-    first, second = onsets(0.0, 0.010, 0.013, 0.014, 0.2), onsets(0.002, 0.012, 0.015, 0.016, 0.2)
-    assert pairs(first, second) == [(one.time, other.time) for one, other in zip(first, second, strict=True)]
-
-
-def test_runs_with_one_impact_or_none() -> None:
-    assert match_impacts((), ()) == ((), (), ())
-    assert match_impacts(onsets(1.0), ()).only_first == onsets(1.0)
-    assert pairs(onsets(1.0), onsets(1.0)) == [(1.0, 1.0)]
-    assert pairs(onsets(1.0), onsets(0.5, 1.1, 1.6)) == [(1.0, 1.1)]
+@pytest.mark.parametrize(
+    ("first", "second", "matched"),
+    [
+        ((), (), []),
+        ((1.0,), (), []),
+        ((1.0,), (1.0,), [(0, 0)]),
+        ((1.0,), (0.5, 1.1, 1.6), [(0, 1)]),
+        ((1.0, 1.1, 1.15, 1.2, 1.3), (1.001, 1.101, 1.202, 1.303), [(0, 0), (1, 1), (3, 2), (4, 3)]),
+        ((0.0, 0.010, 0.013, 0.014, 0.2), (0.002, 0.012, 0.015, 0.016, 0.2), [(n, n) for n in range(5)]),
+    ],
+)
+def test_impacts_are_matched_in_their_order(
+    first: tuple[float, ...], second: tuple[float, ...], matched: list[tuple[int, int]]
+) -> None:
+    found = match_impacts(onsets(*first), onsets(*second))
+    assert [(one.time, other.time) for one, other in found.pairs] == [(first[i], second[j]) for i, j in matched]
+    alone = set(first) - {first[i] for i, _ in matched}, set(second) - {second[j] for _, j in matched}
+    assert ({one.time for one in found.only_first}, {one.time for one in found.only_second}) == alone
 
 
 @settings(max_examples=often(60))
@@ -110,58 +105,44 @@ def grown(count: int, first: float, growth: float) -> tuple[tuple[Onset, ...], t
     return onsets(*times), onsets(*(times + first * growth ** np.arange(count)))
 
 
-def test_curves_part_where_their_difference_is_a_tenth_of_the_time_between_impacts() -> None:
-    first, second = grown(20, 1e-6, 2.0)
-    found = parting_of_impacts({"pin": first}, {"pin": second})
-    # 1e-6 2^n > 0.01 s first for n = 14
-    assert found.time == pytest.approx(1.5)
-    assert found.contact == "pin"
-    assert found.impacts == 14
-    assert found.growth == pytest.approx(2.0)
+FIRST, SECOND = grown(20, 1e-6, 2.0)
+NINE, LATE = grown(9, 0.02, 1.0)
+LOST = (*NINE[:5], *NINE[6:])
+DOUBLE = tuple(sorted((*NINE, NINE[4]._replace(time=NINE[4].time + 0.005))))
 
 
-def test_a_sudden_difference_parts_them_before() -> None:
-    first, second = grown(20, 1e-6, 2.0)
-    late = [*second[:9], *(one._replace(time=one.time + 5e-3) for one in second[9:])]
-    found = parting_of_impacts({"pin": first}, {"pin": late})
-    # of 2.6e-4 s ten times 2 are explained, not 5.5e-3; a small one, below 1 % of 0.1 s, may be sudden
-    assert found.time == pytest.approx(1.0)
-    small = [*second[:2], *(one._replace(time=one.time + 5e-4) for one in second[2:])]
-    assert parting_of_impacts({"pin": first}, {"pin": small}).time > 1.0
+def later(after: int, by: float) -> tuple[Onset, ...]:
+    return (*SECOND[:after], *(one._replace(time=one.time + by) for one in SECOND[after:]))
 
 
-def test_equal_curves_do_not_part() -> None:
-    first, _ = grown(20, 0.0, 1.0)
-    found = parting_of_impacts({"pin": first, "other": first}, {"pin": first, "third": ()})
-    assert (found.time, found.because, found.impacts) == (math.inf, "", 20)
-    assert math.isnan(found.growth)
-    assert parting_of_impacts({}, {}).time == math.inf
+def at_speed(number: int, speed: float) -> tuple[Onset, ...]:
+    return (*NINE[:number], NINE[number]._replace(speed=speed), *NINE[number + 1 :])
 
 
-def test_a_lost_impact_parts_them_unless_it_is_light() -> None:
-    first, _ = grown(9, 0.0, 1.0)
-    lost = (*first[:5], *first[6:])
-    found = parting_of_impacts({"pin": first}, {"pin": lost})
-    assert found.time == pytest.approx(0.6)
-    assert "lacks" in found.because
-    light = (*first[:5], first[5]._replace(speed=1e-3), *first[6:])
-    assert parting_of_impacts({"pin": light}, {"pin": lost}).time == math.inf
-
-
-def test_other_speeds_part_them_if_they_are_known() -> None:
-    first, second = grown(9, 1e-9, 1.0)
-    faster = (*second[:4], second[4]._replace(speed=1.2), *second[5:])
-    assert parting_of_impacts({"pin": first}, {"pin": faster}).time == pytest.approx(0.5)
-    unknown = tuple(one._replace(speed=math.nan) for one in second)
-    assert parting_of_impacts({"pin": first}, {"pin": unknown}).time == math.inf
-
-
-def test_times_are_compared_to_their_resolution() -> None:
-    first, second = grown(9, 0.02, 1.0)
-    assert parting_of_impacts({"pin": first}, {"pin": second}).time == pytest.approx(0.1)
-    assert parting_of_impacts({"pin": first}, {"pin": second}, resolution=0.03).time == math.inf
-    double = tuple(sorted((*first, first[4]._replace(time=first[4].time + 0.005))))
-    assert parting_of_impacts({"pin": double}, {"pin": first}, resolution=0.003).time == math.inf
-    assert parting_of_impacts({"pin": double}, {"pin": first}).because.endswith("that the other lacks")
-    told = parting_of_impacts({"pin": double}, {"pin": first}, resolution=0.0024).because
-    assert told == "pin: one shows an impact that the other does not, read to 0.0024 s"
+@pytest.mark.parametrize(
+    ("first", "second", "resolution", "time", "because"),
+    [
+        # 1e-6 2^n > 0.01 s first for n = 14: a tenth of the time between impacts
+        (FIRST, SECOND, 0.0, 1.5, "pin: impacts are 0.016 s apart"),
+        # of 2.6e-4 s ten times 2 are explained, not 5.5e-3; a small distance, below 1 % of 0.1 s, may be sudden
+        (FIRST, later(9, 5e-3), 0.0, 1.0, "s apart"),
+        (FIRST, later(2, 5e-4), 0.0, 1.5, "s apart"),
+        (FIRST, FIRST, 0.0, math.inf, ""),
+        (NINE, LOST, 0.0, 0.6, "pin: one has an impact that the other lacks"),
+        (at_speed(5, 1e-3), LOST, 0.0, math.inf, ""),  # a light impact
+        (NINE, at_speed(4, 1.2), 0.0, 0.5, "impacts hit at 1 and 1.2 m/s"),
+        (NINE, tuple(one._replace(speed=math.nan) for one in NINE), 0.0, math.inf, ""),
+        (NINE, LATE, 0.0, 0.1, "s apart"),
+        (NINE, LATE, 0.03, math.inf, ""),
+        (DOUBLE, NINE, 0.003, math.inf, ""),  # two that a curve may show as one
+        (DOUBLE, NINE, 0.0024, 0.505, "one shows an impact that the other does not, read to 0.0024 s"),
+    ],
+)
+def test_when_curves_without_errors_part(
+    first: tuple[Onset, ...], second: tuple[Onset, ...], resolution: float, time: float, because: str
+) -> None:
+    found = parting_of_impacts({"other": (), "pin": first}, {"pin": second}, resolution=resolution)
+    assert found.time == pytest.approx(time, abs=1e-6)
+    assert because in found.because
+    assert found.contact == ("pin" if because else "")
+    assert parting_of_impacts({"pin": first}, {"third": second}).time == math.inf

@@ -1,4 +1,4 @@
-"""The stationary bootstrap against closed forms and another program; how often its intervals hold the truth."""
+"""The stationary bootstrap against closed forms and another program; the shift in time by correlation."""
 
 from __future__ import annotations
 
@@ -8,11 +8,18 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from support_exudyn.postprocessing.comparing.bootstrap import block_length, long_run_variance, resampled
-from support_exudyn.postprocessing.comparing.statistics import IMPACTS, STATISTICS, compared_statistics
+from support_exudyn.postprocessing.comparing.shift import time_shift
+from support_exudyn.postprocessing.comparing.statistics import (
+    IMPACTS,
+    STATISTICS,
+    block_length,
+    compared_statistics,
+    long_run_variance,
+    resampled,
+)
 from user_forces import InputError
 
-NORMAL_95 = 1.6448536269514722  # quantile of the normal distribution
+SECOND = np.arange(0.0, 1.0, 1e-3)
 
 
 def process(count: int, memory: float, random: np.random.Generator, mean: float = 0.5) -> np.ndarray:
@@ -22,22 +29,24 @@ def process(count: int, memory: float, random: np.random.Generator, mean: float 
     return found
 
 
-def truths(mean: float = 0.5) -> dict[str, float]:
-    return {"mean": mean, "rms": math.hypot(mean, 1.0), "spread": 1.0, "quantile_95": mean + NORMAL_95}
+def noisy(memory: float) -> np.ndarray:
+    found: np.ndarray = signal.lfilter([1.0], [1.0, -memory], np.random.default_rng(1).normal(size=1000))
+    return found
 
 
-@pytest.mark.parametrize(("memory", "expected"), [(0.0, 1.1141416677449838), (0.9, 43.2265594687869)])
-def test_block_lengths_are_those_of_another_program(memory: float, expected: float) -> None:
-    # arch 8.0.0, optimal_block_length, of the same samples
-    noise = np.random.default_rng(1).normal(size=1000)
-    assert block_length(signal.lfilter([1.0], [1.0, -memory], noise)) == pytest.approx(expected, rel=1e-9)
-
-
-def test_block_lengths_have_bounds() -> None:
-    assert block_length(np.ones(50)) == 1.0
-    wave = np.sin(np.arange(400.0))
-    assert block_length(wave) <= 60.0  # 3 sqrt(400)
-    assert block_length(np.arange(30.0)) <= 10.0
+@pytest.mark.parametrize(
+    ("values", "least", "most"),
+    [
+        # arch 8.0.0, optimal_block_length, of the same samples
+        (noisy(0.0), 1.1141416677449838, 1.1141416677449838),
+        (noisy(0.9), 43.2265594687869, 43.2265594687869),
+        (np.ones(50), 1.0, 1.0),
+        (np.sin(np.arange(400.0)), 1.0, 60.0),  # 3 sqrt(400)
+        (np.arange(30.0), 1.0, 10.0),
+    ],
+)
+def test_block_lengths(values: np.ndarray, least: float, most: float) -> None:
+    assert least * (1.0 - 1e-9) <= block_length(values) <= most * (1.0 + 1e-9)
 
 
 def test_the_long_run_variance_is_that_of_the_process() -> None:
@@ -58,12 +67,6 @@ def test_resampled_means_vary_as_politis_and_romano_say() -> None:
     assert np.mean(means) == pytest.approx(values.mean(), abs=0.01)
 
 
-def test_blocks_are_as_long_as_asked() -> None:
-    at = resampled(100_000, 25.0, np.random.default_rng(2))
-    ends = np.count_nonzero(np.diff(at) % at.size != 1) + 1
-    assert at.size / ends == pytest.approx(25.0, rel=0.05)
-
-
 def test_the_same_process_is_equal_and_another_is_not() -> None:
     random = np.random.default_rng(0)
     time = 1e-3 * np.arange(4000)
@@ -72,82 +75,50 @@ def test_the_same_process_is_equal_and_another_is_not() -> None:
     assert set(found) == set(STATISTICS)
     assert all(one.equal for one in found.values())
     moved = compared_statistics(time, first, time, second + 3.0 * found["mean"].tellable)
-    assert moved["mean"].equal is False
-    assert moved["spread"].equal is True
-    assert moved["mean"].difference.value == pytest.approx(
-        found["mean"].difference.value + 3.0 * found["mean"].tellable
-    )
-    wider = compared_statistics(time, first, time, 1.5 * second)
-    assert wider["spread"].equal is False
-
-
-def test_the_seed_determines_all() -> None:
-    random = np.random.default_rng(6)
-    time, values = np.arange(300.0), process(300, 0.3, random)
-    one, same, other = (compared_statistics(time, values, time, values[::-1], seed=seed) for seed in (1, 1, 2))
-    assert one == same
-    assert one["mean"].difference.low != other["mean"].difference.low
-    assert one["mean"].difference.low == pytest.approx(other["mean"].difference.low, rel=0.2)
-
-
-def test_of_many_statistics_each_interval_is_wider() -> None:
-    time, values = np.arange(500.0), process(500, 0.3, np.random.default_rng(8))
-    one, many = (compared_statistics(time, values, time, -values, among=among)["mean"] for among in (1, 20))
-    assert many.confidence == pytest.approx(0.95 ** (1 / 20))
-    assert 1.4 < many.tellable / one.tellable < 2.0  # of a normal distribution 1.53
+    assert (moved["mean"].equal, moved["spread"].equal) == (False, True)
+    assert moved["mean"].difference == pytest.approx(found["mean"].difference + 3.0 * found["mean"].tellable)
+    assert compared_statistics(time, first, time, 1.5 * second)["spread"].equal is False
+    # of many statistics each interval is wider; the seed determines all
+    many, same = (compared_statistics(time, first, time, second, among=20)["mean"] for _ in range(2))
+    assert 1.4 < many.tellable / found["mean"].tellable < 2.0  # of a normal distribution 1.53
+    assert many == same
 
 
 def test_impacts_per_second() -> None:
     random = np.random.default_rng(9)
     time = np.arange(0.0, 10.0, 1e-2)
-    first, second, twice = (np.sort(random.uniform(0.0, 10.0, n)) for n in (400, 400, 800))
-    found = compared_statistics(time, time, time, time, first_impacts=first, second_impacts=second)[IMPACTS]
-    assert found.first.value == pytest.approx(40.0, rel=0.01)
-    assert found.equal
-    # a Poisson process of 400 events is known to 5 %
-    assert found.first.high - found.first.value == pytest.approx(1.96 * 2.0, rel=0.25)
-    assert (
-        compared_statistics(time, time, time, time, first_impacts=first, second_impacts=twice)[IMPACTS].equal
-        is False
+    first, second, twice = (np.sort(random.uniform(0.0, 10.0, n)).tolist() for n in (400, 400, 800))
+    equal, other = (
+        compared_statistics(time, time, time, time, impacts=(first, its))[IMPACTS] for its in (second, twice)
     )
+    assert equal.first == pytest.approx(40.0, rel=0.01)
+    assert (equal.equal, other.equal) == (True, False)
+    # Poisson processes of 400 events are known to 5 % each
+    assert equal.tellable == pytest.approx(math.sqrt(2.0) * 1.96 * 2.0, rel=0.25)
 
 
-def test_curves_that_do_not_vary() -> None:
-    time = np.arange(100.0)
+def test_curves_that_do_not_vary_and_curves_that_are_too_short() -> None:
+    time, short = np.arange(100.0), np.arange(60.0)
     same = compared_statistics(time, np.full(100, 0.1), time, np.full(100, 0.1))
     assert all(one.equal for one in same.values())
     other = compared_statistics(time, np.full(100, 0.1), time, np.full(100, 0.2))
-    assert other["mean"].equal is False
-    assert other["spread"].equal is True
-
-
-def test_too_short_curves_have_no_interval() -> None:
-    time = np.arange(60.0)
-    found = compared_statistics(time, np.sin(time / 9.0), time, np.cos(time / 9.0))["mean"]
-    assert found.equal is None
-    assert math.isnan(found.tellable)
+    assert (other["mean"].equal, other["spread"].equal) == (False, True)
+    found = compared_statistics(short, np.sin(short / 9.0), short, np.cos(short / 9.0))["mean"]
+    assert (found.equal, math.isnan(found.tellable)) == (None, True)
     assert "independent pieces" in found.not_told
-    assert found.difference.value == pytest.approx((np.cos(time / 9.0) - np.sin(time / 9.0)).mean())
+    assert found.difference == pytest.approx((np.cos(short / 9.0) - np.sin(short / 9.0)).mean())
 
 
 @pytest.mark.parametrize(("apart", "noise", "equal"), [(0.0, 1.0, True), (0.5, 1.0, False), (5.0, 0.0, False)])
 def test_a_course_that_both_follow_does_not_hide_a_difference(apart: float, noise: float, equal: bool) -> None:
-    """Of two strokes of 500 mm the one of which lies higher; blocks of a ramp alone would tell 200 mm."""
+    """Of two strokes of 500 mm one lies higher; blocks of a ramp alone would allow 200 mm."""
     random, time = np.random.default_rng(0), np.linspace(0.0, 2.0, 2001)
     x = np.clip(time - 0.3, 0.0, 1.0)
     first, second = (500.0 * x * x * (3.0 - 2.0 * x) + noise * random.normal(size=time.size) for _ in range(2))
     found = compared_statistics(time, first, time, second + apart)["mean"]
     assert found.equal is equal
-    assert found.difference.low <= apart <= found.difference.high
+    assert found.low <= apart <= found.high
     assert found.tellable < 0.1
-
-
-def test_a_confidence_that_is_none_is_refused() -> None:
-    for confidence, among in ((1.0, 1), (0.0, 1), (0.95, 0)):
-        with pytest.raises(InputError, match="between 0 and 1"):
-            compared_statistics(
-                np.arange(9.0), np.zeros(9), np.arange(9.0), np.zeros(9), confidence=confidence, among=among
-            )
 
 
 @pytest.mark.slow
@@ -155,19 +126,66 @@ def test_a_confidence_that_is_none_is_refused() -> None:
     ("count", "memory", "least"), [(300, 0.5, 88.0), (1000, 0.5, 90.0), (1000, 0.9, 85.0), (4000, 0.9, 89.0)]
 )
 def test_intervals_hold_the_truth_as_often_as_measured(count: int, memory: float, least: float) -> None:
-    random, tries, time = np.random.default_rng(count), 200, np.arange(float(count))
-    held = dict.fromkeys(STATISTICS, 0)
-    equal = dict.fromkeys(STATISTICS, 0)
-    told = 0
-    for n in range(tries):
-        first, second = process(count, memory, random), process(count, memory, random)
-        found = compared_statistics(time, first, time, second, seed=n)
-        if found["mean"].not_told:
-            continue
-        told += 1
-        for name, truth in truths().items():
-            held[name] += found[name].first.low <= truth <= found[name].first.high
-            equal[name] += bool(found[name].equal)
-    assert told > 0.8 * tries
-    assert min(held.values()) >= least / 100.0 * told, held
-    assert min(equal.values()) >= least / 100.0 * told, equal
+    random, time = np.random.default_rng(count), np.arange(float(count))
+    found = [
+        compared_statistics(time, process(count, memory, random), time, process(count, memory, random), seed=n)
+        for n in range(200)
+    ]
+    known = [one for one in found if not one["mean"].not_told]
+    assert len(known) > 160
+    for name in STATISTICS:
+        assert sum(bool(one[name].equal) for one in known) >= least / 100.0 * len(known), name
+
+
+# --- the shift in time ---
+
+
+def bump(time: np.ndarray) -> np.ndarray:
+    found: np.ndarray = np.exp(-(((time - 0.5) / 0.05) ** 2)) + 0.3 * np.sin(7.0 * time) * np.exp(-time)
+    return found
+
+
+@pytest.mark.parametrize("lag", [0.0, 0.01234, -0.1111, 250.0])
+def test_a_shift_between_samples_is_determined(lag: float) -> None:
+    later = SECOND + round(lag, 2)
+    found = time_shift(SECOND, bump(SECOND), later, 5.0 + 3.0 * bump(later - lag))
+    assert found.shift == pytest.approx(lag, abs=1e-8)
+    assert found.error < 1e-8
+    assert found.correlation == pytest.approx(1.0)
+    assert found.is_sure
+
+
+@pytest.mark.parametrize("noise", [0.01, 0.2])
+def test_the_error_is_that_of_repeated_noise(noise: float) -> None:
+    random = np.random.default_rng(7)
+    found = [
+        time_shift(
+            SECOND,
+            bump(SECOND) + noise * random.normal(size=SECOND.size),
+            SECOND,
+            bump(SECOND - 0.0123) + noise * random.normal(size=SECOND.size),
+        )
+        for _ in range(25)
+    ]
+    standard = np.array([(one.shift - 0.0123) / one.error for one in found])
+    assert 0.5 < standard.std() < 2.0  # measured over 60: 1.3 to 1.4
+    assert abs(standard.mean()) < 0.8
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "most"),
+    [
+        (np.sin(60.0 * SECOND), np.sin(60.0 * (SECOND - 0.003)), math.inf),  # repeats itself
+        (*np.random.default_rng(5).normal(size=(2, SECOND.size)), math.inf),  # not alike
+        (bump(SECOND), bump(SECOND - 0.05), 0.02),  # at its limit
+    ],
+)
+def test_a_shift_that_is_not_sure(first: np.ndarray, second: np.ndarray, most: float) -> None:
+    assert not time_shift(SECOND, first, SECOND, second, most=most).is_sure
+
+
+def test_what_has_no_shift_is_refused() -> None:
+    with pytest.raises(InputError, match="not all equal"):
+        time_shift(SECOND, bump(SECOND), SECOND, np.zeros(SECOND.size))
+    with pytest.raises(InputError, match="at no shift so small"):
+        time_shift(SECOND, bump(SECOND), SECOND + 9.0, bump(SECOND), most=1.0)

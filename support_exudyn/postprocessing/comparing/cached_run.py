@@ -7,7 +7,7 @@ import json
 import shutil
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from support_exudyn.files.whole_file import writing_alone
@@ -60,37 +60,28 @@ class RunCache:
 
 
 def _loaded(path: Path) -> Result | None:
-    """A run that is there and whole."""
-    if not path.is_file():
-        return None
+    """A run that is there and whole; a damaged file, or a file that is removed while it is read, is none."""
     try:
-        return Result.load(path)
-    except (InputError, OSError):  # it was damaged, or removed as it was read: it is made again
+        return Result.load(path) if path.is_file() else None
+    except (InputError, OSError):
         return None
 
 
 @contextmanager
 def _alone(folder: Path) -> Iterator[None]:
     """Wait until no other process works in a folder, and keep others from it."""
-    while True:
-        lock = writing_alone(folder)
-        try:
-            lock.__enter__()
-            break
-        except BlockingIOError:
+    with ExitStack() as held:
+        while True:
+            with suppress(BlockingIOError):
+                held.enter_context(writing_alone(folder))
+                break
             time.sleep(WAIT)
-    try:
         yield
-    finally:
-        lock.__exit__(None, None, None)
 
 
 def _remove_old(folder: Path) -> None:
     """Remove runs of other programs that are old; another process may do so at the same time."""
     for other in folder.iterdir():
-        try:
-            is_old = time.time() - other.stat().st_mtime > OLD
-        except OSError:
-            continue
-        if is_old:
-            shutil.rmtree(other, ignore_errors=True)
+        with suppress(OSError):
+            if time.time() - other.stat().st_mtime > OLD:
+                shutil.rmtree(other, ignore_errors=True)

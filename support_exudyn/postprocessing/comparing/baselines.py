@@ -1,0 +1,244 @@
+"""Baselines of scenarios in a folder and of tests: made, compared, and changed where that is asked for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime, timezone
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+from support_exudyn.files import ScenarioFile
+from support_exudyn.files.scenarios.scenario_file import OTHER_FILES, read_scenario_file
+from support_exudyn.files.toml.text import load_toml
+from support_exudyn.files.whole_file import writing_alone
+from support_exudyn.formulations.contract import Progress, SimulationError
+from support_exudyn.postprocessing.comparing.changes import RunChange, changes, line, worst_first
+from support_exudyn.postprocessing.comparing.closeness import Closeness, save_figure
+from support_exudyn.postprocessing.comparing.kept_run import (
+    KeptRun,
+    kept_numbers,
+    kept_run,
+    read_baseline,
+    write_baseline,
+)
+from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.simulate import simulate
+from user_forces.values.value import InputError, cleaned, short
+
+FOLDER = "baseline"  # in a folder of scenarios or tests
+ENDING = ".json"
+MOST_REASON = 200  # letters that are kept of a reason
+NO_NAME = re.compile(r"[^\w.-]+")  # is left out of a file's name
+LONGEST = 150  # letters of a file's name
+TOLD = 5  # changes in the message of a failure
+
+
+@dataclass(frozen=True)
+class Looked:
+    """A scenario against its baseline.
+
+    name: of the scenario's file. was: its baseline; None: it has none. now: the results of its run; None: there
+    is no such scenario, or its run cannot be finished. changes: between both. failed: why it was not finished.
+    """
+
+    name: str
+    was: KeptRun | None
+    now: KeptRun | None
+    changes: tuple[RunChange, ...] = ()
+    failed: str = ""
+
+    @property
+    def state(self) -> str:
+        """What became of it, in a word: same, changed, new, gone, or failed."""
+        if self.failed:
+            return "failed"
+        if self.was is None or self.now is None:
+            return "new" if self.was is None else "gone"
+        return "changed" if self.changes else "same"
+
+
+class BaselineFolder:
+    """A folder of scenarios, `*.toml`, whose baselines are in the folder `baseline` in it, `NAME.json`.
+
+    Files of machines, sweeps, instruments and comparisons, which may lie there as well, are not run.
+
+    Arguments:
+        path: of the folder.
+
+    Raises InputError if it is no folder, if there is no scenario and no baseline in it, or if a scenario cannot
+    be read: all of them are read before any runs.
+    """
+
+    def __init__(self, path: Path) -> None:
+        if not path.is_dir():
+            raise InputError(f"{path}: is no folder; allowed: one with scenarios, *.toml")
+        self.path = path
+        self.kept = path / FOLDER
+        self.scenarios: Mapping[str, ScenarioFile] = {
+            file.stem: read_scenario_file(file) for file in sorted(path.glob("*.toml")) if _is_scenario(file)
+        }
+        self.baselines: Mapping[str, Path] = {
+            file.stem: file for file in sorted(self.kept.glob(f"*{ENDING}")) if file.is_file()
+        }
+        self.names = sorted({*self.scenarios, *self.baselines})  # of scenarios, and of baselines without one
+        if not self.names:
+            raise InputError(f"{path}: has no scenario; allowed: a folder with scenarios, *.toml")
+
+    def check_names(self, names: Sequence[str]) -> None:
+        """Raise InputError if a name is of no scenario and no baseline."""
+        for name in names:
+            if name not in self.names:
+                raise InputError(f"{name}: no such scenario in {self.path}; allowed: {', '.join(self.names)}")
+
+    def looked_at(self, names: Sequence[str], progress: Progress) -> Iterator[Looked]:
+        """Run scenarios of these names, each after the other, and compare each with its baseline.
+
+        All baselines are read before the first run. Raises InputError if a baseline cannot be.
+        """
+        kept = {name: read_baseline(self.baselines[name]) for name in names if name in self.baselines}
+        for n, name in enumerate(names):
+            was, file = kept.get(name), self.scenarios.get(name)
+            if file is None:
+                yield Looked(name, was, None)
+                continue
+
+            def part(share: float, n: int = n) -> None:
+                progress((n + share) / len(names))
+
+            try:
+                run = simulate(
+                    file.scenario, errors=file.errors or file.scenario.accuracy is None, progress=part
+                )
+            except SimulationError as error:
+                yield Looked(name, was, None, failed=" ".join(str(error).split()))
+                continue
+            now = replace(kept_run(run), scenario=file.scenario.plain)
+            yield Looked(name, was, now, tuple(changes(was, now)) if was is not None else ())
+        progress(1.0)
+
+    def write(self, looked: Looked, reason: str = "") -> Path:
+        """Write the results of a scenario, with a note of the change; of a scenario that is gone remove them.
+
+        Raises OSError if the file cannot be written, or if another process writes to the folder.
+        """
+        path = self.kept / f"{looked.name}{ENDING}"
+        self.kept.mkdir(exist_ok=True)
+        with writing_alone(self.kept):
+            if looked.now is None:
+                path.unlink(missing_ok=True)
+            else:
+                _write(looked, looked.now, path, reason)
+        return path
+
+
+def _is_scenario(path: Path) -> bool:
+    """Whether a file is that of a scenario, or nothing that this program reads, which is then refused."""
+    table = load_toml(path)
+    return "machine" in table or not OTHER_FILES.keys() & table.keys()
+
+
+def _write(looked: Looked, now: KeptRun, path: Path, reason: str = "") -> None:
+    note = {"date": datetime.now(timezone.utc).isoformat(timespec="seconds")}
+    note["changes"] = "first" if looked.was is None else str(len(looked.changes))
+    if reason:
+        note["reason"] = cleaned(reason)[:MOST_REASON]
+    before = looked.was.history if looked.was is not None else ()
+    write_baseline(replace(now, history=(*before, note)), path)
+
+
+# --- in tests ---
+
+
+def said_apart(compared: Sequence[Closeness], figures: Path) -> str:
+    """The message of a failed comparison; empty if all is close. figures: folder for the worst curve."""
+    apart = [one for one in compared if not one.is_close]
+    if not apart:
+        return ""
+    lines = [str(apart[0])]
+    if len(compared) > 1:
+        others = ", ".join(one.name for one in apart[1:TOLD])
+        lines.append(f"{len(apart)} of {len(compared)} are not close{f'; further: {others}' if others else ''}")
+    if path := save_figure(apart[0], figures, file_name(apart[0].name)):
+        lines.append(f"figure: {path}")
+    return "\n".join(lines)
+
+
+def said_changed(name: str, was: KeptRun, now: KeptRun, figures: Path) -> str:
+    """The message of a changed baseline, with the figure of the worst curve; empty if nothing has changed."""
+    found = worst_first(changes(was, now))
+    if not found:
+        return ""
+    lines = [f"{name}: {len(found)} changed by more than both errors, new, or gone", *map(line, found[:TOLD])]
+    if len(found) > TOLD:
+        lines.append(f"and {len(found) - TOLD} more")
+    curves = [change.curve for change in found if change.curve is not None and change.what == "channel"]
+    if curves and (path := save_figure(curves[0], figures, file_name(f"{name}.{curves[0].name}"))):
+        lines.append(f"figure: {path}")
+    return "\n".join(lines)
+
+
+def file_name(text: str) -> str:
+    """A text as the name of a file."""
+    return NO_NAME.sub("_", text).strip("_.")[:LONGEST] or "it"
+
+
+class SessionBaselines:
+    """The baselines of the tests of a session.
+
+    Arguments:
+        updated: names, or patterns of them, of baselines that are written.
+    """
+
+    def __init__(self, updated: Sequence[str]) -> None:
+        self.updated = tuple(updated)
+        self._used: set[Path] = set()
+
+    def compare(
+        self, item: Result | Estimate | Mapping[str, Estimate], beside: Path, name: str, figures: Path
+    ) -> tuple[str, bool]:
+        """Compare with the baseline, or write it if its name is among those.
+
+        Arguments:
+            item: what is compared: a result with errors, a number, or numbers by their names.
+            beside: the file of the test, next to which the folder of baselines is.
+            name: of the baseline.
+            figures: folder for the figure of a failure.
+
+        Returns:
+            The changes, or that there is no baseline, in lines, empty if nothing has changed; and whether
+            the baseline was written.
+
+        Raises InputError if it is damaged, or if its name was used before.
+        """
+        path = beside.parent / FOLDER / f"{file_name(name)}{ENDING}"
+        if path in self._used:
+            raise InputError(
+                f"{path.stem}: is compared already; allowed: a name of its own, baseline(it, 'NAME')"
+            )
+        self._used.add(path)
+        now = _kept(item)
+        was = read_baseline(path) if path.exists() else None
+        said = said_changed(path.stem, was, now, figures) if was is not None else f"{path.stem}: first"
+        if not said:
+            return "", False
+        if any(fnmatchcase(path.stem, pattern) for pattern in self.updated):
+            _write(Looked(path.stem, was, now, tuple(changes(was, now)) if was is not None else ()), now, path)
+            return f"{path}: written\n{said}", True
+        if was is None:
+            said = f"{path}: there is no such baseline"
+        return f"{said}\nto write it: pytest --baseline-update {path.stem}", False
+
+
+def _kept(item: Result | Estimate | Mapping[str, Estimate]) -> KeptRun:
+    if isinstance(item, Result):
+        return kept_run(item)
+    named = {"it": item} if isinstance(item, Estimate) else item
+    if not isinstance(named, Mapping) or not all(isinstance(one, Estimate) for one in named.values()):
+        raise InputError(
+            f"{short(item)}: cannot be a baseline; allowed: a Result with errors, an Estimate, or Estimates by "
+            "their names"
+        )
+    return kept_numbers(named)

@@ -1,0 +1,274 @@
+"""compare.toml and tolerances: read whole, refused with all that is wrong; columns, verdicts and angles."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+import pytest
+import tomli_w
+from hypothesis import given
+from hypothesis import strategies as st
+
+from support_exudyn import compare_files
+from support_exudyn.postprocessing.comparing.compared_channel import JudgedDifference, worst
+from support_exudyn.postprocessing.comparing.mapping import (
+    MappedColumn,
+    check_patterns,
+    of_channel,
+    read_compare_file,
+    read_tolerances,
+    tolerance,
+    tolerances_of,
+)
+from user_forces import InputError
+
+WHOLE = """
+[files."seen*.csv"]
+shift_ms = 12
+analysis = "Last_Run"
+
+[files."seen*.csv".columns]
+"tip.x" = "Canopy X"
+"pin.A.force" = { column = "Load cell", sign = -1, offset = 0.5 }
+
+[files."seen*.csv".units]
+"Canopy*" = "mm"
+
+[units]
+time = "s"
+"Load*" = "kN"
+"Canopy*" = "m"
+
+[tolerances]
+"tip.*" = "0.1 mm"
+"pin.*" = "2 %"
+"""
+OF_CSV = WHOLE.replace('analysis = "Last_Run"', "").replace("time =", "t =")
+
+
+def written(folder: Path, text: str, name: str = "compare.toml") -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_whole_file_is_read(tmp_path: Path) -> None:
+    seen = tmp_path / "seen_1.csv"
+    found = read_compare_file(written(tmp_path, WHOLE), [seen, Path("rise.h5")])
+    mine, its = found.of(seen), found.of(Path("rise.h5"))
+    assert mine.columns == {
+        "tip.x": MappedColumn(column="Canopy X"),
+        "pin.A.force": MappedColumn(column="Load cell", sign=-1, offset=0.5),
+    }
+    assert (mine.shift, mine.analysis) == (pytest.approx(0.012), "Last_Run")
+    # what is stated of the file goes before what is stated of all
+    assert mine.units == {"Canopy*": "mm", "time": "s", "Load*": "kN"}
+    assert (its.columns, its.units["Canopy*"]) == ({}, "m")
+    assert [(one.pattern, one.text) for one in tolerances_of(found)] == [("tip.*", "0.1 mm"), ("pin.*", "2 %")]
+
+
+def test_all_faults_are_told_at_once(tmp_path: Path) -> None:
+    text = """
+        [files."other.csv"]
+        shift = 3
+        [files."seen.csv".columns]
+        "tip.x" = { column = "a", sign = 2 }
+        "tip.y" = { sign = -1 }
+        [files."seen.csv".units]
+        a = "?"
+        [tolerances]
+        "tip.*" = "2"
+    """
+    with pytest.raises(InputError) as error:
+        read_compare_file(written(tmp_path, text), [Path("seen.csv"), Path("rise.h5")])
+    said = str(error.value)
+    for part in (
+        "files.other.csv: no file of this name is compared",
+        "files.other.csv.shift: is written with its unit; allowed: shift_s, shift_ms",
+        "files.seen.csv.columns.tip.x.sign = 2: allowed: 1, -1",
+        "files.seen.csv.columns.tip.y.column: missing",
+        "files.seen.csv.units.a = '?': allowed: a unit",
+        "tolerances: 'tip.*' = '2': allowed: a share of the reference's range",
+    ):
+        assert part in said, part
+    assert said.count(f"{tmp_path / 'compare.toml'}: ") == 6
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> tuple[Path, Path]:
+    """A reference, and the same with other names, units, sign, offset and begin of time."""
+    time = np.linspace(0.0, 1.0, 101)
+    place, force = 0.3 * np.sin(5.0 * time), 4e3 * np.cos(3.0 * time)
+    # force = 0.5 - cell [kN]; times began 12 ms earlier
+    seen = np.column_stack([time - 0.012, 1e3 * place, 0.5 - 1e-3 * force])
+    paths = tmp_path / "reference.csv", tmp_path / "seen_1.csv"
+    heads = "time_s,tip.x_m,pin.A.force_N", "t,Canopy X,Load cell"
+    for path, head, columns in zip(paths, heads, (np.column_stack([time, place, force]), seen), strict=True):
+        np.savetxt(path, columns, delimiter=",", fmt="%.12g", header=head, comments="")
+    return paths
+
+
+@pytest.mark.parametrize(
+    ("replaced", "by", "channel", "apart"),
+    [
+        ("", "", "tip.x", 0.0),
+        ("", "", "pin.A.force", 0.0),
+        ("sign = -1, ", "", "pin.A.force", 8920.0),  # 1000 - 2 F, at its end
+        ("offset = 0.5", "offset = 0", "pin.A.force", 500.0),
+        ('"Canopy*" = "mm"', '"Canopy*" = "cm"', "tip.x", 2.7),  # 9 times 0.3 m
+        ("shift_ms = 12", "", "tip.x", 0.018),  # the slope of 1.5 m/s for 12 ms
+    ],
+)
+def test_every_part_of_a_mapping_counts(
+    replaced: str, by: str, channel: str, apart: float, files: tuple[Path, Path], tmp_path: Path
+) -> None:
+    assert replaced in OF_CSV
+    found = compare_files(*files, mapping=written(tmp_path, OF_CSV.replace(replaced, by, 1)))
+    one = found.pairs[0].channels[channel]
+    assert one.largest.value == pytest.approx(apart, rel=0.02, abs=1e-5)
+    assert one.verdict == ("not within" if apart else "within")
+
+
+@pytest.mark.parametrize(
+    ("column", "said"),
+    [
+        ("Canopy Y", "'Canopy Y', which is to be tip.x; did you mean Canopy X"),
+        ("Canopy X", r"Canopy X: its file gives no unit.*\[units\] \"Canopy X\""),
+    ],
+)
+def test_a_column_that_is_missing_or_without_unit(
+    column: str, said: str, files: tuple[Path, Path], tmp_path: Path
+) -> None:
+    text = f'[files."seen_1.csv".columns]\n"tip.x" = "{column}"\n[units]\nt = "s"\n'
+    with pytest.raises(InputError, match=said):
+        compare_files(*files, mapping=written(tmp_path, text))
+
+
+KEYS = st.sampled_from(["files", "columns", "units", "tolerances", "seen.csv", "a", "shift_s"])
+ITEMS = st.recursive(
+    st.one_of(
+        st.text(max_size=5), st.integers(), st.booleans(), st.decimals(), st.sampled_from(["s", "2 %", "?"])
+    ),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(KEYS, inner, max_size=4),
+    max_leaves=12,
+)
+
+
+@given(st.dictionaries(KEYS, ITEMS, max_size=5))
+def test_whatever_is_in_the_file_it_is_read_or_refused_in_sentences(table: dict[str, Any]) -> None:
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "compare.toml"
+        path.write_text(tomli_w.dumps(table), encoding="utf-8")
+        said, amounts = str(path), [0.0]
+        try:
+            amounts += [one.amount for one in tolerances_of(read_compare_file(path, [Path("seen.csv")]))]
+        except InputError as error:
+            said = str(error)
+        assert str(path) in said
+        assert min(amounts) == 0.0
+
+
+# --- tolerances ---
+
+
+def test_a_list_of_a_command_line_is_read() -> None:
+    found = read_tolerances("pin.*.force=2%, tip.* = 0.1 mm,a=b=3e-2 m/s")
+    assert [(one.pattern, one.amount, one.unit) for one in found] == [
+        ("pin.*.force", 2.0, "%"), ("tip.*", 0.1, "mm"), ("a=b", 0.03, "m/s"),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "extent", "allowed"),
+    [
+        ("2%", "N", 5e3, 100.0),
+        ("0.1mm", "m", 0.0, 1e-4),
+        ("1deg", "rad", 0.0, math.pi / 180.0),
+        ("2%", "N", 0.0, 0.0),  # a share of a reference that is constant: only what is equal is within
+    ],
+)
+def test_what_is_allowed_is_in_si(text: str, unit: str, extent: float, allowed: float) -> None:
+    assert tolerance("a", text).in_si("a", unit, extent) == pytest.approx(allowed, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", " , ", "tip", "=2%", "tip=", "tip=2", "tip=%", "tip=-2%", "tip=nan%", "tip=1e999mm", "tip=a mm"],
+)
+def test_what_is_no_tolerance_is_refused(text: str) -> None:
+    with pytest.raises(InputError, match="allowed: "):
+        read_tolerances(text)
+
+
+def test_the_first_pattern_that_fits_counts() -> None:
+    several = read_tolerances("pin.A.*=1N,pin.*=5N")
+    assert [of_channel(several, name) for name in ("pin.A.force", "pin.B.force", "tip.x")] == [*several, None]
+    with pytest.raises(InputError, match=r"'pin\.A\.\*': no such channel is compared"):
+        check_patterns(several, ["pin.B.force"])
+    with pytest.raises(InputError, match=r"tolerance of tip\.x.*mm.*N"):
+        tolerance("tip.*", "1 mm").in_si("tip.x", "N", 1.0)
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "allowed", "verdict"),
+    [
+        (1.0, 0.0, 1.0, "within"),
+        (1.1, 0.0, 1.0, "not within"),
+        (0.5, 0.9, 1.0, "within"),
+        (0.5, 1.1, 1.0, "not decided"),  # it could be 1.6
+        (3.0, 1.1, 1.0, "not within"),  # it is 1.9 at least
+        (0.0, 0.0, 0.0, "within"),
+        (math.nan, 0.0, 1.0, "not decided"),
+        (0.1, math.inf, 1.0, "not decided"),
+        (9.0, 9.0, math.nan, "told"),
+    ],
+)
+def test_errors_larger_than_what_is_allowed_leave_it_open(
+    value: float, error: float, allowed: float, verdict: str
+) -> None:
+    assert JudgedDifference("largest difference", value, error, allowed).verdict == verdict
+
+
+def test_the_worst_counts() -> None:
+    assert worst([]) == "told"
+    assert worst(["within", "not decided", "told"]) == "not decided"
+    assert worst(["not decided", "not within"]) == "not within"
+
+
+# --- angles ---
+
+TIME = np.linspace(0.0, 1.0, 501)
+TURNED = 540.0 * TIME  # one and a half turns [deg]
+SWUNG = 170.0 + 30.0 * np.sin(9.0 * TIME)
+
+
+def wrapped(values: np.ndarray, low: float = -180.0) -> np.ndarray:
+    return np.asarray((values - low) % 360.0 + low)
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "unit", "verdict"),
+    [
+        (TURNED, wrapped(TURNED, 0.0), "deg", "within"),
+        (wrapped(TURNED), wrapped(TURNED, 0.0), "deg", "within"),
+        (SWUNG, wrapped(SWUNG), "deg", "within"),
+        (TURNED, TURNED - 720.0, "deg", "within"),
+        (TURNED, np.radians(wrapped(TURNED) + 360.0), "rad", "within"),
+        (TURNED, 2.0 * TURNED, "deg", "not within"),  # apart by full turns at the end only
+        (TURNED, TURNED + 180.0, "deg", "not within"),
+        (TURNED, TURNED + 360.0, "deg/s", "not within"),
+        (TURNED, wrapped(TURNED), "mm", "not within"),
+    ],
+)
+def test_angles_are_compared_modulo_full_turns(
+    first: np.ndarray, second: np.ndarray, unit: str, verdict: str, tmp_path: Path
+) -> None:
+    for name, values, of in (("a", first, "deg" if unit == "rad" else unit), ("b", second, unit)):
+        columns = np.column_stack([TIME, values])
+        np.savetxt(tmp_path / f"{name}.csv", columns, delimiter=",", header=f"time_s,wheel [{of}]", comments="")
+    found = compare_files(tmp_path / "a.csv", tmp_path / "b.csv", tolerance="*=0.001 %")
+    assert found.verdict == verdict
