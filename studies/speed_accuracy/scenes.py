@@ -37,12 +37,9 @@ def scenes(subject: Subject) -> Mapping[str, BenchmarkScene]:
 
 def _own(label: str, subject: Subject, scenario: Scenario) -> BenchmarkScene:
     watched, plain = subject.watched, replace(scenario, accuracy=None)
-    points = scenario.unloaded.points
     longest = settings_for(replace(plain, formulation="redundant"), GOAL).step
-    # an even number in a record, so that records are at the ends of twice and of two fifths of it, too
-    step = 0.5 * plain.recorded_every / math.ceil(0.5 * plain.recorded_every / longest)
-    point = next(iter(points), watched.body)
-    return BenchmarkScene(label, plain, watched.pin, watched.body, point, watched.start, step)
+    step = plain.recorded_every / math.ceil(plain.recorded_every / longest)
+    return BenchmarkScene(label, plain, watched.pin, watched.start, step)
 
 
 def tight_runs(scene: BenchmarkScene) -> tuple[Scenario, Scenario]:

@@ -11,7 +11,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
-from studies.benchmarking.drawn_linkages import bar_of, chain, towards
 from support_exudyn import ravn_slider_crank
 from support_exudyn.files.machines.read import read_machine
 from support_exudyn.machines.check import check_machine
@@ -27,6 +26,7 @@ from support_exudyn.model.loads.spring_damper import SpringDamper
 from support_exudyn.model.loads.torsion_spring import TorsionSpring
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.checks import check_figure
+from tests.drawn.drawn_linkages import bar_of, chain, towards
 from tests.linkages import four_bar
 from tests.often import often
 from user_forces import InputError

@@ -11,7 +11,6 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from studies.benchmarking.fresh_scenes import MACHINES, fresh
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
 from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.postprocessing.comparing.found_impacts import impacts_of_force
@@ -25,6 +24,7 @@ from support_exudyn.postprocessing.comparing.with_errors import (
     numbers_beside_errors,
 )
 from tests.cases.run_cases import FORCE, PIN, loose_slider_crank, loose_support
+from tests.drawn.fresh_scenes import MACHINES, fresh
 
 FINE = 1e-4  # an accuracy beyond "standard", whose tolerance is that of "draft" where steps are chosen by one
 SEED = 20261124
