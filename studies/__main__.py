@@ -67,7 +67,7 @@ def _list() -> None:
         about = ", ".join(filter(None, (paper, machine)))
         say(f"{name:20} {_seconds(study.seconds):>8}  {study.question}" + (f" ({about})" if about else ""))
     question = (benchmark.__doc__ or "").partition("?")[0]
-    say(f"{BENCHMARK:20} {_seconds(benchmark.BUDGET):>8}  {question}? (alone, not in the report)")
+    say(f"{BENCHMARK:20} {_seconds(benchmark.SECONDS):>8}  {question}? (alone, not in the report)")
     say(
         f"{ADAMS:20} {_seconds(0.0):>8}  How is the paper's model written for ADAMS? (alone, not in the report)"
     )

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from studies.benchmarking.drawn_linkages import Place, apex, bar_of, towards
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.postures import laid_out
 from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, pinned
+from tests.drawn.drawn_linkages import Place, apex, bar_of, towards
 
 
 def place(point: np.ndarray) -> Place:

@@ -11,7 +11,7 @@ import numpy as np
 
 from studies.benchmarking.references import tight_runs
 from studies.benchmarking.scenes import BenchmarkScene
-from support_exudyn import Estimate, Held, Result, Scenario, SolverSettings, simulate
+from support_exudyn import Estimate, Held, Result, Scenario, simulate
 from support_exudyn.scenario.scenario_data import Accuracy
 from support_exudyn.simulation.reported_numbers import measures
 
@@ -40,9 +40,9 @@ class Check:
     """A run to an accuracy against the tight run of its scene.
 
     asked: the accuracy. formulation: that ran. seconds: processor time of all runs that it took. met: whether
-    the program says that it is as accurate as asked. true, estimated: errors of the numbers that can be judged.
-    left_out: how many cannot, for the tight run is not `TIGHTER` times closer. off: the worst relative true
-    error of mean, spread and largest value of the pin forces.
+    the program says that it is as accurate as asked. true, estimated: errors of the numbers that can be
+    judged. left_out: how many cannot, for the tight run is not `TIGHTER` times closer. off: the worst
+    relative true error of mean, spread and largest value of the pin forces.
     """
 
     scene: str
@@ -127,12 +127,7 @@ def check(name: str, scene: BenchmarkScene, scenario: Scenario, known: Truth) ->
 
 def tight(scene: BenchmarkScene) -> Truth:
     """The numbers of a scene by runs that are far closer than any accuracy that is asked for here."""
-    runs = tight_runs(scene)
-    if scene.scenario.compliant_actuators:
-        solvers = [SolverSettings(tolerance=tolerance) for tolerance in (1e-9, 1e-8)]
-        first, second = (replace(scene.scenario, formulation="compiled", solver=solver) for solver in solvers)
-        runs = first, second
-    return Truth.of(scene.after, *map(simulate, runs))
+    return Truth.of(scene.after, *map(simulate, tight_runs(scene)))
 
 
 def tight_numbers(after: float, run: Result) -> Mapping[str, float]:

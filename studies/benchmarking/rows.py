@@ -1,137 +1,191 @@
-"""The rows of ours, one line each: what, scene, formulation, settings, against what, asked; how they are timed.
+"""The rows of the benchmark: name, work, what runs, what it is compared with, ratio.
 
-A row whose formulation this version does not have is left out, so rows for one that is to come can stand here.
+Both sides of a row are timed in turns in one process; the ratio is the median of the turns' ratios. Rows
+against the programs of others come from the points of `trade`.
 """
 
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
+from pathlib import Path
 
-from studies.benchmarking.others import BARE, IN_C, OTHERS, STOCK, Timing, connector
-from studies.benchmarking.peers.built_in import Evaluator
-from studies.benchmarking.references import errors, of_result, references, times_the_goal
-from studies.benchmarking.row import (
-    AUTO,
-    LeftOutError,
-    OurWay,
-    Row,
-    Setting,
-    TimedTurn,
-    accuracy,
-    steps,
-    tolerance,
-)
-from studies.benchmarking.row_scenes import SCENES
-from studies.benchmarking.scenes import SCENES as WITH_REFERENCE
-from studies.benchmarking.stopwatch import fastest
-from support_exudyn import Scenario, SimulationError, simulate
+from studies.benchmarking import trade, yardstick
+from studies.benchmarking.peers.built_in import Evaluator, run_built_in
+from studies.benchmarking.scenes import SCENES
+from studies.benchmarking.trade import COMPILED, ENGINE, OURS_COMPILED, OURS_ENGINE, WORK, Point
+from studies.common import paper_machine
+from support_exudyn import CubicStep, Scenario, SolverSettings, simulate
+from support_exudyn.formulations.registry import FormulationName
+from support_exudyn.postprocessing.page.pieces import Sheet
 
-TURNS = 3  # in which both sides are timed one after the other; the fastest of each counts
-TOLERANCES = tuple(map(tolerance, (1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 1e-5, 1e-6)))
-COARSE = tuple(steps(step, each, 8.0) for each in (64, 96, 128, 192, 256) for step in (1e-3, 5e-4))
-STEEL = steps(1e-3, 128, 8.0)
-PLAIN = (Setting("1e-5", solver={"tolerance": 1e-5}),)
-DRAFT = (accuracy("draft"),)
-CONNECTORS: tuple[tuple[str, Evaluator, str], ...] = (
-    ("symbolic", "symbolic", "1.1"),
-    ("Python", "python", "1.6"),
-)
-BOTH = ("exudyn", "compiled")
+TURNS = 5
+LONG = 10.0  # more turns are not begun after this time [s]
+DROP, DROP_STEP = replace(SCENES["drop"].scenario, duration=1.0), 5e-5  # [s]
+C_TOLERANCE = 1e-5
+OURS_TOLERANCE = 5e-5  # by which the compiled formulation is as accurate
+CONNECTOR_MOST = 1.25  # the ratio that a Python function may cost beside the engine's contact
+Timing = Callable[[], float]  # processor time of one more run [s]
 
 
-def _grows(what: str, large: str, small: str, asked: str, formulations: tuple[str, ...]) -> list[Row]:
-    """The cost of a large scene against that of a small one, by several formulations."""
-    return [
-        Row(f"{what}: {name}", OurWay(large, name, PLAIN), OurWay(small, name, PLAIN), asked)
-        for name in formulations
-    ]
+@dataclass(frozen=True)
+class Row:
+    """A row of the table: times in seconds; `other` and `ratio` are missing where nothing is compared."""
+
+    name: str
+    work: str
+    runs: str
+    seconds: float | None
+    against: str = ""
+    other: float | None = None
+    ratio: float | None = None
+    note: str = ""
+
+    def cells(self) -> tuple[str, ...]:
+        """The row as text; a ratio below one is written as 1/x."""
+        times = ("" if x is None else f"{x:.3g} s" for x in (self.seconds, self.other))
+        ratio = ""
+        if self.ratio is not None:
+            ratio = f"{self.ratio:.3g}" if self.ratio >= 1.0 else f"1/{1.0 / self.ratio:.3g}"
+        ours, other = times
+        return self.name, self.work, self.runs, ours, self.against, other, ratio, self.note
 
 
-def _space(what: str, scene: str, plane: str) -> Row:
-    return Row(f"rise in space: {what}", OurWay(scene, "exudyn"), OurWay(plane, "exudyn"), "2.5", 9.0)
+def beside(name: str, work: str, runs: str, ours: Timing, against: str, other: Timing) -> Row:
+    """Time both sides in turns."""
+    ours(), other()  # imports, compiles
+    began, mine, its = time.monotonic(), list[float](), list[float]()
+    while len(mine) < TURNS and (not mine or time.monotonic() - began < LONG):
+        mine.append(ours())
+        its.append(other())
+    ratio = statistics.median(one / two for one, two in zip(mine, its, strict=True))
+    return Row(name, work, runs, statistics.median(mine), against, statistics.median(its), ratio)
 
 
-ROWS: tuple[Row, ...] = (
-    Row("rise to the goal, general equations", OurWay("rise", "compiled", TOLERANCES), IN_C, "15", 5.0),
-    Row("rise to the goal, rigid bodies", OurWay("rise", "exudyn", COARSE), STOCK, "1/10", 20.0),
-    Row("the same on cylinders", OurWay("rise, cylinders", "exudyn", (STEEL,)), STOCK, "1/10", 20.0),
-    Row("rise on oil columns to the goal", OurWay("rise, oil", "compiled", TOLERANCES), "", "0.06 s", 5.0),
-    _space("1.5 mm, no friction", "quick rise in space", "quick rise"),
-    _space("1.5 mm, friction", "quick rise in space, friction", "quick rise, friction"),
-    Row("five clearance pins with friction, 1 s", OurWay("five pins", AUTO, DRAFT), "", "3 s", 10.0),
-    Row(
-        "published crank-rocker, 10 turns: not met, its horizon told",
-        OurWay("crank-rocker", AUTO, DRAFT),
-        "",
-        "1 s",
-        10.0,
-    ),
-    Row("own law in Python", OurWay("own law", AUTO, DRAFT), OurWay("built-in law", AUTO, DRAFT), "1.5", 5.0),
-    *(
-        Row(f"connector, {name}: {scene}", connector(scene, kind), connector(scene, "built_in"), asked, 4.0)
-        for scene in BARE
-        for name, kind, asked in CONNECTORS
-    ),
-    *_grows("four times the time", "8 s", "2 s", "4", BOTH),
-    *_grows("ten times the bars, ideal pins", "40 bars", "4 bars", "100", BOTH),
-    *_grows("ten times the bars, one loose pin", "40 bars, one loose", "4 bars, one loose", "100", BOTH),
-    *_grows("eight times the resting joints", "8 joints", "1 joint", "8", BOTH),
-)
+def timed(run: Callable[[], object]) -> Timing:
+    """The processor time of a run as a function."""
+
+    def seconds() -> float:
+        began = time.process_time()
+        run()
+        return time.process_time() - began
+
+    return seconds
 
 
-def there(row: Row) -> bool:
-    """Whether this version has the formulations of a row."""
-    return all(way.is_there for way in (row.ours, row.against) if isinstance(way, OurWay))
+def _simulated(scenario: Scenario, formulation: FormulationName, **settings: object) -> Timing:
+    solver = SolverSettings(**settings, result_checks=False)  # type: ignore[arg-type]
+    return timed(partial(simulate, replace(scenario, formulation=formulation, solver=solver)))
 
 
-# --- in the process that measures ---
+# --- rows that are timed in turns ---
 
 
-def timed_row(row: Row, most: float) -> Iterator[TimedTurn]:
-    """Both sides of a row in turns, within a time [s] or once."""
-    began = time.monotonic()
+def measured() -> Iterator[Row]:
+    """All rows but those against the programs of others."""
+    rise = SCENES[trade.SCENE].scenario
+    yield _beside_c(rise)
+    yield connector()
+    ideal = replace(rise, pins={})
+    for formulation in (COMPILED, ENGINE):
+        both = (_simulated(one, formulation) for one in (rise, ideal))
+        yield beside(f"clearance, {formulation}", WORK, "with clearance", next(both), "ideal pin", next(both))
+    for friction in (0.0, paper_machine.SLIDING_COEFFICIENT):
+        space, plane = (_simulated(quick_rise(friction, dimensions), ENGINE) for dimensions in (3, 2))
+        work = f"rise of 0.4 s, 1.5 mm, friction {friction:g}"
+        yield beside(f"space, friction {friction:g}", work, "in space", space, "in the plane", plane)
+    yield first_run()
+
+
+def connector() -> Row:
+    """Our connector's Python function beside the engine's own contact, by the same steps."""
+
+    def timing(contact: Evaluator) -> Timing:
+        return lambda: run_built_in(DROP, DROP_STEP, contact=contact, sensors=False).solve_time
+
+    work = f"drop of {DROP.duration:g} s, equal steps of {1e6 * DROP_STEP:g} us"
+    ours, engine = timing("python"), timing("built_in")
+    return beside("connector", work, "connector, Python function", ours, "engine's own contact", engine)
+
+
+def quick_rise(friction: float, dimensions: int) -> Scenario:
+    """The first 0.4 s of a rise of 100 mm in a second with 1.5 mm of clearance, in the plane or in space."""
+    scene = paper_machine.clearance_rise(1.5, friction, 5e-4, law=paper_machine.PAPERS_LAW)
+    drive = CubicStep(stroke=0.1, start=0.0, end=1.0)
+    return replace(scene, drive=drive, duration=0.4, dimensions=dimensions)  # type: ignore[arg-type]
+
+
+def _beside_c(rise: Scenario) -> Row:
+    """The compiled formulation beside the same by hand in C."""
+    name, runs = "program in C", f"compiled, tolerance {OURS_TOLERANCE:.0e}"
     with ExitStack() as held:
-        sides = [(True, *_side(row.ours, held))]
-        if row.against:
-            label, timing = _side(row.against, held)
-            scene = f"{row.against.scene}, " if isinstance(row.against, OurWay) else ""
-            sides.append((False, f"{scene}{label}".removesuffix(", "), timing))
-        first = time.monotonic()
-        for turn in range(TURNS):
-            for is_ours, label, seconds in sides:
-                yield TimedTurn(is_ours, label, seconds())
-            now = time.monotonic()
-            if now - began + (now - first) / (turn + 1) > most:
-                return
-
-
-def _side(way: OurWay | str, held: ExitStack) -> tuple[str, Timing]:
-    """How a side of a row is set, and what times it."""
-    if isinstance(way, str):
-        return way, held.enter_context(OTHERS[way]())
-    scenario, name = SCENES[way.scene](), way.formulation
-    if len(way.settings) > 1:
-        setting = coarsest(way.scene, name, way.settings)
-    else:
-        (setting,) = way.settings
-        simulate(setting.applied(_moment(scenario), name))  # imports and compiles
-    return setting.words, partial(fastest, partial(simulate, setting.applied(scenario, name)))
-
-
-def _moment(scenario: Scenario) -> Scenario:
-    return replace(scenario, duration=scenario.recorded_every)
-
-
-def coarsest(scene: str, formulation: str, settings: tuple[Setting, ...]) -> Setting:
-    """The first setting that meets the goal of a scene. Raises LeftOutError if none does."""
-    known, looked_at = references()[scene], WITH_REFERENCE[scene]
-    for setting in settings:
         try:
-            result = simulate(setting.applied(looked_at.scenario, formulation))
-        except SimulationError:  # too coarse to be finished
+            program = held.enter_context(yardstick.compiled())
+        except yardstick.YardstickError as error:
+            return Row(name, WORK, runs, None, note=str(error).splitlines()[0])
+        by_hand = partial(yardstick.run_yardstick, rise, C_TOLERANCE, program=program)
+        ours = _simulated(rise, COMPILED, tolerance=OURS_TOLERANCE)
+        return beside(name, WORK, runs, ours, f"C, tolerance {C_TOLERANCE:.0e}", lambda: by_hand().seconds)
+
+
+def first_run() -> Row:
+    """The first run of a fresh installation, which has no compiled code: a process from start to end."""
+    program = (
+        "from studies.benchmarking.scenes import SCENES; from support_exudyn import simulate; "
+        f"simulate(SCENES[{trade.SCENE!r}].scenario, accuracy='draft')"
+    )
+    with tempfile.TemporaryDirectory() as empty:
+        known = {"NUMBA_CACHE_DIR": empty, "PYTHONPATH": str(Path(__file__).parents[2])}
+        began = time.monotonic()
+        subprocess.run([sys.executable, "-c", program], env=os.environ | known, capture_output=True, check=True)
+    return Row("first run", WORK, 'compiled, "draft", nothing compiled yet', time.monotonic() - began)
+
+
+# --- rows from the points ---
+
+
+def of_points(points: Sequence[Point]) -> Iterator[Row]:
+    """What an accuracy costs; our fastest way to a good largest force beside that of other programs."""
+    for program in (OURS_COMPILED, OURS_ENGINE):
+        for one in (one for one in points if one.program == program):
+            yield Row("accuracy", WORK, f'{program}, "{one.setting}"', one.seconds, note=_source(one))
+    names = [name for name in trade.PROGRAMS if not name.startswith((OURS_COMPILED, OURS_ENGINE))]
+    for ours in (OURS_COMPILED + trade.ONCE, OURS_ENGINE + trade.ONCE):
+        mine = trade.cheapest(points, ours)
+        if mine is None:
             continue
-        if times_the_goal(errors(of_result(looked_at, result), known)) <= 1.0:
-            return setting
-    raise LeftOutError("no setting meets the goal")
+        for name in names if ours.startswith(OURS_COMPILED) else names[:1]:
+            its = trade.cheapest(points, name)
+            what = f"{mine.program}, {mine.setting}"
+            goal = f"{WORK}, largest force right to {trade.GOOD:g}"
+            if its is None:
+                yield Row(name, goal, what, mine.seconds, name, note="no setting of theirs is as close")
+            else:
+                against, ratio = f"{name}, {its.setting}", mine.ratio / its.ratio
+                yield Row(name, goal, what, mine.seconds, against, its.seconds, ratio, _source(its))
+
+
+def _source(point: Point) -> str:
+    return "kept, see the caption of the figure" if point.is_kept else ""
+
+
+def sheet(rows: Sequence[Row]) -> Sheet:
+    """All rows as a table."""
+    return Sheet(
+        title="Ours, and what it is compared with",
+        header=("name", "work", "what runs", "time", "compared with", "its time", "ratio", ""),
+        rows=tuple(row.cells() for row in rows),
+        caption=(
+            "Processor times on one core, medians of up to five turns in which both sides run one after the "
+            "other; the first run is timed from start to end. Compilation is not counted but there. Rows "
+            "against other programs take the cheapest setting from which on the largest force is right to "
+            f"{trade.GOOD:g}. Of the connector a ratio of {CONNECTOR_MOST:g} at most is asked for."
+        ),
+        left=3,
+    )

@@ -19,17 +19,13 @@ RECORD_PERIOD = 1e-3  # [s], of which their means and deviations are
 class BenchmarkScene:
     """A scenario without settings, and what is looked at.
 
-    label: for people. scenario: what is run. pin: the clearance pin. body: whose angular acceleration is looked
-        at.
-    point: whose path. after: from when on force and acceleration are averaged [s]. step: default of the
-    Exudyn formulation [s].
+    label: for people. scenario: what is run. pin: the clearance pin. after: from when on its force is
+    averaged [s]. step: default of the formulation on the engine [s].
     """
 
     label: str
     scenario: Scenario
     pin: str
-    body: str
-    point: str
     after: float
     step: float
 
@@ -40,7 +36,7 @@ class BenchmarkScene:
 
 
 def _support(label: str, scenario: Scenario, after: float) -> BenchmarkScene:
-    return BenchmarkScene(label, scenario, paper_machine.CLEARANCE_PIN, "rear_link", "tip", after, 5e-4)
+    return BenchmarkScene(label, scenario, paper_machine.CLEARANCE_PIN, after, 5e-4)
 
 
 def _rise(friction: float) -> Scenario:
@@ -72,7 +68,7 @@ def _scenes() -> dict[str, BenchmarkScene]:
             3.0,
         ),
         "slider-crank": BenchmarkScene(
-            "slider-crank: half a revolution at 5000 rpm", half, slider_crank.PIN, "rod", "slider", 0.0, 1e-6
+            "slider-crank: half a revolution at 5000 rpm", half, slider_crank.PIN, 0.0, 1e-6
         ),
     }
 

@@ -238,7 +238,7 @@ def long_table(long: Long) -> TextTable:
 def work(chosen: Options) -> StudyOutcome:
     """All scenes and long runs, judged; every verdict is kept as a line of runs.jsonl."""
     found = cases(chosen.runs or DRAWN)
-    verdicts, long = run_all(found, long_runs.DURATIONS, chosen.workers, chosen.kept)
+    verdicts, long = run_all(found, long_runs.DURATIONS, chosen.workers)
     judged = list(zip(found, verdicts, strict=True))
     save_rows(chosen.out / "runs.jsonl", judged)
     tables = {

@@ -3,17 +3,14 @@
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 from studies.common.runs import bar
 from studies.extremes import judge, long_runs
 from studies.extremes.cases import BOX, CLEARANCE_SPEED
 from studies.extremes.judge import SILENT, Case, Judgement
-from studies.extremes.kept import read_row, row_file, write_row
 from studies.extremes.long_runs import LongRun
-from support_exudyn import Scenario, SimulationError
+from support_exudyn import SimulationError
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, report, worker_pool
 
 PATIENCE = 300.0  # [s]; a run that takes longer hangs
@@ -50,49 +47,26 @@ def patience(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
-def judged(case: Case, kept: Path | None) -> Judgement:
-    """Judge a case, in a worker; silent failures are not kept."""
+def judged(case: Case) -> Judgement:
+    """Judge a case, in a worker."""
     report(0.0)
     try:
         with patience(PATIENCE):
-            file = _file(case, kept)
-            if file and (row := read_row(file)):
-                return Judgement(**row)  # type: ignore[arg-type]
-            verdict = judge.judge(case.scenario)
+            return judge.judge(case.scenario)
     except HangError as error:
         return Judgement(SILENT, f"hang: {error}")
-    if file and verdict.outcome != SILENT:
-        write_row(file, verdict.row())
-    return verdict
 
 
-def _file(case: Case, kept: Path | None) -> Path | None:
-    """Where the verdict on a case is kept; None if it is not, or if there is no scene."""
-    if kept is None:
-        return None
-    try:
-        return row_file(kept, case.scenario(), judge)
-    except Exception:  # whatever it is: the judge will find it, too
-        return None
-
-
-def lasted(name: str, duration: float, kept: Path | None) -> LongRun | str:
+def lasted(name: str, duration: float) -> LongRun | str:
     """Make a long run, in a worker; return why there is none if it fails."""
-    scene: Scenario = long_runs.scene(name, duration)
-    file = row_file(kept, scene, long_runs) if kept else None
-    if file and (row := read_row(file)):
-        return LongRun(**row)  # type: ignore[arg-type]
     try:
-        found = long_runs.run(scene, name, report)
+        return long_runs.run(long_runs.scene(name, duration), name, report)
     except SimulationError as error:
         return str(error)
-    if file:
-        write_row(file, asdict(found))
-    return found
 
 
 def run_all(
-    cases: Sequence[Case], durations: dict[str, float], workers: int | Workers, kept: Path | None = None
+    cases: Sequence[Case], durations: dict[str, float], workers: int | Workers
 ) -> tuple[list[Judgement], dict[str, LongRun | str]]:
     """Verdicts on cases, in their order, and long runs by name, under a progress bar.
 
@@ -100,14 +74,13 @@ def run_all(
         cases: the cases.
         durations: of long runs, by their names [s].
         workers: number of processes, or a pool.
-        kept: folder of what is found out once and kept; None: nothing is.
 
     A long run that failed says why.
     """
     jobs: list[tuple[float, Job]] = [
-        (OF_LONG, (lasted, name, duration, kept)) for name, duration in durations.items()
+        (OF_LONG, (lasted, name, duration)) for name, duration in durations.items()
     ]
-    jobs += [(SECONDS.get(case.group, OTHERS), (judged, case, kept)) for case in cases]
+    jobs += [(SECONDS.get(case.group, OTHERS), (judged, case)) for case in cases]
     order = sorted(range(len(jobs)), key=lambda n: -jobs[n][0])
     seconds = [jobs[n][0] for n in order]
     mean = sum(seconds) / max(1, len(seconds))

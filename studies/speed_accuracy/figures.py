@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter, NullLocator, StrMethodFormatter
 
+from studies.benchmarking.trade import ENGINE
 from studies.benchmarking.variants import BUILT_IN, STOCK, WayRun, front
 from studies.common.panels import letters
 from support_exudyn.postprocessing.figures import style
@@ -17,21 +18,14 @@ PANELS: dict[str, Callable[[WayRun], float]] = {
     "of its spread": lambda row: _error(row, "spread"),
     "of its peak": lambda row: _error(row, "peak"),
     "of impact velocities": lambda row: _error(row, "onset 1", "onset 2", "onset 3"),
-    "error of the path [m]": lambda row: _error(row, "path"),
-    "relative error of the acceleration": lambda row: _error(row, "acceleration"),
 }
 HARDLY = 0.7  # decades
 SMALLEST = 1e-11  # errors below are those of the reference
 # by family: colour, which none of `style` is that means something else, and marker
 LOOKS = {
-    "exudyn, python": ("#0072B2", "o"),
-    "exudyn, symbolic": ("#332288", "s"),
-    "exudyn, growing steps": ("#004466", "^"),
     "compiled": ("#997700", "v"),
-    "trapezoidal, index 2": ("#CC79A7", "<"),
-    "nothing located": ("#888888", "x"),
-    "spectral radius": ("#999933", "1"),
-    "Newton's method": ("#661100", "2"),
+    ENGINE: ("#0072B2", "o"),
+    f"{ENGINE}, growing steps": ("#004466", "^"),
     BUILT_IN: ("#444444", "+"),
     STOCK: ("#000000", "*"),
 }
@@ -51,7 +45,7 @@ def figure(rows: Sequence[WayRun]) -> Figure:
     """Errors of all ways of a scene over their processor time; a number that the scene lacks is left out."""
     good = [row for row in rows if not row.failure]
     drawing = Figure(figsize=style.size(180, 130))
-    axes = drawing.subplots(2, 3, sharex=True)
+    axes = drawing.subplots(2, 2, sharex=True)
     for ax, (name, error) in zip(axes.flat, PANELS.items(), strict=True):
         _panel(ax, good, error)
         ax.set_ylabel(name, fontsize=8)

@@ -10,10 +10,11 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from studies.benchmarking import estimates
+from studies.benchmarking import estimates, trade, trade_figure
 from studies.benchmarking.estimates import Check, Truth
 from studies.benchmarking.references import GOALS
 from studies.benchmarking.scenes import BenchmarkScene
+from studies.benchmarking.trade import ENGINE, ONCE, OURS_COMPILED, OURS_ENGINE
 from studies.benchmarking.variants import BUILT_IN, STOCK, Way, WayRun, cheapest, front, ways
 from studies.common.numbers import Number, rounded
 from studies.common.options import Options
@@ -29,6 +30,9 @@ from support_exudyn.sweeps.workers import Workers, worker_pool
 from user_forces import InputError
 
 SHORT_RUN = 0.1  # shorter runs are timed three more times, and the fastest counts [s]
+TRADE = "error_and_time"  # the figure of this program and others
+# measured here; what takes longer comes from what the benchmark keeps
+IN_STUDY = (OURS_COMPILED, OURS_COMPILED + ONCE, OURS_ENGINE + ONCE, "Exudyn, stock recipe")
 KEY = "rise"  # the scene that the answer is of, if there is one of this name
 Scenes = Mapping[str, BenchmarkScene]
 
@@ -55,15 +59,14 @@ def _row(place: int, name: str, scene: BenchmarkScene, n: int, against: Known) -
     way = ways(scene)[n]
     began = time.process_time()
     try:
-        done = way.run()
+        found, steps = way.run()
         times = [time.process_time() - began]
         if times[0] < SHORT_RUN:
             times += [_processor_time(way) for _ in range(3)]
     except (SimulationError, InputError, RuntimeError) as error:
         reason = str(error).splitlines()[0]
-        return WayRun(name, way.family, way.label, float("nan"), 0, 0, failure=reason)
-    off = against.errors(done.sample)
-    row = WayRun(name, way.family, way.label, times[0], done.steps, done.calls, off)
+        return WayRun(name, way.family, way.label, float("nan"), 0, failure=reason)
+    row = WayRun(name, way.family, way.label, times[0], steps, against.errors(found))
     return _with_times(row, times) if len(times) > 1 else row
 
 
@@ -127,9 +130,8 @@ def numbers(found: Sequence[WayRun], checked: Sequence[Check], against: Mapping[
             if best is not None:
                 said.append(Number(f"time to the goal, {family}", name, best.seconds, "s", best.scatter))
         for goal, error in against[name].own_errors.items():
-            unit = "m" if goal == "path" else "1"
             # of an error no more than the size is known
-            said.append(Number(f"reference's own error, {goal}", name, error, unit, error))
+            said.append(Number(f"reference's own error, {goal}", name, error, "1", error))
     if judged := [one for one in checked if one.is_judged]:
         covered, stated = estimates.coverage(judged), estimates.overstatement(judged)
         said.append(Number("estimate_coverage", "all scenes", covered.value, "1", covered.error))
@@ -143,7 +145,7 @@ def numbers(found: Sequence[WayRun], checked: Sequence[Check], against: Mapping[
 def fastest_table(looked_at: Scenes, found: Sequence[WayRun]) -> TextTable:
     """Of each scene the time of the fastest setting that meets the goal, by the way."""
     tried_at_all = {row.family for row in found}
-    shown = [way for way in ("compiled", "exudyn, symbolic", STOCK, BUILT_IN) if way in tried_at_all]
+    shown = [way for way in ("compiled", ENGINE, STOCK, BUILT_IN) if way in tried_at_all]
     rows = []
     for name in looked_at:
         best = _best(name, found)
@@ -171,18 +173,14 @@ def table(name: str, found: Sequence[WayRun]) -> TextTable:
         (row.family, row.label, mark(row), *_cost(row), *(_brief(row.errors.get(goal)) for goal in GOALS))
         for row in of_scene
     )
-    header = ("way", "setting", "", "time [s]", "steps", "calls", *_headings())
+    header = ("way", "setting", "", "time [s]", "steps", *GOALS)
     return TextTable(header, rows, left=3, width=190)
 
 
-def _headings() -> tuple[str, ...]:
-    return tuple(f"{goal} [m]" if goal == "path" else goal for goal in GOALS)
-
-
-def _cost(row: WayRun) -> tuple[str, str, str]:
+def _cost(row: WayRun) -> tuple[str, str]:
     if row.failure:
-        return row.failure[:40], "", ""
-    return f"{row.seconds:.3g}", str(row.steps), str(row.calls)
+        return row.failure[:40], ""
+    return f"{row.seconds:.3g}", str(row.steps)
 
 
 def _brief(error: float | None) -> str:
@@ -222,7 +220,9 @@ def work(chosen: Options) -> StudyOutcome:
         checked = checks(looked_at, against, pool)
     same = formulations.compared(chosen) if subject.is_paper else []
     stems = {speed_accuracy_figures.stem(name): name for name in looked_at}
-    drawings = {
+    points = trade.with_kept(list(trade.measured(IN_STUDY))) if subject.is_paper else []
+    drawings = {TRADE: trade_figure.figure(points)} if points else {}
+    drawings |= {
         stem: speed_accuracy_figures.figure([row for row in found if row.scene == name])
         for stem, name in stems.items()
     }
@@ -235,6 +235,7 @@ def work(chosen: Options) -> StudyOutcome:
     reached = list(_reached(looked_at, found))
     judged = [one for one in checked if one.is_judged]
     words = {
+        "trade": {TRADE: trade.caption(points)} if points else {},
         "scenes": {stem: looked_at[name] for stem, name in stems.items()},
         "reached": reached,
         "key": next((one for one in reached if one["name"] == KEY), reached[0] if reached else None),

@@ -25,7 +25,7 @@ by: the tolerance times the clearance over the impact's speed, and times that sp
 
 Measured: of 12 920 numbers of `tests/simulation/test_accuracy.py` 98.5 % are covered, the worst true error is
 4.2 times the estimated one, and estimates are 14 times as large in the median. The command
-`python -m studies.benchmarking.coverage` measures fresh scenes; the page `accuracy.md` has its results.
+`tests/simulation/test_coverage.py` measures drawn scenes; the page `accuracy.md` has its results.
 """
 
 import math

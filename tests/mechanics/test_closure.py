@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from studies.benchmarking.drawn_linkages import Place, apex, bar_of, chain, towards
 from support_exudyn.mechanics.closure import assembled
 from support_exudyn.model.linkage import (
     GROUND,
@@ -24,6 +23,7 @@ from support_exudyn.model.linkage import (
     TracePoint,
     pinned,
 )
+from tests.drawn.drawn_linkages import Place, apex, bar_of, chain, towards
 from tests.linkages import drawn_roughly, four_bar, lengthened, sides
 from tests.often import often
 from user_forces import InputError

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 from hypothesis import strategies as st
 
-from studies.benchmarking.drawn_linkages import chain
 from support_exudyn import (
     AppliedForce,
     AppliedTorque,
@@ -26,6 +25,7 @@ from support_exudyn import (
 )
 from support_exudyn.mechanics.start_rates import set_moving
 from support_exudyn.model.linkage import GROUND, Linkage
+from tests.drawn.drawn_linkages import chain
 from tests.metamorphic.drawn import GRAVITY, IMPACT_STEPS, MS, TOLERANCE, between, with_clearance
 
 SIZE = 0.5  # of the linkage [m]

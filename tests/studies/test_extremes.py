@@ -7,8 +7,6 @@ import math
 import multiprocessing
 import os
 import signal
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -417,7 +415,7 @@ def test_a_run_that_hangs_is_a_silent_failure(
 ) -> None:
     monkeypatch.setattr(runs, "PATIENCE", 0.3)
     before, began = signal.getsignal(signal.SIGALRM), time.perf_counter()
-    found = runs.judged(of(make), None)
+    found = runs.judged(of(make))
     assert found == Judgement(SILENT, "hang: no end after 0.3 s")
     assert time.perf_counter() - began < 50.0  # not 60, or for ever
     # nothing rings later
@@ -427,10 +425,10 @@ def test_a_run_that_hangs_is_a_silent_failure(
 
 def test_a_run_that_ends_in_time_is_let_be(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(runs, "PATIENCE", 60.0)
-    assert runs.judged(of(impact), None).outcome == GOOD
+    assert runs.judged(of(impact)).outcome == GOOD
 
 
-def killed_at_one(case: Case, kept: Path | None) -> Judgement:
+def killed_at_one(case: Case) -> Judgement:
     """In a process of its own, in place of `runs.judged`."""
     if case.name == "1":
         os.kill(os.getpid(), signal.SIGKILL)
@@ -449,79 +447,6 @@ def test_a_process_that_is_killed_is_a_silent_failure_of_its_case_alone(
         found, _ = runs.run_all([of(impact, str(n)) for n in range(3)], {}, pool)
     assert [verdict.outcome for verdict in found] == [GOOD, SILENT, GOOD]
     assert found[1].reason.startswith("crash: the process that computed it ended: signal 9 (SIGKILL")
-
-
-# --- what is kept ---
-
-
-@pytest.mark.slow  # a process, and all runs twice
-@posix_only
-def test_after_a_kill_in_mid_work_what_was_judged_is_not_run_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    three = [of(impact, "impact"), of(refused, "refused"), of(fall, "fall")]
-    whole = [without_time(verdict) for verdict in runs.run_all(three, {}, at_once())[0]]
-    command = [sys.executable, "-m", "tests.studies.extremes_main", str(tmp_path)]
-    with subprocess.Popen(command, cwd=Path(__file__).parents[2]) as process:
-        try:
-            end = time.monotonic() + 120.0
-            while not list(tmp_path.glob("*.json")) and process.poll() is None:
-                assert time.monotonic() < end
-                time.sleep(0.02)
-        finally:
-            process.kill()
-    assert process.returncode == -signal.SIGKILL
-    assert len(list(tmp_path.glob("*.json"))) == 1  # of what is refused before a run there is no scene
-    run: list[str] = []
-    plain = judge_module.judge
-
-    def counted(make: Callable[[], Scenario]) -> Judgement:
-        run.append(make.__name__)
-        return plain(make)
-
-    monkeypatch.setattr(judge_module, "judge", counted)
-    found, _ = runs.run_all(three, {}, at_once(), tmp_path)
-    assert sorted(run) == ["fall", "refused"]
-    assert [without_time(verdict) for verdict in found] == whole
-    run.clear()
-    again, _ = runs.run_all(three, {}, at_once(), tmp_path)
-    assert run == ["refused"]
-    assert repr([again[0], again[2]]) == repr([found[0], found[2]])
-
-
-def without_time(verdict: Judgement) -> str:
-    return repr(replace(verdict, wall_s=0.0))
-
-
-@pytest.mark.parametrize("damage", ["", "{}", "cut", "digit", "\udcff"])
-def test_a_row_that_is_damaged_is_made_again(damage: str, tmp_path: Path) -> None:
-    first = runs.judged(of(impact), tmp_path)
-    (file,) = tmp_path.glob("*.json")
-    text = file.read_text(encoding="utf-8")
-    wrong = {"cut": text[:-5], "digit": text.replace('"error": 0', '"error": 1')}.get(damage, damage)
-    wrong = wrong if wrong != text else text.replace("e-0", "e+0", 1)
-    assert wrong != text
-    file.write_bytes(wrong.encode("utf-8", "surrogateescape"))
-    found = runs.judged(of(impact), tmp_path)
-    assert without_time(found) == without_time(first)
-    assert found.wall_s != first.wall_s
-    assert repr(runs.judged(of(impact), tmp_path)) == repr(found)
-
-
-def test_silent_failures_are_looked_at_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(judge_module, "judge", lambda make: Judgement(SILENT, "wrong"))
-    assert runs.judged(of(impact), tmp_path).outcome == SILENT
-    assert not list(tmp_path.iterdir())
-
-
-def test_a_long_run_is_made_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    lasting = {long_runs.REST: 0.5}
-    first = runs.run_all([], lasting, at_once(), tmp_path)
-    monkeypatch.setattr(long_runs, "run", None)
-    assert repr(runs.run_all([], lasting, at_once(), tmp_path)) == repr(first)
-    (file,) = tmp_path.glob("*.json")
-    assert runs.row_file(tmp_path, long_runs.scene(long_runs.REST, 0.6), long_runs) != file
-    assert runs.row_file(tmp_path, long_runs.scene(long_runs.REST, 0.5), judge_module) != file
 
 
 def test_the_share_done_is_that_of_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -543,7 +468,7 @@ def test_the_share_done_is_that_of_the_time(monkeypatch: pytest.MonkeyPatch) -> 
             return done
 
     monkeypatch.setattr(runs, "bar", listening)
-    monkeypatch.setattr(runs, "judged", lambda case, kept: Judgement(GOOD, case.name))
+    monkeypatch.setattr(runs, "judged", lambda case: Judgement(GOOD, case.name))
     two = [of(fall, "short", "roof"), of(fall, "long", "dead centre")]
     found, _ = runs.run_all(two, {}, Half(AtOnce(), []))
     assert [verdict.reason for verdict in found] == ["short", "long"]

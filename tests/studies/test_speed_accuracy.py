@@ -7,23 +7,21 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from studies.benchmarking import estimates, variants
 from studies.benchmarking.references import (
     GOALS,
-    Sample,
     errors,
     of_result,
     own_errors,
     references,
-    thinned,
     tight_runs,
     times_the_goal,
 )
 from studies.benchmarking.scenes import SCENES, BenchmarkScene
-from studies.benchmarking.variants import STOCK, Done, Way, WayRun, cheapest, front, ways
+from studies.benchmarking.trade import ENGINE, OURS_COMPILED
+from studies.benchmarking.variants import STOCK, Way, WayRun, cheapest, front, ways
 from studies.common.chapter import Chapter
 from studies.common.study import Options
 from studies.common.subject import Subject, own_subject
@@ -34,44 +32,35 @@ from support_exudyn import SimulationError, SolverSettings, simulate
 from support_exudyn.formulations.contract import Failure
 from tests.at_once import at_once
 
-EXACT = Sample({name: 2.0 for name in GOALS if name != "path"}, np.zeros((2, 5)))
+EXACT = dict.fromkeys(GOALS, 2.0)
 
 
-def sample_off_by(**shares: float) -> Sample:
+def sample_off_by(**shares: float) -> dict[str, float]:
     """The exact one, with numbers off by so much of themselves."""
-    numbers = {name: 2.0 * (1.0 + shares.get(name.replace(" ", "_"), 0.0)) for name in EXACT.numbers}
-    return Sample(numbers, EXACT.path)
+    return {name: 2.0 * (1.0 + shares.get(name.replace(" ", "_"), 0.0)) for name in EXACT}
 
 
 def row(seconds: float, overall: float, **changes: str) -> WayRun:
     """A run so far from the goal, in its units."""
     off = dict.fromkeys(GOALS, 0.0) | {"mean": overall * GOALS["mean"]}
-    return WayRun("drop", changes.get("family", "a"), "b", seconds, 1, 1, off)
+    return WayRun("drop", changes.get("family", "a"), "b", seconds, 1, off)
 
 
 # --- measures ---
 
 
-def test_errors_are_relative_but_for_the_path() -> None:
+def test_errors_are_relative() -> None:
     found = errors(sample_off_by(mean=1e-5, onset_2=-1e-4), EXACT)
     assert found["mean"] == pytest.approx(1e-5, rel=1e-9)
     assert found["onset 2"] == pytest.approx(1e-4, rel=1e-9)
     assert found["spread"] == 0.0
-    moved = Sample(EXACT.numbers, np.array([[0.0, 3e-3, 0.0, 0.0, 0.0], [0.0, 4e-3, 0.0, 0.0, 0.0]]))
-    assert errors(moved, EXACT)["path"] == pytest.approx(5e-3)
 
 
 def test_a_touch_that_is_missing_is_infinitely_wrong() -> None:
-    missing = Sample(dict(EXACT.numbers) | {"onset 3": math.nan}, EXACT.path)
+    missing = EXACT | {"onset 3": math.nan}
     assert errors(missing, EXACT)["onset 3"] == math.inf
     assert times_the_goal(errors(missing, EXACT)) == math.inf
-
-
-def test_paths_are_thinned_from_the_first_point_on() -> None:
-    path = np.arange(2 * 1001.0).reshape(2, -1)
-    assert thinned(path).shape == (2, 251)
-    np.testing.assert_array_equal(thinned(path)[:, 0], path[:, 0])
-    np.testing.assert_array_equal(thinned(path[:, :100]), path[:, :100])
+    assert "onset 3" not in errors(EXACT, missing)  # which the reference lacks
 
 
 # --- front ---
@@ -89,7 +78,7 @@ def test_the_cheapest_meets_the_goal() -> None:
 
 
 def test_a_run_that_failed_is_neither() -> None:
-    failed = WayRun("drop", "a", "b", math.nan, 0, 0, failure="gave up")
+    failed = WayRun("drop", "a", "b", math.nan, 0, failure="gave up")
     assert front([failed]) == []
     assert cheapest([failed]) is None
 
@@ -119,15 +108,13 @@ def test_references_can_be_made_again(name: str) -> None:
 @pytest.mark.parametrize("name", SCENES)
 def test_every_scene_has_its_formulations(name: str) -> None:
     families = {way.family for way in ways(SCENES[name])}
-    if SCENES[name].scenario.compliant_actuators:
-        assert "compiled" in families
-    else:
-        assert {"compiled", STOCK} <= families
-    assert {"exudyn, python", "exudyn, symbolic", "exudyn, growing steps"} <= families
+    assert {"compiled", ENGINE, f"{ENGINE}, growing steps"} <= families
+    assert (STOCK in families) == (name in ("drop", "rise", "rise, friction"))
+    assert (variants.BUILT_IN in families) == (name in ("drop", "rise"))  # it has no friction
 
 
 def test_a_scene_of_which_every_run_failed_is_drawn_too() -> None:
-    failed = WayRun("drop", "a", "b", math.nan, 0, 0, failure="gave up")
+    failed = WayRun("drop", "a", "b", math.nan, 0, failure="gave up")
     drawing = speed_accuracy_figures.figure([failed])
     assert len(drawing.axes) == len(speed_accuracy_figures.PANELS)
     drawing.canvas.draw()
@@ -135,9 +122,9 @@ def test_a_scene_of_which_every_run_failed_is_drawn_too() -> None:
 
 def test_a_way_gives_what_its_settings_ask_for() -> None:
     scene = SCENES["drop"]
-    done = variants.with_tolerance(scene, "compiled", 1e-8).run()  # late impacts multiply errors
-    assert done.calls == 0  # nothing is called in Python
-    assert times_the_goal(errors(done.sample, references()["drop"])) < 1.0
+    found, steps = variants.with_tolerance(scene, "compiled", 1e-8).run()  # late impacts multiply errors
+    assert steps > 100
+    assert times_the_goal(errors(found, references()["drop"])) < 1.0
 
 
 # --- the whole ---
@@ -150,6 +137,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with pytest.MonkeyPatch.context() as patch:
         short = {name: SCENES[name] for name in ("drop", "slider-crank")}
         patch.setattr(speed_accuracy, "scenes", lambda subject: short)
+        patch.setattr(speed_accuracy, "IN_STUDY", [OURS_COMPILED])
         patch.setattr(estimates, "PRESETS", ("draft", "standard"))
         patch.setattr(estimates, "NUMBERS", ())
         patch.setattr(speed_accuracy.formulations, "compared", lambda options: [])
@@ -164,15 +152,16 @@ def some_ways(scene: BenchmarkScene) -> list[Way]:
     return [*cheap[::2], Way("x", "y", fails, fails)]
 
 
-def fails() -> Done:
+def fails() -> tuple[dict[str, float], int]:
     raise SimulationError(Failure("it was asked to", "do not ask", 0.5))
 
 
 @pytest.mark.slow
 def test_everything_is_written(written: Path) -> None:
     chapter = Chapter.load(written)
+    assert chapter.pictures[0].stem == speed_accuracy.TRADE
     for picture in chapter.pictures:
-        if "drop" in picture.stem or "crank" in picture.stem:
+        if "error" in picture.stem or "drop" in picture.stem or "crank" in picture.stem:
             assert (written / f"{picture.stem}.png").stat().st_size > 10_000
     assert (written / "accuracies.txt").stat().st_size > 0
     assert (written / "work_drop.txt").stat().st_size > 0
@@ -234,10 +223,6 @@ def test_scenes_are_of_the_users_machine(own: Subject) -> None:
         # the paper's share of the bore, which has a radius of 100.8 mm
         assert scene.label.startswith(f"my support: {1.5 * 100.8 / 65.5:.2f} mm")
         assert scene.pin == "rear_base"
-        # records are at the ends of the steps of others, twice and two fifths of ours
-        for share in variants.FIXED_STEPS:
-            each = scene.scenario.recorded_every / (share * scene.step)
-            assert each == pytest.approx(round(each))
         families = {way.family for way in ways(scene)}
         assert "compiled" in families
         assert STOCK not in families  # which knows no contact along a pin's length

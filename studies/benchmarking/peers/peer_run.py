@@ -1,10 +1,9 @@
 """What a competitor's run gives, how its impacts are found afterwards, and what the competitors share."""
 
-from __future__ import annotations
-
+import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import exudyn
@@ -13,47 +12,55 @@ import numpy.typing as npt
 from exudyn.itemInterface import NodeGenericData, ObjectContactSphereSphere, SensorMarker
 
 from support_exudyn.formulations.engine_settings import quiet_engine
-from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.mechanics.contact_state import Onset
 from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact import JournalContact
-from user_forces.contact_state import Onset
-from user_forces.normal.power_laws import LankaraniNikravesh
+from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
 from user_forces.values.value import InputError
 
 Series = npt.NDArray[np.float64]
-ASIDE = 1e-12  # of a bore from its journal, so that the engine's own contact has a normal [m]
 
 
 @dataclass(frozen=True)
 class PeerRun:
-    """Outcome of a competitor's run; all series at the scenario's records.
+    """Outcome of a competitor's run, at the ends of all its steps.
 
-    time: [s]. force: magnitude in the clearance pin [N]. angular_acceleration: of the link that the clearance
-    pin ends (rear link, rod) [rad/s^2], nan if it is not noted. x, y: canopy tip or slider [m]. onsets: by
-    interpolation of the depth at the ends of steps. largest_force: at the end of any step [N]. solve_time: of
-    the solver, on the processor [s]. steps: accepted.
-    user_function_calls: of the force, in Python; 0 where they are not counted. newton_iterations: of the
-    solver, 0 if it has none.
+    time: [s]. force: magnitude in the clearance pin [N]. depth: [m], rate: [m/s], of the contact. solve_time:
+    of the solver, on the processor [s].
     """
 
     time: Series
     force: Series
-    angular_acceleration: Series
-    x: Series
-    y: Series
-    onsets: tuple[Onset, ...]
-    largest_force: float
+    depth: Series
+    rate: Series
     solve_time: float
-    steps: int
-    user_function_calls: int
-    newton_iterations: int
+
+    @property
+    def onsets(self) -> tuple[Onset, ...]:
+        """Impacts, by interpolation of the depth."""
+        return impacts(self.time, self.depth, self.rate)
+
+    @property
+    def steps(self) -> int:
+        """Accepted steps."""
+        return len(self.time) - 1
+
+    def statistics(self, after: float) -> tuple[float, float]:
+        """Mean and standard deviation of the pin force [N] from a time [s] on, by trapezoids."""
+        inside = self.time > after
+        t = np.concatenate([[after], self.time[inside]])
+        force = np.concatenate([[np.interp(after, self.time, self.force)], self.force[inside]])
+        mean = float(np.trapezoid(force, t) / (t[-1] - t[0]))
+        return mean, math.sqrt(np.trapezoid((force - mean) ** 2, t) / (t[-1] - t[0]))
 
 
-def impacts(time: Sequence[float], depth: Sequence[float], rate: Sequence[float]) -> tuple[Onset, ...]:
+def impacts(
+    time: Sequence[float] | Series, depth: Sequence[float] | Series, rate: Sequence[float] | Series
+) -> tuple[Onset, ...]:
     """Impacts from time [s], depth [m] and its rate [m/s] at the ends of all steps, and how they end.
 
-    Between two steps the depth is the cubic that fits depth and rate at both; where it passes zero is found by
-    bisection, and its slope there is the speed.
+    Between two steps the depth is the cubic that fits depth and rate at both; where it passes zero is found
+    by bisection, and its slope there is the speed.
     """
     t, d, r = (np.asarray(series, dtype=np.float64) for series in (time, depth, rate))
     found: list[Onset] = []
@@ -79,68 +86,6 @@ def _crossing(first: float, last: float, first_slope: float, last_slope: float) 
         else:
             low = x
     return high, float(np.polyval(np.polyder(cubic), high))
-
-
-def record_times(scenario: Scenario) -> Series:
-    """The times of a scenario's records [s]."""
-    count = round(scenario.duration / scenario.recorded_every)
-    found: Series = np.arange(float(count + 1)) * scenario.recorded_every
-    return found
-
-
-def cubic(wanted: Series, t: Series, x: Series, rate: Series) -> Series:
-    """Values at the wanted times by the cubic that fits values and rates at both ends of the step around."""
-    n = np.clip(np.searchsorted(t, wanted, side="right") - 1, 0, len(t) - 2)
-    h = t[n + 1] - t[n]
-    s = (wanted - t[n]) / h
-    z = 1.0 - s
-    start, end = x[n] * (1.0 + 2.0 * s) + h * rate[n] * s, x[n + 1] * (3.0 - 2.0 * s) - h * rate[n + 1] * z
-    found: Series = start * z * z + end * s * s
-    return found
-
-
-@dataclass
-class StepLog:
-    """What a competitor notes of a slider-crank at the ends of all steps.
-
-    Time [s], depth [m], its rate [m/s], place [m] and velocity [m/s] of the slider.
-    """
-
-    time: list[float] = field(default_factory=list)
-    depth: list[float] = field(default_factory=list)
-    rate: list[float] = field(default_factory=list)
-    slider: list[float] = field(default_factory=list)
-    velocity: list[float] = field(default_factory=list)
-
-    def met_with(self) -> float:
-        """The speed at zero depth in the last step, in which the surfaces met [m/s]."""
-        ends = slice(-2, None)
-        (met,) = impacts(self.time[ends], self.depth[ends], self.rate[ends])
-        return met.speed
-
-    def drop_last(self) -> None:
-        """Forget the last step."""
-        for series in (self.time, self.depth, self.rate, self.slider, self.velocity):
-            series.pop()
-
-    def run(self, scenario: Scenario, contact: JournalContact, took: float, calls: int) -> PeerRun:
-        """The outcome, with forces that follow from depth and rate; accelerations are not noted."""
-        t, depth, rate = np.array(self.time), np.array(self.depth), np.array(self.rate)
-        wanted = np.minimum(record_times(scenario), t[-1])
-        force = contact_forces(contact, depth, rate)
-        return PeerRun(
-            time=wanted,
-            force=np.interp(wanted, t, force),
-            angular_acceleration=np.full(len(wanted), np.nan),
-            x=cubic(wanted, t, np.array(self.slider), np.array(self.velocity)),
-            y=np.zeros(len(wanted)),
-            onsets=impacts(self.time, self.depth, self.rate),
-            largest_force=float(force.max()),
-            solve_time=took,
-            steps=len(t) - 1,
-            user_function_calls=calls,
-            newton_iterations=0,
-        )
 
 
 @contextmanager
@@ -208,26 +153,3 @@ def pin_sensors(mbs: Any, journal: Any, bore: Any) -> tuple[Any, ...]:
         for what in (output.Position, output.Velocity)
         for marker in (journal, bore)
     )
-
-
-@dataclass(frozen=True)
-class PinSeries:
-    """Time [s], depth [m], rate [m/s], force [N] at all steps; the bore's place [m] and velocity along x."""
-
-    time: np.ndarray
-    depth: np.ndarray
-    rate: np.ndarray
-    force: np.ndarray
-    bore: np.ndarray
-    bore_speed: np.ndarray
-
-    @staticmethod
-    def read(mbs: Any, contact: JournalContact, sensors: Sequence[Any]) -> PinSeries:
-        """What the sensors of `pin_sensors` have written."""
-        journal, bore, journal_speed, bore_speed = (mbs.GetSensorStoredData(sensor) for sensor in sensors)
-        apart, moving = journal[:, 1:3] - bore[:, 1:3], journal_speed[:, 1:3] - bore_speed[:, 1:3]
-        eccentricity = np.hypot(*apart.T)
-        depth = eccentricity - contact.bearing.clearance
-        rate = (apart * moving).sum(axis=1) / np.maximum(eccentricity, 1e-300)
-        force = contact_forces(contact, depth, rate)
-        return PinSeries(journal[:, 0], depth, rate, force, bore[:, 1], bore_speed[:, 1])

@@ -14,8 +14,6 @@ from typing import TypeVar
 import numpy as np
 
 import user_forces as forces
-from studies.benchmarking.drawn_linkages import chain_scene, guide_scene, parallelogram_scene
-from studies.benchmarking.fresh_legs import Leg, between, hose, pump, with_elements
 from studies.common import paper_machine
 from support_exudyn import (
     ClearancePin,
@@ -42,6 +40,8 @@ from support_exudyn import (
 )
 from support_exudyn.mechanics.oil_column import static_loads
 from support_exudyn.scenario.scenario_data import Accuracy
+from tests.drawn.drawn_linkages import chain_scene, guide_scene, parallelogram_scene
+from tests.drawn.fresh_legs import Leg, between, hose, pump, with_elements
 from user_forces.normal.hysteresis import REST_VELOCITY
 from user_forces.normal.power_laws import PowerLaw
 

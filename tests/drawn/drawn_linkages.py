@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from studies.benchmarking.fresh_legs import between
 from support_exudyn import (
     Body,
     ClearanceGuide,
@@ -29,6 +28,7 @@ from support_exudyn import (
 )
 from support_exudyn.mechanics.start_rates import set_moving
 from support_exudyn.model.linkage import GROUND, pinned
+from tests.drawn.fresh_legs import between
 from user_forces import JournalContact
 
 Place = tuple[float, float]

@@ -1,0 +1,228 @@
+"""The support as the programs of others take it: four links as a tree, two driven columns, a pin in its bore.
+
+The tree begins at the front base pin: front link, shield, canopy on the shield, rear link on the shield. Its
+last link ends in the journal, whose bore is fixed to the base. All frames lie as the ground does in the start
+posture, so that joint angles begin at zero. Nothing here comes from the package but the machine's data and
+the law's constants.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from studies.benchmarking.peers.peer_run import PeerRun, contact_numbers, impacts
+from support_exudyn.machines.four_column_support import HydraulicSupport
+from support_exudyn.model.drives.drive import CubicStep, Held
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.scenario.scenario import Scenario
+from user_forces.contact import JournalContact
+from user_forces.friction.ambrosio import Ambrosio
+from user_forces.friction.frictionless import Frictionless
+from user_forces.values.value import InputError, Vector2
+
+PIN = "rear_base"
+# links of the tree with their parents and the pins between both
+TREE = (
+    ("front_link", GROUND, "front_base"),
+    ("shield", "front_link", "front_shield"),
+    ("canopy", "shield", "shield_canopy"),
+    ("rear_link", "shield", "rear_shield"),
+)
+COLUMN_LINK, JOURNAL_LINK = 2, 3  # places in the tree of the canopy and of the rear link
+# force on the journal from its place, velocity, spin in the bore and the initial impact velocity:
+# two components [N], moment about its centre [N m]
+Pair = Sequence[float] | npt.NDArray[np.float64]  # components along x and y
+JournalForce = Callable[[float, float, float, float, float, float], tuple[float, float, float]]
+
+
+class Link(NamedTuple):
+    """A link: place of its parent in the tree, -1 for the ground; its pin there and its centre of mass [m].
+
+    Mass in kg, inertia about the centre of mass in kg m^2.
+    """
+
+    name: str
+    parent: int
+    pin: Vector2
+    centre: Vector2
+    mass: float
+    inertia: float
+
+
+class Column(NamedTuple):
+    """A driven column: its foot on the ground, its head on the canopy and its length at the start [m]."""
+
+    name: str
+    foot: Vector2
+    head: Vector2
+    length: float
+
+
+@dataclass(frozen=True)
+class PlainSupport:
+    """The machine in its start posture; x forward, y up.
+
+    links: in the order of TREE. bore: centre of the bore and of the journal [m]. force: of the bore on the
+    journal. clearance: radial [m]. drive: of both columns. gravity: [m/s^2].
+    """
+
+    links: tuple[Link, ...]
+    columns: tuple[Column, ...]
+    bore: Vector2
+    contact: JournalContact
+    clearance: float
+    force: JournalForce
+    drive: CubicStep | Held
+    gravity: Vector2
+
+    def motion(self, t: float) -> tuple[float, float, float]:
+        """Extension [m] of both columns, its rate [m/s] and second derivative [m/s^2] at a time [s]."""
+        if isinstance(self.drive, Held) or t <= self.drive.start:
+            return 0.0, 0.0, 0.0
+        stroke, width = self.drive.stroke, self.drive.end - self.drive.start
+        x = (t - self.drive.start) / width
+        if x >= 1.0:
+            return stroke, 0.0, 0.0
+        rates = 6.0 * x * (1.0 - x) / width, (6.0 - 12.0 * x) / width**2
+        return stroke * x * x * (3.0 - 2.0 * x), stroke * rates[0], stroke * rates[1]
+
+
+def plain_support(scenario: Scenario) -> PlainSupport:
+    """The data of a scenario.
+
+    Arguments:
+        scenario: HydraulicSupport in the plane, rigid columns, rear-link pin with clearance and its bore in
+            the base, LankaraniNikravesh with exponent 1.5, no friction or Ambrosio's, start "concentric".
+
+    Raises InputError if the scenario is not covered.
+    """
+    machine = scenario.machine
+    if not isinstance(machine, HydraulicSupport) or scenario.dimensions != 2:
+        raise InputError("machine: allowed here: HydraulicSupport, in the plane")
+    drive = scenario.drive
+    if not isinstance(drive, (CubicStep, Held)):
+        raise InputError("drive: allowed here: CubicStep, Held")
+    others = (scenario.actuators, scenario.drives, scenario.own_bodies, scenario.friction_pins)
+    if any(others) or scenario.acting_loads or scenario.blocks or scenario.start != "concentric":
+        raise InputError("allowed here: rigid columns, one drive, no loads and start = 'concentric'")
+    if tuple(scenario.clearance_pins) != (PIN,) or scenario.clearance_pins[PIN].bore != "first":
+        raise InputError(f"allowed here: one clearance pin, {PIN}, with its bore in the base")
+    linkage, contact = machine.linkage(), scenario.clearance_pins[PIN].contact
+    places = {name: n for n, (name, _, _) in enumerate(TREE)}
+    links = []
+    for name, parent, pin in TREE:
+        body = linkage.bodies[name]
+        links.append(
+            Link(
+                name,
+                places.get(parent, -1),
+                linkage.pins[pin].first_point,
+                body.centre,
+                body.mass,
+                body.inertia,
+            )
+        )
+    columns = [
+        Column(name, one.foot_point, one.head_point, one.start_length)
+        for name, one in linkage.actuators.items()
+    ]
+    return PlainSupport(
+        links=tuple(links),
+        columns=tuple(columns),
+        bore=linkage.pins[PIN].first_point,
+        contact=contact,
+        clearance=contact.bearing.clearance,
+        force=journal_force(contact),
+        drive=drive,
+        gravity=(scenario.gravity[0], scenario.gravity[1]),
+    )
+
+
+def journal_force(contact: JournalContact) -> JournalForce:
+    """The law of the contact in plain floats, as a user of any program writes it.
+
+    N = K depth^1.5 (1 + chi rate / v0) along the line of centres, not less than zero; v0 is the initial
+    impact velocity, not less than the law's rest velocity. Friction by Ambrosio acts at the contact point.
+    Raises InputError for other laws.
+    """
+    stiffness, factor, floor = contact_numbers(contact)
+    clearance, bore_radius = contact.bearing.clearance, contact.bearing.bore_radius
+    friction = contact.friction
+    if not isinstance(friction, (Ambrosio, Frictionless)):
+        raise InputError(f"friction = {friction}: allowed here: Ambrosio, Frictionless")
+    coefficient, static, ramp = 0.0, 0.0, 1.0
+    if isinstance(friction, Ambrosio):
+        coefficient, static = friction.sliding_coefficient, friction.static_speed
+        ramp = friction.dynamic_speed - static
+
+    def force(
+        x: float, y: float, vx: float, vy: float, spin: float, speed: float
+    ) -> tuple[float, float, float]:
+        eccentricity = math.hypot(x, y)
+        depth = eccentricity - clearance
+        if depth <= 0.0:
+            return 0.0, 0.0, 0.0
+        nx, ny = x / eccentricity, y / eccentricity
+        rate = nx * vx + ny * vy
+        normal = max(
+            0.0, stiffness * depth * math.sqrt(depth) * (1.0 + factor * rate / max(speed or rate, floor))
+        )
+        if not coefficient:
+            return -normal * nx, -normal * ny, 0.0
+        arm = bore_radius + 0.5 * depth - eccentricity
+        slip = nx * vy - ny * vx + arm * spin
+        sliding = -math.copysign(coefficient * min(1.0, max(0.0, (abs(slip) - static) / ramp)) * normal, slip)
+        return -normal * nx - sliding * ny, -normal * ny + sliding * nx, arm * sliding
+
+    return force
+
+
+@dataclass
+class JournalLog:
+    """What a program notes of the journal at the ends of its steps.
+
+    time [s], depth [m], rate [m/s], force: magnitude [N]. speed: the initial impact velocity, 0 in free
+    flight [m/s].
+    """
+
+    support: PlainSupport
+    time: list[float] = field(default_factory=list)
+    depth: list[float] = field(default_factory=list)
+    rate: list[float] = field(default_factory=list)
+    force: list[float] = field(default_factory=list)
+    speed: float = 0.0
+
+    def note(self, t: float, place: Pair, velocity: Pair, spin: float) -> None:
+        """Note the end of a step: place [m] and velocity [m/s] of the journal in its bore, and its spin
+        [rad/s].
+
+        In the step in which the surfaces met, the initial impact velocity is that at zero depth of the cubic
+        through both ends of the step.
+        """
+        (x, y), (vx, vy) = place, velocity
+        eccentricity = math.hypot(x, y)
+        self.time.append(t)
+        self.depth.append(eccentricity - self.support.clearance)
+        self.rate.append((x * vx + y * vy) / (eccentricity or 1.0))
+        if self.depth[-1] <= 0.0:
+            self.speed = 0.0
+        elif not self.speed:
+            ends = slice(-2, None)
+            (met,) = impacts(self.time[ends], self.depth[ends], self.rate[ends])
+            self.speed = max(met.speed, 0.0)
+        fx, fy, _ = self.support.force(x, y, vx, vy, spin, self.speed)
+        self.force.append(math.hypot(fx, fy))
+
+    def drop_last(self) -> None:
+        """Forget the last step."""
+        for series in (self.time, self.depth, self.rate, self.force):
+            series.pop()
+
+    def run(self, took: float) -> PeerRun:
+        """The outcome of a run that took so long [s]."""
+        t, force, depth, rate = (np.array(each) for each in (self.time, self.force, self.depth, self.rate))
+        return PeerRun(t, force, depth, rate, took)

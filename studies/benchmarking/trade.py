@@ -1,0 +1,277 @@
+"""What accuracy costs: the error of one number over computing time, by this program and by others.
+
+The work is the paper's rise with 1.5 mm of clearance and friction in the rear-link pin; the number is the
+largest force in that pin. Its error is the distance from a run of the compiled formulation at a tolerance of
+1e-12. Programs that are not installed, and runs that take minutes, are taken from `kept.json`: there a time
+is a ratio to the time of COMMON, which was measured beside it, and is multiplied by the time of COMMON here.
+
+`python -m studies.benchmarking.trade` measures everything anew and keeps it.
+"""
+
+import datetime
+import json
+import os
+import platform
+import statistics
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+
+from studies.benchmarking.peers.in_drake import run_drake
+from studies.benchmarking.peers.in_mujoco import run_mujoco
+from studies.benchmarking.peers.in_scipy import run_lsoda
+from studies.benchmarking.peers.peer_run import PeerRun
+from studies.benchmarking.peers.stock import run_stock
+from studies.benchmarking.references import references
+from studies.benchmarking.scenes import SCENES
+from support_exudyn import Scenario, SolverSettings, simulate
+from support_exudyn.commands.command_line import warn
+from support_exudyn.files.whole_file import whole_file
+from support_exudyn.formulations.registry import FormulationName
+from support_exudyn.simulation.provenance import versions
+from support_exudyn.sweeps.precompile import precompile
+
+KEPT = Path(__file__).with_name("kept.json")
+SCENE = "rise, friction"
+WORK = "rise of 5 s, 1.5 mm, friction 0.25"
+SHORT, TURNS = 1.0, 3  # a run that is shorter [s] is timed so often, and the median counts
+GOOD = 1e-3  # error of the largest force by which programs are compared in the table
+COMPILED: FormulationName = "compiled"
+ENGINE: FormulationName = "redundant"
+PACKAGES = {"MuJoCo": "mujoco", "Drake": "drake", "Exudyn": "exudyn", "SciPy": "scipy"}
+PRESETS = ("draft", "standard", "reference")
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program or a way to use it.
+
+    settings: labels and values from coarse to fine. run: the scenario by a setting, and the largest pin force
+    [N]. package: that has to be installed. slow: labels of settings that take minutes, and are measured only
+    to be kept.
+    """
+
+    name: str
+    settings: Mapping[str, Any]
+    run: Callable[[Scenario, Any], float]
+    package: str = ""
+    slow: Sequence[str] = ()
+
+    @property
+    def is_installed(self) -> bool:
+        """Whether it can be run here."""
+        return not self.package or find_spec(self.package) is not None
+
+
+class Point(NamedTuple):
+    """A program by a setting: processor time [s], the same over that of COMMON, relative error of the largest
+    force.
+
+    is_kept: whether it was measured on another machine or day.
+    """
+
+    program: str
+    setting: str
+    seconds: float
+    ratio: float
+    error: float
+    is_kept: bool = False
+
+
+def _to_accuracy(formulation: FormulationName) -> Callable[[Scenario, Any], float]:
+    def run(scenario: Scenario, accuracy: Any) -> float:
+        return _largest(replace(scenario, formulation=formulation, accuracy=accuracy))
+
+    return run
+
+
+def _once(formulation: FormulationName) -> Callable[[Scenario, Any], float]:
+    def run(scenario: Scenario, settings: Mapping[str, Any]) -> float:
+        solver = SolverSettings(**settings["solver"], result_checks=False)
+        step = settings.get("step", scenario.step)
+        return _largest(replace(scenario, formulation=formulation, step=step, solver=solver))
+
+    return run
+
+
+def _largest(scenario: Scenario) -> float:
+    ((pin, force),) = simulate(scenario).largest_force.items()
+    del pin
+    return force
+
+
+def _of_peer(run: Callable[[Scenario, float], PeerRun]) -> Callable[[Scenario, Any], float]:
+    return lambda scenario, setting: float(run(scenario, setting).force.max())
+
+
+def _steps(*steps: float) -> Mapping[str, float]:
+    return {f"step {1e3 * step:g} ms": step for step in steps}
+
+
+OURS_COMPILED, OURS_ENGINE = "support-exudyn, compiled", "support-exudyn on Exudyn"
+ONCE = ", single run"
+COMMON = (OURS_COMPILED, "standard")
+PROGRAMS: Mapping[str, Program] = {
+    one.name: one
+    for one in (
+        Program(OURS_COMPILED, dict(zip(PRESETS, PRESETS, strict=True)), _to_accuracy(COMPILED)),
+        Program(
+            OURS_ENGINE, dict(zip(PRESETS, PRESETS, strict=True)), _to_accuracy(ENGINE), slow=["reference"]
+        ),
+        Program(
+            OURS_COMPILED + ONCE,
+            {f"tolerance {x:.0e}": {"solver": {"tolerance": x}} for x in (1e-3, 1e-4, 1e-5, 1e-6)},
+            _once(COMPILED),
+        ),
+        Program(
+            OURS_ENGINE + ONCE,
+            {
+                f"{n} steps an impact": {"step": step, "solver": {"impact_steps": n}}
+                for step, n in ((1e-3, 64), (1e-3, 256), (5e-4, 512))
+            },
+            _once(ENGINE),
+        ),
+        Program("Exudyn, stock recipe", _steps(3e-4, 2e-4, 1e-4, 5e-5), _of_peer(run_stock)),
+        Program("MuJoCo", _steps(2e-4, 1e-4, 5e-5, 2e-5), _of_peer(run_mujoco), "mujoco"),
+        Program(
+            "Drake",
+            {f"accuracy {x:.0e}": x for x in (1e-2, 1e-3, 1e-4, 1e-5)},
+            _of_peer(run_drake),
+            "pydrake",
+        ),
+        Program(
+            "scipy's LSODA",
+            {f"tolerance {x:.0e}": x for x in (1e-4, 1e-5, 1e-6, 1e-7)},
+            _of_peer(run_lsoda),
+        ),
+    )
+}
+
+
+# --- measured ---
+
+
+def measured(names: Sequence[str] = tuple(PROGRAMS), with_slow: bool = False) -> Iterator[Point]:
+    """Run the programs that are installed, each by all its settings beside COMMON."""
+    precompile()
+    scenario, exact = SCENES[SCENE].scenario, references()[SCENE]["peak"]
+    name, setting = COMMON
+    common = PROGRAMS[name]
+    _timed(lambda: common.run(scenario, setting))  # imports
+    for program in (PROGRAMS[one] for one in names if PROGRAMS[one].is_installed):
+        warn(f"{WORK}: {program.name}")
+        beside, _ = _timed(lambda: common.run(scenario, setting))
+        for label, value in program.settings.items():
+            if with_slow or label not in program.slow:
+                seconds, force = _timed(lambda p=program, v=value: p.run(scenario, v))  # type: ignore[misc]
+                yield Point(program.name, label, seconds, seconds / beside, abs(force / exact - 1.0))
+
+
+def _timed(run: Callable[[], float]) -> tuple[float, float]:
+    """Processor time [s] and outcome of a run; of a short one the median of several."""
+    times = []
+    for _ in range(TURNS):
+        began = time.process_time()
+        found = run()
+        times.append(time.process_time() - began)
+        if times[0] > SHORT:
+            break
+    return statistics.median(times), found
+
+
+# --- kept ---
+
+
+@cache
+def _kept() -> dict[str, Any]:
+    return cast(dict[str, Any], json.loads(KEPT.read_text(encoding="utf-8")))
+
+
+def with_kept(found: Sequence[Point]) -> list[Point]:
+    """The points, and those that are kept of what was not measured here; in the order of PROGRAMS."""
+    common = next(one.seconds for one in found if (one.program, one.setting) == COMMON)
+    here = {(one.program, one.setting): one for one in found}
+    points = []
+    for program, settings in _kept()["points"].items():
+        for label, (ratio, error) in settings.items():
+            kept = Point(program, label, ratio * common, ratio, error, True)
+            points.append(here.get((program, label), kept))
+    return points
+
+
+def keep(found: Sequence[Point]) -> None:
+    """Write kept.json from points that were measured here."""
+    points: dict[str, dict[str, tuple[float, float]]] = {}
+    for one in found:
+        points.setdefault(one.program, {})[one.setting] = float(f"{one.ratio:.4g}"), float(f"{one.error:.3g}")
+    peers = {name: version(name) for name in PACKAGES.values()}
+    made = {
+        "machine": machine_name(),
+        "date": datetime.date.today().isoformat(),
+        "versions": {**versions(), **peers},
+        "common": COMMON,
+        "points": points,
+    }
+    with whole_file(KEPT) as temporary:
+        temporary.write_text(json.dumps(made, indent=1) + "\n", encoding="utf-8")
+
+
+def machine_name() -> str:
+    """Processor and number of cores."""
+    name, cpuinfo = platform.processor() or platform.machine(), Path("/proc/cpuinfo")
+    if cpuinfo.exists():
+        models = (line.partition(":")[2] for line in cpuinfo.read_text().splitlines() if "model name" in line)
+        name = next(models, name).strip()
+    return f"{name}, {os.cpu_count()} cores"
+
+
+def caption(points: Sequence[Point]) -> str:
+    """What the figure shows, and what of it was measured elsewhere."""
+    settings = {one.program: [two.is_kept for two in points if two.program == one.program] for one in points}
+    taken = [
+        name if all(kept) else f"the slow settings of {name}" for name, kept in settings.items() if any(kept)
+    ]
+    words = (
+        f"Relative error of the largest force in the rear-link pin over processor time ({WORK}), against the "
+        "compiled formulation at a tolerance of 1e-12. An error that a finer setting exceeds is drawn as the "
+        "latter. Filled circles: runs to an accuracy, at least three each, that report their error; all others "
+        "are single runs. Exudyn, stock recipe: generalised alpha at fixed steps, the contact as a Python user "
+        "function, no impact located. support-exudyn on Exudyn: the same engine and integrator with located "
+        "impacts; compiled: an embedded Runge-Kutta 5(4) method with error control. MuJoCo: Runge-Kutta 4 at "
+        "fixed steps; Drake: Runge-Kutta 3 with error control; LSODA: equations of motion by hand."
+    )
+    if taken:
+        kept = _kept()
+        packages = ", ".join(f"{title} {kept['versions'][key]}" for title, key in PACKAGES.items())
+        words += (
+            f' Not measured here but taken as ratios to "{COMMON[0]}, {COMMON[1]}" from {kept["date"]}, '
+            f"{kept['machine']} ({packages}): {', '.join(taken)}."
+        )
+    return words
+
+
+def lasting_errors(points: Sequence[Point]) -> list[float]:
+    """Of one program's settings, from coarse to fine: the largest error of a setting and all finer ones.
+
+    So an error that is small by chance, as that of a single number may be, does not count.
+    """
+    found: list[float] = np.maximum.accumulate([one.error for one in reversed(points)])[::-1].tolist()
+    return found
+
+
+def cheapest(points: Sequence[Point], program: str, error: float = GOOD) -> Point | None:
+    """The fastest setting of a program whose error, and that of all finer ones, is at most so large."""
+    mine = [one for one in points if one.program == program]
+    good = [one for one, lasting in zip(mine, lasting_errors(mine), strict=True) if lasting <= error]
+    return min(good, key=lambda one: one.ratio) if good else None
+
+
+if __name__ == "__main__":
+    keep(list(measured(with_slow=True)))
