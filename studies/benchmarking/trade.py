@@ -44,7 +44,7 @@ WORK = "rise of 5 s, 1.5 mm, friction 0.25"
 SHORT, TURNS = 1.0, 3  # a run that is shorter [s] is timed so often, and the median counts
 GOOD = 1e-3  # error of the largest force by which programs are compared in the table
 COMPILED: FormulationName = "compiled"
-ENGINE: FormulationName = "redundant"
+ENGINE: FormulationName = "exudyn"
 PACKAGES = {"MuJoCo": "mujoco", "Drake": "drake", "Exudyn": "exudyn", "SciPy": "scipy"}
 PRESETS = ("draft", "standard", "reference")
 

@@ -16,7 +16,7 @@ from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED
 from support_exudyn.simulation.automatic_settings import settings_for
 
 TIGHT = (1e-11, 1e-10)  # tolerances of the reference, and of the run that tells its error
-GOAL = 1e-3  # for which the redundant formulation would choose the step that others are multiples of
+GOAL = 1e-3  # for which the formulation on Exudyn would choose the step that others are multiples of
 SHARES = (0.125, 0.25)  # of that step, where no formulation chooses its steps itself
 TIGHT_IMPACT_STEPS = 2048
 
@@ -37,7 +37,7 @@ def scenes(subject: Subject) -> Mapping[str, BenchmarkScene]:
 
 def _own(label: str, subject: Subject, scenario: Scenario) -> BenchmarkScene:
     watched, plain = subject.watched, replace(scenario, accuracy=None)
-    longest = settings_for(replace(plain, formulation="redundant"), GOAL).step
+    longest = settings_for(replace(plain, formulation="exudyn"), GOAL).step
     step = plain.recorded_every / math.ceil(plain.recorded_every / longest)
     return BenchmarkScene(label, plain, watched.pin, watched.start, step)
 
@@ -51,7 +51,7 @@ def tight_runs(scene: BenchmarkScene) -> tuple[Scenario, Scenario]:
             return first, second
     solver = SolverSettings(impact_steps=TIGHT_IMPACT_STEPS)
     fine, coarse = (
-        replace(scene.scenario, formulation="redundant", step=share * scene.step, solver=solver)
+        replace(scene.scenario, formulation="exudyn", step=share * scene.step, solver=solver)
         for share in SHARES
     )
     return fine, coarse

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from exudyn.itemInterface import NodeGenericData, ObjectContactSphereSphere, SensorMarker
 
 from support_exudyn.formulations.engine_settings import quiet_engine
-from support_exudyn.mechanics.contact_state import Onset
+from user_forces.contact_state import Onset
 from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact import JournalContact
 from user_forces.normal.lankarani_nikravesh import LankaraniNikravesh
