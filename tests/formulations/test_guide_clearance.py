@@ -107,11 +107,9 @@ def check_onsets(result: Result, touches: list[tuple[str, float, float]], within
     """The impacts are those found otherwise, to a time [s]."""
     for name, onsets in result.onsets.items():
         wanted = [(time, speed) for corner, time, speed in touches if name == f"guide.{corner}"]
-        found = [(one.time, one.speed) for one in onsets]
-        assert len(found) == len(wanted), name
-        np.testing.assert_allclose(
-            np.reshape(found, (-1, 2)), np.reshape(wanted, (-1, 2)), rtol=2e-4, atol=within
-        )
+        assert len(onsets) == len(wanted), name
+        for one, right in zip(onsets, wanted, strict=True):
+            np.testing.assert_allclose((one.time, one.speed), right, rtol=2e-4, atol=within)
 
 
 @cache
@@ -316,10 +314,9 @@ def test_channels_are_those_of_the_corners() -> None:
         above = across + np.sin(tilt) * x + np.cos(tilt) * y
         gaps[name] = b + 1e-3 - above if y > 0 else above + b + 5e-4
         np.testing.assert_allclose(result[f"guide.guide.{name}.gap"], gaps[name], atol=1e-12)
-    upper = np.minimum(gaps["upper_left"], gaps["upper_right"])
-    lower = np.minimum(gaps["lower_left"], gaps["lower_right"])
-    np.testing.assert_allclose(result["guide.guide.gap_upper"], upper, atol=1e-12)
-    np.testing.assert_allclose(result["guide.guide.gap_lower"], lower, atol=1e-12)
+    for wall in ("upper", "lower"):
+        least = np.minimum(gaps[f"{wall}_left"], gaps[f"{wall}_right"])
+        np.testing.assert_allclose(result[f"guide.guide.gap_{wall}"], least, atol=1e-12)
     # Newton and Euler on the block, whose accelerations follow from all forces together
     inertia = 4e-4
     normal = {name: result[f"guide.guide.{name}.normal_force"] for name in arms}
