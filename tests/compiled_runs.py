@@ -14,12 +14,11 @@ from support_exudyn.scenario.solver_settings import MOST_STEPS
 def simulate_compiled(
     scenario: Scenario,
     tolerance: float = 1e-8,
-    backend: str = "auto",
     progress: Progress = silent,
     most_steps: int = MOST_STEPS,
 ) -> Result:
     """Run a scenario by the compiled formulation."""
-    solver = replace(scenario.solver, tolerance=tolerance, backend=backend, most_steps=most_steps)
+    solver = replace(scenario.solver, tolerance=tolerance, most_steps=most_steps)
     return simulate(replace(scenario, formulation="compiled", solver=solver), progress=progress)
 
 

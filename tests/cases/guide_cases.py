@@ -71,7 +71,6 @@ def slider_crank(
     friction: FrictionLaw = Frictionless(),  # noqa: B008 - frozen
     step: float = 1e-5,
     impact_steps: int = 128,
-    backend: str = "auto",
 ) -> Scenario:
     """The slider-crank with 1 mm of play on either side; stiffness: K of the exact law [N/m^1.5].
 
@@ -86,7 +85,7 @@ def slider_crank(
         record_period=min(1e-3, duration),
         formulation="exudyn",
         gravity=(0.0, -GRAVITY),
-        solver=SolverSettings(backend=backend, impact_steps=impact_steps),
+        solver=SolverSettings(impact_steps=impact_steps),
     )
 
 

@@ -15,7 +15,6 @@ from support_exudyn import (
     Body,
     Crank,
     Held,
-    IdealPin,
     Linkage,
     Machine,
     Result,
@@ -57,13 +56,6 @@ KEPT = Exact(stiffness=1e8, restitution=0.6, rest_velocity=1e-9)
 IN_BLOCK = ClearanceGuide(gaps=(1e-3, 5e-4), normal=KEPT, friction=RUBBING, block=BLOCK)
 AS_PIN = ClearanceGuide(gaps=(1e-3, 5e-4), normal=KEPT, friction=RUBBING, pin_radius=0.02)
 GRAVITY = (0.0, -9.81)
-# by us from minimal coordinates in 80 bits: times [s] and normal speeds [m/s] of both corners of the upper wall
-UPPER = (
-    (0.0026925027520, 0.84161232),
-    (0.0059146101524, 0.22660213),
-    (0.0079987471790, 0.06527503),
-    (0.0090357056840, 0.01145388),
-)
 # with Newton's impacts in place of contacts: second impact, rates of crank and rod at 0.02 s
 NEWTON = (0.0056077978681, 71.7997054198, 1.43263683831)
 
@@ -92,15 +84,6 @@ def end(result: Result) -> np.ndarray:
 # --- against equations of their own ---
 
 
-def test_a_slider_between_walls_impacts_as_computed_otherwise() -> None:
-    result = simulate(slider_crank(1e9, 0.0092, step=5e-6, impact_steps=256))
-    for corner in ("upper_left", "upper_right"):
-        found = [(one.time, one.speed) for one in result.onsets[f"guide.{corner}"]]
-        np.testing.assert_allclose(found, UPPER, rtol=1e-5, atol=1e-7)
-    assert result.onsets["guide.lower_left"] == ()
-    assert np.abs(result["guide.guide.tilt"]).max() < 1e-12
-
-
 @pytest.mark.parametrize(
     ("sliding", "formulation"),
     [(0.0, "compiled"), (0.01, "compiled"), pytest.param(0.01, "exudyn", marks=pytest.mark.slow)],
@@ -124,11 +107,9 @@ def check_onsets(result: Result, touches: list[tuple[str, float, float]], within
     """The impacts are those found otherwise, to a time [s]."""
     for name, onsets in result.onsets.items():
         wanted = [(time, speed) for corner, time, speed in touches if name == f"guide.{corner}"]
-        found = [(one.time, one.speed) for one in onsets]
-        assert len(found) == len(wanted), name
-        np.testing.assert_allclose(
-            np.reshape(found, (-1, 2)), np.reshape(wanted, (-1, 2)), rtol=2e-4, atol=within
-        )
+        assert len(onsets) == len(wanted), name
+        for one, right in zip(onsets, wanted, strict=True):
+            np.testing.assert_allclose((one.time, one.speed), right, rtol=2e-4, atol=within)
 
 
 @cache
@@ -324,9 +305,8 @@ def test_channels_are_those_of_the_corners() -> None:
     point_x = result["block.x"] + 0.01 * np.cos(turned)
     point_y = result["block.y"] + 0.01 * np.sin(turned)
     start = np.array([point_x[0] - 0.2, point_y[0] - 0.1])
-    height = (
-        -math.sin(0.4) * start[0] + math.cos(0.4) * start[1]
-    )  # of the guide's line above the carrier's centre
+    # of the guide's line above the carrier's centre
+    height = math.cos(0.4) * start[1] - math.sin(0.4) * start[0]
     across = c * (point_y - result["carrier.y"]) - s * (point_x - result["carrier.x"]) - height
     arms = {"upper_left": (-a, b), "upper_right": (a, b), "lower_left": (-a, -b), "lower_right": (a, -b)}
     gaps = {}
@@ -334,16 +314,14 @@ def test_channels_are_those_of_the_corners() -> None:
         above = across + np.sin(tilt) * x + np.cos(tilt) * y
         gaps[name] = b + 1e-3 - above if y > 0 else above + b + 5e-4
         np.testing.assert_allclose(result[f"guide.guide.{name}.gap"], gaps[name], atol=1e-12)
-    upper = np.minimum(gaps["upper_left"], gaps["upper_right"])
-    lower = np.minimum(gaps["lower_left"], gaps["lower_right"])
-    np.testing.assert_allclose(result["guide.guide.gap_upper"], upper, atol=1e-12)
-    np.testing.assert_allclose(result["guide.guide.gap_lower"], lower, atol=1e-12)
+    for wall in ("upper", "lower"):
+        least = np.minimum(gaps[f"{wall}_left"], gaps[f"{wall}_right"])
+        np.testing.assert_allclose(result[f"guide.guide.gap_{wall}"], least, atol=1e-12)
     # Newton and Euler on the block, whose accelerations follow from all forces together
-    mass, inertia = 0.5, 4e-4
-    fx = mass * np.gradient(result["block.velocity_x"], result.time)  # only to see that there is some
-    assert np.abs(fx).max() > 10.0
+    inertia = 4e-4
     normal = {name: result[f"guide.guide.{name}.normal_force"] for name in arms}
     force = sum(np.sign(-y) * normal[name] for name, (_, y) in arms.items())
+    assert np.abs(force).max() > 10.0
     np.testing.assert_allclose(result["guide.guide.force"], force, atol=1e-9 * np.abs(force).max())
     rubbed = sum(np.sign(-y) * result[f"guide.guide.{name}.friction_force"] for name, (_, y) in arms.items())
     np.testing.assert_allclose(result["guide.guide.friction_force"], rubbed, atol=1e-6)
@@ -427,13 +405,9 @@ def test_what_does_not_fit_is_refused() -> None:
     scene = pair(FreePair(), guide, 0.01)
     with pytest.raises(InputError, match=r"guides\.slot: the machine has no such guide; allowed: guide"):
         replace(scene, guides={"slot": guide})
-    with pytest.raises(
-        InputError, match=r"guides\.guide: has a pin_radius; allowed: block, for its body does not"
-    ):
+    with pytest.raises(InputError, match=r"guides\.guide: has a pin_radius; allowed: block"):
         replace(scene, guides={"guide": ClearanceGuide.simple(gaps=1e-3, pin_radius=0.01)})
-    with pytest.raises(
-        InputError, match=r"guides\.guide: has a block; allowed: pin_radius, for its body may turn"
-    ):
+    with pytest.raises(InputError, match=r"guides\.guide: has a block; allowed: pin_radius"):
         pair(FreePair(turns=True), guide, 0.01)
     with pytest.raises(InputError, match=r"gaps = \(0\.0, 0\.0\) m: allowed: at least one > 0"):
         ClearanceGuide.simple(gaps=0.0, block=BLOCK)
@@ -443,11 +417,3 @@ def test_what_does_not_fit_is_refused() -> None:
         ClearanceGuide.simple(gaps=1e-3, block=BLOCK, stiffness=1e9, corner_radius=1e-3)
     with pytest.raises(InputError, match="knows no lateral dimensions"):
         replace(scene, dimensions=3)
-
-
-def test_an_ideal_guide_is_what_nothing_said_is() -> None:
-    scene = replace(slider_crank(1e9, 1e-3), guides={})
-    said = replace(scene, guides={"guide": IdealGuide()}, pins={"main": IdealPin()})
-    one, other = simulate(scene), simulate(said)
-    for name in one.channels:
-        assert np.array_equal(one[name], other[name])

@@ -49,7 +49,8 @@ def error(run: Result, wanted: Result) -> float:
 @pytest.mark.parametrize("name", CASES)
 def test_legs_are_those_of_the_compiled_formulation_to_second_order(name: str) -> None:
     wanted = lift(CASES[name], "compiled")
-    coarse, fine = lift(CASES[name], "exudyn"), lift(CASES[name], "exudyn", step=2e-4)
+    step = 1e-4 if name == "plain" else 2e-4  # nothing limits what rings there
+    coarse, fine = (lift(CASES[name], "exudyn", step=size) for size in (2.0 * step, step))
     assert error(fine, wanted) < 1e-3
     assert 3.3 < error(coarse, wanted) / error(fine, wanted) < 4.7
     events, known = fine.oil_events["jack"], wanted.oil_events["jack"]

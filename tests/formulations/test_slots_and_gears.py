@@ -26,7 +26,6 @@ from support_exudyn import (
 )
 from support_exudyn.machines.check.statics import mobility, statics
 from support_exudyn.model.linkage import pinned
-from tests.cases.run_cases import slider_crank
 from user_forces import InputError, value
 
 RADIUS, SPEED = 0.1, 20.0  # of the crank [m], [rad/s]
@@ -271,10 +270,3 @@ def test_a_block_slides_down_an_incline_that_carries_it(direction: float, angle:
     force = MASS * G * abs(math.cos(direction))
     np.testing.assert_allclose(slid["guide.force"][1:], force, rtol=1e-7)
     np.testing.assert_allclose(slid["guide.moment"][1:], force * abs(ASIDE * math.cos(direction)), rtol=1e-7)
-
-
-def test_the_slider_of_a_slider_crank_does_not_tilt() -> None:
-    result = simulate(slider_crank(2e-3, record_period=1e-4))
-    # its pin is in its centre of mass and on the guide; of forces of 1 kN on lengths of 0.1 m
-    assert result["guide.force"].max() > 500.0
-    np.testing.assert_allclose(result["guide.moment"][1:], 0.0, atol=1e-6)

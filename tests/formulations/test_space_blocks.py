@@ -85,16 +85,6 @@ def test_a_settled_start_leaves_a_sloping_block_where_it_is(slope: float) -> Non
     assert blow.speed == pytest.approx(9.81 * fall * math.cos(slope), rel=1e-6)
 
 
-def test_a_sloping_face_beside_the_middle_leaves_the_block_upright() -> None:
-    result = simulate(struck(block(slope=0.3)))
-    assert len(result.onsets["rock"]) == 1
-    for what in ("roll", "yaw", "angle"):
-        assert np.abs(result[f"rock.{what}"]).max() < 1e-12
-    # the guide carries forward what the face pushes forward
-    np.testing.assert_allclose(result["rock_guide.force"], math.sin(0.3) * result["rock.force"], atol=1e-3)
-    assert np.abs(result["energy.balance"]).max() < 1e-3 * 0.5 * BLOCK * SPEED**2
-
-
 def test_a_block_on_one_of_two_is_refused() -> None:
     with pytest.raises(InputError, match=r"loads\.rock\.body = 'front_link': there are two of it in space"):
         loose_support(dimensions=3, loads={"rock": block(body="front_link", point=TIP)})

@@ -138,7 +138,7 @@ def test_on_the_support_the_load_is_that_of_the_ideal_pin() -> None:
         for k in slopes
     ]
     assert times[0] == pytest.approx(2.0 * times[1], rel=1e-6)
-    # IDEAL of `test_compiled_support`: 58 779 N. Hertz's slope there, with the mass that the springs tell
+    # CHECK of `test_ideal_support`: 58 779 N. Hertz's slope there, with the mass that the springs tell
     mass = times[0] ** 2 * slopes[0]
     stiffness = pin.contact.normal.stiffness
     slope = 1.5 * stiffness ** (2.0 / 3.0) * 58778.944 ** (1.0 / 3.0)
