@@ -1,317 +1,224 @@
+"""Geometry of journals, slots and faces, and the force of a contact: by hand, and what it conserves."""
+
 from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.cases.law_cases import BEARING, cylinder_law
 from tests.cases.machine_cases import contact
 from user_forces import (
+    Ambrosio,
     ContactForce,
+    Face,
+    FaceContact,
     Frictionless,
     InputError,
+    Johnson,
+    JournalBearing,
     JournalContact,
     LankaraniNikravesh,
     LuGre,
     SlipHistory,
+    Slot,
+    SlotContact,
 )
+from user_forces.contact import Contact
 
 CONTACT = contact()
 CLEARANCE = CONTACT.bearing.clearance
 BORE, JOURNAL = CONTACT.bearing.bore_radius, CONTACT.bearing.journal_radius
+LAW = CONTACT.normal
+RUBBING = Ambrosio(sliding_coefficient=0.25)
+BRISTLES = replace(CONTACT, friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2))
 IMPACT = 0.1
 
 angles = st.floats(-math.pi, math.pi)
 speeds = st.floats(-2.0, 2.0)
 spins = st.floats(-50.0, 50.0)
 depths = st.floats(1e-6, 5e-4)
-approaches = st.floats(0.01, 1.0)
+pairs = st.tuples(speeds, speeds)
+both_spins = st.tuples(spins, spins)
 
 
 def pushed(
     depth: float = 1e-4,
     angle: float = 0.0,
     velocity: tuple[float, float] = (0.0, 0.0),
-    bore_spin: float = 0.0,
-    journal_spin: float = 0.0,
+    spin: tuple[float, float] = (0.0, 0.0),
     impact: float | None = IMPACT,
     law: JournalContact = CONTACT,
-    history: SlipHistory | None = None,
+    **history: SlipHistory,
 ) -> ContactForce:
-    """A journal so deep in the bore's wall, in the direction of the angle."""
+    """A journal so deep in the bore's wall, in the direction of the angle; spins of bore and journal."""
     e = CLEARANCE + depth
-    x, y = e * math.cos(angle), e * math.sin(angle)
-    past = () if history is None else (history,)
-    return law.force(x, y, *velocity, bore_spin, journal_spin, impact, *past)
+    return law.force(e * math.cos(angle), e * math.sin(angle), *velocity, *spin, impact, **history)
 
 
-# --- geometry and normal force ---
+# --- geometry by hand ---
+
+PIN_IN_SLOT = Slot(clearance=0.01, radius=0.02)
+CORNER = Slot(clearance=0.01)
+FACE = Face(clearance=0.5)
+# geometry, motion (x, y, vx, vy, spins of bore and journal), then depth, rate, slip, n and the journal's arm
+GEOMETRY: list[tuple[Any, tuple[float, ...], tuple[float, ...]]] = [
+    # a journal of 64 mm in a bore of 65.5 mm; 0.2 mm deep on the right, up, and concentric
+    (BEARING, (1.7e-3, 0, 0.3, 0.4, 0, 0), (2e-4, 0.3, 0.4, 1, 0, 0.0639)),
+    (BEARING, (0, 1.7e-3, 0.3, 0.4, 0, 0), (2e-4, 0.4, -0.3, 0, 1, 0.0639)),
+    # the contact point lies half a depth inside the journal and outside the bore
+    (BEARING, (1.7e-3, 0, 0, 0, 0, 3.0), (2e-4, 0, 3.0 * 0.0639, 1, 0, 0.0639)),
+    (BEARING, (1.7e-3, 0, 0, 0, 3.0, 0), (2e-4, 0, -3.0 * 0.0656, 1, 0, 0.0639)),
+    (BEARING, (0, 0, 0.3, 0.4, 0, 0), (-1.5e-3, 0.5, 0, 0, 0, 0.06475)),
+    # a pin of 20 mm in a slot of 60 mm, at the upper and at the lower wall, whose walls turn with the slot
+    (PIN_IN_SLOT, (5.0, 0.011, 0.2, 0.1, 0, 0), (1e-3, 0.1, -0.2, 0, 1, 0.02)),
+    (PIN_IN_SLOT, (5.0, -0.011, 0.2, 0.1, 0, 0), (1e-3, -0.1, 0.2, 0, -1, 0.02)),
+    (PIN_IN_SLOT, (5.0, 0.011, 0, 0, 2.0, 4.0), (1e-3, 0, 4.0 * 0.02 - 2.0 * 0.031, 0, 1, 0.02)),
+    (CORNER, (0, 0.004, 0.2, 0.1, 0, 9.0), (-6e-3, 0.1, -0.2, 0, 1, 0)),
+    # a face of which one side alone is met
+    (FACE, (0, 0.501, 0.2, 0.1, 2.0, 9.0), (1e-3, 0.1, -0.2 - 2.0 * 0.501, 0, 1, 0)),
+    (FACE, (0, -3.0, 0.2, 0.1, 0, 0), (-3.5, 0.1, -0.2, 0, 1, 0)),
+]
 
 
-def test_force_is_zero_when_concentric() -> None:
-    got = CONTACT.force(0.0, 0.0, 0.3, -0.2, 5.0, 7.0, IMPACT)
-    assert (got.force_x, got.force_y, got.normal_force, got.friction_force) == (0.0, 0.0, 0.0, 0.0)
-    assert got.depth == -CLEARANCE
+@pytest.mark.parametrize(("bearing", "motion", "expected"), GEOMETRY)
+def test_kinematics_by_hand(bearing: Any, motion: tuple[float, ...], expected: tuple[float, ...]) -> None:
+    found = bearing.kinematics(*motion, *bearing.constants)
+    assert found == pytest.approx(expected, rel=1e-12, abs=1e-16)  # rounding
+    depth = found[0]
+    bore_arm, journal_arm = bearing.contact_arms(depth)
+    assert journal_arm == pytest.approx(found[5], abs=1e-16)
+    # one point serves both bodies
+    away = math.hypot(*motion[:2]) if bearing is BEARING else abs(motion[1])
+    if depth > 0.0:
+        assert bore_arm - journal_arm == pytest.approx(away, rel=1e-14)
 
 
-def test_force_is_zero_in_the_gap() -> None:
-    got = pushed(depth=-1e-6, velocity=(0.3, 0.2), journal_spin=5.0)
-    assert (got.force_x, got.force_y, got.normal_force, got.friction_force) == (0.0, 0.0, 0.0, 0.0)
-
-
-def test_force_is_zero_until_contact_has_begun() -> None:
-    got = pushed(depth=1e-4, velocity=(0.3, 0.2), journal_spin=5.0, impact=None)
-    assert (got.force_x, got.force_y, got.normal_force, got.friction_force) == (0.0, 0.0, 0.0, 0.0)
-    assert not got.clamped
-
-
-@pytest.mark.parametrize(("angle", "expected"), [(0.0, (-1, 0)), (math.pi / 2, (0, -1)), (math.pi, (1, 0))])
-def test_force_pushes_the_journal_back_to_the_middle(angle: float, expected: tuple[int, int]) -> None:
-    got = pushed(angle=angle)
-    force = CONTACT.normal.elastic_force(got.depth)
-    # cos(pi/2) is 6e-17
-    assert (got.force_x / force, got.force_y / force) == pytest.approx(expected, abs=1e-15)
-
-
-@given(depth=depths, angle=angles)
-def test_force_at_rest_is_the_elastic_force(depth: float, angle: float) -> None:
-    got = pushed(depth=depth, angle=angle)
-    # the depth is a difference of lengths of 2 mm: 1e-18/1e-6 relative, times the exponent
-    assert got.normal_force == pytest.approx(CONTACT.normal.elastic_force(depth), rel=1e-11)
-
-
-@given(angle=angles, along=speeds, across=speeds)
-def test_rate_is_the_speed_towards_the_wall(angle: float, along: float, across: float) -> None:
-    c, s = math.cos(angle), math.sin(angle)
-    got = pushed(angle=angle, velocity=(along * c - across * s, along * s + across * c))
-    # rounding of a sum of products of 2 m/s
-    assert got.rate == pytest.approx(along, abs=1e-14)
-
-
-@given(angle=angles, velocity=st.tuples(speeds, speeds))
-def test_rate_is_the_change_of_depth(angle: float, velocity: tuple[float, float]) -> None:
-    dt = 1e-8
-    e = CLEARANCE + 1e-4
-    x, y = e * math.cos(angle), e * math.sin(angle)
-    vx, vy = velocity
-    before = CONTACT.force(x - dt * vx, y - dt * vy, vx, vy, 0.0, 0.0, None).depth
-    after = CONTACT.force(x + dt * vx, y + dt * vy, vx, vy, 0.0, 0.0, None).depth
-    # central difference: rounding of 1e-18 m over 2e-8 s
-    assert pushed(angle=angle, velocity=velocity).rate == pytest.approx((after - before) / (2 * dt), abs=1e-9)
-
-
-@given(
-    x=st.floats(-2e-3, 2e-3),
-    y=st.floats(-2e-3, 2e-3),
-    velocity=st.tuples(speeds, speeds),
-    spins=st.tuples(spins, spins),
-)
-def test_depth_rate_and_slip_are_the_same_whether_contact_has_begun_or_not(
-    x: float, y: float, velocity: tuple[float, float], spins: tuple[float, float]
+@pytest.mark.parametrize("bearing", [BEARING, PIN_IN_SLOT, CORNER, FACE])
+@given(depth=st.floats(-1e-3, 1e-3), rate=speeds, slip=speeds)
+def test_a_motion_that_is_placed_has_its_depth_rate_and_slip(
+    bearing: Any, depth: float, rate: float, slip: float
 ) -> None:
-    apart = CONTACT.force(x, y, *velocity, *spins, None)
-    begun = CONTACT.force(x, y, *velocity, *spins, IMPACT)
-    assert apart[:3] == begun[:3]
-    assert apart.journal_arm == begun.journal_arm
+    found = bearing.kinematics(*bearing.placed(depth, rate, slip), *bearing.constants)
+    assert found[:3] == pytest.approx((depth, rate, slip), rel=1e-12, abs=1e-16)
 
 
-def test_closing_pushes_harder_than_opening() -> None:
-    closing, opening = pushed(velocity=(0.05, 0.0)), pushed(velocity=(-0.05, 0.0))
-    assert closing.normal_force > pushed().normal_force > opening.normal_force > 0.0
+@pytest.mark.parametrize(
+    ("kind", "fields", "said"),
+    [
+        (JournalBearing, {"bore_radius": 0.07, "clearance": 0.07}, r"clearance = 0\.07 m.*allowed: > 0 and"),
+        (JournalBearing, {"bore_radius": 0.07, "clearance": 0.0}, r"clearance = 0\.0: .*allowed: > 0"),
+        (JournalBearing, {"bore_radius": -0.07, "clearance": 0.1}, r"bore_radius = -0\.07: .*allowed: > 0"),
+        (Slot, {"clearance": 0.0}, r"clearance = 0\.0: .*allowed: > 0"),
+        (Slot, {"clearance": 0.1, "radius": -0.1}, r"radius = -0\.1: .*allowed: >= 0"),
+        (JournalContact, {"bearing": BEARING, "normal": Frictionless()}, r"Frictionless\(\): .*NormalLaw"),
+        (JournalContact, {"bearing": BEARING, "normal": LAW, "friction": LAW}, r"friction = Lank.*FrictionLaw"),
+        (
+            JournalContact,
+            {"bearing": replace(BEARING, clearance=1e-3), "normal": cylinder_law(Johnson)},
+            r"normal.bearing = \(0.0655, 0.0015\) m .*; allowed: \(0.0655, 0.001\) m",
+        ),
+        (SlotContact, {"bearing": CORNER, "normal": cylinder_law(Johnson)}, "Johnson: is of a pin in its bore"),
+        (FaceContact, {"bearing": FACE, "normal": cylinder_law(Johnson)}, "Johnson: is of a pin in its bore"),
+        (FaceContact, {"bearing": FACE, "normal": LAW, "friction": RUBBING}, "Ambrosio.*Frictionless"),
+    ],
+)  # fmt: skip
+def test_what_does_not_fit_is_refused(kind: type[Any], fields: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        kind(**fields)
 
 
-def test_tension_is_cut_to_zero_and_reported() -> None:
-    # chi = 0.1425 at restitution 0.9: tension below rate = -7.02 v0
-    got = pushed(velocity=(-0.8, 0.3))
-    assert got.clamped
+# --- the force ---
+
+
+@pytest.mark.parametrize(
+    "place", [{"depth": -CLEARANCE}, {"depth": -1e-6}, {"impact": None}, {"velocity": (-0.8, 0.3)}]
+)
+@pytest.mark.parametrize("law", [CONTACT, BRISTLES], ids=["Ambrosio", "LuGre"])
+def test_nothing_acts_apart_before_an_impact_or_under_tension(law: JournalContact, place: Any) -> None:
+    got = pushed(**{"velocity": (0.3, 0.2), "spin": (0.0, 5.0), "law": law} | place)
     assert (got.force_x, got.force_y, got.normal_force, got.friction_force) == (0.0, 0.0, 0.0, 0.0)
-
-
-def test_pressure_is_not_reported_as_clamped() -> None:
+    # chi = 0.1425 at restitution 0.9: tension below rate = -7.02 v0
+    assert got.clamped == ("velocity" in place)
     assert not pushed(velocity=(-0.5, 0.3)).clamped
 
 
-# --- slip and friction ---
-
-
-def test_rolling_journal_rubs_against_its_own_spin() -> None:
-    # at the wall on the right a journal spinning counter-clockwise moves up on the bore
-    got = pushed(journal_spin=3.0)
-    assert got.slip > 0.0
-    assert got.force_y < 0.0
-
-
-def test_spin_of_the_journal_enters_the_slip_with_its_arm() -> None:
-    got = pushed(depth=2e-4, journal_spin=3.0)
-    # the contact point is half a depth inside the journal; rounding
-    assert got.slip == pytest.approx(3.0 * (JOURNAL - 1e-4), rel=1e-12)
-
-
-def test_spin_of_the_bore_enters_the_slip_with_its_arm_reversed() -> None:
-    got = pushed(depth=2e-4, bore_spin=3.0)
-    # the contact point is half a depth outside the bore; rounding
-    assert got.slip == pytest.approx(-3.0 * (BORE + 1e-4), rel=1e-12)
-
-
-def test_speed_along_the_wall_enters_the_slip() -> None:
-    # on the wall at the top, counter-clockwise is to the left
-    got = pushed(angle=math.pi / 2, velocity=(-0.4, 0.0))
-    # cos(pi/2) is 6e-17
-    assert got.slip == pytest.approx(0.4, rel=1e-14)
-
-
-@given(angle=angles, spin=spins, depth=depths)
-def test_turning_as_one_body_is_neither_slip_nor_approach(angle: float, spin: float, depth: float) -> None:
-    e = CLEARANCE + depth
-    velocity = (-spin * e * math.sin(angle), spin * e * math.cos(angle))
-    got = pushed(depth, angle, velocity, bore_spin=spin, journal_spin=spin)
-    # rounding of speeds of 50 rad/s times 65 mm
-    assert got.slip == pytest.approx(0.0, abs=1e-14)
-    assert got.rate == pytest.approx(0.0, abs=1e-14)
-    assert got.friction_force == 0.0
-
-
-@given(angle=angles, velocity=st.tuples(speeds, speeds), bore_spin=spins, journal_spin=spins, common=spins)
-def test_a_common_rotation_does_not_change_slip_and_rate(
-    angle: float, velocity: tuple[float, float], bore_spin: float, journal_spin: float, common: float
+@given(depth=depths, angle=angles, along=speeds, across=speeds, spin=both_spins)
+def test_force_is_that_of_the_laws_for_depth_rate_and_slip(
+    depth: float, angle: float, along: float, across: float, spin: tuple[float, float]
 ) -> None:
-    e = CLEARANCE + 1e-4
-    turned = (velocity[0] - common * e * math.sin(angle), velocity[1] + common * e * math.cos(angle))
-    one = pushed(angle=angle, velocity=velocity, bore_spin=bore_spin, journal_spin=journal_spin)
-    two = pushed(angle=angle, velocity=turned, bore_spin=bore_spin + common, journal_spin=journal_spin + common)
-    # rounding of speeds of 100 rad/s times 65 mm
-    assert two.slip == pytest.approx(one.slip, abs=1e-13)
-    assert two.rate == pytest.approx(one.rate, abs=1e-13)
+    c, s = math.cos(angle), math.sin(angle)
+    got = pushed(depth, angle, (along * c - across * s, along * s + across * c), spin)
+    # rounding: of lengths of 2 mm, of products of 2 m/s, of speeds of 50 rad/s times 65 mm
+    assert got.depth == pytest.approx(depth, abs=1e-17)
+    assert got.rate == pytest.approx(along, abs=1e-14)
+    slip = across + spin[1] * got.journal_arm - spin[0] * (BORE + 0.5 * got.depth)
+    assert got.slip == pytest.approx(slip, abs=2e-14)
+    assert got.normal_force == max(0.0, LAW(got.depth, got.rate, IMPACT))
+    assert got.friction_force == CONTACT.friction(got.slip, got.normal_force)
+    n, f = got.normal_force, got.friction_force
+    assert (got.force_x, got.force_y) == pytest.approx((-n * c - f * s, -n * s + f * c), abs=1e-11 * (1.0 + n))
+    apart = pushed(depth, angle, (along * c - across * s, along * s + across * c), spin, None)
+    assert (apart[:3], apart.journal_arm) == (got[:3], got.journal_arm)
 
 
-@given(angle=angles, bore_spin=spins, journal_spin=spins, velocity=st.tuples(speeds, speeds), depth=depths)
-def test_slip_is_the_difference_of_the_velocities_of_both_bodies_at_the_contact(
-    angle: float, bore_spin: float, journal_spin: float, velocity: tuple[float, float], depth: float
+@given(angle=angles, depth=depths, velocity=pairs, spin=both_spins, common=spins)
+def test_the_pair_of_forces_conserves_momentum_and_takes_energy(
+    angle: float, depth: float, velocity: tuple[float, float], spin: tuple[float, float], common: float
 ) -> None:
-    got = pushed(depth, angle, velocity, bore_spin, journal_spin)
-    e, n = CLEARANCE + depth, (math.cos(angle), math.sin(angle))
-    arm = got.journal_arm
-    on_journal = (velocity[0] - journal_spin * arm * n[1], velocity[1] + journal_spin * arm * n[0])
-    on_bore = (-bore_spin * (e + arm) * n[1], bore_spin * (e + arm) * n[0])
-    along_wall = (on_journal[0] - on_bore[0]) * -n[1] + (on_journal[1] - on_bore[1]) * n[0]
-    # rounding of speeds of 50 rad/s times 65 mm
-    assert got.slip == pytest.approx(along_wall, abs=1e-14)
-
-
-# --- both bodies together ---
-
-
-@given(angle=angles, depth=depths, velocity=st.tuples(speeds, speeds), bore_spin=spins, journal_spin=spins)
-def test_force_and_reaction_act_at_one_point(
-    angle: float, depth: float, velocity: tuple[float, float], bore_spin: float, journal_spin: float
-) -> None:
-    got = pushed(depth, angle, velocity, bore_spin, journal_spin)
+    got = pushed(depth, angle, velocity, spin)
     bore_arm, _ = CONTACT.bearing.contact_arms(got.depth)
     e, n = CLEARANCE + depth, (math.cos(angle), math.sin(angle))
     # about the bore's centre: the force carried to the journal's centre with its moment, and the
-    # reaction at the bore's own arm
-    action = got.journal_moment + e * (n[0] * got.force_y - n[1] * got.force_x)
-    reaction = -bore_arm * (n[0] * got.force_y - n[1] * got.force_x)
-    # rounding of the force times the bore's radius
-    scale = math.hypot(got.force_x, got.force_y) * BORE
-    assert action + reaction == pytest.approx(0.0, abs=1e-14 * scale)
-
-
-def test_moment_on_the_journal_brakes_its_spin() -> None:
-    assert pushed(journal_spin=3.0).journal_moment < 0.0
-
-
-@given(angle=angles, depth=depths, velocity=st.tuples(speeds, speeds), bore_spin=spins, journal_spin=spins)
-def test_power_of_the_pair_is_that_of_normal_and_friction_force(
-    angle: float, depth: float, velocity: tuple[float, float], bore_spin: float, journal_spin: float
-) -> None:
-    got = pushed(depth, angle, velocity, bore_spin, journal_spin)
-    bore_arm, _ = CONTACT.bearing.contact_arms(got.depth)
-    power = (
-        got.force_x * velocity[0]
-        + got.force_y * velocity[1]
-        + got.journal_moment * journal_spin
-        - bore_arm * got.friction_force * bore_spin
-    )
+    # reaction at the bore's own arm; rounding of the force times the bore's radius
+    scale = math.hypot(got.force_x, got.force_y)
+    turn = n[0] * got.force_y - n[1] * got.force_x
+    assert got.journal_moment + e * turn - bore_arm * turn == pytest.approx(0.0, abs=1e-14 * scale * BORE)
+    power = got.force_x * velocity[0] + got.force_y * velocity[1] + got.journal_moment * spin[1]
+    power -= bore_arm * got.friction_force * spin[0]
     expected = -got.normal_force * got.rate + got.friction_force * got.slip
-    # rounding of the largest of these products: force times (2 m/s + 50 rad/s times 66 mm, twice)
-    scale = math.hypot(got.force_x, got.force_y) * 9.0
-    assert power == pytest.approx(expected, abs=1e-14 * scale)
+    assert power == pytest.approx(expected, abs=9e-14 * scale)
+    assert got.friction_force * got.slip <= 0.0
+    # whatever turns with both bodies sees the same
+    turned = (velocity[0] - common * e * n[1], velocity[1] + common * e * n[0])
+    seen = pushed(depth, angle, turned, (spin[0] + common, spin[1] + common))
+    assert (seen.rate, seen.slip) == pytest.approx((got.rate, got.slip), abs=1e-13)
+    mirrored = pushed(depth, -angle, (velocity[0], -velocity[1]), (-spin[0], -spin[1]))
+    assert (mirrored.force_x, mirrored.force_y, mirrored.slip) == (got.force_x, -got.force_y, -got.slip)
 
 
-@given(angle=angles, depth=depths, velocity=st.tuples(speeds, speeds), spins=st.tuples(spins, spins))
-def test_friction_of_the_pair_never_gives_energy(
-    angle: float, depth: float, velocity: tuple[float, float], spins: tuple[float, float]
+@pytest.mark.parametrize("radius", [0.0, 0.02])
+@given(y=st.floats(1.0001e-2, 1.05e-2), side=st.sampled_from([-1.0, 1.0]), velocity=pairs, spin=both_spins)
+def test_a_slot_pushes_across_and_rubs_along_and_takes_energy(
+    radius: float, y: float, side: float, velocity: tuple[float, float], spin: tuple[float, float]
 ) -> None:
-    got = pushed(depth, angle, velocity, *spins)
+    slot = SlotContact(bearing=Slot(clearance=0.01, radius=radius), normal=LAW, friction=RUBBING)
+    got = slot.force(0.0, side * y, *velocity, *spin, IMPACT)
+    assert got.normal_force == max(0.0, LAW(got.depth, got.rate, IMPACT))
+    assert got.force_y == pytest.approx(-side * got.normal_force)
+    assert got.force_x == pytest.approx(-side * got.friction_force)
+    # power of the pair, the walls' point being at the corner or the pin's surface
+    bore_arm, journal_arm = slot.bearing.contact_arms(got.depth)
+    power = got.force_x * velocity[0] + got.force_y * velocity[1]
+    power += got.friction_force * (journal_arm * spin[1] - bore_arm * spin[0])
+    expected = -got.normal_force * got.rate + got.friction_force * got.slip
+    assert power == pytest.approx(expected, abs=1e-12 * (1.0 + got.normal_force))
     assert got.friction_force * got.slip <= 0.0
 
 
-@given(
-    angle=angles,
-    turn=angles,
-    velocity=st.tuples(speeds, speeds),
-    spins=st.tuples(spins, spins),
-    impact_velocity=approaches,
-)
-def test_force_turns_with_the_axes(
-    angle: float, turn: float, velocity: tuple[float, float], spins: tuple[float, float], impact_velocity: float
-) -> None:
-    c, s = math.cos(turn), math.sin(turn)
-
-    def turned(x: float, y: float) -> tuple[float, float]:
-        return c * x - s * y, s * x + c * y
-
-    impact = impact_velocity
-    one = pushed(1e-4, angle, velocity, *spins, impact)
-    two = pushed(1e-4, angle + turn, turned(*velocity), *spins, impact)
-    # rounding of depth and slip: 1e-18 m of 1e-4 m, and 1e-15 m/s on a ramp of 1e-2 m/s
-    scale = (
-        1.0
-        + math.hypot(one.force_x, one.force_y)
-        + abs(one.rate / impact_velocity) * CONTACT.normal.elastic_force(1e-4)
-    )
-    assert (two.force_x, two.force_y) == pytest.approx(turned(one.force_x, one.force_y), abs=1e-11 * scale)
+def test_a_face_pushes_from_one_side_and_does_not_rub() -> None:
+    face = FaceContact(bearing=FACE, normal=LAW)
+    got = face.force(0.0, 0.5 + 1e-4, 3.0, 0.0, 0.0, 0.0, IMPACT)
+    assert (got.force_x, got.force_y) == (0.0, -LAW.elastic_force(got.depth))
+    assert face.force(0.0, -7.0, 3.0, 0.0, 0.0, 0.0, IMPACT).force_y == 0.0
 
 
-@given(angle=angles, velocity=st.tuples(speeds, speeds), spins=st.tuples(spins, spins))
-def test_mirror_image_has_the_mirrored_force(
-    angle: float, velocity: tuple[float, float], spins: tuple[float, float]
-) -> None:
-    one = pushed(1e-4, angle, velocity, *spins)
-    two = pushed(1e-4, -angle, (velocity[0], -velocity[1]), -spins[0], -spins[1])
-    assert (two.force_x, two.force_y, two.slip) == (one.force_x, -one.force_y, -one.slip)
+# --- friction with a state, and another clearance ---
 
-
-def test_friction_is_the_sliding_coefficient_times_the_normal_force() -> None:
-    got = pushed(velocity=(0.0, 1.0))  # far above the ramp
-    assert got.friction_force == -0.25 * got.normal_force
-
-
-def test_friction_is_that_of_the_law_for_slip_and_normal_force() -> None:
-    got = pushed(velocity=(0.02, 0.004), journal_spin=0.01)  # on the ramp
-    assert got.friction_force == CONTACT.friction(got.slip, got.normal_force)
-    assert 0.0 < -got.friction_force < 0.25 * got.normal_force
-
-
-def test_there_is_no_friction_by_default() -> None:
-    plain = JournalContact(bearing=CONTACT.bearing, normal=CONTACT.normal)
-    assert plain.friction == Frictionless()
-    assert pushed(velocity=(0.0, 1.0), law=plain).force_y == 0.0
-
-
-def test_approach_speed_is_handed_to_the_law() -> None:
-    soft, hard = (pushed(velocity=(0.05, 0.0), impact=v) for v in (0.1, 0.2))
-    elastic = CONTACT.normal.elastic_force(soft.depth)
-    # textbook damping is inverse to it; rounding of the difference
-    assert soft.normal_force - elastic == pytest.approx(2.0 * (hard.normal_force - elastic), rel=1e-11)
-
-
-# --- friction with a state ---
-
-BRISTLES = replace(CONTACT, friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2))
 histories = st.builds(
     SlipHistory, deflection=st.floats(-3e-6, 3e-6), slip=st.floats(-0.1, 0.1), step=st.floats(0.0, 1e-4)
 )
@@ -323,48 +230,37 @@ def test_state_of_friction_is_carried_over_the_step_with_the_mean_slip(
 ) -> None:
     got = pushed(velocity=velocity, law=BRISTLES, history=history)
     mean = 0.5 * (history.slip + got.slip)
-    assert got.deflection == BRISTLES.friction.next_deflection(history.deflection, mean, history.step)
+    bent = BRISTLES.friction.next_deflection(history.deflection, mean, history.step)
+    assert got.deflection == bent
     assert got.friction_force == BRISTLES.friction(got.slip, got.normal_force, got.deflection)
+    # a step without history begins with straight bristles, and other laws have none
+    assert pushed(velocity=velocity, law=BRISTLES).deflection == 0.0
+    assert pushed(velocity=velocity, history=history).deflection == 0.0
 
 
-def test_a_bristle_holds_a_journal_that_does_not_slip() -> None:
-    got = pushed(law=BRISTLES, history=SlipHistory(1e-6, 0.0, 1e-4))
+def test_bristles_hold_a_journal_that_does_not_slip_and_are_straight_elsewhere() -> None:
+    history = SlipHistory(1e-6, 0.0, 1e-4)
+    got = pushed(law=BRISTLES, history=history)
     # sigma_0 z of the normal force, 1e5/m times 1 micrometre; rounding
     assert got.friction_force == pytest.approx(-0.1 * got.normal_force, rel=1e-14)
-    assert got.deflection == 1e-6
+    assert pushed(depth=-1e-6, law=BRISTLES, history=history).deflection == 0.0
+    assert pushed(impact=None, law=BRISTLES, history=history).deflection == 0.0
 
 
-def test_a_step_without_history_begins_with_straight_bristles() -> None:
-    got = pushed(velocity=(0.0, 0.01), law=BRISTLES)
-    assert got.deflection == 0.0
+def test_a_contact_with_another_clearance_keeps_its_laws() -> None:
+    assert CONTACT.with_clearance(2e-3) == replace(CONTACT, bearing=replace(BEARING, clearance=2e-3))
+    wider: Any = JournalContact(bearing=BEARING, normal=cylinder_law(Johnson)).with_clearance(2e-3)
+    assert wider.bearing == wider.normal.bearing == replace(BEARING, clearance=2e-3)
 
 
-@pytest.mark.parametrize("place", [{"depth": -1e-6}, {"impact": None}])
-def test_bristles_are_straight_where_there_is_no_contact(place: dict[str, object]) -> None:
-    got = pushed(velocity=(0.0, 0.01), law=BRISTLES, history=SlipHistory(1e-6, 0.01, 1e-4), **place)
-    assert (got.deflection, got.friction_force) == (0.0, 0.0)
-
-
-def test_a_friction_law_without_a_state_has_no_deflection() -> None:
-    assert pushed(velocity=(0.0, 0.01), history=SlipHistory(1e-6, 0.01, 1e-4)).deflection == 0.0
-
-
-# --- wrong laws ---
-
-
-def test_a_friction_law_in_place_of_a_normal_law_is_refused() -> None:
-    with pytest.raises(InputError, match=r"JournalContact\.normal = Frictionless\(\): .*NormalLaw"):
-        replace(CONTACT, normal=Frictionless())
-
-
-def test_a_normal_law_in_place_of_a_friction_law_is_refused() -> None:
-    law = LankaraniNikravesh(stiffness=1e9, restitution=0.9)
-    with pytest.raises(InputError, match=r"JournalContact\.friction = LankaraniNikravesh.*FrictionLaw"):
-        replace(CONTACT, friction=law)
-
-
-@pytest.mark.parametrize("impact", [None, IMPACT])
-def test_from_the_middle_every_way_leads_outwards(impact: float | None) -> None:
-    got = CONTACT.force(0.0, 0.0, 0.3, -0.4, 0.0, 0.0, impact)
-    assert got.depth == -CONTACT.bearing.clearance
-    assert got.rate == 0.5
+def test_contacts_of_other_parameters_share_their_kernel() -> None:
+    other: list[Contact] = [
+        replace(CONTACT, normal=replace(LAW, restitution=0.5)),
+        replace(CONTACT, friction=Ambrosio(sliding_coefficient=0.1)),
+        CONTACT.with_clearance(1e-3),
+    ]
+    for one in other:
+        assert one.force_kernel is CONTACT.force_kernel
+        assert one.constants != CONTACT.constants
+    assert isinstance(LAW, LankaraniNikravesh)
+    assert BRISTLES.force_kernel is not CONTACT.force_kernel

@@ -125,6 +125,14 @@ class Value:
             )
         return super().__new__(cls)
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What a copy and another process are given: the fields, and classes that are kept.
+
+        What else was computed and kept may be functions, which no other process can be given.
+        """
+        fields = {field.name for field in dataclasses.fields(self)}  # type: ignore[arg-type]
+        return {name: item for name, item in vars(self).items() if name in fields or isinstance(item, type)}
+
     if not TYPE_CHECKING:  # for people: who checks types is told of every wrong name
 
         def __getattr__(self, name: str) -> Any:

@@ -113,7 +113,7 @@ class PlaneBuilder(EngineBuilder):
 
     @add_pin.register
     def _add_clearance(self, pin: ClearancePin, name: str) -> None:
-        self.add_contact(pin.contact, name)
+        self.add_contact(self.scenario.contact_places[name].contact, name)  # with the mass of its law
 
     def add_contact(self, contact: Contact, name: str) -> None:
         """Add the connector of a contact: of a clearance pin, a corner in a slot, or a block's face."""
