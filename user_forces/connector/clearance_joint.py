@@ -20,7 +20,7 @@ from typing import Any
 import exudyn
 from exudyn.itemInterface import NodeGenericData
 
-from user_forces.connector.bodies import draw, free_inverse_mass, mount
+from user_forces.connector.bodies import SPATIAL, draw, free_inverse_mass, mount
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.connector.item import JointItem
 from user_forces.contact import JournalContact, SlotContact
@@ -75,6 +75,7 @@ class EngineContact(ContactConnector):
             bore_mount,
             journal_mount,
             0.0,
+            is_round=any(mbs.GetObject(body)["objectType"] == SPATIAL for body in (bore[0], journal[0])),
             nodeNumber=self.node,
             postNewtonStepUserFunction=self._post_newton,
         )
