@@ -27,6 +27,7 @@ from user_forces.contact import JournalContact, SlotContact
 from user_forces.contact_state import InverseMass, Onset
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.laws import Frictionless
+from user_forces.impact_steps import ImpactSteps
 from user_forces.journal import JournalBearing
 from user_forces.normal.law import NormalLaw
 from user_forces.slot import Slot
@@ -100,7 +101,9 @@ class EngineContact(ContactConnector):
         self.onsets.clear()
         self.clamped_steps, self.largest_force, self.largest_force_time = 0, 0.0, 0.0
         self._end = self._start = math.nan
+        self.impact_steps = ImpactSteps(self.contact.normal, self.impact_steps.number)
         self.start(self._inverse_mass_now(exudyn.ConfigurationType.Initial))
+        self.begin_impact()
 
     def _inverse_mass_now(self, state: Any = exudyn.ConfigurationType.Current) -> InverseMass:
         return free_inverse_mass(self.mbs, self._bodies, self.item, state)
@@ -117,10 +120,10 @@ class EngineContact(ContactConnector):
         """Begin to try a step to t [s] from the last accepted state."""
         begin = self.mbs.systemData.GetTime(exudyn.ConfigurationType.StartOfStep)
         if t <= begin or math.isnan(self._start):  # the engine's first evaluation
-            self.reset()
-            self._start = begin
             settings = self.mbs.sys.get("simulationSettings")  # of the stock solver
             self.locates = settings is None or settings.timeIntegration.adaptiveStep
+            self.reset()
+            self._start = begin
         self._accept_pending(begin)
         self._end = t
         self.begin_try(t - begin)
