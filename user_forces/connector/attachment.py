@@ -2,7 +2,8 @@
 
 The engine hands over the motion of the journal's marker against the bore's in the bore's axes. The force acts
 
-- without friction on both centres, along the line of centres: no moment;
+- without friction on both centres, along the line of centres: no moment (unless the journal may move along the
+  axis of its bore, where only the distance across counts);
 - with friction on the centre of the body that moves, if the other is the ground;
 - in the middle between both centres, if both move, so that both feel the force at the same point of space.
   That is Exudyn's intrinsic formulation, whose axes lie in the middle between both marker frames. Its
@@ -90,9 +91,15 @@ def connector_kernel(force: Callable[..., Any], at: Attachment, is_slot: bool) -
     return connector
 
 
-def attachment(contact: Contact, bore_on_ground: bool, journal_on_ground: bool) -> Attachment:
-    """Where the force of a contact acts."""
-    if isinstance(contact.friction, Frictionless) and not contact.bearing.is_slot:
+def attachment(
+    contact: Contact, bore_on_ground: bool, journal_on_ground: bool, is_round: bool = False
+) -> Attachment:
+    """Where the force of a contact acts.
+
+    is_round: whether only what is across the bore's axis counts, as in a model in space that leaves the journal
+    free along the axis.
+    """
+    if isinstance(contact.friction, Frictionless) and not contact.bearing.is_slot and not is_round:
         return Attachment.CENTRES
     if bore_on_ground:
         return Attachment.JOURNAL

@@ -20,19 +20,22 @@ from typing import Any
 import exudyn
 from exudyn.itemInterface import NodeGenericData
 
-from user_forces.connector.bodies import free_inverse_mass, mount
+from user_forces.connector.bodies import SPATIAL, draw, free_inverse_mass, mount
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.connector.item import JointItem
-from user_forces.contact import Contact, JournalContact, SlotContact
+from user_forces.contact import JournalContact, SlotContact
 from user_forces.contact_state import InverseMass, Onset
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.laws import Frictionless
+from user_forces.impact_steps import ImpactSteps
 from user_forces.journal import JournalBearing
 from user_forces.normal.law import NormalLaw
 from user_forces.slot import Slot
+from user_forces.values.value import InputError
 
 REPEAT = 1e6  # error above any tolerance of the engine's discontinuous iteration: the step is repeated
 SHORTEST = 1e-12  # step [s] to which one is cut at most
+FEWEST = 2  # steps in an impact
 TOO_LONG = 1.01  # times the longest step, by which a step in contact is repeated
 JOINTS = "clearance joints"  # of a model, in `mbs.variables`
 End = tuple[Any, Sequence[float]]
@@ -50,21 +53,30 @@ class EngineContact(ContactConnector):
     def __init__(
         self,
         mbs: Any,
-        contact: Contact,
+        contact: JournalContact | SlotContact,
         bore: End,
         journal: End,
         axis: Sequence[float],
         impact_steps: int,
+        show: bool,
         along: Sequence[float] | None = None,
+        names: tuple[str, str] = ("bore", "journal"),
     ) -> None:
+        if isinstance(impact_steps, bool) or not isinstance(impact_steps, int) or impact_steps < FEWEST:
+            raise InputError(f"impact_steps = {impact_steps!r}: allowed: a whole number from {FEWEST}")
+        bore_mount = mount(mbs, bore, axis, along, names[0])
+        journal_mount = mount(mbs, journal, axis, along, names[1])
+        if int(bore[0]) == int(journal[0]):
+            raise InputError(f"{names[1]} = {journal!r}: allowed: another body than that of the {names[0]}")
         self.mbs = mbs
         self.node = mbs.AddNode(NodeGenericData(initialCoordinates=[0.0] * 5, numberOfDataCoordinates=5))
         item = JointItem(
             mbs,
             contact,
-            mount(mbs, bore, axis, along),
-            mount(mbs, journal, axis, along),
+            bore_mount,
+            journal_mount,
             0.0,
+            is_round=any(mbs.GetObject(body)["objectType"] == SPATIAL for body in (bore[0], journal[0])),
             nodeNumber=self.node,
             postNewtonStepUserFunction=self._post_newton,
         )
@@ -75,6 +87,8 @@ class EngineContact(ContactConnector):
         self.is_driven = False  # by `solve_located`, which decides on steps itself
         self._end = self._start = math.nan  # of the step being tried [s]
         mbs.variables.setdefault(JOINTS, []).append(self)
+        if show:
+            draw(mbs, bore_mount, journal_mount, contact.bearing)
 
     @property
     def impacts(self) -> tuple[Onset, ...]:
@@ -87,7 +101,9 @@ class EngineContact(ContactConnector):
         self.onsets.clear()
         self.clamped_steps, self.largest_force, self.largest_force_time = 0, 0.0, 0.0
         self._end = self._start = math.nan
+        self.impact_steps = ImpactSteps(self.contact.normal, self.impact_steps.number)
         self.start(self._inverse_mass_now(exudyn.ConfigurationType.Initial))
+        self.begin_impact()
 
     def _inverse_mass_now(self, state: Any = exudyn.ConfigurationType.Current) -> InverseMass:
         return free_inverse_mass(self.mbs, self._bodies, self.item, state)
@@ -104,10 +120,10 @@ class EngineContact(ContactConnector):
         """Begin to try a step to t [s] from the last accepted state."""
         begin = self.mbs.systemData.GetTime(exudyn.ConfigurationType.StartOfStep)
         if t <= begin or math.isnan(self._start):  # the engine's first evaluation
-            self.reset()
-            self._start = begin
             settings = self.mbs.sys.get("simulationSettings")  # of the stock solver
             self.locates = settings is None or settings.timeIntegration.adaptiveStep
+            self.reset()
+            self._start = begin
         self._accept_pending(begin)
         self._end = t
         self.begin_try(t - begin)
@@ -147,8 +163,9 @@ class ClearanceJoint(EngineContact):
         normal, friction: laws; no friction by default.
         axis: of the bore in the model's reference configuration, global frame (3).
         impact_steps: steps in an undamped impact.
+        show: whether Exudyn's viewer shows both on their bodies.
 
-    Raises InputError for arguments outside their range, and for bodies without mass and inertia.
+    Raises InputError for arguments outside their range, and for bodies that are not rigid.
     """
 
     def __init__(
@@ -163,10 +180,11 @@ class ClearanceJoint(EngineContact):
         friction: FrictionLaw | None = None,
         axis: Sequence[float] = (0.0, 0.0, 1.0),
         impact_steps: int = 128,
+        show: bool = True,
     ) -> None:
         bearing = JournalBearing(bore_radius=bore_radius, clearance=clearance)
         contact = JournalContact(bearing=bearing, normal=normal, friction=friction or Frictionless())
-        super().__init__(mbs, contact, bore, journal, axis, impact_steps)
+        super().__init__(mbs, contact, bore, journal, axis, impact_steps, show)
 
 
 class ClearanceGuide(EngineContact):
@@ -181,6 +199,7 @@ class ClearanceGuide(EngineContact):
         normal, friction: laws; no friction by default. pin_radius: [m]; 0: a corner.
         axis: across the plane of motion, global frame (3).
         impact_steps: steps in an undamped impact.
+        show: whether Exudyn's viewer shows both on their bodies.
     """
 
     def __init__(
@@ -196,7 +215,8 @@ class ClearanceGuide(EngineContact):
         pin_radius: float = 0.0,
         axis: Sequence[float] = (0.0, 0.0, 1.0),
         impact_steps: int = 128,
+        show: bool = True,
     ) -> None:
         walls = Slot(clearance=clearance, radius=pin_radius)
         contact = SlotContact(bearing=walls, normal=normal, friction=friction or Frictionless())
-        super().__init__(mbs, contact, slot, pin, axis, impact_steps, direction)
+        super().__init__(mbs, contact, slot, pin, axis, impact_steps, show, direction, ("slot", "pin"))

@@ -123,6 +123,7 @@ class ContactConnector:
         closed = depth > (STILL if rate > 0.0 else 0.0)
         speed = max(0.0, rate) if closed else 0.0
         self.kept = self.reached = PinMemory(closed, speed, depth, rate, slip)
+        self._swing_step, self._size, self._went_on_from = math.inf, 0.0, None
         self._weigh(inverse_mass)
 
     def jumped(self, memory: PinMemory) -> None:

@@ -64,15 +64,23 @@ class JointItem:
         contact: bearing and laws, from which follows where the force acts.
         bore, journal: where they are.
         turn: of the journal's frame relative to the bore's about the axis [rad].
+        is_round: whether only the distance across the axis counts, see `attachment`.
         options: of the connector, such as a post-Newton step for the stock solver.
     """
 
     def __init__(
-        self, mbs: Any, contact: Contact, bore: Mount, journal: Mount, turn: float, **options: Any
+        self,
+        mbs: Any,
+        contact: Contact,
+        bore: Mount,
+        journal: Mount,
+        turn: float,
+        is_round: bool = False,
+        **options: Any,
     ) -> None:
         self.mbs, self.contact = mbs, contact
         self.clearance = contact.bearing.clearance
-        self.at = attachment(contact, bore.on_ground, journal.on_ground)
+        self.at = attachment(contact, bore.on_ground, journal.on_ground, is_round)
         self._bore, self._journal = np.array(bore.frame), np.array(journal.frame)
         self._shift = 0.0
         self._frame_turn = -turn if self.at is Attachment.MIDDLE else 0.0  # of the journal's frame [rad]
