@@ -41,7 +41,7 @@ def judged(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[Number]
     out = tmp_path_factory.mktemp("small")
     subject, chosen = paper_subject(), Options(out, at_once(), out / "kept")
     rises = {
-        "ideal": subject.ideal(0.25), "dry": subject.with_clearance(1.5, 0.25),
+        "ideal": subject.ideal(), "dry": subject.with_clearance(1.5, 0.25),
         "smooth": subject.with_clearance(1.5, 0.0),
     }  # fmt: skip
     cases: dict[str, Scenario] = {
