@@ -6,7 +6,7 @@ agree in some numbers by chance, and friction of ideal joints, which follows the
 slower than the rest. So an error is
 
 - `SAFETY` times that estimate,
-- as a share of the largest number of the same case and unit, at least the middle one of these numbers' errors,
+- as a share of the largest number of the same case and unit, at least `ALIKE` times the middle one of them,
 - at least `LEAST` of the number, a unit of its sixth digit.
 
 The witness shares data and laws with these runs, but neither equations nor integrator. It says whether the
@@ -35,7 +35,7 @@ from user_forces import Frictionless
 LONGER = 0.0256  # goal whose settings the longer steps have: for the paper's machine 1 ms and 32 an impact
 HALVED = 1  # times
 LOOSE = 256  # longer steps an impact without friction, where each of many impacts multiplies earlier errors
-SAFETY, LEAST = 2.0, 1e-5
+SAFETY, ALIKE, LEAST = 3.0, 0.1, 1e-5
 TOLERANCE = 1e-9  # of the witness; one more run has 8e-9, from which its own errors follow
 TABLE = "witness"  # its name
 HEADER = ("case", "quantity", "unit", "Exudyn", "witness", "difference", "within the error")
@@ -111,7 +111,7 @@ def with_errors(numbers: Sequence[Number]) -> list[Number]:
     def error(one: Number) -> float:
         place = one.case, one.unit
         middle = median(shares[place]) * sizes[place] if place in shares else 0.0
-        return max(SAFETY * one.numerical_error, middle, LEAST * abs(one.value))
+        return max(SAFETY * one.numerical_error, ALIKE * middle, LEAST * abs(one.value))
 
     return [replace(one, numerical_error=error(one)) if one.numerical_error > 0.0 else one for one in numbers]
 

@@ -55,9 +55,8 @@ def test_the_witness_lies_within_the_errors(judged: tuple[Path, list[Number]]) -
     _, numbers = judged
     assert len(numbers) == 3 * len(MEASURES)
     assert [one for one in numbers if not is_within(one)] == []
-    for one in numbers:
-        if one.name != "std":  # of which a few milliseconds of the fall are most
-            assert one.numerical_error < 0.01 * abs(one.value)
+    for one in numbers:  # without friction the journal still bounces at the end
+        assert one.numerical_error < (0.5 if one.case == "smooth" else 0.05) * abs(one.value)
 
 
 def test_runs_are_those_of_exudyn_and_witnesses_stand_by_themselves(judged: tuple[Path, list[Number]]) -> None:
@@ -77,7 +76,7 @@ def test_errors_have_floors() -> None:
     by_chance, closed = number(100.0, 1e-9), number(100.0, 0.0, "closed form")
     plain, large = number(50.0, 0.5, "std_force"), number(200.0, 4.0, "largest_force")
     found = [one.numerical_error for one in with_errors([by_chance, plain, large, closed])]
-    middle = witness.SAFETY * 0.5  # of shares of the largest number
+    middle = witness.ALIKE * witness.SAFETY * 0.5  # of shares of the largest number
     assert found == pytest.approx([middle, witness.SAFETY * 0.5, witness.SAFETY * 4.0, 0.0])
     assert with_errors([by_chance])[0].numerical_error == pytest.approx(100.0 * witness.LEAST)
 
