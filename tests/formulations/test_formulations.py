@@ -124,13 +124,13 @@ def test_what_is_not_covered_is_refused_before_anything_runs(scene: str, accurac
     given, said = NOT_COMPILED[scene]
     asked = replace(given, formulation="compiled")
     # what, why, and what to do
-    with pytest.raises(InputError, match=rf"{said}.*: .*allowed: .*redundant.* covers it"):
+    with pytest.raises(InputError, match=rf"{said}.*: .*allowed: .*exudyn.* covers it"):
         simulate(asked, accuracy=accuracy, progress=heard.append, throw=False)
     assert heard == []
 
 
 def test_space_is_refused() -> None:
-    with pytest.raises(InputError, match=r"formulation = 'compiled': is planar.*'redundant'"):
+    with pytest.raises(InputError, match=r"formulation = 'compiled': is planar.*'exudyn'"):
         support(dimensions=3, formulation="compiled")
     assert not formulation("compiled").covers(support(dimensions=3))
 
