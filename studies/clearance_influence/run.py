@@ -31,7 +31,7 @@ from studies.common.paper_machine import CLEARANCE_MM, ideal_of
 from studies.common.runs import impacts
 from studies.common.study import Study, StudyOutcome
 from studies.common.subject import paper_subject
-from studies.common.witness import Witness, run_on_exudyn
+from studies.common.witness import Witness, run_on_exudyn, with_errors
 from studies.common.words import TextTable
 from support_exudyn import Result, Scenario
 from support_exudyn.postprocessing.figures.machine import machine_drawing
@@ -245,7 +245,7 @@ def work(chosen: Options) -> StudyOutcome:
 
     made = run_on_exudyn(cases | by_contact, chosen)
     results = {name: made[name] for name in cases}
-    numbers = numbers_of(made)
+    numbers = with_errors(numbers_of(made))
     found = by_case(numbers)
     words = {"found": found, "run": sys.modules[__name__], "paper": paper_machine, "contacts": contacts}
     drawings = figures(results)

@@ -14,7 +14,7 @@ from studies.common.options import Options
 from studies.common.paper_machine import SIZES_MM, case_name, ideal_name, ideal_of
 from studies.common.study import Study, StudyOutcome
 from studies.common.subject import Subject
-from studies.common.witness import Witness, difference, run_on_exudyn, witnessed
+from studies.common.witness import Witness, difference, run_on_exudyn, with_errors, witnessed
 from studies.common.words import TextTable
 from support_exudyn import Result, Scenario
 
@@ -115,7 +115,7 @@ def work(chosen: Options) -> StudyOutcome:
 
     cases = scenarios(subject)
     results = run_on_exudyn(cases, chosen)
-    numbers = numbers_of(results)
+    numbers = with_errors(numbers_of(results))
     found = by_case(numbers)
     words = {
         "found": found, "mu": subject.friction, "frictions": frictions,

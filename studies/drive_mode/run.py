@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from studies.common.numbers import Found, Number, by_case
 from studies.common.options import Options
 from studies.common.study import Study, StudyOutcome
-from studies.common.witness import Witness, run_on_exudyn
+from studies.common.witness import Witness, run_on_exudyn, with_errors
 from studies.common.words import TextTable
 from studies.drive_mode import assumed, cases, tables
 from studies.drive_mode.cases import MODES, ModePlan, case_name, naive_peaks
@@ -42,7 +42,7 @@ def work(chosen: Options) -> StudyOutcome:
 
     made = run_on_exudyn(cases, chosen)
     results = {name: made[name] for name in plan.scenarios}
-    numbers = numbers_of(made)
+    numbers = with_errors(numbers_of(made))
     drawings = figures(plan, results)
     return StudyOutcome(
         numbers,

@@ -8,8 +8,6 @@ from typing import Any, Literal
 
 import exudyn
 import numpy as np
-from support_exudyn.formulations.redundant.clearance.pin_motion import PinMotion
-from support_exudyn.formulations.redundant.clearance.python_force import PythonForce
 
 from studies.benchmarking.peers.bare_scene import BareScene, bare_scene
 from studies.benchmarking.peers.peer_run import PeerRun, add_ball, contact_forces, pin_sensors
@@ -57,14 +55,14 @@ def _run(scene: BareScene, step: float, sensors: bool, connector: Any = None) ->
         scene.container.drive_to(0.0)
         scene.container.start_moving()
         scene.container.reset_memory()
-        connector.plainly(UNDAMPED)
+        connector.act_without_memory(UNDAMPED)
 
         def before_step(mbs: Any, t: float) -> bool:
             nonlocal closed
-            depth, rate = connector.engine_force.last  # with what the last step ended
+            depth, rate = connector.user_function.last[FIRST : FIRST + 2]  # with what the last step ended
             if (depth > 0.0) != closed:
                 closed = not closed
-                connector.plainly(rate if closed else UNDAMPED)
+                connector.act_without_memory(rate if closed else UNDAMPED)
             return watch.before_step(mbs, t)
 
     scene.mbs.SetPreStepUserFunction(before_step)
@@ -100,7 +98,7 @@ def _ours(scenario: Scenario, step: float, sensors: bool) -> PeerRun:
         nodes={name: item.node for name, item in ours.bodies.items()},
         actuators=[(item.object, item.actuator.start_length) for item in ours.rigid_actuators.values()],
         contact=pin.contact,
-        bore=pin.connector.bore_marker,
-        journal=pin.connector.journal_marker,
+        bore=pin.item.bore_marker,
+        journal=pin.item.journal_marker,
     )
     return _run(scene, step, sensors, pin)
