@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-
 from studies.benchmarking.drawn_linkages import bar_of
+
 from support_exudyn import CubicStep, Reciprocating, Steady, UniformSpeed, ravn_slider_crank
 from support_exudyn.machines.following import follow
 from support_exudyn.mechanics.closing import Conditions

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
-
 from studies.benchmarking.drawn_linkages import bar_of, chain, towards
+
 from support_exudyn.machines.check.any_machine import MachineReport, check_any
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage

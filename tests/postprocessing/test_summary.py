@@ -93,7 +93,11 @@ def test_whether_an_accuracy_was_met_is_told(monkeypatch: pytest.MonkeyPatch) ->
 @pytest.mark.parametrize(
     ("scene", "ran", "said"),
     [
-        ("a law that numba cannot compile", "exudyn", "exudyn (auto: compiled does not cover pins.rear_base.contact"),
+        (
+            "a law that numba cannot compile",
+            "exudyn",
+            "exudyn (auto: compiled does not cover pins.rear_base.contact",
+        ),
         ("clearance support", "exudyn", "exudyn (auto: compiled would need too many steps"),
         ("clearance support", "compiled", "compiled (auto: the cheapest, and it covers this scene)"),
     ],

@@ -17,11 +17,11 @@ from studies.benchmarking.peers.peer_run import PeerRun, impacts
 from studies.benchmarking.peers.stock import run_stock
 from studies.benchmarking.yardstick import YardstickError, compiled, run_yardstick
 from support_exudyn import CubicStep, Held, SolverSettings, simulate
-from user_forces.contact_state import Onset
 from support_exudyn.scenario.scenario import Scenario
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support
 from tests.formulations.test_drop import SPEEDS, TIMES
 from user_forces import InputError
+from user_forces.contact_state import Onset
 
 
 class Peer(NamedTuple):

@@ -14,6 +14,7 @@ from studies.benchmarking.peers.peer_run import PeerRun, add_ball, contact_force
 from studies.benchmarking.peers.stock import Watch, fixed_steps, solved
 from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.connector.contact_connector import FIRST
 from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError
 

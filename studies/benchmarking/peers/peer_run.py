@@ -12,9 +12,9 @@ import numpy.typing as npt
 from exudyn.itemInterface import NodeGenericData, ObjectContactSphereSphere, SensorMarker
 
 from support_exudyn.formulations.engine_settings import quiet_engine
-from user_forces.contact_state import Onset
 from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact import JournalContact
+from user_forces.contact_state import Onset
 from user_forces.normal.power_laws import LankaraniNikravesh
 from user_forces.values.value import InputError
 

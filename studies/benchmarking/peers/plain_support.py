@@ -20,8 +20,7 @@ from support_exudyn.model.drives.drive import CubicStep, Held
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
-from user_forces.friction.laws import Ambrosio
-from user_forces.friction.laws import Frictionless
+from user_forces.friction.laws import Ambrosio, Frictionless
 from user_forces.values.value import InputError, Vector2
 
 PIN = "rear_base"
