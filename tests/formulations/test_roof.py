@@ -45,6 +45,7 @@ from tests.roof_cases import (
     pressed_support,
     thrown,
 )
+from user_forces import InputError
 from user_forces.values.value import Vector2
 
 W = math.sqrt(STIFFNESS / MASS)
@@ -160,9 +161,7 @@ def test_a_load_of_methods_runs_in_the_engine_only() -> None:
     action, methods = (by("exudyn", scene) for scene in scenes)
     for name in action.channels:
         np.testing.assert_array_equal(action[name], methods[name])
-    why = (
-        r"loads\.weight = HandmadeLoad \(it has no action, but force, stored, powers of its own\): not covered"
-    )
+    why = r"loads\.weight = HandmadeLoad \(it has no action, but force, stored, powers of its own\): not"
     with pytest.raises(InputError, match=why):
         by("compiled", scenes[1])
 
