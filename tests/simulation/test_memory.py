@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 
 from support_exudyn import Held, Scenario, SolverSettings, simulate
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
@@ -16,6 +15,7 @@ from support_exudyn.formulations.redundant.scene.scene import Scene
 from support_exudyn.model.loads.load import AnyLoad
 from tests.cases.run_cases import loose_support
 from tests.roof_cases import over_the_canopy
+from user_forces.connector.clearance_joint import ClearanceJoint
 
 
 def held(formulation: str, duration: float) -> Scenario:
