@@ -26,6 +26,7 @@ from support_exudyn import (
 )
 from support_exudyn.model.loads.load import AnyLoad, Powers
 from user_forces import value
+from user_forces.kernel import kernel
 from user_forces.values.value import Vector2
 
 MASS, STIFFNESS = 1000.0, 1e6
@@ -65,6 +66,20 @@ class DeadLoad(Load):
 
     vector: Vector2
 
+    @staticmethod
+    @kernel
+    def action(
+        t: float, x: float, y: float, vx: float, vy: float, z: float, vz: float, *vector: float
+    ) -> tuple[float, ...]:
+        return vector[0], vector[1], 0.0, -vector[0] * x - vector[1] * y, 0.0, 0.0
+
+
+@value
+class HandmadeLoad(Load):
+    """The same in methods of its own."""
+
+    vector: Vector2
+
     def force(self, at: LoadedPoint) -> Vector2:
         return self.vector
 
@@ -78,26 +93,6 @@ class DeadLoad(Load):
 def elastic_block(**fields: Any) -> FallingBlock:
     """A block that gives all back, by a straight spring."""
     return FallingBlock(**{"exponent": 1.0, "restitution": 1.0} | fields)
-
-
-@value
-class Branching(Drive):
-    """A descent that decides by `if`, which no expression can."""
-
-    speed_down: float
-
-    def extension(self, t: float) -> float:
-        return self.speed_down * (t - 0.01) if t > 0.01 else 0.0
-
-    def speed(self, t: float) -> float:
-        return self.speed_down if t > 0.01 else 0.0
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        return (0.01,)
-
-    def span(self, duration: float) -> tuple[float, float]:
-        return 0.0, self.extension(duration)
 
 
 def over_the_ram(gap: float = 0.01, damping: float = 0.0, descent: Drive | None = None) -> Roof:

@@ -23,13 +23,13 @@ def actions(load: ActingLoad, motion: Matrix) -> tuple[Matrix, Series, dict[str,
 
     motion: the time [s] and what the load follows, (n, m), in the order of `load.MOTION`.
     """
-    rows, forces = motion.tolist(), load.FORCES
-    width = forces + 3 + len(load.channels)
-    if load.own_methods or len(rows) < MANY:
-        found = np.array([load.acts(load.MOTION(*row)) for row in rows]).reshape(-1, width)
+    forces, width = load.FORCES, load.FORCES + 3 + len(load.channels)
+    if load.own_methods or len(motion) < MANY:
+        found = np.array([load.acts(load.MOTION(*row)) for row in motion.tolist()]).reshape(-1, width)
     else:
         action, own = load.formula
-        values = [[course(row[0]) for row in rows] for course in load.courses]
+        times = motion[:, 0].tolist()
+        values = [[course(t) for t in times] for course in load.courses]
         known = np.column_stack([motion, *values])
         found = _loop(action, known.shape[1], len(own), width)(known, np.array(own))
     observed = zip(load.channels, found[:, forces + 3 :].T, strict=True)

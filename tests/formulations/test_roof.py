@@ -36,8 +36,8 @@ from tests.roof_cases import (
     STIFFNESS,
     TEN_MEGANEWTONS,
     TOP,
-    Branching,
     DeadLoad,
+    HandmadeLoad,
     Ram,
     elastic_block,
     over_the_canopy,
@@ -45,6 +45,7 @@ from tests.roof_cases import (
     pressed_support,
     thrown,
 )
+from user_forces import InputError
 from user_forces.values.value import Vector2
 
 W = math.sqrt(STIFFNESS / MASS)
@@ -127,15 +128,6 @@ def test_a_ram_that_a_descent_pushes_is_given_its_work() -> None:
     assert result.energy_error < 2e-2  # of 2 kJ
 
 
-def test_what_no_expression_can_python_does() -> None:
-    descents = Branching(speed_down=0.5), UniformSpeed(stroke=0.5, start=0.01, end=1.01)
-    scenes = [replace(thrown(0.01, 1e-3), loads={"roof": over_the_ram(descent=drive)}) for drive in descents]
-    told, alone = (simulate(replace(scene, record_period=1e-3)) for scene in scenes)
-    # the same formulas; rounding of numbers up to 3e4 N
-    np.testing.assert_allclose(told["roof.force"], alone["roof.force"], atol=1e-6)
-    assert told["roof.force"].max() > 3e4
-
-
 def test_an_applied_force_gives_its_work_to_the_ram() -> None:
     up = AppliedForce(body="ram", point=TOP, full_force=(0.0, 5e3), start=0.1, end=0.3)
     scene = Scenario(machine=Ram(), loads={"jack": up}, duration=0.5, record_period=1e-3, gravity=(0.0, 0.0))
@@ -161,6 +153,17 @@ def test_a_dead_load_takes_no_more_than_its_class(formulation: str) -> None:
     np.testing.assert_allclose(result["guide.force"][1:], 7.0, rtol=share)
     assert result.energy_error < 1e-4  # of 500 J
     assert "weight.force" not in result.channels
+
+
+def test_a_load_of_methods_runs_in_the_engine_only() -> None:
+    loads = [kind(body="ram", point=TOP, vector=(7.0, -300.0)) for kind in (DeadLoad, HandmadeLoad)]
+    scenes = [replace(thrown(0.01, 1e-3), loads={"weight": load}, record_period=1e-2) for load in loads]
+    action, methods = (by("exudyn", scene) for scene in scenes)
+    for name in action.channels:
+        np.testing.assert_array_equal(action[name], methods[name])
+    why = r"loads\.weight = HandmadeLoad \(it has no action, but force, stored, powers of its own\): not"
+    with pytest.raises(InputError, match=why):
+        by("compiled", scenes[1])
 
 
 @FORMULATIONS

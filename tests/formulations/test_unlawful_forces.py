@@ -301,10 +301,10 @@ class Lost(Drive):
     """Smooth at first, then no number."""
 
     def extension(self, t: float) -> float:
-        return where(t > 0.012, math.nan, t * t)
+        return t * t if t <= 0.012 else math.nan
 
     def speed(self, t: float) -> float:
-        return where(t > 0.012, math.nan, 2.0 * t)
+        return 2.0 * t if t <= 0.012 else math.nan
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -326,7 +326,7 @@ def test_a_drive_of_ideal_pins_is_refused() -> None:
 @value
 class LostCrank(Lost):
     def extension(self, t: float) -> float:
-        return where(t > 4e-4, math.nan, CRANK_SPEED * t)
+        return CRANK_SPEED * t if t <= 4e-4 else math.nan
 
     def speed(self, t: float) -> float:
         return CRANK_SPEED
@@ -351,7 +351,7 @@ class Pushing(AppliedForce):
 @value
 class NoLoad(AppliedForce):
     def force(self, at: LoadedPoint) -> Vector2:
-        return 0.0, where(at.time > 5e-3, math.nan, -1e4)
+        return 0.0, -1e4 if at.time <= 5e-3 else math.nan
 
 
 @pytest.mark.parametrize("kind", [Pushing, NoLoad])

@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -13,11 +14,15 @@ from hypothesis import strategies as st
 from support_exudyn import (
     AppliedForce,
     AppliedTorque,
+    BeddedRoof,
+    GroundReaction,
     HarmonicCourse,
     LoadedPoint,
     MomentLoad,
+    Roof,
     Scenario,
     SpringDamper,
+    Steady,
     TableCourse,
     TorsionSpring,
     TurnedBody,
@@ -25,6 +30,8 @@ from support_exudyn import (
 )
 from support_exudyn.files.scenarios.scenario_file import scenario_of
 from support_exudyn.files.toml.text import parsed
+from support_exudyn.mechanics.acting_loads import MANY, actions
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.summary import what_is_run
 from tests.linkage_cases import CrankRocker
@@ -93,6 +100,31 @@ def test_energy_stored_by_moments_changes_by_the_powers(
     rate = (ends[1] - ends[0]) / (2.0 * small)
     assert rate == pytest.approx(powers.work - powers.loss - load.moment(at) * spin, rel=1e-5, abs=1e-3)
     assert powers.loss >= 0.0
+
+
+BED = BeddedRoof(
+    body="rocker", points=((0.3, 0.1), (0.5, 0.2)), descent=Steady(rate=0.3), bedding=1e5, damping=0.2
+)
+ROOF = Roof(body="rocker", point=(0.3, 0.1), descent=Steady(rate=0.3), stiffness=1e5, damping=0.2)
+CURVE = GroundReaction(
+    body="rocker", point=(0.3, 0.1), convergences=(0.0, 0.2, 0.5), forces=(3e4, 1e4, 2e4), between="smooth"
+)
+
+
+@pytest.mark.parametrize("load", [FORCE, TORQUE, SPRING, COIL, BED, ROOF, CURVE], ids=lambda load: type(load))
+def test_compiled_actions_are_those_of_python(load: ActingLoad) -> None:
+    motion = np.random.default_rng(3).uniform(-1.0, 1.0, (MANY, len(load.MOTION._fields)))
+    forces, stored, observed = actions(load, motion)
+    acts = np.array([load.acts(load.MOTION(*row)) for row in motion.tolist()])
+    work_and_loss = load.FORCES + np.array([1, 2])
+    wanted = np.delete(acts, work_and_loss, axis=1)
+    # the same operations; a hypotenuse may be rounded otherwise
+    np.testing.assert_allclose(np.column_stack([forces, stored, *observed.values()]), wanted, rtol=1e-13)
+    assert np.any(acts[:, work_and_loss] != 0.0)
+
+
+def test_a_spring_whose_ends_meet_has_no_force() -> None:
+    assert all(map(math.isnan, SPRING.force(LoadedPoint(0.0, 0.0, 0.0, 1.0, 0.0))))
 
 
 def test_courses_that_cannot_be_are_refused() -> None:

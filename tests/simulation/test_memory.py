@@ -8,13 +8,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
 
-from support_exudyn import Drive, Held, Scenario, SolverSettings, simulate
+from support_exudyn import Held, Scenario, SolverSettings, simulate
 from support_exudyn.formulations.redundant.scene.load_item import LoadItem
 from support_exudyn.formulations.redundant.scene.scene import Scene
+from support_exudyn.model.loads.load import AnyLoad
 from tests.cases.run_cases import loose_support
-from tests.roof_cases import Branching, over_the_canopy
+from tests.roof_cases import over_the_canopy
+from user_forces.connector.clearance_joint import ClearanceJoint
 
 
 def held(formulation: str, duration: float) -> Scenario:
@@ -60,9 +61,8 @@ def only_ours() -> Iterator[None]:
 
 
 @pytest.mark.usefixtures("only_ours")
-@pytest.mark.parametrize("descent", [None, Held(), Branching(speed_down=0.1)], ids=type)
-def test_nothing_of_a_run_stays_behind(descent: Drive | None) -> None:
-    loads = {"roof": over_the_canopy(0.1, descent=descent)} if descent else {}
+@pytest.mark.parametrize("loads", [{}, {"roof": over_the_canopy(0.1)}], ids=["free", "under a roof"])
+def test_nothing_of_a_run_stays_behind(loads: dict[str, AnyLoad]) -> None:
     simulate(replace(held("exudyn", 0.1), loads=loads))
     # the engine would keep its user functions alive, and they all that they know
     gc.collect()

@@ -90,6 +90,8 @@ class SpringDamper(Load):
     ) -> tuple[float, ...]:
         """The force, the spring's k (l - l0)^2/2 and the damper's loss c (dl/dt)^2; see `ActingLoad`."""
         length = math.hypot(math.hypot(x, y), z)
+        if length == 0.0:  # without a direction there is no force
+            length = math.nan
         stretch, rate = length - free_length, (x * vx + y * vy + z * vz) / length
         push = -stiffness * stretch - damping * rate
         share, stored = push / length, 0.5 * stiffness * stretch * stretch
