@@ -53,10 +53,11 @@ def test_legs_are_those_of_the_compiled_formulation_to_second_order(name: str) -
     coarse, fine = (lift(CASES[name], "exudyn", step=size) for size in (2.0 * step, step))
     assert error(fine, wanted) < 1e-3
     assert 3.3 < error(coarse, wanted) / error(fine, wanted) < 4.7
-    events, known = fine.oil_events["jack"], wanted.oil_events["jack"]
-    assert bool(known) == (name != "plain")
-    assert [one[1:] for one in events] == [one[1:] for one in known]
-    np.testing.assert_allclose([e.time for e in events], [e.time for e in known], atol=2e-5)
+    if name != "plain":  # which has no element that could open, fill or be met
+        events, known = fine.oil_events["jack"], wanted.oil_events["jack"]
+        assert known
+        assert [one[1:] for one in events] == [one[1:] for one in known]
+        np.testing.assert_allclose([e.time for e in events], [e.time for e in known], atol=2e-5)
     assert np.abs(fine["energy.balance"]).max() < 1e-5 * fine["energy.work"].max()
 
 
