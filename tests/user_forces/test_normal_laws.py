@@ -251,7 +251,7 @@ def test_a_power_law_is_its_published_formula(kind: type[Any]) -> None:
     names = {"exp": math.exp, "exact": exact_damping_factor}
     for e in (0.2, *ASKED):
         # the formula in words, computed as it is printed
-        chi = eval(written, names | {"e": e})  # noqa: S307 - of this package's own table
+        chi = eval(written, names | {"e": e})
         assert power_law(kind, restitution=e).damping_factor == pytest.approx(chi, rel=1e-12)
     # 4e10 (1e-4)^1.5 (1 + chi/4) at a quarter of the impact velocity; rounding
     assert law(1e-4, 0.05, 0.2) == pytest.approx(4e4 * (1.0 + law.damping_factor / 4.0), rel=1e-13)

@@ -26,10 +26,9 @@ from user_forces import (
     NormalLaw,
     Value,
     friction_law,
-    kernel,
     normal_law,
 )
-from user_forces.kernel import compiled_or_plain, name_of, prepare
+from user_forces.kernel import compiled_or_plain, kernel, name_of, prepare
 from user_forces.values.value import Fraction, Positive
 
 UNITS = {"N": 1.0}
@@ -67,9 +66,9 @@ def rounded(slip: float, normal_force: float, coefficient: float = 0.2, speed: f
 
 
 @friction_law
-def stepped(slip: float, normal_force: float) -> float:
+def caught(slip: float, normal_force: float) -> float:
     try:
-        return -0.2 * normal_force * slip / abs(slip)
+        return -0.2 * normal_force * slip / (abs(slip) + 1e-2)
     except ZeroDivisionError:
         return 0.0
 
@@ -135,7 +134,7 @@ def test_a_law_with_branches_runs_as_ours_does(formulation: str) -> None:
     ours = struck(LankaraniNikravesh(stiffness=1e9, restitution=0.9), rounded(coefficient=0.1), formulation)
     assert len(own.onsets["pin"]) >= 1
     assert own["energy.friction_loss"][-1] >= 0.0
-    for name in ("pin.pin.depth", "pin.pin.force", "journal.velocity_x", "energy.contact_loss"):
+    for name in ("pin.pin.depth", "pin.pin.force", "journal.velocity_x", "energy.damping_loss"):
         scale = np.abs(ours[name]).max()
         # rounding of powers, magnified by an impact
         np.testing.assert_allclose(own[name], ours[name], rtol=0.0, atol=1e-8 * scale)
@@ -143,7 +142,7 @@ def test_a_law_with_branches_runs_as_ours_does(formulation: str) -> None:
 
 def test_a_law_that_numba_cannot_compile_runs_on_exudyn_alone() -> None:
     known = LankaraniNikravesh(stiffness=1e9, restitution=0.9)
-    pairs = [(uncompiled(stiffness=1e9), Ambrosio(sliding_coefficient=0.2)), (known, stepped())]
+    pairs = [(uncompiled(stiffness=1e9), Ambrosio(sliding_coefficient=0.2)), (known, caught())]
     for (normal, friction), reason in zip(pairs, ("global name 'UNITS'", "Exception matching"), strict=True):
         with pytest.raises(InputError, match=rf"pins\.pin\.contact = .*numba cannot compile it: .*{reason}"):
             struck(normal, friction, "compiled")
@@ -193,7 +192,7 @@ friction = {type = "own_of_a_file.py:Creeping", coefficient = 0.1}
 def test_a_scenario_file_names_laws_of_its_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "own_of_a_file.py").write_text(OWN, encoding="utf-8")
     (tmp_path / "a.toml").write_text(SCENARIO, encoding="utf-8")
-    assert main(["run", str(tmp_path / "a.toml")]) == 2
+    assert main(["run", str(tmp_path / "a.toml")]) == 1
     assert "--import" in capsys.readouterr().err
     command = ["--import", str(tmp_path / "own_of_a_file.py"), "run", str(tmp_path / "a.toml")]
     assert main([*command, "--out", str(tmp_path / "a")]) == 0
@@ -256,7 +255,7 @@ def test_what_numba_cannot_compile_is_told_with_the_reason(law: NormalLaw) -> No
     contact = JournalContact(bearing=BEARING, normal=law)
     with pytest.raises(UncompiledLawError, match=r"numba cannot compile it: [^\n]*(UNITS|could not convert)"):
         address_of(contact_law(contact.law_kernel, len(contact.law_constants)))
-    plain = law_of("[depth][0] + {}.get('a', rate)")
+    plain = law_of("table['k'] * depth", table={"k": 1.0})
     with pytest.warns(UserWarning, match="computed in Python"):
         assert compiled_or_plain(plain, (1.0, 1.0, 1.0)) is plain
     assert compiled_or_plain(made(2.0), (1.0,))(3.0) == 12.0
