@@ -168,4 +168,4 @@ _PLACES = {
 }
 
 __getattr__, __dir__ = offered(__name__, _PLACES)
-keep_classes(__name__, _PLACES)
+keep_classes(__name__, {**_PLACES, ".normal.part": ("PartOf",)})

@@ -159,7 +159,7 @@ def compiled_or_plain(function: Function, arguments: tuple[Any, ...]) -> Functio
     try:
         try:
             return numba.njit(types, cache=True, **options)(same)  # type: ignore[no-any-return]
-        except RuntimeError:  # there is no folder in which files may be written
+        except (RuntimeError, ImportError):  # files may be written nowhere, or kept code has no module now
             return numba.njit(types, **options)(same)  # type: ignore[no-any-return]
     except Exception as error:  # numba evaluates parts of a function itself, which raise errors of any kind
         warnings.warn(f"computed in Python, since numba cannot compile it: {reason(error)}", stacklevel=2)
