@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from user_forces.friction.laws import Threlfall as Threlfall
     from user_forces.friction.lugre import LuGre as LuGre
     from user_forces.journal import JournalBearing as JournalBearing
-    from user_forces.kernel import kernel as kernel
     from user_forces.materials import STEEL as STEEL
     from user_forces.materials import STEEL_35CRMO as STEEL_35CRMO
     from user_forces.materials import Material as Material
@@ -107,7 +106,6 @@ _PLACES = {
     ),
     ".friction.lugre": ("LuGre",),
     ".journal": ("JournalBearing",),
-    ".kernel": ("kernel",),
     ".materials": (
         "Material",
         "STEEL",
@@ -170,4 +168,4 @@ _PLACES = {
 }
 
 __getattr__, __dir__ = offered(__name__, _PLACES)
-keep_classes(__name__, _PLACES)
+keep_classes(__name__, {**_PLACES, ".normal.part": ("PartOf",)})

@@ -159,17 +159,20 @@ def compiled_or_plain(function: Function, arguments: tuple[Any, ...]) -> Functio
     try:
         try:
             return numba.njit(types, cache=True, **options)(same)  # type: ignore[no-any-return]
-        except RuntimeError:  # there is no folder in which files may be written
+        except (RuntimeError, ImportError):  # files may be written nowhere, or kept code has no module now
             return numba.njit(types, **options)(same)  # type: ignore[no-any-return]
-    except numba.core.errors.NumbaError as error:
+    except Exception as error:  # numba evaluates parts of a function itself, which raise errors of any kind
         warnings.warn(f"computed in Python, since numba cannot compile it: {reason(error)}", stacklevel=2)
         return function
+
+
+CAUSES = ("Unknown", "Use of", "Untyped", "Cannot", "Invalid", "No implementation", "Unsupported", "NameError")
 
 
 def reason(error: Exception) -> str:
     """Why numba cannot compile a function, in a line without colours: the innermost cause that it names."""
     lines = [re.sub(r"\x1b\[\d+m", "", line).strip(" -") for line in str(error).splitlines()]
-    causes = [line for line in lines if line.startswith(("Unknown", "Use of", "Untyped", "Cannot", "Invalid"))]
+    causes = [line for line in lines if line.startswith(CAUSES)]
     return (causes or [line for line in lines if line] or [type(error).__name__])[-1 if causes else 0]
 
 

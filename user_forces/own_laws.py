@@ -6,7 +6,8 @@
 
     pin_law = cubic(stiffness=1e15)
 
-The function is plain Python, with `if` and `math`. Its parameters become fields of a class of laws, which has
+The function is plain Python, with `if` and `math`; what it calls of one's own has `@kernel` of
+`user_forces.kernel`. Its parameters become fields of a class of laws, which has
 the function's name in capitals, `Cubic`, in files. A function that numba cannot compile runs on Exudyn.
 """
 

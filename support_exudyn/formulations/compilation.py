@@ -236,9 +236,9 @@ def _machine_code(law: Callable[..., float]) -> Any:
     try:
         try:
             return numba.cfunc(LAW, cache=True, error_model="numpy")(same)
-        except RuntimeError:  # there is no folder in which files may be written
+        except (RuntimeError, ImportError):  # files may be written nowhere, or kept code has no module now
             return numba.cfunc(LAW, error_model="numpy")(same)
-    except numba.core.errors.NumbaError as error:
+    except Exception as error:  # numba evaluates parts of a function itself, which raise errors of any kind
         raise UncompiledLawError(f"numba cannot compile it: {reason(error)}") from error
 
 

@@ -7,10 +7,10 @@ import math
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from support_exudyn.formulations.redundant.clearance.steep_friction import TRIES, FrictionLine
 
 from tests.often import often
 from user_forces import Ambrosio
+from user_forces.connector.friction_line import TRIES, FrictionLine
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.laws import BrownMcPhee, CubicCoulomb, Threlfall
 

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import pytest
-from support_exudyn.formulations.redundant.clearance.clearance_pin import ClearanceJoint
-from support_exudyn.formulations.redundant.clearance.connector_force import Relative
-from support_exudyn.formulations.redundant.clearance.pin_motion import Course
 
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError
 from tests.cases.run_cases import PIN, paper_contact, support
 from tests.compiled_runs import simulate_redundant
 from user_forces import Flores
+from user_forces.connector.contact_connector import ContactConnector
 from user_forces.contact import ContactForce
-from user_forces.contact_events import DepthPath
 from user_forces.lawful import LawError
 from user_forces.peak_force import has_a_top, peak
 
@@ -29,10 +25,10 @@ def dropping() -> Scenario:
 
 
 def test_a_law_that_gives_no_force_inside_a_step_is_told_with_its_pin(monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(pin: ClearanceJoint, x: float) -> ContactForce:
+    def fail(pin: ContactConnector, x: float) -> ContactForce:
         raise LawError(f"no force at {x:g} of a step")
 
-    monkeypatch.setattr(ClearanceJoint, "force_within", fail)
+    monkeypatch.setattr(ContactConnector, "force_within", fail)
     with pytest.raises(SimulationError, match=f"{PIN}: no force at "):
         simulate_redundant(dropping())
 
@@ -47,15 +43,3 @@ def test_a_corner_is_found_wherever_it_lies_in_a_step(top: float) -> None:
 @pytest.mark.parametrize("slope", [-1.0, 0.0, 1.0])
 def test_a_force_that_rises_or_falls_throughout_has_no_top_inside(slope: float) -> None:
     assert not has_a_top(lambda x: 5.0 + slope * x, 5.0, 5.0 + slope)
-
-
-def test_a_course_within_a_step_is_that_of_both_its_ends() -> None:
-    path = DepthPath(1e-5, 0.3, 2e-5, 0.1, 1e-4)
-    end = Relative(0.6e-3, 0.8e-3, 0.1 * 0.6 - 0.2 * 0.8, 0.1 * 0.8 + 0.2 * 0.6, 3.0, 1.0)
-    angle = math.atan2(0.8, 0.6)
-    course = Course(path, 0.5, end, 0.7, 1e-3 - 2e-5)
-    assert course.at(1.0) == pytest.approx(end, rel=1e-12)
-    x, y, vx, vy, *_ = course.at(0.0)
-    assert (math.hypot(x, y), math.atan2(y, x)) == pytest.approx((1e-3 - 1e-5, angle), rel=1e-12)
-    rate, across = (x * vx + y * vy) / math.hypot(x, y), (x * vy - y * vx) / math.hypot(x, y)
-    assert (rate, across) == pytest.approx((0.3, 0.2 - 0.2), abs=1e-12)  # the slip is 0.2 m/s less

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from support_exudyn import ClearancePin, Failure, Held, Result, Scenario, SolverSettings, simulate
+from support_exudyn import ClearancePin, Failure, Held, Result, Scenario, simulate
 from tests.cases.run_cases import PIN, paper_contact, support
 from user_forces import Ambrosio
 
@@ -40,19 +40,6 @@ def test_energy_adds_up_under_steep_friction(steep: Result) -> None:
     assert steep["energy.friction_loss"][-1] > 1.0  # it is rubbed off, too
     # a step may cross the ramp: measured 4e-4 of what is lost
     assert steep.energy_error < 5e-3 * steep.dissipated
-
-
-def test_a_line_stands_for_it_in_expressions_of_the_engine(steep: Result) -> None:
-    symbolic = simulate(replace(held(STEEP), solver=SolverSettings(backend="symbolic")))
-    assert symbolic.counts.user_function_calls == 0
-    # else steps were halved where it failed: 1443 against 1412, with 4 failures against 1
-    assert symbolic.counts.steps == steep.counts.steps
-    assert symbolic.counts.failed_newton == steep.counts.failed_newton
-    assert symbolic.dissipated == pytest.approx(steep.dissipated, rel=1e-6)
-    for name in ("depth", "slip", "friction_force"):
-        channel = f"pin.{PIN}.{name}"
-        largest = np.abs(steep[channel]).max()
-        np.testing.assert_allclose(symbolic[channel], steep[channel], rtol=0.0, atol=1e-5 * largest)
 
 
 def test_the_compiled_formulation_finds_the_same(steep: Result) -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from support_exudyn import ClearancePin
 from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
 from tests.cases.run_cases import paper_contact
-from user_forces import Ambrosio, FrictionLaw, Frictionless, value
+from user_forces import Ambrosio, FrictionLaw, Frictionless, friction_law
 from user_forces.contact import SlipHistory
 from user_forces.contact_state import PinMemory
 
@@ -21,14 +21,12 @@ NORMAL = replace(BASE.normal, restitution=0.5)  # asks for the mass that moves
 CLEARANCE = BASE.bearing.clearance
 
 
-@value
-class Branching(FrictionLaw):
-    """Coulomb's friction with an `if`, which takes numbers only."""
-
-    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
-        if slip > 0.0:
-            return -0.25 * normal_force
-        return 0.25 * normal_force
+@friction_law
+def branching(slip: float, normal_force: float) -> float:
+    """Coulomb's friction with an `if`."""
+    if slip > 0.0:
+        return -0.25 * normal_force
+    return 0.25 * normal_force
 
 
 speeds = st.floats(-1.0, 1.0)
@@ -48,7 +46,7 @@ records = st.lists(
 )
 
 
-@pytest.mark.parametrize("friction", [Frictionless(), Ambrosio(sliding_coefficient=0.25), Branching()])
+@pytest.mark.parametrize("friction", [Frictionless(), Ambrosio(sliding_coefficient=0.25), branching()])
 @given(rows=records)
 def test_all_at_once_is_one_by_one(friction: FrictionLaw, rows: list[tuple[float, ...]]) -> None:
     pin = ClearancePin(contact=replace(BASE, normal=NORMAL, friction=friction))

@@ -12,10 +12,6 @@ from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
 from support_exudyn import ClearancePin, Scenario, reference_support
-from support_exudyn.formulations.redundant.clearance.connector_force import Attachment
-from support_exudyn.formulations.redundant.clearance.pin_motion import in_plane
-from support_exudyn.formulations.redundant.space.section_motion import SectionEnd, SectionMover
-from support_exudyn.formulations.redundant.space.section_motion import half_way as half_way_of_one
 from support_exudyn.formulations.redundant.space.sections import half_way, lobatto, section_motion, sections
 from support_exudyn.mechanics.space.constraints import (
     BearingEnd,
@@ -39,6 +35,7 @@ from support_exudyn.model.spatial_linkage import Bearing, SpatialActuator, Spati
 from tests.cases.law_cases import NORMAL_LAWS
 from tests.cases.machine_cases import contact
 from user_forces import LankaraniNikravesh, LoadError, NormalLaw
+from user_forces.connector.attachment import Attachment
 from user_forces.normal.part import PartOf
 
 unit = st.floats(-1.0, 1.0, allow_subnormal=False)
@@ -310,20 +307,6 @@ def test_energy_of_a_part_is_the_integral_of_its_elastic_force(share: float, dep
     )
 
 
-@given(apart=vectors, rates=vectors)
-def test_displacement_in_the_plane_has_distance_and_rate_of_that_in_space(
-    apart: tuple[float, float, float], rates: tuple[float, float, float]
-) -> None:
-    assume(math.hypot(*apart[:2]) > 1e-3)
-    x, y, vx, vy = in_plane(apart, rates)
-    distance = math.hypot(*apart)
-    assert math.hypot(x, y) == pytest.approx(distance, rel=1e-12)
-    # rounding, of a division by 1e-3
-    assert (x * vx + y * vy) / distance == pytest.approx(np.dot(apart, rates) / distance, abs=1e-11)
-    across = np.array([-apart[1], apart[0]]) / math.hypot(*apart[:2])
-    assert across @ [vx, vy] == pytest.approx(across @ rates[:2], abs=1e-11)
-
-
 @given(p=parameters(), tilt=vectors)
 def test_axes_half_way_are_turned_by_half_the_angle(p: np.ndarray, tilt: tuple[float, float, float]) -> None:
     axes = rotation(p)
@@ -331,56 +314,40 @@ def test_axes_half_way_are_turned_by_half_the_angle(p: np.ndarray, tilt: tuple[f
     along = Rotation.from_rotvec(about).as_matrix() @ axes[:, 2]
     expected = Rotation.from_rotvec(0.5 * about).as_matrix() @ axes
     np.testing.assert_allclose(half_way(axes[None], along[None])[0], expected, atol=1e-13)  # rounding
-    one = half_way_of_one(tuple(map(tuple, axes.T.tolist())), tuple(along.tolist()))
-    np.testing.assert_allclose(np.array(one).T, expected, atol=1e-13)
 
 
 @given(
     linkage=machines(),
     state=states(),
     place=st.floats(-0.1, 0.1),
-    where=st.sampled_from([Attachment.LINE, Attachment.MIDDLE, Attachment.BORE]),
-    slides=st.booleans(),
+    where=st.sampled_from([Attachment.CENTRES, Attachment.MIDDLE, Attachment.BORE]),
 )
-def test_a_section_moves_alike_over_a_run_and_now(
-    linkage: SpatialLinkage,
-    state: tuple[np.ndarray, np.ndarray],
-    place: float,
-    where: Attachment,
-    slides: bool,
+def test_a_section_has_the_distance_and_the_rate_of_both_its_centres(
+    linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], place: float, where: Attachment
 ) -> None:
     position, velocity = state
-    # a small turn between both bodies, as of a journal in its bore
-    turned = Rotation.from_quat([*(position[3:7] + UNTURNED)[1:], position[3] + 1.0])
-    quat = (Rotation.from_rotvec(0.05 * velocity[:3]) * turned).as_quat()
-    position[10:] = np.array([quat[3], *quat[:3]]) - UNTURNED
-    rates = coordinate_rates(position, velocity)
+    motion = motion_of(linkage, position, coordinate_rates(position, velocity))
     bearing = linkage.bearings["p"]
     ends = (
         BearingEnd("a", bearing.first_point, bearing.first_axis),
         BearingEnd("b", bearing.second_point, bearing.second_axis),
     )
-
-    def section_end(end: BearingEnd, first: int) -> SectionEnd:
-        centre = linkage.bodies[end.body].centre
-        frame = frame_of(end.axis)
-        arm = tuple(np.subtract(end.centre(place), centre).tolist())
-        first_axis, second_axis, along = (tuple(frame[:, k].tolist()) for k in range(3))
-        return SectionEnd(first, centre, arm, (first_axis, second_axis), along)
-
-    mover = SectionMover(None, section_end(ends[0], 0), section_end(ends[1], 7), where)
-    if slides:
-        mover.meet(mover.beside(position.tolist(), rates.tolist())[0])
-    (*_, bore_spin), (x, y, vx, vy, _, journal_spin) = mover.when(position.tolist(), rates.tolist())
-    context = section_motion(motion_of(linkage, position, rates), *ends, place, where, slides)
-    found = [context.x, context.y, context.vx, context.vy, context.bore_spin, context.journal_spin]
-    # rounding; the shift leaves tilt^2 of itself where both axes meet half-way
-    off = 1e-9 if not slides else 2e-2
-    np.testing.assert_allclose(
-        np.ravel(found),
-        [x, y, vx, vy, bore_spin, journal_spin],
-        atol=off if where is Attachment.MIDDLE else 1e-9,
-    )
+    bore, journal = (motion.point(end.body, end.centre(place)) for end in ends)
+    apart, rates = journal.position[0] - bore.position[0], journal.velocity[0] - bore.velocity[0]
+    axes = motion.carried("a", bearing.first_axis)[0], motion.carried("b", bearing.second_axis)[0]
+    assume(np.linalg.norm(axes[0] + axes[1]) > 0.1)
+    found = section_motion(motion, *ends, place, where, False)
+    x, y, vx, vy, bore_spin, journal_spin = (float(column[0]) for column in found[:6])
+    spins = motion.spin_of("a")[0], motion.spin_of("b")[0]
+    along = axes[0] if where is not Attachment.MIDDLE else sum(axes) / np.linalg.norm(sum(axes))
+    assert bore_spin == pytest.approx(spins[0] @ axes[0], abs=1e-12)
+    assert journal_spin - bore_spin == pytest.approx((spins[1] - spins[0]) @ along, abs=1e-12)
+    if where is not Attachment.CENTRES:  # only what is across the axis counts
+        apart, rates = apart - along * (along @ apart), rates - along * (along @ rates)
+    assume(math.hypot(x, y) > 1e-3 and np.linalg.norm(apart - along * (along @ apart)) > 1e-3)
+    assert math.hypot(x, y) == pytest.approx(np.linalg.norm(apart), rel=1e-11)
+    # rounding, of a division by 1e-3
+    assert (x * vx + y * vy) == pytest.approx(apart @ rates, abs=1e-10)
 
 
 # --- channels ---

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -21,13 +21,12 @@ from user_forces import (
     JournalContact,
     LoadError,
     LuGre,
-    NormalLaw,
-    value,
+    friction_law,
+    normal_law,
 )
-from user_forces.compilation.flat import flat_force
-from user_forces.contact import SlipHistory
-from user_forces.expressions.scalar import maximum, minimum, where
-from user_forces.friction.law import FrictionLaw
+from user_forces.connector.attachment import Attachment, compiled_kernel
+from user_forces.contact import ContactForce, SlipHistory
+from user_forces.kernel import limited, sign
 from user_forces.lawful import AT_REST, LawError, check_laws, look
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0015)
@@ -70,27 +69,16 @@ def test_no_friction_law_of_ours_is_refused(
 ) -> None:
     law = FRICTION[name]
     contact = JournalContact(bearing=BEARING, normal=next(iter(NORMAL.values())), friction=law)
-    deflection = law.next_deflection(*history) if law.has_state else 0.0
+    deflection = law.next_deflection(*history)
     look(contact, 1e-5, 0.0, slip, normal, law(slip, normal, deflection), normal)
 
 
-@value
-class Spring(NormalLaw):
-    """Linear; a law of one's own."""
-
-    stiffness: float = 1e9
-
-    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
-        return self.stiffness * depth
-
-    def elastic_force(self, depth: float) -> float:
-        return self.stiffness * depth
-
-    def elastic_energy(self, depth: float) -> float:
-        return 0.5 * self.stiffness * depth * depth
+@normal_law
+def spring(depth: float, rate: float, impact_velocity: float, stiffness: float = 1e9) -> float:
+    return stiffness * depth
 
 
-CONTACT = JournalContact(bearing=BEARING, normal=Spring(), friction=Ambrosio(sliding_coefficient=0.1))
+CONTACT = JournalContact(bearing=BEARING, normal=spring(), friction=Ambrosio(sliding_coefficient=0.1))
 STATE: dict[str, float] = {
     "depth": 1e-5, "rate": 0.1, "slip": 0.2, "normal": 1e4, "friction": -1e3, "elastic": 1e4
 }  # fmt: skip
@@ -126,7 +114,7 @@ def test_what_is_right_but_for_rounding_passes() -> None:
 
 def test_a_bristle_may_give_back_what_it_has_stored() -> None:
     bristles = JournalContact(
-        bearing=BEARING, normal=Spring(), friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2)
+        bearing=BEARING, normal=spring(), friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2)
     )
     look(bristles, **STATE | {"friction": 1e3})
     with pytest.raises(LawError, match="pushes along the slip"):
@@ -135,65 +123,57 @@ def test_a_bristle_may_give_back_what_it_has_stored() -> None:
 
 @pytest.mark.parametrize("sign", [-1.0, math.nan])
 def test_an_elastic_part_that_pulls_is_told_before_a_run(sign: float) -> None:
-    class Pull(Spring):
-        def elastic_force(self, depth: float) -> float:
-            return sign * 1e9 * depth
+    def force(depth: float, rate: float, impact_velocity: float) -> float:
+        return sign * 1e9 * depth
 
     check_laws(CONTACT, "pin")
     with pytest.raises(LawError, match=f"has an elastic force of {sign * 1e9 * AT_REST[0]:g} N"):
-        check_laws(JournalContact(bearing=BEARING, normal=Pull()), "pin")
+        check_laws(JournalContact(bearing=BEARING, normal=normal_law(force)()), "pin")
 
 
 # --- what is no number is not cut away ---
 
 
-@pytest.mark.parametrize("cut", [maximum, minimum])
-def test_cutting_keeps_what_is_no_number(cut: Callable[[float, float], float]) -> None:
-    assert math.isnan(cut(math.nan, 0.0))
-    assert math.isnan(cut(0.0, math.nan))
-    assert cut(math.inf, 0.0) == (math.inf if cut is maximum else 0.0)
+@normal_law
+def deep(depth: float, rate: float, impact_velocity: float) -> float:
+    return math.nan if depth > 1e-5 else 1e9 * depth
 
 
-class Deep(Spring):
-    """No number beyond a depth."""
-
-    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
-        return where(depth > 1e-5, math.nan, 1e9 * depth)
-
-
-class Branching(Spring):
-    """The same, for numbers only."""
-
-    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
-        return math.nan if depth > 1e-5 else 1e9 * depth
-
-
-@value
-class Slipping(FrictionLaw):
-    """Infinite beyond a slip."""
-
-    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
-        return where(slip > 0.1, -math.inf, -0.1 * normal_force * where(slip > 0.0, 1.0, -1.0))
+@friction_law
+def slipping(slip: float, normal_force: float) -> float:
+    return -math.inf if slip > 0.1 else -0.1 * normal_force * sign(slip)
 
 
 @pytest.mark.parametrize(
     ("contact", "depth", "slip"),
     [
-        (JournalContact(bearing=BEARING, normal=Deep()), 2e-5, 0.0),
-        (JournalContact(bearing=BEARING, normal=Branching()), 2e-5, 0.0),
-        (JournalContact(bearing=BEARING, normal=Spring(), friction=Slipping()), 1e-6, 0.2),
+        (JournalContact(bearing=BEARING, normal=deep()), 2e-5, 0.0),
+        (JournalContact(bearing=BEARING, normal=spring(), friction=slipping()), 1e-6, 0.2),
     ],
 )
-def test_the_flat_force_says_so(contact: JournalContact, depth: float, slip: float) -> None:
-    force: Any = flat_force(contact)
-    others = (0.0, 0.0, 1.0, 0.1, 0.0, 0.0, 0.0)
-    force(BEARING.clearance + 5e-7, 0.0, 0.1, 0.05, *others)
-    with pytest.raises(LawError):
-        force(BEARING.clearance + depth, 0.0, 0.1, slip, *others)
+def test_a_contact_of_such_laws_has_such_a_force(contact: JournalContact, depth: float, slip: float) -> None:
+    place = BEARING.clearance + depth, 0.0, 0.1, slip, 0.0, 0.0
+    compiled = compiled_kernel(contact.force_kernel, Attachment.JOURNAL, False)
+    numbers = *place[:2], 0.0, *place[2:4], 0.0, 0.0, 0.0, 0.0, True, 0.1, 0.0, 0.0, 0.0
+    for found in (
+        contact.force(*place, 0.1),
+        ContactForce(*compiled(*numbers, np.array(contact.constants))[4:14]),
+    ):
+        with pytest.raises(LawError, match="gives a force of (nan|-inf) N"):
+            look(contact, *found[:5])
+
+
+@pytest.mark.parametrize(
+    "ends", [(math.nan, 0.0, 1.0), (0.5, 0.0, 1.0), (-1.0, 0.0, 1.0), (math.inf, 0.0, 1.0)]
+)
+def test_limits_keep_what_is_no_number(ends: tuple[float, float, float]) -> None:
+    x, low, high = ends
+    found = limited(x, low, high)
+    assert math.isnan(found) if math.isnan(x) else found == min(max(x, low), high)
 
 
 def test_frictionless_is_a_friction_law_that_passes() -> None:
-    smooth = JournalContact(bearing=BEARING, normal=Spring(), friction=Frictionless())
+    smooth = JournalContact(bearing=BEARING, normal=spring(), friction=Frictionless())
     look(smooth, **STATE | {"friction": 0.0})
     with pytest.raises(LawError, match="Frictionless pushes along the slip"):
         look(smooth, **STATE | {"friction": 1.0})

@@ -21,7 +21,7 @@ inlet = Value.from_data({"type": "ClosedInlet"})
 assert inlet is not None and type(inlet) is support_exudyn.ClosedInlet
 assert "user_forces.normal.power_laws" not in sys.modules
 assert Value.of_name("Hertz").__module__ == "user_forces.normal.power_laws"
-assert "user_forces.normal.power_laws" not in sys.modules
+assert "user_forces.normal.cylinders" not in sys.modules
 assert Value.of_name("CoupledDrive") is not None  # which no package offers
 """
 ALL = """
@@ -29,12 +29,13 @@ import importlib, pkgutil
 import support_exudyn, user_forces
 from user_forces.values.value import Value, kinds_of
 
-known = kinds_of(Value)
+known = dict(kinds_of(Value))
 for package in (user_forces, support_exudyn):
     for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
         if not module.name.startswith(("support_exudyn.postprocessing", "support_exudyn.documentation")):
             importlib.import_module(module.name)
-assert kinds_of(Value) == known
+found = {name: kind for name, kind in kinds_of(Value).items() if "postprocessing" not in kind.__module__}
+assert found == known
 """
 OWN = """
 import sys

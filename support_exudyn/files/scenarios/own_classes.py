@@ -72,7 +72,7 @@ def _module(name: str, folder: Path, wanted: str) -> ModuleType:
 def _check_class(module: ModuleType, name: str) -> None:
     """Raise InputError, which says what is allowed, unless a module has such a class of values."""
     known = [one for one, kind in kinds_of(Value).items() if kind.__module__ == module.__name__]
-    if kinds_of(Value).get(name) is vars(module).get(name, ()):
+    if name in known or kinds_of(Value).get(name) is vars(module).get(name, ()):
         return
     if name in vars(module):
         raise InputError(

@@ -1,0 +1,234 @@
+"""The engine's connector of a contact: where it acts, what it conserves, and that all its ways act alike."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+from typing import Any, Literal
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from support_exudyn import ClearancePin, Held, Result, Scenario, SolverSettings, simulate
+from support_exudyn.formulations.redundant.scene.scene_builder import build
+from tests.cases.run_cases import PIN, Pair, loose_support, paper_contact
+from tests.formulations.test_momentum import ONE, TWO, momenta
+from tests.often import often
+from user_forces import (
+    Ambrosio,
+    FrictionLaw,
+    Frictionless,
+    JournalBearing,
+    JournalContact,
+    LankaraniNikravesh,
+    LuGre,
+    SlipHistory,
+    Slot,
+    SlotContact,
+)
+from user_forces.connector.attachment import SHARE, Attachment, attachment, compiled_kernel, connector_kernel
+from user_forces.connector.contact_connector import ContactConnector
+from user_forces.connector.user_function import ConnectorForce
+from user_forces.contact import Contact
+
+Bore = Literal["first", "second"]
+BEARING = JournalBearing(bore_radius=0.02, clearance=0.001)
+LAW = LankaraniNikravesh(stiffness=1e9, restitution=0.9)
+NEARLY = Ambrosio(sliding_coefficient=1e-12)  # no friction, but the connector of one
+BRISTLES = LuGre(static_coefficient=0.3, sliding_coefficient=0.2)
+
+
+def contact(friction: FrictionLaw = Frictionless()) -> JournalContact:  # noqa: B008
+    return JournalContact(bearing=BEARING, normal=LAW, friction=friction)
+
+
+SLOT = SlotContact(bearing=Slot(clearance=0.001, radius=0.02), normal=LAW, friction=BRISTLES)
+HALF_TURN = 0.3  # [rad], of the connector's axes against the bore's
+
+
+@pytest.mark.parametrize(
+    ("of", "ends", "expected"),
+    [
+        (contact(), (True, False), Attachment.CENTRES),
+        (contact(), (False, False), Attachment.CENTRES),
+        (contact(NEARLY), (True, False), Attachment.JOURNAL),
+        (contact(NEARLY), (False, True), Attachment.BORE),
+        (contact(NEARLY), (False, False), Attachment.MIDDLE),
+        (replace(SLOT, friction=Frictionless()), (False, False), Attachment.MIDDLE),
+    ],
+)
+def test_the_force_acts_where_friction_and_ground_let_it(
+    of: Contact, ends: tuple[bool, bool], expected: Attachment
+) -> None:
+    assert attachment(of, *ends) is expected
+
+
+@pytest.mark.parametrize("at", [Attachment.JOURNAL, Attachment.BORE, Attachment.MIDDLE])
+@pytest.mark.parametrize("of", [contact(BRISTLES), SLOT], ids=["bore", "slot"])
+@settings(max_examples=often(40), deadline=None)
+@given(
+    along=st.floats(-0.3, 0.3),
+    across=st.floats(-1.2e-3, 1.2e-3),
+    motion=st.tuples(*6 * (st.floats(-1.0, 1.0),)),
+    deflection=st.floats(-2e-6, 2e-6),
+)
+def test_force_and_moment_are_those_of_the_contact_about_any_point(
+    at: Attachment, of: Contact, along: float, across: float, motion: tuple[float, ...], deflection: float
+) -> None:
+    if not of.bearing.is_slot:
+        along = math.copysign(1.05e-3, along)
+    vx, vy, spin, bore_spin, turned, step = motion
+    # the connector's axes lie half-way between both frames in the middle, else they are those of the bore
+    middle, turn = at is Attachment.MIDDLE, 2.0 * HALF_TURN * turned if at is Attachment.MIDDLE else 0.0
+    bore_spin = {Attachment.JOURNAL: 0.0, Attachment.BORE: bore_spin, Attachment.MIDDLE: bore_spin}[at]
+    spin = 0.0 if at is Attachment.BORE else spin
+    history = deflection, 0.1, abs(step) * 1e-4
+    x, y = along, across
+    walls = (0.0, y, vx, vy - bore_spin * x) if of.bearing.is_slot else (x, y, vx, vy)
+    want = of.force(*walls, bore_spin, spin, 0.2, SlipHistory(*history))
+    c, s = (math.cos(0.5 * turn), math.sin(0.5 * turn)) if of.bearing.is_slot and middle else (1.0, 0.0)
+    stretch = 0.5 * turn / math.sin(0.5 * turn) if turn else 1.0
+
+    def seen(a: float, b: float) -> tuple[float, float]:
+        return c * a + s * b, -s * a + c * b
+
+    place, rate = seen(stretch * x, stretch * y), seen(vx, vy)
+    numbers = *place, 0.0, *rate, 0.0, turn, spin - bore_spin, bore_spin, True, 0.2, *history
+    fx, fy, fz, moment, *found = connector_kernel(of.force_kernel, at, of.bearing.is_slot)(
+        *numbers, of.constants
+    )
+    # rounding of the series of sin(a/2)/(a/2) of a large turn, in depths of 1e-4 m
+    assert found[3:7] == pytest.approx(want[3:7], rel=1e-6, abs=1e-6 * (1.0 + want.normal_force))
+    on_journal = np.array([-c * fx + s * fy, -s * fx - c * fy])
+    scale = 1.0 + float(np.hypot(*on_journal))
+    np.testing.assert_allclose(on_journal, [want.force_x, want.force_y], rtol=0.0, atol=1e-6 * scale)
+    assert fz == 0.0
+    # the contact's force carried to the journal's centre
+    lever = -SHARE[at] * np.array([x, y])
+    about_journal = lever[0] * on_journal[1] - lever[1] * on_journal[0] - moment
+    assert about_journal == pytest.approx(want.journal_moment, abs=1e-6 * scale * (0.02 + abs(x)))
+    machine = compiled_kernel(of.force_kernel, at, of.bearing.is_slot)
+    assert machine(*numbers, np.array(of.constants))[:4] == pytest.approx((fx, fy, fz, moment), rel=1e-14)
+
+
+@cache
+def fly(law: JournalContact, bore: Bore) -> Result:
+    """Two free bodies that turn against each other, joined by the pin alone."""
+    scenario = Scenario(
+        machine=Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25)),
+        pins={"pin": ClearancePin(contact=law, bore=bore)},
+        duration=0.03,
+        step=1e-4,
+        gravity=(0.0, 0.0),
+        solver=SolverSettings(newton_tolerance=1e-10),
+    )
+    return simulate(scenario)
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+@pytest.mark.parametrize("friction", [Frictionless(), BRISTLES])
+def test_momentum_is_kept_on_both_centres_and_in_the_middle(friction: FrictionLaw, bore: Bore) -> None:
+    result = fly(contact(friction), bore)
+    assert len(result.onsets["pin"]) >= 3  # else the test says nothing
+    assert result["one.angular_velocity"].std() > 0.1
+    linear, angular = momenta(result, ONE, TWO)
+    # rounding of some thousand steps
+    np.testing.assert_allclose(linear, np.broadcast_to(linear[0], linear.shape), atol=1e-12)
+    # what is left is the integrator's, and falls with the square of its steps
+    np.testing.assert_allclose(angular, angular[0], rtol=1e-6 if friction == Frictionless() else 1e-5)
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+def test_two_free_bodies_move_alike_on_every_connector(bore: Bore) -> None:
+    lean, full = (fly(contact(friction), bore) for friction in (Frictionless(), NEARLY))
+    one, two = lean.onsets["pin"], full.onsets["pin"]
+    assert len(one) == len(two) >= 3
+    # a coefficient of friction of 1e-12
+    assert [impact.time for impact in one] == pytest.approx([impact.time for impact in two], rel=1e-8)
+    assert [impact.speed for impact in one] == pytest.approx([impact.speed for impact in two], rel=1e-6)
+    for name in ("one.x", "two.angle", "one.angular_velocity"):
+        np.testing.assert_allclose(lean[name], full[name], rtol=1e-7, atol=1e-9)
+
+
+@pytest.mark.parametrize("bore", ["first", "second"])
+def test_the_support_moves_alike_on_every_connector(bore: Bore) -> None:
+    def impacts(friction: FrictionLaw) -> list[tuple[float, float]]:
+        law = replace(paper_contact(1.5, 0.0), friction=friction)
+        pins = {PIN: ClearancePin(contact=law, bore=bore)}
+        result = simulate(
+            replace(loose_support(duration=0.08, solver=SolverSettings(impact_steps=64)), pins=pins)
+        )
+        return [tuple(impact) for impact in result.onsets[PIN]]
+
+    expected = impacts(Frictionless())
+    assert len(expected) == 3
+    # Newton's tolerance of 1e-8, magnified tenfold by each impact
+    np.testing.assert_allclose(impacts(NEARLY), expected, rtol=1e-5)
+
+
+def test_memory_is_that_of_the_last_step_that_stands() -> None:
+    # a step that is tried and given up must leave nothing behind
+    pin = build(loose_support()).clearance_joints[PIN]
+    kept, deep = pin.kept, pin.contact.bearing.clearance + 1e-4
+    pin.begin_try(1e-3)
+    pin.user_function(None, 0.0, 0, [deep, 0.0, 0.0], [0.0] * 3, [0.5, 0.0, 0.0], [0.0] * 3)
+    assert pin.after_newton(1e-3) is not None
+    assert pin.wants_cut
+    assert pin.kept == kept
+    pin.begin_try(5e-4)
+    assert pin.memory == kept
+    assert not pin.wants_cut
+    assert pin.landing < 1e-3
+
+
+SUPPORT = loose_support(1.5, 0.25, drive=Held(), duration=0.04, solver=SolverSettings(impact_steps=64))
+FLIGHT = Scenario(
+    machine=Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25)),
+    pins={"pin": ClearancePin(contact=contact(BRISTLES))},
+    duration=0.01,
+    step=1e-4,
+    gravity=(0.0, 0.0),
+)
+
+
+@pytest.mark.parametrize(
+    ("scenario", "choice"),
+    [
+        (SUPPORT, {}),
+        (SUPPORT, {"newton": "full"}),
+        (SUPPORT, {"constraint_index": 2, "integrator": "trapezoidal"}),
+        (SUPPORT, {"newton_tolerance": 1e-4}),
+        (replace(SUPPORT, pins={PIN: ClearancePin(contact=paper_contact(1.5, 0.0))}), {}),
+        (replace(SUPPORT, pins={PIN: ClearancePin(contact=paper_contact(1.5, 0.25), bore="second")}), {}),
+        (FLIGHT, {}),
+    ],
+    ids=str,
+)
+def test_the_motion_handed_over_last_is_that_of_the_markers_at_the_end_of_the_step(
+    scenario: Scenario, choice: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    call, after_newton = ConnectorForce.__call__, ContactConnector.after_newton
+    handed: dict[int, tuple[Any, ...]] = {}
+    wrong: list[float] = []
+
+    def called(self: ConnectorForce, mbs: Any, t: float, item: int, *motion: Any) -> list[float]:
+        handed[id(self)] = motion
+        return call(self, mbs, t, item, *motion)
+
+    def checked(self: ContactConnector, t: float) -> float | None:
+        d, rotation, v, spin, *_ = handed[id(self.user_function)]
+        found = self.item.relative()
+        wrong.append(float(np.abs(np.subtract(d, found.displacement)).max()))
+        wrong.append(float(np.abs(np.subtract(v, found.velocity)).max()))
+        wrong.extend((abs(rotation[2] - found.turn), abs(spin[2] - found.turning)))
+        return after_newton(self, t)
+
+    monkeypatch.setattr(ConnectorForce, "__call__", called)
+    monkeypatch.setattr(ContactConnector, "after_newton", checked)
+    simulate(replace(scenario, solver=replace(scenario.solver, **choice)))
+    assert len(wrong) > 300
+    # rounding of positions and speeds of some metres
+    assert max(wrong) < 1e-12
