@@ -1,15 +1,14 @@
 """A law of one's own
 
-A normal law and a friction law are written as classes, and a pin takes them as any other. Scenario files name
-them by file and class: `law = "own_law.py:SoftLanding"`, and `--import own_law.py` allows it. `support-exudyn
-init own_law` writes such files.
+A normal law is a damping factor, a friction law a function of numbers, and a pin takes them as any other. Scenario
+files name them by file and class: `law = "own_law.py:SoftLanding"`, `friction_law = "own_law.py:RoundedCoulomb"`,
+and `--import own_law.py` allows it. `support-exudyn init own_law` writes such files.
 """
 
 from matplotlib import pyplot as plt
-from user_forces.expressions.scalar import magnitude, sign
 
-from support_exudyn import ClearancePin, CubicStep, FrictionLaw, Scenario, machine, simulate, value
-from user_forces import LankaraniNikravesh, PowerLaw
+from support_exudyn import ClearancePin, CubicStep, Scenario, machine, simulate, value
+from user_forces import LankaraniNikravesh, PowerLaw, friction_law
 
 
 @value
@@ -21,22 +20,15 @@ class SoftLanding(PowerLaw):
         return (1.0 - restitution) / restitution
 
 
-@value
-class RoundedCoulomb(FrictionLaw):
-    """F_t = -mu F_n v / (|v| + v_s); coefficient: mu, smoothing_speed: v_s [m/s]."""
-
-    coefficient: float
-    smoothing_speed: float = 0.001
-
-    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
-        """Tangential force [N]."""
-        size = magnitude(slip)
-        return -sign(slip) * self.coefficient * normal_force * size / (size + self.smoothing_speed)
+@friction_law
+def rounded_coulomb(slip: float, normal_force: float, coefficient: float, smoothing: float = 0.001) -> float:
+    """F_t = -mu F_n v / (|v| + v_s); coefficient: mu, smoothing: v_s [m/s]."""
+    return -coefficient * normal_force * slip / (abs(slip) + smoothing)
 
 
 figure, axes = plt.subplots(figsize=(6, 3.2), layout="constrained")
 for law in (SoftLanding, LankaraniNikravesh):
-    friction = RoundedCoulomb(coefficient=0.2)
+    friction = rounded_coulomb(coefficient=0.2)
     pin = ClearancePin.simple(clearance=0.0015, bore_radius=0.0655, restitution=0.6, law=law, friction=friction)
     scenario = Scenario(
         machine=machine("reference"),

@@ -11,8 +11,10 @@ from support_exudyn.files import read_scenario
 from user_forces.values.value import InputError
 
 LAWS = """
+import math
+
 from user_forces import FrictionLaw, value
-from user_forces.expressions.scalar import tanh
+from user_forces.kernel import kernel
 from user_forces.normal.power_laws import ElasticPower
 from user_forces.normal.law import NormalLaw
 from user_forces.values.value import NonNegative, Positive
@@ -20,16 +22,20 @@ from user_forces.values.value import NonNegative, Positive
 
 @value
 class {0}Normal(ElasticPower):
-    def __call__(self, depth, rate, speed):
-        return 2.0 * self.elastic_force(depth)
+    @staticmethod
+    @kernel
+    def force(depth, rate, impact_velocity, stiffness, exponent):
+        return 2.0 * stiffness * depth**exponent
 
 
 @value
 class {0}Friction(FrictionLaw):
     mu: NonNegative
 
-    def __call__(self, slip, normal_force, deflection=0.0):
-        return -self.mu * normal_force * tanh(slip / 1e-2)
+    @staticmethod
+    @kernel
+    def force(slip, normal_force, mu):
+        return -mu * normal_force * math.tanh(slip / 1e-2)
 
 
 @value
@@ -37,14 +43,10 @@ class {0}Rig(NormalLaw):
     stiffness: Positive = 1e8
     exponent: Positive = 1.2
 
-    def __call__(self, depth, rate, speed):
-        return self.elastic_force(depth)
-
-    def elastic_force(self, depth):
-        return self.stiffness * depth**self.exponent
-
-    def elastic_energy(self, depth):
-        return self.stiffness * depth ** (self.exponent + 1.0) / (self.exponent + 1.0)
+    @staticmethod
+    @kernel
+    def force(depth, rate, impact_velocity, stiffness, exponent):
+        return stiffness * depth**exponent
 
 
 class {0}Plain:

@@ -16,7 +16,7 @@ FOUND = scripts(EXAMPLES)
 
 def test_there_are_some_and_the_page_tells_of_all() -> None:
     page = (EXAMPLES / "README.md").read_text(encoding="utf-8")
-    assert 8 <= len(FOUND) <= 12
+    assert 8 <= len(FOUND) <= 13
     assert [path.name for path in FOUND if f"[{path.name}]({path.name})" not in page] == []
 
 
@@ -28,8 +28,13 @@ def test_a_script_is_short_and_has_a_title(script: Path) -> None:
     assert (title[:1].isupper(), blank, bool(rest)) == (True, "", True)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("script", FOUND, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "script",
+    [
+        pytest.param(path, marks=[] if path.stem == "own_exudyn_model" else [pytest.mark.slow], id=path.stem)
+        for path in FOUND
+    ],
+)
 def test_an_example_draws_its_picture(script: Path, tmp_path: Path) -> None:
     if script.suffix == ".ipynb":
         pytest.importorskip("nbclient")
