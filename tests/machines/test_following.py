@@ -7,12 +7,12 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from studies.benchmarking.drawn_linkages import bar_of
 
 from support_exudyn import CubicStep, Reciprocating, Steady, UniformSpeed, ravn_slider_crank
 from support_exudyn.machines.following import follow
 from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.model.linkage import GROUND, Crank, LinearActuator, Linkage, pinned
+from tests.drawn.drawn_linkages import bar_of
 from tests.linkages import four_bar
 from user_forces import InputError
 

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
-from studies.benchmarking.drawn_linkages import bar_of, chain, towards
 
 from support_exudyn.machines.check.any_machine import MachineReport, check_any
 from support_exudyn.machines.machine_data import MachineData
@@ -24,6 +23,7 @@ from support_exudyn.model.loads.spring_damper import SpringDamper
 from support_exudyn.model.loads.torsion_spring import TorsionSpring
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.checks import check_figure
+from tests.drawn.drawn_linkages import bar_of, chain, towards
 from tests.linkages import four_bar
 from tests.often import often
 from user_forces import InputError

@@ -52,9 +52,9 @@ def test_the_first_impact_after_a_free_flight_is_covered() -> None:
 
 @pytest.mark.slow
 def test_reported_errors_cover_true_ones() -> None:
-    runs = [one for number in range(60) for one in checked(number)]
+    runs = [one for number in range(24) for one in checked(number)]
     judged = [one for one in runs if one.is_judged]
-    assert len(judged) > 60
+    assert len(judged) > 24
     found, ratio = coverage(judged), overstatement(judged)
     numbers = sum(one.true.size for one in judged)
     print(f"{found.value:.4f} of {numbers} numbers of {len(judged)} runs, {ratio.value:.1f}")

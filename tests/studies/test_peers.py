@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 
-from studies.benchmarking.peers.built_in import run_built_in
+from studies.benchmarking.peers.built_in import Evaluator, run_built_in
 from studies.benchmarking.peers.in_drake import run_drake
 from studies.benchmarking.peers.in_mujoco import run_mujoco
 from studies.benchmarking.peers.in_scipy import run_lsoda
@@ -39,7 +40,8 @@ class Peer(NamedTuple):
 PEERS = {
     "stock recipe": Peer(run_stock, 1e-5, 1e-6, 5e-4),
     "built-in contact": Peer(run_built_in, 1e-5, 1e-6, 5e-4),
-    "connector": Peer(lambda scenario, step: run_built_in(scenario, step, contact="python"), 1e-5, 1e-6, 5e-4),
+    "user function": Peer(partial(run_built_in, contact="function"), 1e-5, 1e-6, 5e-4),
+    "joint": Peer(partial(run_built_in, contact="joint"), 1e-5, 1e-6, 5e-4),
     "MuJoCo": Peer(run_mujoco, 1e-5, 1e-6, 5e-4, "mujoco"),
     "Drake": Peer(run_drake, 1e-6, 1e-6, 5e-4, "pydrake"),
     "LSODA": Peer(run_lsoda, 1e-9, 1e-7, 2e-5),
@@ -71,7 +73,7 @@ def test_columns_follow_the_drive_and_friction_acts(peer: Peer) -> None:
     scenario = loose_support(1.5, 0.25, drive=drive, duration=0.06)
     tight = SolverSettings(tolerance=1e-11)
     exact = simulate(replace(scenario, formulation="compiled", solver=tight))
-    if peer in (PEERS["built-in contact"], PEERS["connector"]):
+    if peer in (PEERS["built-in contact"], PEERS["user function"], PEERS["joint"]):
         with pytest.raises(InputError, match="friction"):
             peer.run(scenario, peer.setting)
         return
@@ -83,8 +85,9 @@ def test_columns_follow_the_drive_and_friction_acts(peer: Peer) -> None:
     assert found.force.max() == pytest.approx(exact.largest_force[PIN], rel=2e-3)
 
 
-def test_our_connector_makes_the_steps_of_the_built_in_contact() -> None:
-    built_in, ours = (run_built_in(drop(), 5e-5, contact=one) for one in ("built_in", "python"))
+@pytest.mark.parametrize("contact", ["function", "joint"])
+def test_our_connector_makes_the_steps_of_the_built_in_contact(contact: Evaluator) -> None:
+    built_in, ours = (run_built_in(drop(), 5e-5, contact=one) for one in ("built_in", contact))
     assert ours.steps == built_in.steps
     assert ours.force.max() == pytest.approx(built_in.force.max(), rel=1e-4)
 

@@ -28,7 +28,8 @@ class BareScene:
 
     container: owns the system, and must live as long as it. actuators: the engine's objects and their lengths
     at the start [m]. contact: of the clearance pin, if there is one; bore, journal: markers of both its
-    centres. driven: extension that the engine has [m].
+    centres. ends: of bore and journal, the body's number and the centre's place in its frame [m]. driven:
+    extension that the engine has [m].
     """
 
     scenario: Scenario
@@ -39,6 +40,7 @@ class BareScene:
     contact: Any = None
     bore: Any = None
     journal: Any = None
+    ends: Any = ()
     driven: float = 0.0
 
     def drive_to(self, t: float) -> None:
@@ -73,14 +75,18 @@ class _BareBuilder:
             weight = [body.mass * gx, body.mass * gy, 0.0]
             self.mbs.AddLoad(LoadForceVector(markerNumber=centre, loadVector=weight))
 
-    def marker(self, body: str, point: Vector2) -> Any:
+    def end(self, body: str, point: Vector2) -> tuple[Any, list[float]]:
+        """The engine's number of a body and the place of a point in its frame [m]."""
         if body == GROUND:
-            return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.ground, localPosition=[*point, 0.0]))
+            return self.ground, [*point, 0.0]
         place = self.linkage.bodies[body]
         c, s = math.cos(place.angle), math.sin(place.angle)
         x, y = point[0] - place.centre[0], point[1] - place.centre[1]
-        local = [c * x + s * y, c * y - s * x, 0.0]
-        return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.objects[body], localPosition=local))
+        return self.objects[body], [c * x + s * y, c * y - s * x, 0.0]
+
+    def marker(self, body: str, point: Vector2) -> Any:
+        number, local = self.end(body, point)
+        return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=number, localPosition=local))
 
     def pair(self, first: str, first_point: Vector2, second: str, second_point: Vector2) -> list[Any]:
         return [self.marker(first, first_point), self.marker(second, second_point)]
@@ -112,6 +118,7 @@ def bare_scene(scenario: Scenario, aside: float = 0.0) -> BareScene:
     scene = builder.scene(PIN)
     pin, (x, y) = builder.linkage.pins[PIN], support.bore
     scene.contact = support.contact
+    scene.ends = builder.end(pin.first, support.bore), builder.end(pin.second, support.bore)
     scene.bore = builder.marker(pin.first, (x + aside, y))
     scene.journal = builder.marker(pin.second, support.bore)
     return scene

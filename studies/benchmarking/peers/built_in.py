@@ -1,7 +1,8 @@
-"""The engine's own contact in the bare scene under equal steps, and our connector in its place.
+"""The engine's own contact in the bare scene under equal steps, and ours in its place.
 
-Both make the same steps: what differs is who computes the force, the engine in C++ or the connector's
-function in Python. The connector is that of the formulation on the engine, with its events left out.
+All make the same steps: what differs is who computes the force, the engine in C++, the user function of our
+connector alone, or a `ClearanceJoint`, which also follows impacts, the largest force and how long steps might
+be.
 """
 
 from typing import Any, Literal
@@ -12,15 +13,42 @@ import numpy as np
 from studies.benchmarking.peers.bare_scene import BareScene, bare_scene
 from studies.benchmarking.peers.peer_run import PeerRun, add_ball, contact_forces, pin_sensors
 from studies.benchmarking.peers.stock import Watch, fixed_steps, solved
-from support_exudyn.formulations.redundant.scene.scene_builder import build
 from support_exudyn.scenario.scenario import Scenario
+from user_forces import ClearanceJoint
+from user_forces.connector.bodies import mount
 from user_forces.connector.contact_connector import FIRST
+from user_forces.connector.item import JointItem
+from user_forces.connector.user_function import ConnectorForce
 from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError
 
-UNDAMPED = 1e30  # impact velocity [m/s] against which every rate is nothing
 ASIDE = 1e-12  # of the bore from its journal, so that the engine's own contact has a normal [m]
-Evaluator = Literal["built_in", "python"]
+UNDAMPED = 1e30  # impact velocity [m/s] against which every rate is nothing
+Evaluator = Literal["built_in", "function", "joint"]
+
+
+class _Function:
+    """The user function of our connector without the bookkeeping of a joint.
+
+    As the built-in contact does, it pushes whenever there is depth; the impact velocity is that at the end of
+    the step in which the surfaces met, which itself is undamped.
+    """
+
+    def __init__(self, scene: BareScene) -> None:
+        bore, journal = (mount(scene.mbs, end, (0.0, 0.0, 1.0)) for end in scene.ends)
+        item = JointItem(scene.mbs, scene.contact, bore, journal, 0.0)
+        self.clearance = scene.contact.bearing.clearance
+        self.force = ConnectorForce(scene.contact, item.at, item.bore_spin)
+        item.set_force(self.force)
+        self.force.closed, self.force.speed = True, UNDAMPED
+
+    def before_step(self) -> None:
+        """Note the impact velocity, with what the last step ended."""
+        depth, rate, *_ = self.force.last[FIRST:]
+        if depth <= 0.0:
+            self.force.speed = UNDAMPED
+        elif self.force.speed == UNDAMPED:
+            self.force.speed = rate
 
 
 def run_built_in(
@@ -31,45 +59,38 @@ def run_built_in(
     Arguments:
         scenario: see `plain_support`, without friction; its own step and solver are not used.
         step: length of all steps [s].
-        contact: what gives the force: the engine's own contact, or our connector's function in Python.
+        contact: what gives the force.
         sensors: let sensors write position and velocity of the pin at every step, from which force and
             impacts follow; without them only the time of the solver is known, and the run is cheaper.
 
     Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
     """
     scene = bare_scene(scenario, aside=ASIDE)
-    if not isinstance(scene.contact.friction, Frictionless):
+    law = scene.contact
+    if not isinstance(law.friction, Frictionless):
         raise InputError("friction: the engine's own contact has another law; allowed here: Frictionless")
-    if contact == "python":
-        return _ours(scenario, step, sensors)
-    add_ball(scene.mbs, scene.contact, scene.journal, scene.bore)
-    return _run(scene, step, sensors)
-
-
-def _run(scene: BareScene, step: float, sensors: bool, connector: Any = None) -> PeerRun:
-    """Assemble and solve; of our connector the initial impact velocity is noted after each step."""
+    if contact == "built_in":
+        add_ball(scene.mbs, law, scene.journal, scene.bore)
+    function = _Function(scene) if contact == "function" else None
+    if contact == "joint":
+        bore, journal = scene.ends
+        bearing = law.bearing
+        sizes = {"bore_radius": bearing.bore_radius, "clearance": bearing.clearance}
+        ClearanceJoint(scene.mbs, bore=bore, journal=journal, normal=law.normal, **sizes)
     placed = pin_sensors(scene.mbs, scene.journal, scene.bore) if sensors else ()
     scene.mbs.Assemble()
-    watch, closed = Watch(scene, step), False
-    before_step = watch.before_step
-    if connector is not None:
-        scene.container.drive_to(0.0)
-        scene.container.start_moving()
-        scene.container.reset_memory()
-        connector.act_without_memory(UNDAMPED)
+    watch = Watch(scene, step)
 
-        def before_step(mbs: Any, t: float) -> bool:
-            nonlocal closed
-            depth, rate = connector.user_function.last[FIRST : FIRST + 2]  # with what the last step ended
-            if (depth > 0.0) != closed:
-                closed = not closed
-                connector.act_without_memory(rate if closed else UNDAMPED)
-            return watch.before_step(mbs, t)
+    def before_step(mbs: Any, t: float) -> bool:
+        if function is not None:
+            function.before_step()
+        return watch.before_step(mbs, t)
 
     scene.mbs.SetPreStepUserFunction(before_step)
-    settings = fixed_steps(scene.scenario.duration, step)
+    settings = fixed_steps(scenario.duration, step)
     settings.solution.sensors.writePeriod = 0.5 * step
     settings.timeIntegration.discontinuous.useRecommendedStepSize = False  # else it stops at the first contact
+    scene.mbs.sys["simulationSettings"] = settings  # where `ClearanceJoint` reads that steps are fixed
     took = solved(exudyn.MainSolverImplicitSecondOrder(), scene.mbs, settings)
     return _sensed(scene, placed, took) if placed else watch.run(took)
 
@@ -82,24 +103,3 @@ def _sensed(scene: BareScene, sensors: tuple[Any, ...], took: float) -> PeerRun:
     depth = eccentricity - scene.contact.bearing.clearance
     rate = (away * moving).sum(axis=1) / np.maximum(eccentricity, 1e-300)
     return PeerRun(journal[:, 0], contact_forces(scene.contact, depth, rate), depth, rate, took)
-
-
-def _ours(scenario: Scenario, step: float, sensors: bool) -> PeerRun:
-    """Run with our connector in a scene that the formulation on the engine made.
-
-    As the built-in contact does, it pushes whenever there is depth; the speed is that at the end of the step
-    in which the surfaces met, which itself is undamped.
-    """
-    ours = build(scenario)
-    ((_, pin),) = ours.clearance_joints.items()
-    scene = BareScene(
-        scenario=scenario,
-        container=ours,
-        mbs=ours.mbs,
-        nodes={name: item.node for name, item in ours.bodies.items()},
-        actuators=[(item.object, item.actuator.start_length) for item in ours.rigid_actuators.values()],
-        contact=pin.contact,
-        bore=pin.item.bore_marker,
-        journal=pin.item.journal_marker,
-    )
-    return _run(scene, step, sensors, pin)
