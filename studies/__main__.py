@@ -6,6 +6,7 @@ import time
 import traceback
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -97,7 +98,8 @@ def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
     began = time.perf_counter()
     failed: list[str] = []
     page = options.out / PAGE
-    with ThreadPoolExecutor(max_workers=1) as writer, compiling():
+    meanwhile = compiling() if set(names) & set(DEFAULT) else nullcontext()
+    with ThreadPoolExecutor(max_workers=1) as writer, meanwhile:
         written: list[Future[int]] = []
         waiting: dict[str, StudyOutcome] = {}
 

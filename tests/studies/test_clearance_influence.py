@@ -123,8 +123,9 @@ def test_clearance_is_compared_at_the_same_friction(
         ("mean_pin_force", study.SMOOTH): 0.42,
     }
     for (name, case), change in changes.items():
-        ratio = value(name, case) / value(name, ideal_of(case))
-        assert 100.0 * (ratio - 1.0) == pytest.approx(change, abs=0.05)  # the rough form has a 1e-3 of its own
+        # of the witness, which the rough form has, too; Exudyn's own is within its error of it
+        ratio = numbers[name, case]["witness"] / numbers[name, ideal_of(case)]["witness"]
+        assert 100.0 * (ratio - 1.0) == pytest.approx(change, abs=0.05)
     # of friction, which is told by itself
     ratio = value("mean_pin_force", study.IDEAL_DRY) / value("mean_pin_force", study.IDEAL)
     assert 100.0 * (ratio - 1.0) == pytest.approx(2.35, abs=0.02)
@@ -197,15 +198,15 @@ def test_an_output_folder_that_cannot_be_written_is_a_sentence(
 def test_a_pin_along_its_length_shakes_thirty_times_as_much(
     numbers: dict[tuple[str, str], dict[str, Any]],
 ) -> None:
-    def shown(contact: str, friction: float) -> list[float]:
+    def shown(contact: str, friction: float, by: str = "value") -> list[float]:
         names = ("mean_pin_force", "rms_pin_force", "largest_pin_force_any_step")
-        return [float(numbers[name, contacts.case_name(contact, friction)]["value"]) for name in names]
+        return [float(numbers[name, contacts.case_name(contact, friction)][by]) for name in names]
 
     # by an independent program from a settled start, which damps by the depth that is reached: with 3e9 N/m in
     # series 31 kN; of the paper's contact, which that damps more, 0.93
     for contact, ripple in (("paper", 1018.0), ("cylinders", 31e3)):
         assert shown(contact, 0.25)[1] == pytest.approx(ripple, rel=0.03)
-        assert shown(contact, 0.0)[1] < 150.0  # without friction it comes to rest
+        assert shown(contact, 0.0, "witness")[1] < 150.0  # without friction it comes to rest
     # the same program: 0.44 and 0.75 MN
     for contact, peak in (("paper", 0.44e6), ("cylinders", 0.75e6)):
         assert shown(contact, 0.0)[2] == pytest.approx(peak, rel=0.015)

@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -26,8 +27,9 @@ from studies.claims.plausible import REFERENCE
 from studies.common.chapter import Chapter
 from studies.common.numbers import Number, write_summary
 from studies.common.options import Options
-from studies.common.study import Study, save_figures, say_short, work_in_folder
+from studies.common.study import Study, StudyOutcome, save_figures, say_short, work_in_folder
 from studies.common.subject import paper_subject
+from studies.common.witness import Witness
 from support_exudyn.files.whole_file import writing_alone
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers
@@ -167,6 +169,9 @@ def test_all_studies_wait_for_one_that_writes_all(tmp_path: Path, capsys: pytest
     assert list(tmp_path.iterdir()) == []
 
 
+WITH_WITNESS = "judged"  # the name of a study that has a witness
+
+
 def put_studies(monkeypatch: pytest.MonkeyPatch, work: Mapping[str, Callable[[Options], None]]) -> None:
     """Studies of the main command that only do this."""
 
@@ -178,13 +183,30 @@ def put_studies(monkeypatch: pytest.MonkeyPatch, work: Mapping[str, Callable[[Op
         own_machine: bool = False
         question: str = "Why?"
 
-        def __call__(self, chosen: Options) -> Chapter:
+        def begin(self, chosen: Options) -> tuple[Chapter, StudyOutcome]:
             self.work(chosen)
-            return Chapter(self.name, "Title", "Why?", (), (), (), (), answer="So.")
+            said = Chapter(self.name, "Title", "Why?", (), (), (), (), answer="So.")
+            witness = Witness({}, lambda runs: [], lambda numbers: {}) if self.name == WITH_WITNESS else None
+            return said, StudyOutcome([], {}, {}, {}, witness=witness)
 
+        def with_witness(self, chosen: Options, found: StudyOutcome) -> None:
+            self.work(replace(chosen, out=chosen.out.with_name(f"witness of {self.name}")))
+
+    monkeypatch.setattr(all_studies, "compiling", nullcontext)
     monkeypatch.setattr(all_studies, "STUDIES", {name: OnlyWork(name, one) for name, one in work.items()})
     monkeypatch.setattr(all_studies, "DEFAULT", tuple(work))
     monkeypatch.setattr(all_studies, "rebuild", lambda out, order: 0)
+
+
+def test_a_witness_is_computed_after_the_papers_studies_and_before_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ran: list[str] = []
+    names = (WITH_WITNESS, "two", "three")
+    put_studies(monkeypatch, dict.fromkeys(names, lambda chosen: ran.append(chosen.out.name)))
+    monkeypatch.setattr(all_studies, "DEFAULT", names[:2])
+    assert all_studies.main(["--all", "--workers", "1", "--out", str(tmp_path)]) == 0
+    assert ran == [WITH_WITNESS, "two", f"witness of {WITH_WITNESS}", "three"]
 
 
 def test_an_interruption_ends_all_studies(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
