@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from user_forces.expressions.scalar import tanh, where
 
 from support_exudyn import (
     AppliedForce,
@@ -26,7 +27,6 @@ from support_exudyn import (
 from support_exudyn.model.loads.load import LoadedPoint, Powers
 from tests.cases.run_cases import CRANK_SPEED, PIN, slider_crank, support
 from user_forces import Ambrosio, FrictionLaw, InputError, JournalBearing, JournalContact, NormalLaw, value
-from user_forces.expressions.scalar import tanh, where
 from user_forces.values.value import Vector2
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0005)
