@@ -22,6 +22,7 @@ import numpy as np
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 KERNELS: list[Callable[..., Any]] = []  # that numba does not know yet, as long as nothing is compiled
+MARK = "is_kernel"  # attribute of a function that is a kernel
 NUMBERS = (int, float, bool, str, type(None))
 _lock = threading.RLock()
 _is_prepared: list[bool] = []  # filled when numba is imported
@@ -29,9 +30,11 @@ _is_prepared: list[bool] = []  # filled when numba is imported
 
 def kernel(function: Function) -> Function:
     """Decorator: a function of numbers that compiled code may call; Python goes on calling it as it is."""
-    KERNELS.append(function)
-    if _is_prepared:
-        prepare()
+    if not getattr(function, MARK, False):
+        setattr(function, MARK, True)
+        KERNELS.append(function)
+        if _is_prepared:
+            prepare()
     return function
 
 
@@ -81,11 +84,11 @@ def formula_of(owner: object, function: Callable[..., Any], variables: int) -> F
         function: of so many variables, which come first, and of parameters; a last one, `*name`, is a tuple.
         variables: their number.
     """
-    found: list[float] = []
+    given: list[float] = []
     for name, parameter in list(signature(function).parameters.items())[variables:]:
         known = getattr(owner, name)
-        found += known if parameter.kind is Parameter.VAR_POSITIONAL else [known]
-    return Formula(function, tuple(map(float, found)))
+        given += known if parameter.kind is Parameter.VAR_POSITIONAL else [known]
+    return Formula(kernel(function), tuple(map(float, given)))
 
 
 @cache

@@ -34,7 +34,7 @@ def normal_law(function: Callable[..., float]) -> type[NormalLaw]:
 
     The elastic force is the force at no rate, and its energy is integrated numerically.
     """
-    return _class_of(function, NormalLaw, ("depth", "rate", "impact_velocity"))
+    return _class_of(function, NormalLaw, ("depth", "rate", "impact_velocity"))  # type: ignore[type-abstract]
 
 
 def friction_law(function: Callable[..., float]) -> type[FrictionLaw]:
@@ -44,7 +44,7 @@ def friction_law(function: Callable[..., float]) -> type[FrictionLaw]:
         function: of slip [m/s], normal force [N] >= 0, and of parameters, as of `normal_law`. The force points
             against the slip.
     """
-    return _class_of(function, FrictionLaw, ("slip", "normal_force"))
+    return _class_of(function, FrictionLaw, ("slip", "normal_force"))  # type: ignore[type-abstract]
 
 
 def _class_of(function: Callable[..., float], kind: type[Law], variables: tuple[str, ...]) -> type[Law]:
