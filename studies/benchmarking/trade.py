@@ -160,12 +160,15 @@ PROGRAMS: Mapping[str, Program] = {
 
 def measured(names: Sequence[str] = tuple(PROGRAMS), with_slow: bool = False) -> Iterator[Point]:
     """Run the programs that are installed, each by all its settings beside COMMON."""
+    programs = [PROGRAMS[one] for one in names if PROGRAMS[one].is_installed]
+    if not programs:
+        return
     precompile()
     scenario, exact = SCENES[SCENE].scenario, references()[SCENE]["peak"]
     name, setting = COMMON
     common = PROGRAMS[name]
     _timed(lambda: common.run(scenario, setting))  # imports
-    for program in (PROGRAMS[one] for one in names if PROGRAMS[one].is_installed):
+    for program in programs:
         warn(f"{WORK}: {program.name}")
         beside, _ = _timed(lambda: common.run(scenario, setting))
         for label, value in program.settings.items():
