@@ -155,7 +155,11 @@ def told(
 ) -> tuple[Chapter, dict[str, Sheet]]:
     """A chapter and its tables with engine and method in every caption, and with what the witness says."""
     by = computed_by()
-    signed = {name: replace(one, caption=f"{one.caption} {by}".strip()) for name, one in sheets.items()}
+    there = f" Witness of every number, and the difference: [@{TABLE}]."
+    signed = {
+        name: replace(one, caption=f"{one.caption} {by}{'' if name == TABLE else there}".strip())
+        for name, one in sheets.items()
+    }
     shown = tuple(signed[one.name] for one in chapter.sheets)
     findings = (*chapter.findings, verdict(numbers))
     return replace(
