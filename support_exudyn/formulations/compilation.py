@@ -1,6 +1,7 @@
 """How functions of numbers are compiled by numba: the same numbers in every process, kept on disk."""
 
 import hashlib
+import math
 import os
 import sys
 from collections.abc import Callable
@@ -254,9 +255,12 @@ def contact_law(law: Callable[..., Any], count: int) -> Callable[..., float]:
         depth: float, rate: float, slip: float, speed: float, deflection: float, constants: Any, out: Any
     ) -> float:
         results = numba.carray(out, 3)
-        asked, elastic, friction, bends = law(
-            depth, rate, slip, speed, deflection, numba.carray(constants, count)
-        )
+        try:
+            asked, elastic, friction, bends = law(
+                depth, rate, slip, speed, deflection, numba.carray(constants, count)
+            )
+        except Exception:  # else machine code would go on with any number
+            asked, elastic, friction, bends = math.nan, math.nan, math.nan, math.nan
         results[0], results[1], results[2] = friction, elastic, bends
         return float(asked)
 

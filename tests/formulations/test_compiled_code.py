@@ -38,22 +38,6 @@ def test_what_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.Monkey
     assert asked[:2] == [True, False]  # then numba compiles helpers of its own
 
 
-def test_a_law_that_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[bool] = []
-    cfunc = numba.cfunc
-
-    def without_a_place(*args: Any, cache: bool = False, **options: Any) -> Any:
-        asked.append(cache)
-        if cache:
-            raise RuntimeError("cannot cache function 'law': no locator available for file 'a.py'")
-        return cfunc(*args, **options)
-
-    monkeypatch.setattr(numba, "cfunc", without_a_place)
-    source = "def law(depth, rate, slip, speed, deflection, constants, out):\n    return constants[0] * depth"
-    assert compilation.compiled_law(source).address > 0
-    assert asked == [True, False]
-
-
 def test_what_an_older_program_has_kept_is_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It may name classes that are no longer there."""
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))

@@ -157,11 +157,6 @@ class Weak(Hertz):
     def resting_depth(self, force: float) -> float:
         raise LoadError(f"Weak: force = {force} N: allowed: less")
 
-    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
-        if depth > 1e-6:
-            raise LoadError("Weak: too deep")
-        return super().__call__(depth, rate, impact_velocity)
-
 
 def test_a_law_that_cannot_hold_the_load_is_left_to_the_run() -> None:
     # that says when and where it is overloaded, or never is

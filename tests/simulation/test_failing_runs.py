@@ -2,46 +2,48 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import pytest
 
 from support_exudyn import ClearancePin, Failure, Held, Scenario, SimulationError, simulate
 from tests.cases.run_cases import loose_support, paper_contact
-from user_forces import FrictionLaw, LankaraniNikravesh, LoadError, value
+from user_forces import LankaraniNikravesh, friction_law
 from user_forces.lawful import UNLAWFUL
 
 
-@value
-class Breaking(FrictionLaw):
+def nan(slip: float, normal_force: float) -> float:
     """Works until it is pressed with 10 kN, more than laws are called with before a run."""
+    return math.nan if normal_force > 1e4 else 0.0
 
-    kind: str
 
-    def __call__(self, slip: float, normal_force: float, deflection: float = 0.0) -> float:
-        if normal_force < 1e4:
-            return 0.0
-        if self.kind == "nan":
-            return float("nan")
-        if self.kind == "overflow":
-            raise OverflowError("force out of range")
+def overflow(slip: float, normal_force: float) -> float:
+    if normal_force > 1e4:
+        raise OverflowError("force out of range")
+    return 0.0
+
+
+def bug(slip: float, normal_force: float) -> float:
+    if normal_force > 1e4:
         raise LookupError("a bug in the law")
+    return 0.0
 
 
-@value
+LAWS = {function.__name__: friction_law(function) for function in (nan, overflow, bug)}
+
+
 class Thin(LankaraniNikravesh):
     """Is not valid below 10 micrometres."""
 
-    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
-        if depth > 1e-5:
-            raise LoadError(f"Thin: depth = {depth} m: allowed: up to 1e-05 m")
-        return super().__call__(depth, rate, impact_velocity)
+    @property
+    def largest_depth(self) -> float:
+        return 1e-5
 
 
 def breaking(kind: str) -> Scenario:
     good = paper_contact(1.5, 0.0)
-    contact = type(good)(bearing=good.bearing, normal=good.normal, friction=Breaking(kind=kind))
-    return _with(contact)
+    return _with(type(good)(bearing=good.bearing, normal=good.normal, friction=LAWS[kind]()))
 
 
 def _with(contact: object) -> Scenario:
@@ -52,7 +54,7 @@ def _with(contact: object) -> Scenario:
 @pytest.mark.parametrize(
     ("kind", "words"),
     [
-        ("nan", "rear_base: Breaking gives a force of nan N at a slip of "),  # no step mends it
+        ("nan", "rear_base: Nan gives a force of nan N at a slip of "),  # no step mends it
         ("overflow", "Try a smaller step"),
     ],
 )

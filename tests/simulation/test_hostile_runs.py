@@ -35,7 +35,6 @@ ACTUATORS = dict.fromkeys(PLANE.linkage.actuators, OIL)
 RUNS = {
     "plane": PLANE,
     "plane, ideal pins": replace(PLANE, pins={}),
-    "plane, symbolic": replace(PLANE, solver=SolverSettings(backend="symbolic")),
     "space": replace(PLANE, dimensions=3),
     "space, ideal pins, one channel": replace(PLANE, dimensions=3, pins={}, channels=("tip.x",)),
     "compiled": replace(PLANE, formulation="compiled", actuators=ACTUATORS),

@@ -18,17 +18,14 @@ from user_forces.values.names import Named, UnknownNameError
 
 
 def test_a_law_says_at_its_definition_what_it_lacks() -> None:
-    with pytest.raises(InputError, match=r"class Damper: lacks elastic_energy, a method \(Energy \[J\] stored"):
+    with pytest.raises(InputError, match=r"class Damper: lacks force, a method \(Normal force \[N\], positive"):
 
         @value
         class Damper(NormalLaw):
             damping: float
 
-            def __call__(self, depth: float, rate: float, impact: object) -> float:
-                return self.damping * rate
-
             def elastic_force(self, depth: float) -> float:
-                return 0.0
+                return self.damping * depth
 
 
 def test_a_drive_says_at_its_definition_that_a_property_is_missing() -> None:

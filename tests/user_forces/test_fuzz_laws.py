@@ -14,6 +14,7 @@ from support_exudyn import Drive, Machine
 from tests import strategies as some
 from tests.sound import sound_drive, sound_machine
 from user_forces import FrictionLaw, JournalContact, LoadError, NormalLaw
+from user_forces.normal.part import PartOf
 
 depths = st.floats(1e-18, 1e-2)
 rates = st.floats(-100.0, 100.0)
@@ -23,6 +24,8 @@ masses = st.sampled_from((1e-6, 1.0, 1e9)) | st.floats(1e-6, 1e9)
 
 def complete(law: Any) -> Any:
     """The law with a mass where it lacks the number that a scenario would compute."""
+    if isinstance(law, PartOf):
+        return dataclasses.replace(law, law=complete(law.law))
     return dataclasses.replace(law, mass=1.0) if getattr(law, "mass", 0.0) is None else law
 
 

@@ -159,7 +159,7 @@ def test_a_contact_of_such_laws_has_such_a_force(contact: JournalContact, depth:
         contact.force(*place, 0.1),
         ContactForce(*compiled(*numbers, np.array(contact.constants))[4:14]),
     ):
-        with pytest.raises(LawError, match="gives a force of (nan|-inf) N"):
+        with pytest.raises(LawError, match=r"gives a force of (nan|-inf) N"):
             look(contact, *found[:5])
 
 

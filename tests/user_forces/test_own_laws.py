@@ -203,7 +203,7 @@ def test_a_scenario_file_names_laws_of_its_own(tmp_path: Path, capsys: pytest.Ca
         "exponent": 1.5,
     }
     # it gives all speed back
-    assert result.onsets["pin"][0].separation_velocity == pytest.approx(0.3, rel=1e-6)
+    assert result.onsets["pin"][0].separation_velocity == pytest.approx(0.3, abs=1e-6)
 
 
 # --- machine code ---

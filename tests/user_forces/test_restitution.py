@@ -11,18 +11,11 @@ from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, ImpactStand, Result, Scenario, SolverSettings, simulate
 from tests.analytic import delivered_restitution
+from tests.cases.law_cases import POWER_LAWS, cylinder_law
 from tests.often import often
 from user_forces import (
     Anagnostopoulos,
-    CarvalhoMartins,
-    Exact,
-    Flores,
-    GharibHurmuzlu,
-    Gonthier,
-    HerbertMcWhannell,
     Hertz,
-    HuGuo,
-    HuntCrossley,
     Johnson,
     JournalBearing,
     JournalContact,
@@ -31,24 +24,9 @@ from user_forces import (
     LeeWang,
     Liu,
     NormalLaw,
-    SafaeifarFarshidianfar,
-    ZhiyingQishao,
 )
 
-LAWS = [
-    Exact,
-    HuntCrossley,
-    HerbertMcWhannell,
-    LeeWang,
-    LankaraniNikravesh,
-    Gonthier,
-    ZhiyingQishao,
-    Flores,
-    GharibHurmuzlu,
-    HuGuo,
-    SafaeifarFarshidianfar,
-    CarvalhoMartins,
-]
+LAWS = list(POWER_LAWS)
 ASKED = [n / 20 for n in range(1, 20)]  # e = 0.05, 0.1 ... 0.95
 FEW = ASKED[::9]  # 0.05, 0.5 and 0.95
 OTHERS = sorted({*ASKED} - {*FEW})
@@ -99,13 +77,6 @@ def test_every_law_delivers_its_closed_form(law: type[Any], values: list[float])
         expected = delivered_restitution(chosen.factor(asked))
         # asked for: 1e-4; the default of 512 steps an impact leaves 6e-6
         assert delivered(simulate(scenario(chosen))) == pytest.approx(expected, abs=1e-5)
-
-
-@pytest.mark.parametrize("asked", [*FEW, *(pytest.param(e, marks=pytest.mark.slow) for e in OTHERS)])
-def test_the_exact_law_delivers_what_is_prescribed(asked: float) -> None:
-    law = Exact(stiffness=3e10, restitution=asked)
-    # asked for: 1e-4
-    assert delivered(simulate(scenario(law, speed=1.0))) == pytest.approx(asked, abs=1e-5)
 
 
 masses = st.floats(-3.0, 4.0).map(lambda x: 10.0**x)
@@ -170,9 +141,6 @@ def test_no_free_impact_gains_energy_at_any_step(
     assert delivered(simulate(tried)) <= 1.0 + 1e-8
 
 
-BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0015)
-
-
 @pytest.mark.parametrize(
     "law",
     [
@@ -180,8 +148,8 @@ BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0015)
         KelvinVoigt(stiffness=1e8, damping=1e4),  # damping ratio 0.46
         Anagnostopoulos(stiffness=1e8, restitution=0.3),
         Anagnostopoulos(stiffness=1e8, restitution=0.9),
-        Johnson(bearing=BEARING, length=0.1, effective_modulus=1.1e11, restitution=0.6),
-        Liu(bearing=BEARING, length=0.1, effective_modulus=1.1e11, restitution=0.6),
+        cylinder_law(Johnson, restitution=0.6),
+        cylinder_law(Liu, restitution=0.6),
     ],
 )
 def test_other_laws_deliver_their_formulas(law: Any) -> None:

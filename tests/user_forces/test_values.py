@@ -5,7 +5,7 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import field
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import pytest
 from hypothesis import given
@@ -68,38 +68,6 @@ def test_a_wrong_number_is_named_with_value_and_allowed_range(wrong: object, sho
         Ball(radius=wrong)
 
 
-def test_an_unknown_field_is_named_with_value_and_known_fields() -> None:
-    with pytest.raises(
-        InputError, match=r"^Ball\.size = 3\.0: unknown field; the fields are radius, centre, colour$"
-    ):
-        Ball(radius=1.0, size=3.0)
-
-
-def test_a_missing_field_is_named() -> None:
-    with pytest.raises(InputError, match=r"^Ball\.radius: missing; it has no default$"):
-        Ball()
-
-
-def test_a_wrong_choice_is_named_with_value_and_choices() -> None:
-    with pytest.raises(InputError, match=r"^Ball\.colour = 'blue': .*'red' or 'green'"):
-        Ball(radius=1.0, colour="blue")
-
-
-def test_a_wrong_part_of_a_vector_is_named_with_its_place() -> None:
-    with pytest.raises(InputError, match=r"^Ball\.centre\.1 = nan: "):
-        Ball(radius=1.0, centre=(0.0, math.nan))
-
-
-def test_a_vector_of_three_is_refused() -> None:
-    with pytest.raises(InputError, match=r"^Ball\.centre"):
-        Ball(radius=1.0, centre=(0.0, 1.0, 2.0))
-
-
-def test_a_wrong_type_of_value_is_named() -> None:
-    with pytest.raises(InputError, match=r"^Box\.lid = 3\.0: "):
-        Box(lid=3.0)
-
-
 def test_every_wrong_field_gets_a_line() -> None:
     with pytest.raises(InputError) as caught:
         Ball(radius=-1.0, colour="blue", size=3.0)
@@ -116,10 +84,6 @@ def test_a_long_input_is_shortened_in_the_message() -> None:
 def test_fields_are_given_by_name_only() -> None:
     with pytest.raises(InputError):
         Ball(1.0)
-
-
-def test_input_error_is_a_value_error() -> None:
-    assert issubclass(InputError, ValueError)
 
 
 def test_fields_cannot_be_changed() -> None:
@@ -164,40 +128,41 @@ def test_a_law_inside_a_contact_comes_back_as_what_it_was() -> None:
     assert type(two.friction) is type(one.friction)
 
 
-def test_data_of_an_unknown_type_is_refused() -> None:
-    with pytest.raises(InputError, match=r"type = 'Cube': not a known type; allowed: .*CubicStep"):
-        Value.from_data({"type": "Cube", "radius": 1.0})
-
-
-def test_data_without_a_type_is_refused() -> None:
-    with pytest.raises(InputError, match="type = None: not a known type"):
-        Value.from_data({"radius": 1.0})
-
-
-def test_data_that_do_not_fit_are_refused() -> None:
-    data = contact().to_data()
-    data["bearing"]["clearance"] = -1.0
-    with pytest.raises(InputError, match=r"JournalBearing\.clearance = -1\.0: .*allowed: > 0"):
-        Value.from_data(data)
-
-
-def test_data_of_an_abstract_type_are_refused() -> None:
-    with pytest.raises(InputError):
-        Value.from_data({"type": Drive.__name__})
-
-
-def test_a_check_over_several_fields_is_a_sentence() -> None:
-    with pytest.raises(InputError, match=r"^JournalBearing: clearance = 2\.0 m: .*allowed: > 0 and < 1\.0"):
-        JournalBearing(bore_radius=1.0, clearance=2.0)
-
-
-@pytest.mark.parametrize("data", [{"type": ["a"]}, [1], {}, "text", {"type": "NoSuchType"}])
-def test_data_that_are_no_value_are_refused(data: object) -> None:
-    with pytest.raises(InputError, match="not a known type"):
-        Value.from_data(data)
-
-
 @pytest.mark.parametrize("wrong", ["0.05", True, b"1"])
 def test_text_and_truth_are_no_numbers(wrong: object) -> None:
     with pytest.raises(InputError, match=r"bore_radius = .*number; allowed: > 0"):
         JournalBearing(bore_radius=wrong, clearance=0.001)
+
+
+@pytest.mark.parametrize(
+    ("kind", "fields", "said"),
+    [
+        (Ball, {"radius": 1.0, "size": 3.0}, r"Ball\.size = 3\.0: unknown field; the fields are radius,"),
+        (Ball, {}, r"Ball\.radius: missing; it has no default$"),
+        (Ball, {"radius": 1.0, "colour": "blue"}, r"Ball\.colour = 'blue': .*'red' or 'green'"),
+        (Ball, {"radius": 1.0, "centre": (0.0, math.nan)}, r"Ball\.centre\.1 = nan: "),
+        (Ball, {"radius": 1.0, "centre": (0.0, 1.0, 2.0)}, r"Ball\.centre"),
+        (Box, {"lid": 3.0}, r"Box\.lid = 3\.0: "),
+        (JournalBearing, {"bore_radius": 1.0, "clearance": 2.0}, "JournalBearing: clearance = 2.*allowed: > 0"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_named_with_its_place(kind: type[Any], fields: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError, match=rf"^{said}"):
+        kind(**fields)
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        *((data, "not a known type") for data in ({"type": ["a"]}, [1], {}, "text", {"radius": 1.0})),
+        ({"type": "Cube", "radius": 1.0}, r"type = 'Cube': not a known type; allowed: .*CubicStep"),
+        ({"type": Drive.__name__}, "not a known type"),
+        (
+            {"type": "JournalBearing", "bore_radius": 1.0, "clearance": -1.0},
+            r"JournalBearing\.clearance = -1\.0: .*allowed: > 0",
+        ),
+    ],
+)
+def test_data_that_are_no_value_are_refused(data: Any, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        Value.from_data(data)

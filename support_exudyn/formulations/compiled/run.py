@@ -277,4 +277,6 @@ def _broken_law(going: _Run) -> tuple[str, str] | None:
             return str(error), UNLAWFUL
         except ArithmeticError:
             pass
+        except Exception as error:  # whatever a user's law does wrong
+            return f"{name}: a law of the contact fails: {type(error).__name__}: {error}", UNLAWFUL
     return None
