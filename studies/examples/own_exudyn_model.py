@@ -13,13 +13,14 @@ import numpy as np
 from exudyn.itemInterface import SensorObject
 from exudyn.utilities import RigidBodyInertia
 from matplotlib import pyplot as plt
+from matplotlib.patches import Circle
 
 from user_forces import Ambrosio, ClearanceJoint, LankaraniNikravesh
 
 RATE = 5000 * math.pi / 30  # of the crank [rad/s]
 PIN, SLIDE, DRIVE = [1, 1, 0, 0, 0, 0], [0, 1, 0, 0, 0, 1], [1, 1, 0, 0, 0, 1]
-SIZES = {"bore_radius": 0.01, "clearance": 5e-4}  # [m]
-LAWS = {"normal": LankaraniNikravesh(stiffness=6.61e10, restitution=0.9), "friction": Ambrosio(0.03)}
+SIZES: dict[str, Any] = {"bore_radius": 0.01, "clearance": 5e-4}  # [m]
+STEEL, FRICTION = LankaraniNikravesh(stiffness=6.61e10, restitution=0.9), Ambrosio(sliding_coefficient=0.03)
 
 
 def angle(mbs: Any, t: float, *_: Any) -> list[float]:
@@ -44,7 +45,8 @@ def solve(has_clearance: bool) -> tuple[Any, Any, Any]:
     mbs.CreateGenericJoint("crank pin", [crank, rod], [0.05, 0, 0], constrainedAxes=PIN)
     mbs.CreateGenericJoint("guide", [ground, slider], [0.17, 0, 0], constrainedAxes=SLIDE)
     if has_clearance:
-        joint = ClearanceJoint(mbs, bore=(slider, [0, 0, 0]), journal=(rod, [0.06, 0, 0]), **SIZES, **LAWS)
+        ends: dict[str, Any] = {"bore": (slider, [0, 0, 0]), "journal": (rod, [0.06, 0, 0])}
+        joint: Any = ClearanceJoint(mbs, **ends, **SIZES, normal=STEEL, friction=FRICTION)
     else:
         joint = mbs.CreateGenericJoint("pin", [slider, rod], [0.17, 0, 0], constrainedAxes=PIN)
     kept = {"objectNumber": getattr(joint, "connector", joint), "storeInternal": True, "writeToFile": False}
@@ -67,7 +69,7 @@ for series, label in ((force, "clearance 0.5 mm"), (ideal, "Exudyn's joint")):
     left.plot(1e3 * series[:, 0], 1e-3 * np.hypot(series[:, 1], series[:, 2]), linewidth=0.9, label=label)
 left.set(xlabel="time [ms]", ylabel="force of the joint [kN]")
 left.legend()
-right.add_patch(plt.Circle((0, 0), 0.5, fill=False, linestyle="--"))
+right.add_patch(Circle((0, 0), 0.5, fill=False, linestyle="--"))
 right.plot(1e3 * path[:, 1], 1e3 * path[:, 2], linewidth=0.8)
 right.set(xlabel="journal's centre, x [mm]", ylabel="y [mm]", aspect="equal")
 figure.savefig("own_exudyn_model.png", dpi=120)

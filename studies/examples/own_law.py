@@ -1,8 +1,8 @@
 """A law of one's own
 
-A normal law is a damping factor, a friction law a function of numbers, and a pin takes them as any other. Scenario
-files name them by file and class: `law = "own_law.py:SoftLanding"`, `friction_law = "own_law.py:RoundedCoulomb"`,
-and `--import own_law.py` allows it. `support-exudyn init own_law` writes such files.
+A normal law is a damping factor, a friction law a function of numbers, and a pin takes them as any other.
+Scenario files name them by file and class: `law = "own_law.py:SoftLanding"`, and `--import own_law.py` allows
+it. `support-exudyn init own_law` writes such files.
 """
 
 from matplotlib import pyplot as plt

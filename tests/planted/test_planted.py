@@ -50,7 +50,7 @@ def test_the_table_fits_the_code() -> None:
     areas = Counter(fault.area for fault in FAULTS)
     assert set(areas) == {
         *("events", "time grid", "result_checks", "inverse_mass", "bushing", "stability", "guides", "springs"),
-        *("compiled", "instruments", "adams", "baselines", "strength", "legs"),
+        *("compiled", "instruments", "adams", "baselines", "strength", "legs", "own models"),
     }
     assert areas.total() >= 30
     assert len({fault[1:4] for fault in FAULTS}) == len(FAULTS)
