@@ -14,7 +14,6 @@ import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
 from inspect import Parameter, signature
-from pathlib import Path
 from types import CodeType, FunctionType
 from typing import Any, NamedTuple, TypeVar
 
@@ -23,7 +22,7 @@ import numpy as np
 Function = TypeVar("Function", bound=Callable[..., Any])
 KERNELS: list[Callable[..., Any]] = []  # that numba does not know yet, as long as nothing is compiled
 MARK = "is_kernel"  # attribute of a function that is a kernel
-NUMBERS = (int, float, bool, str, type(None))
+NUMBERS = (int, float, bool, str, type(None), tuple)
 _lock = threading.RLock()
 _is_prepared: list[bool] = []  # filled when numba is imported
 
@@ -191,21 +190,17 @@ def copied(function: Function) -> Function:
 
 
 def name_of(function: Callable[..., Any]) -> str:
-    """A name that differs where the function, a kernel of its closure or our own source differs."""
-    digest = hashlib.sha256(_stamp())
+    """A name that differs where the code of the function, or of any function that it reaches, differs."""
+    digest = hashlib.sha256()
     _add_code(function, digest, set())
     return f"{function.__name__.partition('_k')[0]}_k{digest.hexdigest()[:20]}"
 
 
-@cache
-def _stamp() -> bytes:
-    """What identifies the source of this package."""
-    files = sorted(Path(__file__).parent.rglob("*.py"))
-    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).digest()
-
-
 def _add_code(item: Any, digest: Any, seen: set[int]) -> None:
-    """Add to a digest the code of a function and of those that it reaches by closure or global names."""
+    """Add to a digest the code of a function and of those that it reaches by closure or global names.
+
+    The code is that in memory, which a file that has changed since need not have.
+    """
     if not isinstance(item, FunctionType):
         digest.update(repr(item).encode() if isinstance(item, NUMBERS) else type(item).__name__.encode())
         return
@@ -216,10 +211,9 @@ def _add_code(item: Any, digest: Any, seen: set[int]) -> None:
     _add_constants(item.__code__, digest)
     for cell in item.__closure__ or ():
         _add_code(cell.cell_contents, digest, seen)
-    if not item.__module__.startswith(("user_forces", "support_exudyn")):
-        for name in item.__code__.co_names:
-            if name in item.__globals__:
-                _add_code(item.__globals__[name], digest, seen)
+    for name in item.__code__.co_names:
+        if name in item.__globals__:
+            _add_code(item.__globals__[name], digest, seen)
 
 
 def _add_constants(code: CodeType, digest: Any) -> None:

@@ -91,6 +91,21 @@ def connector_kernel(force: Callable[..., Any], at: Attachment, is_slot: bool) -
     return connector
 
 
+@cache
+def compiled_line_kernel(force: Callable[..., Any]) -> Callable[..., Any]:
+    """A force kernel without friction for a connector that knows depth and rate alone, as machine code.
+
+    It gives what `connector_kernel` gives, the force along the line of centres first.
+    """
+
+    def line(depth: float, rate: float, closed: bool, speed: float, constants: Any) -> Any:
+        distance = constants[1] + depth
+        result = force(distance, 0.0, rate, 0.0, 0.0, 0.0, closed, speed, 0.0, 0.0, 0.0, constants)
+        return result[3], 0.0, 0.0, 0.0, *result, distance, 0.0
+
+    return compiled_or_plain(line, (0.0, 0.0, False, 0.0, np.zeros(1)))
+
+
 def attachment(
     contact: Contact, bore_on_ground: bool, journal_on_ground: bool, is_round: bool = False
 ) -> Attachment:

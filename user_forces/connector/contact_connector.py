@@ -15,7 +15,7 @@ import numpy as np
 from user_forces.connector.attachment import connector_kernel
 from user_forces.connector.friction_line import FrictionLine, can_be_line, with_line
 from user_forces.connector.item import INITIAL, JointItem
-from user_forces.connector.user_function import ConnectorForce
+from user_forces.connector.user_function import ConnectorForce, LineForce
 from user_forces.contact import ContactForce
 from user_forces.contact_events import STILL, Action, DepthPath, Verdict, goes_on, judge, judge_at_ends
 from user_forces.contact_state import InverseMass, Onset, PinMemory
@@ -54,7 +54,8 @@ class ContactConnector:
         self.item, self.contact, self.find_inverse_mass = item, item.contact, find_inverse_mass
         self.locates, self.share = locates, share
         self.impact_steps = ImpactSteps(self.contact.normal, impact_steps)
-        self.user_function = ConnectorForce(self.contact, item.at, item.bore_spin)
+        function = LineForce if item.on_line else ConnectorForce
+        self.user_function = function(self.contact, item.at, item.bore_spin)
         item.set_force(self.user_function)
         self.elastic_force = self.contact.normal.elastic_force
         self._force = self.contact.force_kernel
@@ -73,7 +74,7 @@ class ContactConnector:
         self.memory = self.kept  # with which its force is computed
         self.reached = self.memory  # at its end
         self.force = self.contact.force(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, None)
-        self.place: tuple[float, float] = 0.0, 0.0  # of the journal in its bore at its end [m]
+        self._place: tuple[float, float] | None = 0.0, 0.0  # see `place`
         self.onset: Onset | None = None
         self.wants_cut = False
         self.landing = math.inf  # where steps are to end, seen in a step that was then cut [s]
@@ -95,6 +96,14 @@ class ContactConnector:
         """The longest step [s] in the present impact, or for what friction holds at the end of the last."""
         return min(self.impact_steps.step, self._swing_step) if self._has_state else self.impact_steps.step
 
+    @property
+    def place(self) -> tuple[float, float]:
+        """Where the journal is in its bore at the end of the step being tried, in the bore's axes [m]."""
+        if self._place is None:
+            x, y, _ = self.item.relative().displacement
+            self._place = x, y
+        return self._place
+
     def observe(self, state: Any) -> ContactForce:
         """Kinematics of the contact in a state of the engine, the surfaces being separated."""
         self._read(state)
@@ -102,12 +111,12 @@ class ContactConnector:
 
     def _read(self, state: Any) -> None:
         """Evaluate the contact without its memory in a state of the engine."""
-        motion = self.item.relative(state)
-        function = self.user_function
+        motion, contact = self.item.relative(state), self.contact
+        in_axes = connector_kernel(contact.force_kernel, self.item.at, contact.bearing.is_slot)
         spins = motion.turn, motion.turning, motion.bore_spin
         memory = False, 0.0, 0.0, 0.0, 0.0
-        result = function.kernel(*motion.displacement, *motion.velocity, *spins, *memory, function.constants)
-        self.force, self.place = ContactForce(*result[FIRST:LAST]), (result[LAST], result[LAST + 1])
+        result = in_axes(*motion.displacement, *motion.velocity, *spins, *memory, contact.constants)
+        self.force, self._place = ContactForce(*result[FIRST:LAST]), (result[LAST], result[LAST + 1])
         self._turn, self._turn_rate = motion.turn, motion.turning
 
     # --- called by the solver ---
@@ -148,7 +157,7 @@ class ContactConnector:
         # the residual that satisfied Newton's method was evaluated at this same state
         result, start = self.user_function.last, self.memory
         self.force = force = tuple.__new__(ContactForce, result[FIRST:LAST])
-        self.place = result[LAST], result[LAST + 1]
+        self._place = None if self.item.on_line else (result[LAST], result[LAST + 1])
         depth, rate, slip, normal, friction, *_, deflection = force
         if not -math.inf < normal + friction < math.inf:
             look(self.contact, depth, rate, slip, normal, friction)

@@ -1,6 +1,8 @@
-"""The engine's side of a clearance joint: two markers and a rigid-body connector between them.
+"""The engine's side of a clearance joint: two markers and a connector between them.
 
-If both bodies move and there is friction, the connector is the intrinsic one, whose force acts in the middle
+Without friction it is a spring-damper between both points, whose force acts along the line of centres.
+
+With friction it is the rigid-body connector, and if both bodies move the intrinsic one, whose force acts midway
 between both marker points. It conserves angular momentum only while both marker frames are parallel: turned by
 an angle a against each other, the arm of the force is longer by (a/2)/sin(a/2). The journal's marker frame is
 therefore turned along, so that a stays small.
@@ -17,7 +19,9 @@ import numpy as np
 from exudyn.itemInterface import (
     MarkerBodyRigid,
     ObjectConnectorRigidBodySpringDamper,
+    ObjectConnectorSpringDamper,
     VObjectConnectorRigidBodySpringDamper,
+    VObjectConnectorSpringDamper,
 )
 
 from user_forces.connector.attachment import Attachment, attachment
@@ -86,18 +90,27 @@ class JointItem:
         self._frame_turn = -turn if self.at is Attachment.MIDDLE else 0.0  # of the journal's frame [rad]
         self.bore_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=bore.item, localHT=bore.frame))
         self.journal_marker = mbs.AddMarker(MarkerBodyRigid(bodyNumber=journal.item, localHT=self._frame()))
-        self.object = mbs.AddObject(
-            ObjectConnectorRigidBodySpringDamper(
-                markerNumbers=[self.bore_marker, self.journal_marker],
-                useIntrinsicFormulation=self.at is Attachment.MIDDLE,
-                visualization=VObjectConnectorRigidBodySpringDamper(show=False),
-                **options,
+        # a spring-damper between two points has no post-Newton step
+        self.on_line = self.at is Attachment.CENTRES and not options
+        self.object = mbs.AddObject(self._connector([self.bore_marker, self.journal_marker], options))
+
+    def _connector(self, markers: list[Any], options: dict[str, Any]) -> Any:
+        if self.on_line:  # what it is stretched by is the depth
+            hidden = VObjectConnectorSpringDamper(show=False)
+            return ObjectConnectorSpringDamper(
+                markerNumbers=markers, referenceLength=self.clearance, visualization=hidden
             )
+        return ObjectConnectorRigidBodySpringDamper(
+            markerNumbers=markers,
+            useIntrinsicFormulation=self.at is Attachment.MIDDLE,
+            visualization=VObjectConnectorRigidBodySpringDamper(show=False),
+            **options,
         )
 
-    def set_force(self, function: Callable[..., list[float]]) -> None:
-        """Let a user function give force and moment."""
-        self.mbs.SetObjectParameter(self.object, "springForceTorqueUserFunction", function)
+    def set_force(self, function: Callable[..., Any]) -> None:
+        """Let a user function give force and moment, or the force along the line of centres."""
+        name = "springForceUserFunction" if self.on_line else "springForceTorqueUserFunction"
+        self.mbs.SetObjectParameter(self.object, name, function)
 
     def bore_spin(self, state: Any = CURRENT) -> float:
         """Angular velocity of the bore about its axis [rad/s]."""

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from user_forces.connector.attachment import Attachment, compiled_kernel
+from user_forces.connector.attachment import Attachment, compiled_kernel, compiled_line_kernel
 from user_forces.contact import Contact
 
 
@@ -21,8 +21,8 @@ class ConnectorForce:
 
     closed, speed: whether the surfaces are in contact, and the velocity of their impact [m/s]. deflection [m],
     slip [m/s], step [s]: of a friction law with a state at the start of the step, and its length.
-    last: what the kernel gave last. turn: between the marker frames
-    then [rad], [rad/s]. along: of the journal's marker along the axis [m], [m/s].
+    last: what the kernel gave last. turn: between the marker frames then [rad], [rad/s]. along: of the
+    journal's marker along the axis [m], [m/s].
     """
 
     def __init__(self, contact: Contact, at: Attachment, bore_spin: Callable[[], float]) -> None:
@@ -33,7 +33,6 @@ class ConnectorForce:
         self.turn = self.along = 0.0, 0.0
         self.calls = 0
         self._spin = bore_spin if at is Attachment.MIDDLE else float  # else zero, which is not used
-
         self._own = self.kernel, self.constants
 
     def use(self, kernel: Callable[..., Any] | None = None, constants: Any = None) -> None:
@@ -63,3 +62,22 @@ class ConnectorForce:
         if math.isnan(force[7]):
             self.contact.normal.check(force[4])
         return [force[0], force[1], force[2], 0.0, 0.0, force[3]]
+
+
+class LineForce(ConnectorForce):
+    """The force of a contact without friction, for the engine's spring-damper between two points.
+
+    It is handed depth and rate alone, which costs the engine less than the motion of two frames.
+    """
+
+    def __init__(self, contact: Contact, at: Attachment, bore_spin: Callable[[], float]) -> None:
+        super().__init__(contact, at, bore_spin)
+        self.kernel = compiled_line_kernel(contact.force_kernel)
+
+    def __call__(self, mbs: Any, t: float, item: int, depth: float, rate: float, *settings: Any) -> Any:  # type: ignore[override]
+        """Force [N] that pulls the markers together, at a depth [m] and its rate [m/s]."""
+        self.calls += 1
+        self.last = force = self.kernel(depth, rate, self.closed, self.speed, self.constants)
+        if math.isnan(force[0]):
+            self.contact.normal.check(depth)
+        return force[0]

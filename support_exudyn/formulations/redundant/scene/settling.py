@@ -42,6 +42,14 @@ def settling(
         normal = centring_force(depth, elastic, pull, slack)
         return depth, rate, slip, normal, 0.0, -normal * nx, -normal * ny, arm, False, 0.0
 
+    if pin.item.on_line:
+
+        def tension(mbs: Any, t: float, item: int, depth: float, rate: float, *settings: Any) -> float:
+            return float(force(clearance + depth, 0.0, 0.0, 0.0, 0.0, 0.0)[3])
+
+        with acting(pin, tension):
+            yield
+        return
     in_axes = connector_kernel(force, pin.item.at, contact.bearing.is_slot)
 
     def user_function(
@@ -58,7 +66,14 @@ def settling(
         fx, fy, fz, moment, *_ = in_axes(*motion, True, 0.0, 0.0, 0.0, 0.0, ())
         return [fx, fy, fz, 0.0, 0.0, moment]
 
-    pin.item.set_force(user_function)
+    with acting(pin, user_function):
+        yield
+
+
+@contextmanager
+def acting(pin: ContactConnector, function: Callable[..., Any]) -> Iterator[None]:
+    """Let another user function give the force of a contact for as long as this lasts."""
+    pin.item.set_force(function)
     try:
         yield
     finally:

@@ -186,8 +186,10 @@ class SectionPin(ContactConnector):
         self.was_in_contact, self.struck = self.kept.in_contact, self.onset
         super().accept(t)
         if self.slides:
-            along, self._shift_rate = self.user_function.along
-            self._shift = self._shifted + along
+            motion = self.item.relative() if self.item.on_line else None
+            function = self.user_function
+            along = (motion.displacement[2], motion.velocity[2]) if motion is not None else function.along
+            self._shift, self._shift_rate = self._shifted + along[0], along[1]
         if self.whole.sections[-1] is self:
             self.whole.accepted(t)
 
