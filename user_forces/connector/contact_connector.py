@@ -15,7 +15,6 @@ import numpy as np
 from user_forces.connector.attachment import connector_kernel
 from user_forces.connector.friction_line import FrictionLine, can_be_line, with_line
 from user_forces.connector.item import INITIAL, JointItem
-from user_forces.connector.user_function import ConnectorForce, LineForce
 from user_forces.contact import ContactForce
 from user_forces.contact_events import STILL, Action, DepthPath, Verdict, goes_on, judge, judge_at_ends
 from user_forces.contact_state import InverseMass, Onset, PinMemory
@@ -54,9 +53,7 @@ class ContactConnector:
         self.item, self.contact, self.find_inverse_mass = item, item.contact, find_inverse_mass
         self.locates, self.share = locates, share
         self.impact_steps = ImpactSteps(self.contact.normal, impact_steps)
-        function = LineForce if item.on_line else ConnectorForce
-        self.user_function = function(self.contact, item.at, item.bore_spin)
-        item.set_force(self.user_function)
+        self.user_function = item.own_force()
         self.elastic_force = self.contact.normal.elastic_force
         self._force = self.contact.force_kernel
         self._has_state = self.contact.friction.has_state

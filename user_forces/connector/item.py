@@ -25,6 +25,7 @@ from exudyn.itemInterface import (
 )
 
 from user_forces.connector.attachment import Attachment, attachment
+from user_forces.connector.user_function import ConnectorForce, LineForce
 from user_forces.contact import Contact
 
 # Largest turn between the marker frames before they are lined up again [rad]: the displacement is then
@@ -106,6 +107,13 @@ class JointItem:
             visualization=VObjectConnectorRigidBodySpringDamper(show=False),
             **options,
         )
+
+    def own_force(self) -> ConnectorForce:
+        """The user function of the contact that belongs to the connector, which acts from now on."""
+        kind = LineForce if self.on_line else ConnectorForce
+        function = kind(self.contact, self.at, self.bore_spin)
+        self.set_force(function)
+        return function
 
     def set_force(self, function: Callable[..., Any]) -> None:
         """Let a user function give force and moment, or the force along the line of centres."""

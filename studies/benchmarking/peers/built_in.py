@@ -18,7 +18,6 @@ from user_forces import ClearanceJoint
 from user_forces.connector.bodies import mount
 from user_forces.connector.contact_connector import FIRST
 from user_forces.connector.item import JointItem
-from user_forces.connector.user_function import ConnectorForce
 from user_forces.friction.laws import Frictionless
 from user_forces.values.value import InputError
 
@@ -38,8 +37,7 @@ class _Function:
         bore, journal = (mount(scene.mbs, end, (0.0, 0.0, 1.0)) for end in scene.ends)
         item = JointItem(scene.mbs, scene.contact, bore, journal, 0.0)
         self.clearance = scene.contact.bearing.clearance
-        self.force = ConnectorForce(scene.contact, item.at, item.bore_spin)
-        item.set_force(self.force)
+        self.force = item.own_force()
         self.force.closed, self.force.speed = True, UNDAMPED
 
     def before_step(self) -> None:
