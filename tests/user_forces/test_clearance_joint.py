@@ -210,10 +210,10 @@ def test_a_journal_in_space_is_free_along_the_axis() -> None:
 # --- the stock solver and `solve_located` ---
 
 
-def falling(stiffness: float = 1e7, **given: Any) -> tuple[Any, ClearanceJoint]:
-    """A body that falls in a soft bore, and its joint."""
+def falling(stiffness: float = 1e7, height: float = 0.0, **given: Any) -> tuple[Any, ClearanceJoint]:
+    """A body that falls in a soft bore from a height [m] over its middle, and its joint."""
     mbs, ground = model()
-    body = rigid(mbs, 2.0, 0.01, [0, 0, 0], gravity=[0, -GRAVITY, 0])
+    body = rigid(mbs, 2.0, 0.01, [0, height, 0], gravity=[0, -GRAVITY, 0])
     law = LankaraniNikravesh(stiffness=stiffness, restitution=0.9)
     given = {"bore_radius": 0.02, "clearance": 5e-4, "normal": law} | given
     joint = ClearanceJoint(mbs, bore=(ground, ORIGIN), journal=(body, ORIGIN), **given)
@@ -244,6 +244,17 @@ def test_the_stock_solver_agrees_with_the_located_run() -> None:
         solve(mbs, settings(0.08, 1e-4))
         runs.append([(onset.time, onset.speed) for onset in joint.impacts])
     assert np.array(runs[0]) == pytest.approx(np.array(runs[1]), rel=1e-4)
+
+
+def test_a_journal_that_is_pressed_at_the_start_makes_no_impact() -> None:
+    forces = []
+    for solve in (solve_located, lambda mbs, given: mbs.SolveDynamic(given)):
+        mbs, joint = falling(1e9, -5e-4 - 1e-9)
+        solve(mbs, settings(0.02, 1e-4))
+        assert joint.impacts == ()
+        forces.append(joint.largest_force)
+    assert forces[0] == pytest.approx(forces[1], rel=1e-3)
+    assert 1.9 < forces[0] / (2.0 * GRAVITY) < 2.5  # 2.5 without damping
 
 
 def test_a_second_run_starts_afresh() -> None:
