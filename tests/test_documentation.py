@@ -15,12 +15,12 @@ import pytest
 
 from support_exudyn import CubicStep, Result, Scenario, reference_support, simulate
 from support_exudyn.documentation.findings import findings_page
-from support_exudyn.documentation.reference import examples, public_names
+from support_exudyn.documentation.reference import examples, key_of, public_names
 from support_exudyn.documentation.site import NEEDED, ROOT, broken_links, rooms
 from support_exudyn.files.starters import starter
 from user_forces.values.value import InputError
 
-NAMES = {name.rpartition(".")[2]: thing for name, thing in public_names().items()}
+NAMES = {key_of(name): thing for name, thing in public_names().items()}
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +49,7 @@ def test_the_example_of_a_name_runs(
     text = examples()[name]
     monkeypatch.chdir(tmp_path)
     there: dict[str, Any] = {"Path": Path, "replace": replace, "starter": starter}
+    there[name.rpartition(".")[2]] = NAMES[name]
     exec(compile(text, name, "exec"), {**NAMES, **there, "scenario": run.scenario, "result": run})
 
 

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from user_forces.catalogue import laws as laws
     from user_forces.conformal import LineContact as LineContact
     from user_forces.conformal import line_contact as line_contact
+    from user_forces.connector.clearance_joint import ClearanceGuide as ClearanceGuide
     from user_forces.connector.clearance_joint import ClearanceJoint as ClearanceJoint
-    from user_forces.connector.clearance_joint import ClearanceSlot as ClearanceSlot
     from user_forces.connector.located import solve_located as solve_located
     from user_forces.contact import ContactForce as ContactForce
     from user_forces.contact import FaceContact as FaceContact
@@ -79,7 +79,7 @@ if TYPE_CHECKING:
     from user_forces.values.value import value as value
 
 _PLACES = {
-    ".connector.clearance_joint": ("ClearanceJoint", "ClearanceSlot"),
+    ".connector.clearance_joint": ("ClearanceJoint", "ClearanceGuide"),
     ".connector.located": ("solve_located",),
     ".catalogue": ("laws",),
     ".conformal": (

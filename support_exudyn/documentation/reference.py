@@ -45,6 +45,13 @@ def _imported(module: Any) -> Iterator[str]:
             yield line.rpartition(" as ")[2]
 
 
+def key_of(name: str) -> str:
+    """The key of a public name's example: its last part, or all of it where two packages have the same name."""
+    short = name.rpartition(".")[2]
+    alike = [other for other in public_names() if other.rpartition(".")[2] == short]
+    return short if len(alike) == 1 else name
+
+
 def examples() -> Mapping[str, str]:
     """The example of each public name."""
     with (Path(__file__).parent / "names.toml").open("rb") as file:
@@ -69,9 +76,9 @@ def reference_pages() -> dict[str, str]:
 
 
 def _entry(name: str, thing: Any, shown: Mapping[str, str]) -> str:
-    short = name.rpartition(".")[2]
-    if short not in shown:
-        raise InputError(f"names.toml: {short}: missing; allowed: an example of every public name")
+    short, key = name.rpartition(".")[2], key_of(name)
+    if key not in shown:
+        raise InputError(f"names.toml: {key}: missing; allowed: an example of every public name")
     parts = []
     if inspect.isclass(thing) or inspect.isfunction(thing):
         parts.append(f"::: {thing.__module__}.{thing.__qualname__}")
@@ -81,7 +88,7 @@ def _entry(name: str, thing: Any, shown: Mapping[str, str]) -> str:
         parts.append(f"## {short}\n\n`{thing!r}`")
     if inspect.isclass(thing) and issubclass(thing, Value) and hasattr(thing, "__pydantic_fields__"):
         parts.append(_fields(thing))
-    parts.append(f"**Example**\n\n```python\n{shown[short].strip()}\n```")
+    parts.append(f"**Example**\n\n```python\n{shown[key].strip()}\n```")
     return "\n\n".join(part for part in parts if part)
 
 

@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 
 from tests.user_forces.own_models import GRAVITY, ORIGIN, OUTPUT, PIN, model, output, rigid, settings
 from user_forces import (
+    ClearanceGuide,
     ClearanceJoint,
-    ClearanceSlot,
     Exact,
     Hertz,
     InputError,
@@ -163,7 +163,7 @@ def test_a_pin_rebounds_between_the_walls_of_a_guide(planar: bool, angle: float)
     c, s = math.cos(angle), math.sin(angle)
     mbs, ground = model()
     pin = rigid(mbs, 1.0, 0.01, [0, 0, 0], planar, initialVelocity=[c - 0.4 * s, s + 0.4 * c, 0])
-    joint = ClearanceSlot(
+    joint = ClearanceGuide(
         mbs, slot=(ground, ORIGIN), pin=(pin, ORIGIN), direction=[c, s, 0], clearance=1e-3, pin_radius=0.01,
         normal=Exact(stiffness=1e10, restitution=0.5), impact_steps=256,
     )  # fmt: skip
@@ -182,7 +182,7 @@ def test_bristles_hold_a_pin_that_is_pressed_on_a_wall() -> None:
     mbs, ground = model()
     pin = rigid(mbs, 1.0, 0.01, [0, 0, 0], gravity=[pull, -press, 0])
     mbs.CreateGenericJoint(itemNumbers=[ground, pin], position=ORIGIN, constrainedAxes=[0, 0, 0, 0, 0, 1])
-    joint = ClearanceSlot(
+    joint = ClearanceGuide(
         mbs, slot=(ground, ORIGIN), pin=(pin, ORIGIN), direction=[1, 0, 0], clearance=1e-6,
         normal=Exact(stiffness=1e7, restitution=0.1),
         friction=LuGre(static_coefficient=0.4, sliding_coefficient=0.3, bristle_damping=100.0),
@@ -344,5 +344,5 @@ def test_wrong_arguments_are_named_and_leave_the_model_alone(given: dict[str, An
         ClearanceJoint(mbs, **{"normal": Hertz(stiffness=1e9), **right, **given})
     assert str(mbs) == before
     with pytest.raises(InputError, match=r"direction = .*: allowed: three numbers, not along the axis"):
-        ClearanceSlot(mbs, slot=(ground, ORIGIN), pin=(body, ORIGIN), direction=[0, 0, 1], clearance=1e-3,
+        ClearanceGuide(mbs, slot=(ground, ORIGIN), pin=(body, ORIGIN), direction=[0, 0, 1], clearance=1e-3,
                        normal=Hertz(stiffness=1e9))  # fmt: skip

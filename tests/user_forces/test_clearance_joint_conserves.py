@@ -19,7 +19,7 @@ from tests.user_forces.own_models import (
     rigid,
     settings,
 )
-from user_forces import Ambrosio, ClearanceJoint, ClearanceSlot, Hertz, LankaraniNikravesh
+from user_forces import Ambrosio, ClearanceGuide, ClearanceJoint, Hertz, LankaraniNikravesh
 
 
 @pytest.mark.parametrize("is_slot", [False, True], ids=["bore", "slot"])
@@ -33,10 +33,10 @@ def test_two_free_bodies_keep_their_momenta_and_energy(planar: bool, friction: A
     journal = rigid(mbs, 1.0, 0.004, [0.1, 0, 0], planar, initialAngularVelocity=[0, 0, -35.0])
     law = LankaraniNikravesh(stiffness=1e9, restitution=0.8)
     given = {"clearance": 1e-3, "normal": law, "friction": friction, "impact_steps": 256}
-    joint: ClearanceJoint | ClearanceSlot
+    joint: ClearanceJoint | ClearanceGuide
     if is_slot:  # the pin is 30 mm along the slot
         ends = {"slot": (bore, [0.03, 0, 0]), "pin": (journal, [-0.04, 0, 0]), "direction": [1, 0, 0]}
-        joint = ClearanceSlot(mbs, **ends, pin_radius=0.02, **given)  # type: ignore[arg-type]
+        joint = ClearanceGuide(mbs, **ends, pin_radius=0.02, **given)  # type: ignore[arg-type]
     else:
         sides = {"bore": (bore, [0.06, 0, 0]), "journal": (journal, [-0.04, 0, 0])}
         joint = ClearanceJoint(mbs, **sides, bore_radius=0.02, **given)  # type: ignore[arg-type]

@@ -187,7 +187,7 @@ class ClearanceJoint(EngineContact):
         super().__init__(mbs, contact, bore, journal, axis, impact_steps, show)
 
 
-class ClearanceSlot(EngineContact):
+class ClearanceGuide(EngineContact):
     """A round pin of one body, or a corner, between the walls of a straight slot of another.
 
     Arguments:

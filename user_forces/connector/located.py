@@ -148,7 +148,7 @@ def solve_located(mbs: Any, settings: Any, *, growth: int = 1, estimates_error: 
     joints: list[EngineContact] = mbs.variables.get(JOINTS, [])
     if not joints:
         raise InputError(
-            "mbs: has no clearance joint; allowed: a model with `ClearanceJoint` or `ClearanceSlot`"
+            "mbs: has no clearance joint; allowed: a model with `ClearanceJoint` or `ClearanceGuide`"
         )
     if not estimates_error:
         return _run(mbs, settings, joints, 1, growth)
