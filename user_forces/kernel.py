@@ -28,13 +28,59 @@ _is_prepared: list[bool] = []  # filled when numba is imported
 
 
 def kernel(function: Function) -> Function:
-    """Decorator: a function of numbers that compiled code may call; Python goes on calling it as it is."""
+    """Decorator: a function of numbers that compiled code may call; Python continues to call it as it is.
+
+    Symbols of machine code follow from qualified names. Functions that differ in their closure alone share
+    them, and machine code that processes have kept apart would be mixed up where it is loaded together.
+    """
     if not getattr(function, MARK, False):
         setattr(function, MARK, True)
+        if isinstance(function, FunctionType) and (function.__closure__ or not _is_ours(function)):
+            function.__qualname__ = f"{function.__qualname__}_{name_of(function)}"
         KERNELS.append(function)
         if _is_prepared:
             prepare()
     return function
+
+
+def _is_ours(function: FunctionType) -> bool:
+    return function.__module__.partition(".")[0] in ("user_forces", "support_exudyn")
+
+
+def name_of(function: Callable[..., Any]) -> str:
+    """A name that differs where the code of the function, or of any function that it reaches, differs."""
+    digest = hashlib.sha256()
+    _add_code(function, digest, set())
+    return f"{function.__name__.partition('_k')[0]}_k{digest.hexdigest()[:20]}"
+
+
+def _add_code(item: Any, digest: Any, seen: set[int]) -> None:
+    """Add to a digest the code of a function and of those that it reaches by closure or global names.
+
+    The code is that in memory, which a file that has changed since need not have.
+    """
+    if not isinstance(item, FunctionType):
+        digest.update(repr(item).encode() if isinstance(item, NUMBERS) else type(item).__name__.encode())
+        return
+    if id(item) in seen:
+        return
+    seen.add(id(item))
+    digest.update(f"{item.__module__}.{item.__name__}".encode())
+    _add_constants(item.__code__, digest)
+    for cell in item.__closure__ or ():
+        _add_code(cell.cell_contents, digest, seen)
+    for name in item.__code__.co_names:
+        if name in item.__globals__:
+            _add_code(item.__globals__[name], digest, seen)
+
+
+def _add_constants(code: CodeType, digest: Any) -> None:
+    digest.update(code.co_code)
+    for item in code.co_consts:
+        if isinstance(item, CodeType):
+            _add_constants(item, digest)
+        else:
+            digest.update(repr(item).encode())
 
 
 @kernel
@@ -187,42 +233,6 @@ def copied(function: Function) -> Function:
     )
     same.__qualname__ = name
     return same  # type: ignore[return-value]
-
-
-def name_of(function: Callable[..., Any]) -> str:
-    """A name that differs where the code of the function, or of any function that it reaches, differs."""
-    digest = hashlib.sha256()
-    _add_code(function, digest, set())
-    return f"{function.__name__.partition('_k')[0]}_k{digest.hexdigest()[:20]}"
-
-
-def _add_code(item: Any, digest: Any, seen: set[int]) -> None:
-    """Add to a digest the code of a function and of those that it reaches by closure or global names.
-
-    The code is that in memory, which a file that has changed since need not have.
-    """
-    if not isinstance(item, FunctionType):
-        digest.update(repr(item).encode() if isinstance(item, NUMBERS) else type(item).__name__.encode())
-        return
-    if id(item) in seen:
-        return
-    seen.add(id(item))
-    digest.update(f"{item.__module__}.{item.__name__}".encode())
-    _add_constants(item.__code__, digest)
-    for cell in item.__closure__ or ():
-        _add_code(cell.cell_contents, digest, seen)
-    for name in item.__code__.co_names:
-        if name in item.__globals__:
-            _add_code(item.__globals__[name], digest, seen)
-
-
-def _add_constants(code: CodeType, digest: Any) -> None:
-    digest.update(code.co_code)
-    for item in code.co_consts:
-        if isinstance(item, CodeType):
-            _add_constants(item, digest)
-        else:
-            digest.update(repr(item).encode())
 
 
 @kernel
