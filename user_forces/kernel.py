@@ -60,12 +60,13 @@ def _add_code(item: Any, digest: Any, seen: set[int]) -> None:
     The code is that in memory, which a file that has changed since need not have.
     """
     if not isinstance(item, FunctionType):
-        digest.update(repr(item).encode() if isinstance(item, NUMBERS) else type(item).__name__.encode())
+        text = repr(item) if isinstance(item, NUMBERS) else type(item).__name__
+        digest.update(f"{text};".encode())
         return
     if id(item) in seen:
         return
     seen.add(id(item))
-    digest.update(f"{item.__module__}.{item.__name__}".encode())
+    digest.update(f"{item.__module__}.{item.__name__};".encode())
     _add_constants(item.__code__, digest)
     for cell in item.__closure__ or ():
         _add_code(cell.cell_contents, digest, seen)
@@ -80,7 +81,7 @@ def _add_constants(code: CodeType, digest: Any) -> None:
         if isinstance(item, CodeType):
             _add_constants(item, digest)
         else:
-            digest.update(repr(item).encode())
+            digest.update(f"{item!r};".encode())
 
 
 @kernel
