@@ -52,7 +52,8 @@ def spring(depth: float, rate: float, impact_velocity: float) -> float:
 
 
 def no_number(depth: float, rate: float, impact_velocity: float) -> float:
-    return math.nan if 2e-5 < depth < 9e-5 else 1e9 * depth  # between the depths before a run
+    lost = rate != 0.0 and 2e-5 < depth < 9e-5  # between the depths before a run
+    return math.nan if lost else 1e9 * depth
 
 
 def endless(depth: float, rate: float, impact_velocity: float) -> float:
