@@ -158,10 +158,6 @@ def _with_solver(point: Point, i: int, random: np.random.Generator) -> Made:
         "newton": "full" if i % 2 else "modified",
         "growth": (1.0, 8.0, 64.0)[i % 3],
     }
-    if i % 5 == 0:
-        settings |= {"integrator": "trapezoidal", "constraint_index": 2}
-    if i % 5 == 2:
-        settings["locate"] = False
     said: dict[str, float | str] = {name: str(value) for name, value in settings.items()}
     said["spectral_radius"] = point.spectral_radius
     make = scenes.on_oil if i % 2 else scenes.with_solver

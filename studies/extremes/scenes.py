@@ -61,9 +61,6 @@ class OtherSettings(TypedDict, total=False):
 
     newton: Literal["modified", "full"]
     growth: float
-    integrator: Literal["generalised_alpha", "trapezoidal"]
-    constraint_index: Literal[2, 3]
-    locate: bool
 
 
 def settings(point: Point, **more: Unpack[OtherSettings]) -> SolverSettings:
@@ -161,7 +158,7 @@ def with_solver(point: Point, **solver: Unpack[OtherSettings]) -> Scenario:
 
 
 def on_oil(point: Point, **solver: Unpack[OtherSettings]) -> Scenario:
-    """The fall on columns of oil, which any integrator covers."""
+    """The fall on columns of oil, with other settings of the solver."""
     return replace(with_solver(point, **solver), actuators=paper_machine.oil_columns())
 
 

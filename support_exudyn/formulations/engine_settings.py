@@ -44,9 +44,6 @@ def engine_settings(
     integration.discontinuous.maxIterations = 2 * TRIES  # a line of friction after another, in every pin
     integration.discontinuous.ignoreMaxIterations = False
     integration.generalizedAlpha.spectralRadius = chosen.spectral_radius
-    # both together are the engine's TrapezoidalIndex2
-    integration.generalizedAlpha.useIndex2Constraints = chosen.constraint_index == 2
-    integration.generalizedAlpha.useNewmark = chosen.integrator == "trapezoidal"
     integration.newton.relativeTolerance = chosen.newton_tolerance
     if not cylinders:  # whose residual is of increments, in metres and pascals
         norm = rounding / unknowns  # the engine's norm of a residual

@@ -5,9 +5,9 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from user_forces.values.value import Fraction, Real, Value, Whole, value
 
@@ -17,6 +17,13 @@ MOST_IMPACT_STEPS = 10000
 MOST_SECTIONS = 64
 MOST_STEPS = 5_000_000  # some minutes of the Exudyn formulation
 REFINED_TOLERANCE = 3  # power of the refinement by which the tolerance falls
+# keys of earlier versions: the value that all runs have now, which needs no note, and why there is no other
+REMOVED = {
+    "backend": ("auto", "laws are compiled functions in both formulations"),
+    "integrator": ("generalised_alpha", "the engine integrates by generalised alpha"),
+    "constraint_index": (3, "constraints hold the positions"),
+    "locate": (True, "steps always end at impacts and separations"),
+}
 
 
 @value
@@ -24,12 +31,6 @@ class SolverSettings(Value):
     """Settings of the time integration; all but `tolerance` are of the Exudyn formulation.
 
     Arguments:
-        integrator: "generalised_alpha", or "trapezoidal", the engine's rule of that name, which has no
-            spectral radius and needs constraints of index 2.
-        constraint_index: 3: constraints hold the positions; 2: the velocities, so that pins drift apart (on the
-            support by 1e-9 m in a rise, 1e-6 m in a second of impacts). The engine's generalised alpha has 3
-            only. With 2 cranks follow the drive's speed, and rigid actuators that move are refused: the
-            engine's have no speed.
         spectral_radius: rho at infinite frequency, from 0 (all high-frequency content damped out in a
             step) to 1 (none). At 0.5 the joint forces are quiet at small steps; at 0.9 rounding
             shows in them below a step of 0.2 ms.
@@ -40,10 +41,6 @@ class SolverSettings(Value):
             one of the same speed; 16 to 10000. Steps are so short from the impact until the surfaces part, or
             until the depth swings little any more. Errors are of second order; 512 delivers any
             restitution within 1e-5.
-        locate: whether steps are cut so that makes contact and separations lie at their ends, and refined in
-            impacts. Without, all steps lie on the grid, also after breaks of the drive, and a contact is
-            noticed at the end of the step in which it begins or ends, as plain recipes do. A law is then told
-            the speed there; `Onset.time` is interpolated.
         growth: by what factor steps may grow beyond `step`, from 1 to 64, while clearance pins are closed,
             nothing is in an impact and accelerations hardly change. Records that a step passes over are
             interpolated. 16 saves nine tenths of the steps with ideal pins, a third with one with clearance
@@ -62,15 +59,10 @@ class SolverSettings(Value):
             some. It looks at everything, whatever is recorded.
     """
 
-    _removed: ClassVar[Mapping[str, str]] = {"backend": "laws are compiled functions in both formulations"}
-
-    integrator: Literal["generalised_alpha", "trapezoidal"] = "generalised_alpha"
-    constraint_index: Literal[2, 3] = 3
     spectral_radius: Fraction = 0.5
     newton_tolerance: Annotated[Real, Field(gt=0, le=1e-3)] = 1e-8
     newton: Literal["modified", "full"] = "modified"
     impact_steps: Annotated[Whole, Field(ge=16, le=MOST_IMPACT_STEPS)] = 512
-    locate: Annotated[bool, Field(strict=True)] = True
     growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
     tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7
     sections: Annotated[Whole, Field(ge=2, le=MOST_SECTIONS)] = 5
@@ -79,22 +71,10 @@ class SolverSettings(Value):
 
     @classmethod
     def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:
-        if "backend" in given:
-            warnings.warn(
-                f"solver.backend = {given['backend']!r} has no effect any more: laws are compiled functions in "
-                "both formulations",
-                stacklevel=2,
-            )
-        return {key: item for key, item in given.items() if key != "backend"}
-
-    @model_validator(mode="after")
-    def _fit_each_other(self) -> SolverSettings:
-        if self.integrator == "trapezoidal" and self.constraint_index != 2:
-            raise ValueError(
-                f"integrator = 'trapezoidal', constraint_index = {self.constraint_index}: allowed: 2 with this "
-                "integrator"
-            )
-        return self
+        for key, (only, reason) in REMOVED.items():
+            if given.get(key, only) != only:
+                warnings.warn(f"solver.{key} = {given[key]!r} has no effect any more: {reason}", stacklevel=2)
+        return {key: item for key, item in given.items() if key not in REMOVED}
 
     def with_more_sections(self, factor: float) -> SolverSettings:
         """Sections of clearance pins so many times shorter, within what is allowed."""

@@ -52,7 +52,7 @@ def ringing_step(scenario: Scenario) -> float:
 
     Infinite if nothing rings, or if the integrator damps nothing.
     """
-    if scenario.solver.integrator != "generalised_alpha" or scenario.solver.spectral_radius == 1.0:
+    if scenario.solver.spectral_radius == 1.0:
         return math.inf
     steps = [
         _step(vibration, scenario.duration, scenario.solver.spectral_radius)

@@ -33,7 +33,7 @@ COARSE = (
 UNSAID = " If that does not help: a drive of one's own whose speed jumps has to say so in its `breaks`."
 SLOT = "Slots have ends, and stops are not covered: end the motion before, or draw a longer slot (`along`)."
 APART = 1e-4  # [m] that what is joined may be apart
-DRIFTED = "Take constraint_index 3, a smaller `step` or a smaller `solver.newton_tolerance`."
+DRIFTED = "Take a smaller `step` or a smaller `solver.newton_tolerance`."
 
 
 def result_checks(

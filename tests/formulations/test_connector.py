@@ -199,7 +199,6 @@ FLIGHT = Scenario(
     [
         (SUPPORT, {}),
         (SUPPORT, {"newton": "full"}),
-        (SUPPORT, {"constraint_index": 2, "integrator": "trapezoidal"}),
         (SUPPORT, {"newton_tolerance": 1e-4}),
         (replace(SUPPORT, pins={PIN: ClearancePin(contact=paper_contact(1.5, 0.0))}), {}),
         (replace(SUPPORT, pins={PIN: ClearancePin(contact=paper_contact(1.5, 0.25), bore="second")}), {}),

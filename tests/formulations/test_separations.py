@@ -14,7 +14,6 @@ from support_exudyn import (
     Onset,
     Result,
     Scenario,
-    SolverSettings,
     simulate,
 )
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
@@ -53,22 +52,8 @@ def test_the_time_of_a_parting_is_that_of_the_records() -> None:
     )
 
 
-def test_without_locating_a_parting_is_where_its_step_ends() -> None:
-    tried = scenario(LAW, solver=SolverSettings(locate=False))
-    tried = replace(tried, step=tried.duration / 2000, record_period=tried.duration / 2000)
-    result = simulate(tried)
-    onset, true = only(result), seen_parting(result, "pin.pin.depth")
-    assert true <= onset.separation_time <= true + 1.001 * tried.step
-    n = round(onset.separation_time / tried.step)
-    assert result["pin.pin.depth"][n] <= 0.0 < result["pin.pin.depth"][n - 1]
-    # the force is missed or added within a step of the 100 of the impact: measured 1e-4
-    assert onset.separation_velocity == pytest.approx(DELIVERED * SPEED, rel=1e-3)
-
-
-@pytest.mark.parametrize("locate", [True, False])
-def test_a_contact_that_has_not_parted_has_no_end(locate: bool) -> None:
-    tried = scenario(LAW, solver=SolverSettings(locate=locate))
-    tried = replace(tried, step=tried.duration / 2000)
+def test_a_contact_that_has_not_parted_has_no_end() -> None:
+    tried = replace(scenario(LAW), step=scenario(LAW).duration / 2000)
     ended = only(simulate(tried))
     middle = 0.5 * (ended.time + ended.separation_time)
     onset = only(simulate(replace(tried, duration=middle, record_period=middle)))

@@ -79,7 +79,7 @@ def test_forces_are_those_of_free_coordinates_also_after_a_break(drive: Drive) -
 def test_short_steps_show_no_rounding_in_forces(actuators: dict) -> None:  # type: ignore[type-arg]
     # the journal falls freely: nothing shakes. Multipliers scatter by 1e5 N at this step
     scene = loose_support(duration=1e-3, drive=Held(), step=5e-7, record_period=1e-4, actuators=actuators)
-    result = simulate(replace(scene, solver=SolverSettings(impact_steps=64, backend="symbolic")))
+    result = simulate(replace(scene, solver=SolverSettings(impact_steps=64)))
     for name in ("pin.front_base.force", "pin.shield_canopy.force", "canopy.angular_acceleration"):
         values = result[name]
         smooth = np.polyval(np.polyfit(result.time, values, 4), result.time)

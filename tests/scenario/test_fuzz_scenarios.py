@@ -128,10 +128,8 @@ def short_runs(draw: st.DrawFn) -> Scenario:
         start="concentric" if stand else draw(st.sampled_from(("concentric", "settled"))),
         solver=SolverSettings(
             impact_steps=16,
-            locate=draw(st.booleans()),
             tolerance=draw(st.sampled_from((1e-5, 1e-3))),
             newton=draw(st.sampled_from(("modified", "full"))),
-            backend=draw(st.sampled_from(("auto", "python", "symbolic"))),
         ),
     )
 

@@ -100,22 +100,13 @@ def test_bores_and_their_sides_are_checked() -> None:
         ("impact_steps", 15, ">= 16 and <= 10000"),
         ("growth", 65.0, ">= 1 and <= 64"),
         ("tolerance", 1e-14, ">= 1e-13 and <= 0.01"),
-        ("backend", "fortran", "'auto', 'python', 'symbolic' or"),
-        ("integrator", "euler", "'generalised_alpha' or 'trapezoidal'"),
         ("newton", "none", "'modified' or 'full'"),
-        ("constraint_index", 1, "2 or 3"),
         ("most_steps", 0, ">= 1"),
     ],
 )
 def test_settings_of_the_solver_that_cannot_be_are_refused(field: str, wrong: object, allowed: str) -> None:
     with pytest.raises(InputError, match=rf"SolverSettings\.{field} = {wrong!r}: .*{allowed}"):
         SolverSettings(**{field: wrong})
-
-
-def test_the_trapezoidal_rule_is_refused_with_constraints_of_positions() -> None:
-    with pytest.raises(InputError, match=r"'trapezoidal', constraint_index = 3: allowed: 2"):
-        SolverSettings(integrator="trapezoidal")
-    assert SolverSettings(integrator="trapezoidal", constraint_index=2).constraint_index == 2
 
 
 # --- accuracy ---
@@ -221,7 +212,7 @@ def test_nothing_else_of_a_refined_run_differs() -> None:
         start="settled",
         gravity=(0.1, -9.7),
         record_period=2e-3,
-        solver=SolverSettings(spectral_radius=0.9, newton_tolerance=1e-9, backend="symbolic"),
+        solver=SolverSettings(spectral_radius=0.9, newton_tolerance=1e-9),
     )
     finer = one.refined()
     back = dataclasses.replace(finer.solver, impact_steps=one.solver.impact_steps)
@@ -249,7 +240,7 @@ def test_a_scenario_comes_back_from_json(drive: Held | CubicStep | UniformSpeed 
         pins={"rear_base": ClearancePin(contact=contact(), bore="second"), "front_base": IdealPin()},
         start="concentric" if isinstance(drive, Steady) else "settled",
         gravity=(0.1, -9.7),
-        solver=SolverSettings(spectral_radius=0.9, impact_steps=64, backend="symbolic"),
+        solver=SolverSettings(spectral_radius=0.9, impact_steps=64),
     )
     assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Held, Scenario, SolverSettings, simulate
+from support_exudyn import Held, Scenario, simulate
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL, LARGEST_STEP, SMALLEST_GOAL
 from support_exudyn.scenario.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
 from support_exudyn.scenario.timescales import timescales
@@ -52,16 +52,6 @@ def test_one_that_does_not_cover_the_scene_is_refused() -> None:
     scene = replace(SCENES["a law that numba cannot compile"], formulation="compiled")
     with pytest.raises(InputError, match=r"pins\.rear_base\.contact = a law"):
         settings_for(scene, 1e-3)
-
-
-def test_a_backend_that_is_asked_for_decides_too() -> None:
-    symbolic = replace(DROP, solver=SolverSettings(backend="symbolic"))
-    assert settings_for(symbolic, 1e-3).formulation == "exudyn"
-    python = replace(DROP, solver=SolverSettings(backend="python"))
-    assert settings_for(python, 1e-3).formulation == "compiled"  # which has no Python function to choose
-    assert settings_for(python, 1e-3).solver.backend == "auto"
-    named = settings_for(replace(python, formulation="exudyn"), 1e-3)
-    assert (named.formulation, named.solver.backend) == ("exudyn", "python")
 
 
 def rubbing(scene: Scenario, ramp: float) -> Scenario:

@@ -11,9 +11,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from support_exudyn import ClearancePin, Failure, Held, OilColumn, Scenario, SolverSettings, bore_area, simulate
+from support_exudyn import ClearancePin, Failure, Held, OilColumn, Scenario, bore_area, simulate
 from support_exudyn.simulation import result_checks as looking
 from tests.cases.run_cases import PIN, loose_support, support
+from tests.formulations.test_drives import TURN, Jumping
 from user_forces import JournalBearing, JournalContact, LankaraniNikravesh
 
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
@@ -33,10 +34,7 @@ WRONG: dict[str, tuple[Scenario, str]] = {
     "compiled, deep": (soft(formulation="compiled", actuators=OILS), "mm deep in a bore of 65.5 mm radius"),
     "space, deep": (soft(dimensions=3), "mm deep in a bore of 65.5 mm radius"),
     "open": (
-        replace(
-            loose_support(0.5, 0.0, drive=Held(), duration=0.06, step=5e-3, record_period=5e-3),
-            solver=SolverSettings(locate=False),
-        ),
+        replace(TURN, drive=Jumping(silent=True), step=2e-5),
         "energy does not add up",
     ),
 }

@@ -22,7 +22,7 @@ def by_a_tight_run(scenario: Scenario) -> Result:
 
 def by_the_engine(scenario: Scenario) -> Result:
     """By rigid bodies, constraints and generalised alpha; nothing but data and laws is shared."""
-    solver = SolverSettings(impact_steps=512, backend="symbolic")
+    solver = SolverSettings(impact_steps=512)
     chosen = replace(scenario, accuracy=None, formulation="exudyn", solver=solver, step=5e-4)
     return run_with_errors({"": chosen}, Options(Path()))[""]
 

@@ -54,23 +54,7 @@ def model(scenario: Scenario) -> Model:
 
 
 def check(scenario: Scenario) -> None:
-    """Raise InputError if the settings do not fit the scenario."""
-    rigid = [
-        name
-        for name in scenario.linkage.actuators
-        if name not in scenario.compliant_actuators
-        and scenario.drive_of(name).span(scenario.duration) != (0.0, 0.0)
-    ]
-    if scenario.solver.constraint_index == 2 and scenario.solver.integrator != "trapezoidal":
-        raise InputError(
-            "solver.constraint_index = 2: the engine's generalised alpha takes 3 only; allowed: 3, or 2 with "
-            "integrator = 'trapezoidal'"
-        )
-    if scenario.solver.constraint_index == 2 and rigid:
-        raise InputError(
-            f"solver.constraint_index = 2: {rigid[0]} is rigid and moves, and the engine's constraint knows no "
-            "speed; allowed: 3, or columns of oil"
-        )
+    """Raise InputError if pins have friction whose forces rigid bodies do not determine."""
     still = np.zeros(3 * len(scenario.linkage.bodies))
     for one in repeated(scenario.held, still) if scenario.friction_laws else ():
         parts = [f"{FIELDS.get(kind, kind)}.{name}" for kind, name in one.parts]

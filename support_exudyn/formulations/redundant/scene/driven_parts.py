@@ -25,9 +25,8 @@ class OilColumnItem:
 class DrivenParts:
     """All that one drive moves.
 
-    mbs: the engine's system. drive: of all of these. rigid, oil, cranks: in the engine. velocity_level: whether
-    cranks follow the drive's speed instead of its angle. state: extension and speed that the engine has, which
-    are those of a time [s].
+    mbs: the engine's system. drive: of all of these. rigid, oil, cranks: in the engine. state: extension that
+    the engine has, and speed, which are those of a time [s].
     """
 
     mbs: Any
@@ -35,7 +34,6 @@ class DrivenParts:
     rigid: tuple[ActuatorItem, ...]
     oil: tuple[OilColumnItem, ...]
     cranks: tuple[CrankItem, ...]
-    velocity_level: bool = False
     state: tuple[float, float] | None = None
     time: float = math.nan
 
@@ -59,7 +57,7 @@ class DrivenParts:
             self.look(t)
         if state != self.state:
             self.state = state
-            self._set(*state)
+            self._set(state[0])
 
     def at(self, t: float) -> tuple[float, float]:
         """Extension and speed at t [s]; at a jump the speed before it."""
@@ -76,15 +74,7 @@ class DrivenParts:
                 f"{t:.9g} s"
             )
 
-    def follow_speed(self) -> None:
-        """Let cranks follow the speed from now on."""
-        self.velocity_level = True
-        for crank in self.cranks:
-            self.mbs.SetObjectParameter(crank.object, "velocityLevel", True)
-        if self.state is not None:
-            self._set(*self.state)
-
-    def _set(self, extension: float, speed: float) -> None:
+    def _set(self, extension: float) -> None:
         put = self.mbs.SetObjectParameter
         for rigid in self.rigid:
             put(rigid.object, "distance", rigid.actuator.start_length + extension)
@@ -93,7 +83,7 @@ class DrivenParts:
             put(oil.object, "referenceLength", oil.preloaded.natural_length(extension))
             put(oil.object, "stiffness", stiffness)
         for crank in self.cranks:
-            put(crank.object, "offset", speed if self.velocity_level else extension)
+            put(crank.object, "offset", extension)
 
 
 def by_drive(

@@ -86,7 +86,7 @@ class EngineBuilder(ABC):
         scenario = self.scenario
         mass = sum(body.mass for body in scenario.linkage.bodies.values())
         weight = mass * math.hypot(*scenario.gravity)
-        return EngineLegs(self.mbs, tuple(items), scenario.pump, weight, scenario.solver.locate)
+        return EngineLegs(self.mbs, tuple(items), scenario.pump, weight)
 
     def ends(self, actuator: Any) -> list[Any]:
         """The markers of foot and head."""

@@ -27,18 +27,15 @@ class EngineLegs:
         mbs: the engine's system.
         items: legs. pump: that all of them share, if any.
         weight: of the machine [N].
-        locates: whether steps are to end where valves open, cavities grow and stops are met.
     """
 
-    def __init__(
-        self, mbs: Any, items: Sequence[LegItem], pump: PumpStation | None, weight: float, locates: bool
-    ) -> None:
+    def __init__(self, mbs: Any, items: Sequence[LegItem], pump: PumpStation | None, weight: float) -> None:
         together = [list(items)] if pump is not None and items else [[item] for item in items]
         self.items = tuple(items)
         self.names = tuple(item.preloaded.name for item in items)
         self.circuits = tuple(LegCircuit(mbs, one, pump, weight) for one in together)
         self._whole: Legs = fill_legs([item.preloaded for item in items], pump, 0)
-        self._events = tuple(LegEvents(circuit, locates) for circuit in self.circuits)
+        self._events = tuple(LegEvents(circuit) for circuit in self.circuits)
 
     def begin(self) -> None:
         """The bodies stand where the run begins."""

@@ -25,11 +25,11 @@ class LegEvents:
     """Where within steps things happen in the legs of a circuit.
 
     Arguments:
-        circuit: that is run. locates: whether steps are to end at what happens.
+        circuit: that is run.
     """
 
-    def __init__(self, circuit: LegCircuit, locates: bool) -> None:
-        self.circuit, self.locates = circuit, locates
+    def __init__(self, circuit: LegCircuit) -> None:
+        self.circuit = circuit
         self.found: list[list[OilEvent]] = [[] for _ in circuit.items]
         shape = circuit.gaps.shape
         self._near = np.full(shape, NEAR_PRESSURE)
@@ -75,7 +75,7 @@ class LegEvents:
         x = self._passes(n, k, h, end)
         if x is None:
             return None
-        if x <= SHARE and self.locates:  # the step begins where it happens
+        if x <= SHARE:  # the step begins where it happens
             self._pass(n, k, t - h + x * h)
             if self.circuit.jumps(n, k):
                 self.circuit.refresh_start()
@@ -85,9 +85,8 @@ class LegEvents:
             x = self._passes(n, k, h, end)
             if x is None:
                 return None
-        if x >= 1.0 - SHARE or not self.locates:
-            if -self._sides[n, k] * end[0] > 0.0 or self.locates:
-                self._pending.append((n, k, t - (1.0 - x) * h))
+        if x >= 1.0 - SHARE:
+            self._pending.append((n, k, t - (1.0 - x) * h))
             return None
         goal = x + BEYOND * SHARE
         self.landing = min(self.landing, t - (1.0 - goal) * h)

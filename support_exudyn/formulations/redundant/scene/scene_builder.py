@@ -141,7 +141,7 @@ class PlaneBuilder(EngineBuilder):
         """The contact of a connector in the whole scene."""
         solver = self.scenario.solver
         mass = partial(scene.inverse_mass, name)
-        return ContactConnector(item, mass, solver.impact_steps, solver.locate)
+        return ContactConnector(item, mass, solver.impact_steps)
 
     def add_frictions(self) -> dict[str, JointFriction]:
         """Add the friction of all ideal pins and guides."""

@@ -89,7 +89,6 @@ class SolverRun:
             bool(self.cylinders),
             scene.repeats,
         )
-        self.locates = scenario.solver.locate
         self.impact_steps = scenario.solver.impact_steps
         # what a load does need not show in accelerations, and long steps would pass over where it begins
         # and pressures and states of friction are not interpolated at records that a step passes over
@@ -125,9 +124,6 @@ class SolverRun:
             pin.begin_try(0.0)
             if self.scene.scenario.start != "settled":
                 pin.begin_impact()
-        if self.scene.scenario.solver.constraint_index == 2:
-            for parts in self.scene.driven:
-                parts.follow_speed()
         self.connect()
         try:
             with quiet_engine():
@@ -325,7 +321,7 @@ class SolverRun:
 
         It will if a clearance pin begins or ends a contact in it.
         """
-        if not (self.pins or self.legs.names) or not self.locates:
+        if not (self.pins or self.legs.names):
             return False
         if following < taken / MUCH_SHORTER:
             return True
@@ -398,7 +394,7 @@ class SolverRun:
         for pin in self.pins:
             if (longest := pin.longest_step) < largest:
                 largest = longest
-        if self.locates and self.plan.follows_break(t):
+        if self.plan.follows_break(t):
             largest = min(largest, self.plan.step / BREAK_REFINEMENT)
         return largest
 

@@ -124,7 +124,7 @@ class _SpaceBuilder(EngineBuilder):
     def block_face(self, scene: SpatialScene, name: str, item: JointItem) -> BlockFace:
         """The face of a block in the whole scene."""
         solver, mass = self.scenario.solver, partial(scene.face_mass, name)
-        contact = ContactConnector(item, mass, solver.impact_steps, solver.locate)
+        contact = ContactConnector(item, mass, solver.impact_steps)
         return BlockFace(name, self.scenario.blocks[name], contact)
 
     def local(self, body: str, point: Vector3) -> Vector3:

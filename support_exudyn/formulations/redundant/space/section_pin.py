@@ -130,7 +130,7 @@ class SectionPin(ContactConnector):
         ends: tuple[BearingEnd, BearingEnd],
         settings: SolverSettings,
     ) -> None:
-        super().__init__(item, whole.inverse_mass, settings.impact_steps, settings.locate, section.share)
+        super().__init__(item, whole.inverse_mass, settings.impact_steps, share=section.share)
         self.impact_steps = ImpactSteps(contact.normal, settings.impact_steps)  # steps of the whole
         self.section, self.whole, self.ends, self.slides = section, whole, ends, whole.slides
         whole.sections.append(self)
