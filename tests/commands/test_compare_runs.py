@@ -225,7 +225,7 @@ def test_the_four_bar_of_siconos_is_compared_through_its_table_alone(
     assert ended(["compare", *files, "--map", str(tmp_path / "wrong.toml")]) == 1
 
 
-# --- runs that part ---
+# --- runs with a horizon ---
 
 
 @pytest.fixture(scope="module")
@@ -246,13 +246,13 @@ def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it
     words = ["compare", str(draft), str(fine), "pin.*.force", "tip.*"]
     assert ended([*words, "--page", str(page), "--figure", str(parted / "a.png")]) == 0
     told = " ".join(capsys.readouterr().out.split())
-    found = re.search(r"point by point up to ([\d.]+) s, impact \d+ of pin\.\w+ \(.*?\); after it by", told)
+    found = re.search(r"point by point up to ([\d.]+) s, the horizon of (draft|reference)\.h5", told)
     assert found is not None
     assert float(found[1]) <= horizon * (1.0 + 1e-5)
     assert re.search(r"after it \d+ statistics are equal within the intervals", told)
     assert told.count("within both errors") >= 7
     text = page.read_text(encoding="utf-8")
-    for part in ("Point by point up to", "Statistics after", "matched before parting"):
+    for part in ("Point by point up to", "Statistics after", "matched before the horizon"):
         assert part in text, part
     assert ended([*words, "--json"]) == 0
     pair = json.loads(capsys.readouterr().out)["files"]["reference.h5"]
@@ -263,8 +263,8 @@ def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it
     compared = compare_files(draft, fine, channels=["tip.x"])
     difference = compare_figure(compared).axes[1]
     assert BY_STATISTICS in {text.get_text() for text in difference.texts}
-    # after the parting nothing is drawn, for it shows nothing
-    assert float(np.max(difference.lines[0].get_xdata())) <= compared.pairs[0].parting.time
+    # after the horizon nothing is drawn, for it shows nothing
+    assert float(np.max(difference.lines[0].get_xdata())) <= compared.pairs[0].window.horizon
 
 
 def test_a_changed_scene_is_told_apart_from_two_accuracies(
@@ -286,20 +286,17 @@ def test_a_changed_scene_is_told_apart_from_two_accuracies(
     assert ended([*words, "--until", "0.03", "--tolerance", "tip.x=1mm"]) == 1
 
 
-def test_a_computed_force_from_elsewhere_parts_where_the_run_does(
+def test_a_table_of_another_program_is_compared_up_to_the_horizon_of_the_run(
     parted: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The finer run as a table of another program: its impacts show in its force."""
-    fine, plain = Result.load(parted / "reference.h5"), Result.load(parted / "draft.h5")
-    replace(plain, coarser=None).save(parted / "plain.h5")  # no errors: the impacts alone decide
-    pairs = {}
-    # what is measured is never exactly zero: no impact shows in it, and all is compared point by point
-    for name, force in (("computed", fine[FORCE]), ("measured", fine[FORCE] + 1.0 + np.sin(1e4 * fine.time))):
-        path, columns = parted / f"{name}.csv", np.column_stack([fine.time, force])
-        np.savetxt(path, columns, delimiter=",", fmt="%.12g", header=f"time_s,{FORCE} [N]", comments="")
-        assert ended(["compare", str(parted / "plain.h5"), str(path), "--json"]) == 0
-        pairs[name] = json.loads(capsys.readouterr().out)["files"][f"{name}.csv"]
-    assert 0.9 * plain.horizon < pairs["computed"]["parting"]["time"] < 3.0 * plain.horizon
-    assert pairs["computed"]["impacts"]["rear_base"]["number_matched"] > 10
-    assert "impacts_per_second" in pairs["computed"]["channels"][FORCE]["statistics"]
-    assert pairs["measured"]["parting"] is None
+    fine, path = Result.load(parted / "reference.h5"), parted / "computed.csv"
+    columns = np.column_stack([fine.time, fine[FORCE]])
+    np.savetxt(path, columns, delimiter=",", fmt="%.12g", header=f"time_s,{FORCE} [N]", comments="")
+    runs = [parted / f"{name}.h5" for name in ("draft", "reference")]
+    assert ended(["compare", str(path), *map(str, runs), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["files"]
+    for run, pair in zip(runs, told.values(), strict=True):
+        assert pair["horizon_s"] == Result.load(run).horizon
+        assert pair["channels"][FORCE]["statistics"]["mean"]["equal"]
+    assert told["reference.h5"]["channels"][FORCE]["beside_errors"]["within"]
+    assert told["draft.h5"]["channels"][FORCE]["largest"]["value"] > 0.0

@@ -21,9 +21,9 @@ from support_exudyn.postprocessing.comparing.compared_channel import ToleranceVe
 from support_exudyn.postprocessing.comparing.compared_file import is_own
 from support_exudyn.postprocessing.comparing.kept_run import KeptColumn, kept_impacts
 from support_exudyn.postprocessing.comparing.mapping import PERCENT, Tolerance, tolerance
-from support_exudyn.postprocessing.comparing.with_errors import safe_errors
+from support_exudyn.postprocessing.comparing.with_errors import curve_errors, errors_at
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.selection import CLEARANCE, matching
+from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.figures.units import readable, readable_change
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -209,8 +209,8 @@ def _pairs(
 
 
 def _columns(run: Result, names: Sequence[str]) -> dict[str, KeptColumn]:
-    """Channels of a run with safe errors."""
-    errors = safe_errors(run, names)
+    """Channels of a run with their errors."""
+    errors = curve_errors(run, names)
     return {name: KeptColumn(run.unit(name), run.time, run[name], errors[name]) for name in names}
 
 
@@ -253,7 +253,7 @@ def compared_columns(
     errors, other, more = mine.errors, scale * its.errors, np.zeros(1)
     if time.size:
         common = on_common_times(its.time, reference, time, values, after, until)
-        errors, other = _errors_at(common.time, time, errors), _errors_at(common.time, its.time, other)
+        errors, other = errors_at(common.time, time, errors), errors_at(common.time, its.time, other)
         time, values, reference, more = common.time, common.other, common.reference, common.interpolation_error
     # an error that is not known counts for nothing if the other is
     errors = np.where(np.isnan(errors), other, np.where(np.isnan(other), errors, errors + other))
@@ -269,11 +269,6 @@ def compared_columns(
     of = f" of the {'range' if time.size else 'value'} of the reference" if rule.is_relative else ""
     errors = np.nan_to_num(errors) + more
     return Closeness(name, unit, time, values, reference, allowed, errors, f"{rule.text}{of}")
-
-
-def _errors_at(at: Series, time: Series, errors: Series) -> Series:
-    """Errors of a curve at other times, (n,): those of the next record, which are no smaller."""
-    return errors[np.minimum(np.searchsorted(time, at - CLEARANCE), time.size - 1)]
 
 
 # --- the figure of a curve ---

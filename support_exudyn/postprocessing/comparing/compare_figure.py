@@ -26,10 +26,10 @@ OTHERS = tuple(look for look in style.CURVES if look[0] != style.IDEAL)  # the r
 MOST = 8  # channels
 FEW = 60  # points of a curve that are drawn as markers
 CURVES_MM, DIFFERENCE_MM, REST_MM, LINE_MM = 38.0, 30.0, 30.0, 4.5
-ALLOWED, AFTER = "#009E73", "#f0f0f0"  # colours of what is allowed, and of what lies after the parting
+ALLOWED, AFTER = "#009E73", "#f0f0f0"  # colours of what is allowed, and of what lies after the horizon
 BEYOND = 8.0  # times the largest difference at which what is allowed lies beyond a panel
 SPARE = 1.15
-BY_STATISTICS = "compared by statistics"  # after the parting
+BY_STATISTICS = "compared by statistics"  # after the horizon
 Compared = Sequence[tuple[str, ComparedPair, ComparedChannel]]  # a channel of each file, with its colour
 
 
@@ -71,7 +71,7 @@ def compare_figure(compared: FilesCompared, most: int | None = None) -> Figure:
         times = [one.common.time for pair in compared.pairs for one in pair.channels.values()]
         first, last_time = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
         seconds = readable("s", max(abs(first), abs(last_time)))
-        parting = min(pair.parting.time for pair in compared.pairs)
+        horizon = min(pair.window.horizon for pair in compared.pairs)
         for n, name in enumerate(names):
             there = [
                 (OTHERS[k][0], pair, pair.channels[name])
@@ -81,8 +81,8 @@ def compare_figure(compared: FilesCompared, most: int | None = None) -> Figure:
             _curves(panels[2 * n], compared.reference, there, seconds, (first, last_time))
             _differences(panels[2 * n + 1], there, seconds)
             for axes in panels[2 * n : 2 * n + 2]:
-                if parting < last_time:
-                    span = seconds.scale * parting, seconds.scale * last_time
+                if horizon < last_time:
+                    span = seconds.scale * horizon, seconds.scale * last_time
                     axes.axvspan(*span, color=AFTER, lw=0.0, zorder=0)
                     axes.axvline(span[0], color="#888888", lw=0.8, ls=":")
         panels[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.2), fontsize=7, borderaxespad=0.0)
@@ -116,7 +116,7 @@ def _curves(
 
 
 def _differences(axes: Axes, there: Compared, seconds: DisplayUnit) -> None:
-    """The differences from the reference before the parting, with numerical errors, inside what is allowed."""
+    """The differences from the reference before the horizon, with numerical errors, inside what is allowed."""
     allowed, unit = there[0][2].allowed, there[0][2].unit
     size, titles = max(_size(one) for _, _, one in there), []
     shown = readable(unit, size)
@@ -124,7 +124,7 @@ def _differences(axes: Axes, there: Compared, seconds: DisplayUnit) -> None:
         _difference(axes, one, colour, seconds.scale, shown.scale)
         name = f"{pair.other.name}: " if len(there) > 1 else "less reference: "
         if math.isnan(one.largest.value):
-            titles.append(f"{name}nothing lies before the parting")
+            titles.append(f"{name}nothing lies before the horizon")
             continue
         verdict = f", {verdict_words(one)}" if one.tolerance is not None else ""
         at = f"at {one.measures.largest_time:.4g} s"
@@ -146,14 +146,14 @@ def _differences(axes: Axes, there: Compared, seconds: DisplayUnit) -> None:
 
 
 def _size(one: ComparedChannel) -> float:
-    """Largest difference of a panel: before the parting, or where nothing lies before, at all."""
+    """Largest difference of a panel: before the horizon, or where nothing lies before, at all."""
     difference = np.abs(one.common.other - one.common.reference)
     before = difference[: one.before]
     return float(np.nanmax(before if np.isfinite(before).any() else difference, initial=0.0))
 
 
 def _difference(axes: Axes, one: ComparedChannel, colour: str, seconds: float, scale: float) -> None:
-    """The line of a difference up to the parting, with its numerical errors and its largest value."""
+    """The line of a difference up to the horizon, with its numerical errors and its largest value."""
     before = slice(0, one.before)
     time = seconds * one.common.time[before]
     difference = scale * (one.common.other - one.common.reference)[before]
@@ -173,9 +173,9 @@ def _caption(compared: FilesCompared) -> str:
     known = any(file.has_errors for pair in compared.pairs for file in (pair.reference, pair.other))
     errors = "Shaded: numerical errors that are known." if known else "Numerical errors are not known."
     allowed = "" if compared.verdict == "told" else " Green: what is allowed."
-    parted = any(math.isfinite(pair.parting.time) for pair in compared.pairs)
-    grey = " Grey: after the first parting, from which on curves are compared by their statistics only."
+    beyond = any(math.isfinite(pair.window.horizon) for pair in compared.pairs)
+    grey = " Grey: after the first horizon, from which on curves are compared by their statistics only."
     return (
         "Curves as their files have them (few points of a file: markers); below each, the difference from the "
-        f"reference. {errors}{allowed}{grey if parted else ''}"
+        f"reference. {errors}{allowed}{grey if beyond else ''}"
     )

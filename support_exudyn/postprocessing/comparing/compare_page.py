@@ -38,9 +38,7 @@ def check_page(path: Path) -> None:
 def write_page(compared: FilesCompared, path: Path) -> None:
     """Write the page, HTML that needs nothing from elsewhere, whole or not at all."""
     check_page(path)
-    drawn = [
-        FilesCompared(compared.reference, (pair,), compared.after, compared.until) for pair in compared.pairs
-    ]
+    drawn = [FilesCompared(compared.reference, (pair,)) for pair in compared.pairs]
     figures = [compare_figure(one, len(one.pairs[0].channels)) for one in drawn]
     live = {f"curves{n}": of_drawing(figure, range(len(figure.axes))) for n, figure in enumerate(figures)}
     pages = html(live)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -15,7 +15,7 @@ from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
 from support_exudyn.postprocessing.comparing.mapping import Tolerance
 from support_exudyn.postprocessing.comparing.measures import CurveMeasures, curve_measures
 from support_exudyn.postprocessing.comparing.statistics import StatisticDifference, compared_statistics
-from support_exudyn.postprocessing.comparing.with_errors import BesideErrors
+from support_exudyn.postprocessing.comparing.with_errors import BesideErrors, errors_at
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError
 
@@ -23,12 +23,8 @@ Values = npt.NDArray[np.float64]
 ToleranceVerdict = Literal["within", "not within", "not decided", "told"]
 WORST_FIRST: tuple[ToleranceVerdict, ...] = ("not within", "not decided", "within", "told")
 ROUNDING = 1e-9  # share of what is allowed: 1.1 - 1.0 is 0.1, in whatever digits
-JUDGED = ("mean", "rms", "spread", "quantile_95")  # statistics that are in the unit of the channel
 LARGEST = "largest difference"
 GAPS = "values that are missing"
-MISSED = 2.0  # times the distance from every second record: the error of straight lines between all records
-FEWEST = 2  # times that make a curve
-CONFIDENCE = 0.95  # of all intervals of the statistics of two files together
 
 
 class JudgedDifference(NamedTuple):
@@ -68,13 +64,13 @@ def worst(verdicts: Iterable[ToleranceVerdict]) -> ToleranceVerdict:
 class ComparedWindow:
     """The part of two files that is compared.
 
-    after, until: times [s]. parting: from when on curves are compared by their statistics [s]; infinite: never.
+    after, until: times [s]. horizon: from when on curves are compared by their statistics [s]; infinite: never.
     among: how many statistics are reported together.
     """
 
     after: float = -math.inf
     until: float = math.inf
-    parting: float = math.inf
+    horizon: float = math.inf
     among: int = 1
 
 
@@ -84,12 +80,11 @@ class ComparedChannel:
 
     name, unit, meaning: of the channel. common: both curves at common times.
     errors: numerical errors of the difference at these times, (n,), of the files `with_errors`; NaN if of none.
-    before: number of the times that lie before the parting. measures: of these.
+    before: number of the times that lie before the horizon. measures: of these.
     reference, other, mean: means over the whole window, and that of the difference. largest: magnitude of the
-    largest difference before the parting, with its numerical error; NaN if nothing lies before.
-    statistics: after the parting, by their names; empty if the curves do not part, or if nothing lies after.
+    largest difference before the horizon, with its numerical error; NaN if nothing lies before.
+    statistics: from the horizon on, by their names; empty if there is none, or if nothing lies behind it.
     tolerance, allowed: the tolerance, and its amount; None and NaN without a tolerance.
-    not_told: why the statistics could not be computed; empty if they were.
     """
 
     name: str
@@ -107,7 +102,6 @@ class ComparedChannel:
     statistics: Mapping[str, StatisticDifference]
     tolerance: Tolerance | None
     allowed: float
-    not_told: str
 
     @property
     def beside_errors(self) -> BesideErrors:
@@ -134,7 +128,7 @@ class ComparedChannel:
 
     @property
     def judged(self) -> tuple[JudgedDifference, ...]:
-        """The differences that are judged: the largest before the parting, and statistics after it.
+        """The differences that are judged: the largest before the horizon, and statistics after it.
 
         Curves that are the same to the bit have the same errors, whatever these are. Values of the reference
         that the other curve lacks cannot be judged. Of files without runs the error of interpolation counts.
@@ -150,10 +144,9 @@ class ComparedChannel:
                 error = float(self.common.interpolation_error[self.where])
             error = error if math.isfinite(error) else math.inf
             judged.append(JudgedDifference(LARGEST, abs(self.largest.value), error, self.allowed))
-        for name in JUDGED:
-            if (statistic := self.statistics.get(name)) is not None:
-                known = statistic.tellable if math.isfinite(statistic.tellable) else math.inf
-                judged.append(JudgedDifference(name, abs(statistic.difference), known, self.allowed))
+        for name, statistic in self.statistics.items():
+            known = statistic.tellable if math.isfinite(statistic.tellable) else math.inf
+            judged.append(JudgedDifference(name, abs(statistic.difference), known, self.allowed))
         return tuple(judged)
 
     @property
@@ -171,7 +164,6 @@ def compared_channel(
     unit: str,
     window: ComparedWindow,
     tolerance: Tolerance | None = None,
-    impacts: tuple[Sequence[float], Sequence[float]] | None = None,
 ) -> ComparedChannel:
     """Compare a channel.
 
@@ -180,16 +172,15 @@ def compared_channel(
         channel, unit: its name, and the unit in SI in which it is compared.
         window: what is compared.
         tolerance: by how much it may differ; None: there is no verdict.
-        impacts: times of the impacts of its contact in both [s], if it is of a contact.
 
     Raises InputError if units are not known or of two kinds, or if the curves do not overlap.
     """
     laid = _Laid(reference, other, channel, unit, window)
     common = laid.common(reference, other)
-    errors, before = laid.errors(common), common.time < window.parting
+    errors, before = laid.errors(common), common.time < window.horizon
     measures = curve_measures(*common.part(before))
     means = _means(laid, common)
-    statistics, not_told = _statistics(laid, impacts)
+    _, mine, its = common.part(~before)
     return ComparedChannel(
         name=channel,
         unit=unit,
@@ -203,10 +194,9 @@ def compared_channel(
         other=means[1],
         mean=means[2],
         largest=_largest(laid, common, errors, measures),
-        statistics=statistics,
+        statistics=compared_statistics(mine, its, window.among),
         tolerance=tolerance,
         allowed=math.nan if tolerance is None else tolerance.in_si(channel, unit, extent(common.reference)),
-        not_told=not_told,
     )
 
 
@@ -258,25 +248,19 @@ class _Laid(NamedTuple):
     def errors(self, common: CommonCurves) -> Values:
         """Numerical errors of the difference at the common times, (n,): the sum of those known; NaN of none.
 
-        Between the records of a run the errors are joined by straight lines, and are infinite next to infinite
-        errors. The error of interpolation of the curves is part of it.
+        The error of interpolation of the curves is part of it.
         """
         sides = [file for file in (self.reference, self.other) if file.has_errors]
         total = common.interpolation_error if sides else np.full(common.time.size, math.nan)
         for file in sides:
-            time, errors = file.time(self.channel), file.errors(self.channel)
-            endless = np.isinf(errors)
-            finite = np.interp(common.time, time, np.where(endless, 0.0, errors))
-            total = total + np.where(np.interp(common.time, time, endless) > 0.0, math.inf, finite)
+            total = total + errors_at(common.time, file.time(self.channel), file.errors(self.channel))
         return total
 
 
 def _means(laid: _Laid, common: CommonCurves) -> tuple[Estimate, Estimate, Estimate]:
-    """Means over time of the reference, of the other curve and of the difference, with their errors.
+    """Means over time of the reference, of the other curve and of the difference, with their numerical errors.
 
-    Of two runs from all of their steps; else of both by straight lines between the common times. The error of
-    these lines is added: twice the distance from the mean by every second record, for that falls as h after a
-    jump, such as that of a force as a drive starts, and as h^2 else.
+    Of two runs from all of their steps; else of both by straight lines between the common times.
     """
     ends = float(common.time[0]), float(common.time[-1])
     first, second = (file.mean(laid.channel, laid.unit, *ends) for file in (laid.reference, laid.other))
@@ -284,26 +268,22 @@ def _means(laid: _Laid, common: CommonCurves) -> tuple[Estimate, Estimate, Estim
         known = [mean.error for mean in (first, second) if not math.isnan(mean.error)]
         error = sum(known) if known else math.nan
         return first, second, Estimate(second.value - first.value, error, laid.unit)
-    rows = np.zeros(common.time.size, dtype=bool)
-    rows[::2] = rows[-1] = True
-    thinned = curve_measures(*common.part(rows))
 
     def mean(name: str) -> Estimate:
-        estimate = laid.estimate(lambda common: float(getattr(curve_measures(*common[:3]), name)))
-        return estimate._replace(error=estimate.error + MISSED * abs(estimate.value - getattr(thinned, name)))
+        return laid.estimate(lambda common: float(getattr(curve_measures(*common[:3]), name)))
 
     return mean("mean_reference"), mean("mean_other"), mean("mean_difference")
 
 
 def _largest(laid: _Laid, common: CommonCurves, errors: Values, measures: CurveMeasures) -> Estimate:
-    """The magnitude of the largest difference before the parting, and its error.
+    """The magnitude of the largest difference before the horizon, and its error.
 
     Of the error of this number and that of the difference at its time the larger counts: where two curves
     cross as steps become shorter, either alone can be too small.
     """
 
     def magnitude(common: CommonCurves) -> float:
-        before = common.time < laid.window.parting
+        before = common.time < laid.window.horizon
         differences = np.abs(common.other[before] - common.reference[before])
         return float(np.nanmax(differences)) if np.isfinite(differences).any() else math.nan
 
@@ -312,27 +292,3 @@ def _largest(laid: _Laid, common: CommonCurves, errors: Values, measures: CurveM
     largest = laid.estimate(magnitude)
     where = int(np.searchsorted(common.time, measures.largest_time))
     return largest._replace(error=max(largest.error, float(errors[where])))
-
-
-def _statistics(
-    laid: _Laid, impacts: tuple[Sequence[float], Sequence[float]] | None
-) -> tuple[Mapping[str, StatisticDifference], str]:
-    """Statistics of both curves after the parting, at the times of each; and why there are none, in words."""
-    window, curves = laid.window, list[Values]()
-    files = laid.reference, laid.other
-    times = [file.time(laid.channel) for file in files]
-    start = max(window.parting, window.after, *(float(time[0]) for time in times))
-    end = min(window.until, *(float(time[-1]) for time in times))
-    for file, time in zip(files, times, strict=True):
-        values = file.values(laid.channel, laid.unit)
-        chosen = (time >= start) & (time <= end) & np.isfinite(values)
-        curves += [time[chosen], values[chosen]]
-    if not math.isfinite(window.parting) or min(curves[0].size, curves[2].size) < FEWEST:
-        return {}, ""
-    if impacts is not None:
-        first, second = ([time for time in own if start <= time <= end] for own in impacts)
-        impacts = first, second
-    try:
-        return compared_statistics(*curves, impacts=impacts, confidence=CONFIDENCE, among=window.among), ""
-    except InputError as error:
-        return {}, f"statistics: {error}"

@@ -23,6 +23,7 @@ from support_exudyn.postprocessing.comparing.mapping import MappedColumn, Mapped
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
+from user_forces.contact_state import Onset
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
@@ -69,9 +70,15 @@ class ComparedFile:
         return list(dict.fromkeys([*self.mapped.columns, *self.series]))
 
     @property
-    def start(self) -> float:
-        """Its first time [s]."""
-        return min(float(one.time[0]) for one in self.series.values() if one.time.size) + self.mapped.shift
+    def horizon(self) -> float:
+        """The time from which on shorter steps change its impacts [s]; infinite if none is known."""
+        return self.run.horizon + self.mapped.shift if self.run is not None and self.has_errors else math.inf
+
+    @property
+    def onsets(self) -> Mapping[str, Sequence[Onset]]:
+        """The impacts of a run at its shifted times, by contact; of another file none."""
+        shift, onsets = self.mapped.shift, {} if self.run is None else self.run.onsets
+        return {name: [one._replace(time=one.time + shift) for one in own] for name, own in onsets.items()}
 
     def column(self, channel: str) -> MappedColumn:
         """The column that is a channel. Raises InputError if there is none."""

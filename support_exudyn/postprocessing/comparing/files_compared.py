@@ -12,7 +12,6 @@ from typing import NamedTuple
 from support_exudyn.files.series.asked import Progress, silent
 from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.comparing.compared_channel import (
-    JUDGED,
     ComparedChannel,
     ComparedWindow,
     ToleranceVerdict,
@@ -28,7 +27,7 @@ from support_exudyn.postprocessing.comparing.compared_file import (
     of_run,
     turns_apart,
 )
-from support_exudyn.postprocessing.comparing.impacts import MatchedImpacts, impacts_of, match_impacts
+from support_exudyn.postprocessing.comparing.impacts import MatchedImpacts, match_impacts
 from support_exudyn.postprocessing.comparing.mapping import (
     CompareFile,
     Tolerance,
@@ -38,8 +37,8 @@ from support_exudyn.postprocessing.comparing.mapping import (
     read_tolerances,
     tolerances_of,
 )
-from support_exudyn.postprocessing.comparing.parting import NEVER, Parting, pair_parting
 from support_exudyn.postprocessing.comparing.shift import FoundShift, found_shift
+from support_exudyn.postprocessing.comparing.statistics import STATISTICS
 from support_exudyn.postprocessing.comparing.with_errors import BesideErrors, numbers_beside_errors
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
@@ -67,23 +66,21 @@ class CommonChannels(NamedTuple):
 class ComparedPair:
     """A file compared with the reference.
 
-    channels: by their names. parting: when both part, and why; never, if all is the same to the bit.
-    impacts: of contacts that both know.
+    channels: by their names. window: the part that is compared, and the earlier horizon of both; beyond it
+    single impacts are no result of a run. impacts: of contacts that both runs have.
     shift: the shift in time that was determined, and applied to `other`; None: none was asked for.
     same: number of channels, if both are runs and all records are the same to the bit; else 0.
-    common: which channels are compared, and which are not. after, until: the part that is compared, [s].
+    common: which channels are compared, and which are not.
     """
 
     reference: ComparedFile
     other: ComparedFile
     channels: Mapping[str, ComparedChannel]
-    parting: Parting
+    window: ComparedWindow
     impacts: Mapping[str, MatchedImpacts]
     shift: FoundShift | None
     same: int
     common: CommonChannels
-    after: float
-    until: float
 
     @cached_property
     def numbers(self) -> Mapping[str, BesideErrors]:
@@ -91,7 +88,7 @@ class ComparedPair:
         first, second = self.reference.run, self.other.run
         if first is None or second is None or not (self.reference.has_errors and self.other.has_errors):
             return {}
-        return numbers_beside_errors(first, second, self.after, self.until)
+        return numbers_beside_errors(first, second, self.window.after, self.window.until)
 
     @property
     def verdict(self) -> ToleranceVerdict:
@@ -101,12 +98,10 @@ class ComparedPair:
 
 @dataclass(frozen=True)
 class FilesCompared:
-    """Files compared with a reference. after, until: the part that is compared [s]."""
+    """Files compared with a reference."""
 
     reference: ComparedFile
     pairs: tuple[ComparedPair, ...]
-    after: float
-    until: float
 
     @property
     def verdict(self) -> ToleranceVerdict:
@@ -157,7 +152,7 @@ def compare_files(
         _pair(first, other, common, (after, until), tolerances, find_shift)
         for other, common in zip(rest, chosen, strict=True)
     )
-    return FilesCompared(first, pairs, after, until)
+    return FilesCompared(first, pairs)
 
 
 def _read(
@@ -196,24 +191,15 @@ def _pair(
         other = other.shifted(-shift.found.shift)
     other = replace(other, turns=_turns(reference, other, units, ends))
     same = same_to_the_bit(reference, other)
-    known = impacts_of(reference, units), impacts_of(other, units)
-    parting = NEVER if same else pair_parting(reference, other, known)
-    mine, its = (impacts.onsets for impacts in known)
-    contacts = [contact for contact in mine if contact in its]
-    run = reference.run or other.run
-    stems = {name: f"pin.{name}" if run is None else run.scenario.contact_stem(name) for name in contacts}
-    among = len(units) * len(JUDGED) + len(contacts)
-    window = ComparedWindow(*ends, parting.time, max(among, 1))
-    channels = {}
-    for name, unit in units.items():
-        contact = next((one for one in contacts if name.startswith(f"{stems[one]}.")), None)
-        impacts = None
-        if contact is not None:
-            impacts = [one.time for one in mine[contact]], [one.time for one in its[contact]]
-        tolerance = of_channel(tolerances, name)
-        channels[name] = compared_channel(reference, other, name, unit, window, tolerance, impacts)
-    matched = {name: match_impacts(mine[name], its[name]) for name in contacts}
-    return ComparedPair(reference, other, channels, parting, matched, shift, same, common, *ends)
+    horizon = math.inf if same else min(reference.horizon, other.horizon)
+    window = ComparedWindow(*ends, horizon, len(units) * len(STATISTICS))
+    channels = {
+        name: compared_channel(reference, other, name, unit, window, of_channel(tolerances, name))
+        for name, unit in units.items()
+    }
+    mine, its = reference.onsets, other.onsets
+    impacts = {name: match_impacts(mine[name], its[name]) for name in mine if name in its}
+    return ComparedPair(reference, other, channels, window, impacts, shift, same, common)
 
 
 def _turns(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,7 +11,6 @@ from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.notes import notes
-from support_exudyn.postprocessing.comparing.statistics import StatisticDifference
 from support_exudyn.postprocessing.comparing.tables import beside, faults, number, share, shown_unit
 from user_forces.values.value import cleaned
 
@@ -39,7 +37,7 @@ def _pair(pair: ComparedPair) -> dict[str, Any]:
         "same_to_the_bit": pair.same > 0,
         "shift_s": pair.other.mapped.shift,
         "found_shift": None if shift is None else {"channel": shift.channel, **shift.found._asdict()},
-        "parting": pair.parting if math.isfinite(pair.parting.time) else None,
+        "horizon_s": pair.window.horizon,
         "impacts": {
             contact: {
                 "matched": matched.pairs,
@@ -76,16 +74,9 @@ def _channel(one: ComparedChannel) -> dict[str, Any]:
         "beside_errors": {"within": one.beside_errors.within, "times": one.beside_errors.times},
         "judged": [{**judged._asdict(), "verdict": judged.verdict} for judged in one.judged],
         "measures": one.measures,
-        "statistics": {name: _statistic(what) for name, what in one.statistics.items()},
+        "statistics": {name: {**what._asdict(), "equal": what.equal} for name, what in one.statistics.items()},
         "interpolated": one.common.interpolated,
-        "not_told": [one.not_told] if one.not_told else [],
     }
-
-
-def _statistic(one: StatisticDifference) -> dict[str, Any]:
-    difference = {"value": one.difference, "low": one.low, "high": one.high}
-    values = {"first": {"value": one.first}, "second": {"value": one.second}, "difference": difference}
-    return {"name": one.name, **values, "blocks": one.blocks, "equal": one.equal, "not_told": one.not_told}
 
 
 def _plain(item: Any) -> Any:

@@ -1,98 +1,15 @@
-"""Impacts of the contacts of two files: of runs, or read off a curve of a force, and matched in time."""
+"""Impacts of a contact in two runs, matched in time."""
 
 import bisect
-import math
-import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
 from user_forces.contact_state import Onset
-from user_forces.values.value import InputError
 
-Values = npt.NDArray[np.float64]
-Pair = tuple[Onset, Onset]
-Onsets = Mapping[str, Sequence[Onset]]  # by contact, in the order of time
 NEAREST = 64  # impacts to either side in time that may be matched; chatter may have thousands
-SHARE = 1e-3  # of the largest force, below which a contact carries none
-PIN_FORCE = re.compile(r"pin\.(.+)\.force")
-
-
-class FileImpacts(NamedTuple):
-    """Impacts of a file by contact, and the resolution of their times [s]: 0 of a run."""
-
-    onsets: Onsets
-    resolution: float
-
-
-def impacts_of(file: ComparedFile, channels: Collection[str]) -> FileImpacts:
-    """The impacts that a file knows, at its shifted times.
-
-    Of a run these are all. Of another file they are read off the forces of pins among the channels, as far as
-    these are computed: exactly zero at times, which nothing that is measured is.
-    """
-    if file.run is not None:
-        return FileImpacts(
-            {
-                name: tuple(
-                    onset._replace(
-                        time=onset.time + file.mapped.shift,
-                        separation_time=onset.separation_time + file.mapped.shift,
-                    )
-                    for onset in onsets
-                )
-                for name, onsets in file.run.onsets.items()
-            },
-            0.0,
-        )
-    shown, resolution = dict[str, Sequence[Onset]](), 0.0
-    for channel in channels:
-        name = PIN_FORCE.fullmatch(channel)
-        if name is None or file.time(channel).size < 2:
-            continue
-        try:
-            time, force = file.time(channel), file.values(channel, "N")
-            onsets = impacts_of_force(time, force) if (force == 0.0).any() else ()
-        except InputError:  # a component, or of another unit
-            continue
-        if onsets:
-            shown[name[1]] = onsets
-            resolution = max(resolution, float(np.median(np.diff(time))))
-    return FileImpacts(shown, resolution)
-
-
-def impacts_of_force(time: Values, force: Values) -> tuple[Onset, ...]:
-    """Impacts that show in the magnitude of a contact force: each rises from zero and falls back.
-
-    An impact begins where the straight line between two records crosses the threshold, `SHARE` of the largest
-    force, upwards, and separates where it crosses downwards. An impact that goes on when the curve begins has
-    no onset; an impact that goes on at its end has not separated. Records farther apart than an impact is long
-    show several as a single impact, or none. Speeds cannot be seen in a force: they are NaN.
-
-    Arguments:
-        time: [s], (n,), increasing.
-        force: its magnitude, >= 0, in any unit, (n,); NaN where a value is not known counts as no force.
-
-    Raises InputError if a force is negative, as a component would be.
-    """
-    known = np.where(np.isfinite(force), force, 0.0)
-    if known.size and known.min() < 0.0:
-        raise InputError(f"a force of {known.min():g}: allowed: magnitudes of a contact's force, from 0 on")
-    level = SHARE * float(known.max(initial=0.0))
-    pressed = known > level
-    ends = []
-    for at in (np.flatnonzero(~pressed[:-1] & pressed[1:]), np.flatnonzero(pressed[:-1] & ~pressed[1:])):
-        way = (level - known[at]) / (known[at + 1] - known[at])
-        ends.append(time[at] + way * (time[at + 1] - time[at]))
-    begins, separations = ends[0].tolist(), [*ends[1].tolist(), math.inf]
-    after = np.searchsorted(ends[1], ends[0])
-    return tuple(
-        Onset(begin, math.nan, separations[n], math.nan) for begin, n in zip(begins, after, strict=True)
-    )
 
 
 class MatchedImpacts(NamedTuple):
@@ -102,7 +19,7 @@ class MatchedImpacts(NamedTuple):
     only_first, only_second: the impacts without a partner.
     """
 
-    pairs: tuple[Pair, ...]
+    pairs: tuple[tuple[Onset, Onset], ...]
     only_first: tuple[Onset, ...]
     only_second: tuple[Onset, ...]
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.comparing.with_errors import SINGLE, safe_errors
+from support_exudyn.postprocessing.comparing.with_errors import SINGLE, curve_errors
 from support_exudyn.simulation.estimate import Estimate, errors
 from support_exudyn.simulation.horizon import horizon
 from support_exudyn.simulation.provenance import provenance
@@ -98,7 +98,7 @@ def kept_run(result: Result) -> KeptRun:
     impacts, end = kept_impacts(result)
     rows = np.unique(np.linspace(0, result.time.size - 1, RECORDS).round().astype(np.intp))
     names = [name for name, channel in result.channels.items() if name != "time" and channel.is_determined]
-    known = safe_errors(result, names)
+    known = curve_errors(result, names)
     own = {f"module {name}": digest for name, digest in own_sources(result.scenario.plain).items()}
     numbers = result.numbers() if math.isinf(end) else {}
     return KeptRun(

@@ -1,4 +1,4 @@
-"""The notes of a comparison, in sentences: reading, shifts, the parting, interpolation, gaps."""
+"""The notes of a comparison, in sentences: reading, shifts, the horizon, interpolation, gaps."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from support_exudyn.postprocessing.comparing.compared_channel import CONFIDENCE, ComparedChannel, extent
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, extent
 from support_exudyn.postprocessing.comparing.files_compared import SHOWN, ComparedPair
-from support_exudyn.postprocessing.comparing.impacts import impacts_of
+from support_exudyn.postprocessing.comparing.statistics import CONFIDENCE
 from support_exudyn.postprocessing.comparing.tables import share
 from support_exudyn.postprocessing.figures.selection import CLEARANCE
 from support_exudyn.postprocessing.figures.units import said
@@ -29,18 +29,16 @@ def notes(pair: ComparedPair) -> Iterator[str]:
         shift = pair.shift.found
         late = "lags behind" if shift.shift > 0.0 else "is ahead of"
         yield (
-            f"{pair.other.name} {late} {pair.reference.name} by {said(abs(shift.shift), 's', 5)} ± "
-            f"{said(shift.error, 's', 2)}, found by {pair.shift.channel} "
-            f"(correlation {shift.correlation:.4f}); that is taken off its times"
+            f"{pair.other.name} {late} {pair.reference.name} by {said(abs(shift.shift), 's', 5)}, "
+            f"found by {pair.shift.channel} (correlation {shift.correlation:.4f}); that is taken off its times"
         )
-    yield from _parting(pair)
+    yield from _horizon(pair)
     yield from _numbers(pair)
     yield from _times(pair)
     for channel in pair.channels.values():
         for file, values in ((pair.reference, channel.common.reference), (pair.other, channel.common.other)):
             if missing := int(np.count_nonzero(~np.isfinite(values))):
                 yield f"{channel.name}: {file.name} has no value at {missing} of {values.size} times"
-    yield from (f"{one.name}: {one.not_told}" for one in pair.channels.values() if one.not_told)
     if lacking := pair.common.lacking:
         yield f"{pair.other.name} has no {_some(lacking, SHOWN)}"
     if reasons := pair.common.not_alike:
@@ -52,40 +50,27 @@ def _some(names: Sequence[str], most: int) -> str:
     return f"{', '.join(names[:most])}{more}"
 
 
-def _parting(pair: ComparedPair) -> Iterator[str]:
+def _horizon(pair: ComparedPair) -> Iterator[str]:
     """Up to when curves are compared point by point, and whether their statistics after that are equal."""
-    if not math.isfinite(pair.parting.time):
-        if not pair.same and any(any(matched) for matched in pair.impacts.values()):
-            yield "point by point over all of it: no impact parts the curves"
+    horizon = pair.window.horizon
+    if math.isinf(horizon):
         return
-    near = [
-        (abs(onset.time - pair.parting.time), number, file.run.scenario.contact_stem(contact))
-        for file in (pair.reference, pair.other)
-        if file.run is not None
-        for contact, onsets in impacts_of(file, ()).onsets.items()
-        for number, onset in enumerate(onsets, 1)
-    ]
-    _, number, stem = min(near, default=(0.0, 0, ""))
-    impact = f", impact {number} of {stem}" if number else ""
-    because = pair.parting.because.rstrip(".")
-    yield f"point by point up to {pair.parting.time:.6g} s{impact} ({because}); after it by statistics"
-    known = [(one.name, what) for one in pair.channels.values() for what in one.statistics.values()]
+    file = min((pair.reference, pair.other), key=lambda file: file.horizon)
+    yield (
+        f"point by point up to {horizon:.6g} s, the horizon of {file.name}, from which on shorter steps change "
+        "its impacts; after it by statistics"
+    )
+    every = [(name, what, one) for name, own in pair.channels.items() for what, one in own.statistics.items()]
+    known = [one for one in every if one[2].equal is not None]
     if not known:
-        yield "after it there is too little for statistics"
-        return
-    silent = sum(what.equal is None for _, what in known)
-    number = len(known) - silent
-    if not number:
         yield "after it there is too little for confidence intervals of statistics"
         return
-    differ = [f"{what.name.replace('_', ' ')} of {name}" for name, what in known if what.equal is False]
-    counted = f"{number} {'statistic' if number == 1 else 'statistics'}"
+    differ = [f"{what.replace('_', ' ')} of {name}" for name, what, one in known if not one.equal]
     sure = f"with {100.0 * CONFIDENCE:.3g} % confidence of all together"
-    tail = f"; {silent} have no interval" if silent else ""
     if differ:
-        yield f"after it {len(differ)} of {counted} differ, {sure}: {_some(differ, FEW)}{tail}"
+        yield f"after it {len(differ)} of {len(known)} statistics differ, {sure}: {_some(differ, FEW)}"
     else:
-        yield f"after it {counted} {'is' if number == 1 else 'are'} equal within the intervals, {sure}{tail}"
+        yield f"after it {len(known)} statistics are equal within the intervals, {sure}"
 
 
 def _numbers(pair: ComparedPair) -> Iterator[str]:
@@ -117,7 +102,7 @@ def _times(pair: ComparedPair) -> Iterator[str]:
     sentence, most = "", 0.0
     for name, one in pair.channels.items():
         time, common = pair.reference.time(name), one.common.time
-        start, end = max(float(time[0]), pair.after), min(float(time[-1]), pair.until)
+        start, end = max(float(time[0]), pair.window.after), min(float(time[-1]), pair.window.until)
         gap = max(float(common[0]) - start, end - float(common[-1]))
         step = float(np.diff(common).max(initial=0.0))
         if gap > max(most, CLEARANCE + 1.5 * step):

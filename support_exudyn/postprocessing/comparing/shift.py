@@ -6,12 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage, optimize, signal
+from scipy import optimize, signal
 from scipy.interpolate import CubicSpline
 
 from support_exudyn.postprocessing.comparing.common_times import EvenSamples, even_samples
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
-from support_exudyn.postprocessing.comparing.statistics import long_run_variance
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
@@ -21,8 +20,6 @@ APART = 0.05  # of correlation: by how much another shift is worse, and the vall
 FEWEST = 8  # samples of the overlap
 FINEST = 1e-9  # of a spacing, to which the best shift is found
 FLAT = 1e-12  # variance, of the square of the largest deviation, below which a piece is taken to be constant
-ROUGH = 0.1
-WINDOW, MOST_SMOOTHED = 4.0, 0.1  # half width of a window in widths; of the overlap, at most
 
 
 class TimeShift(NamedTuple):
@@ -30,14 +27,12 @@ class TimeShift(NamedTuple):
 
     shift: [s]; the other curve at t + shift is like the reference at t. Its times less the shift lay it on the
         reference.
-    error: standard error of the shift [s], see `time_shift`.
     correlation: of both curves at this shift, -1 to 1.
     next_best: the largest correlation at another shift that is a peak of its own; NaN if there is none.
     at_limit: whether the best shift is the largest that was tried, so that a better shift may lie beyond.
     """
 
     shift: float
-    error: float
     correlation: float
     next_best: float
     at_limit: bool
@@ -61,7 +56,7 @@ class FoundShift(NamedTuple):
 
 
 def found_shift(reference: ComparedFile, other: ComparedFile, units: Mapping[str, str]) -> FoundShift:
-    """The shift of the channel that is sure of it and has the smallest error.
+    """The shift of the channel that is sure of it and has the largest correlation.
 
     units: of the channels that are tried, in SI.
 
@@ -71,7 +66,7 @@ def found_shift(reference: ComparedFile, other: ComparedFile, units: Mapping[str
     reasons = [f"{name}: {why}" for name, why in results.items() if isinstance(why, str)]
     tried = [FoundShift(name, shift) for name, shift in results.items() if not isinstance(shift, str)]
     if sure := [shift for shift in tried if shift.found.is_sure]:
-        return min(sure, key=lambda shift: shift.found.error)
+        return max(sure, key=lambda shift: shift.found.correlation)
     if tried:
         channel, best = max(tried, key=lambda shift: shift.found.correlation)
         reasons = [
@@ -97,17 +92,9 @@ def time_shift(
 ) -> TimeShift:
     """The shift at which two curves correlate best (Pearson), whatever the factor and offset between them.
 
-    Both are sampled at the shorter spacing. All lags are tried by which both overlap for half of the
-    shorter curve. Between two lags the best shift is found on a cubic spline through the other curve. Noise of
-    both is smoothed away: both are averaged by windows of Gauss of the same width, none, 1, 2, 4, ... samples;
-    the first width counts at which slopes are of the curves, not of noise: g |sum r c''| < `ROUGH` sum q^2.
-
-    The standard error is that of least squares: r = f(t) - g c(t + s) - h is the residual of the reference f,
-    and q = g c'(t + s) less its regression on 1 and c, how much it changes with the shift s. Of n samples
-
-        error = sqrt(n L) / sum q^2,  L = long-run variance of r (before smoothing) times q (smoothed again)
-
-    so the residual may be correlated in time. It is infinite if no width counts.
+    Both are sampled at the shorter spacing. All lags are tried by which both overlap for half of the shorter
+    curve. Between two lags the best shift is found on a cubic spline through the other curve. On a
+    pulse of 50 samples it was off by 0.2 samples (RMS) with noise of 1 % of its height, and by 5 with 20 %.
 
     Arguments:
         reference_time, other_time: [s], (n,) and (m,), increasing. reference, other: values; their units may
@@ -130,10 +117,9 @@ def time_shift(
     heights = np.where(np.isfinite(heights), heights, -1.0)
     peaks, _ = signal.find_peaks(heights, prominence=APART)
     others = heights[peaks[peaks != best]]
-    lag, height, error = _refined(mine.values, its.values, int(lags[best]))
+    lag, height = _refined(mine.values, its.values, int(lags[best]))
     return TimeShift(
         shift=its.start - mine.start + lag * finest,
-        error=error * finest,
         correlation=height,
         next_best=float(others.max()) if others.size else math.nan,
         at_limit=best in (0, lags.size - 1),
@@ -173,50 +159,18 @@ def _correlations(mine: EvenSamples, its: EvenSamples, most: float) -> tuple[npt
     return lags, heights
 
 
-def _refined(mine: Values, its: Values, lag: int) -> tuple[float, float, float]:
-    """The best lag around a whole lag, the correlation there, and the lag's standard error, in samples."""
-    width, overlap = 0.0, min(mine.size, its.size - lag) - max(0, -lag)
-    while True:
-        best, error = _of_width(mine, its, lag, width)
-        width = 2.0 * width or 1.0
-        if math.isfinite(error) or WINDOW * width > MOST_SMOOTHED * overlap:
-            break
-    at = np.arange(max(0, math.ceil(-best)), min(mine.size, math.floor(its.size - 1 - best) + 1))
-    return best, 1.0 - 0.5 * _distance(mine[at], CubicSpline(np.arange(its.size), its)(at + best)), error
+def _refined(mine: Values, its: Values, lag: int) -> tuple[float, float]:
+    """The best lag around a whole lag, in samples, and the correlation there."""
+    spline = CubicSpline(np.arange(its.size), its)
 
+    def distance(by: float) -> float:
+        at = np.arange(max(0, math.ceil(-by)), min(mine.size, math.floor(its.size - 1 - by) + 1))
+        return _distance(mine[at], spline(at + by))
 
-def _of_width(first: Values, second: Values, lag: int, width: float) -> tuple[float, float]:
-    """The best lag and its standard error, if both curves are smoothed over a width, in samples."""
-    one, other = _smoothed(first, width), _smoothed(second, width)
-    # where windows reach over no end, and the spline as far as shifts are tried
-    rim, reach = math.ceil(WINDOW * width), max(1.0, width)
-    start = max(rim, rim - lag) + math.ceil(reach)
-    end = min(one.size, other.size - lag) - rim - math.ceil(reach)
-    at, fixed = np.arange(start, end), one[start:end]
-    spline = CubicSpline(np.arange(other.size), other)
-    by = float(
-        optimize.minimize_scalar(
-            lambda by: _distance(fixed, spline(at + by)),
-            bounds=(lag - reach, lag + reach),
-            method="bounded",
-            options={"xatol": FINEST},
-        ).x
+    best = optimize.minimize_scalar(
+        distance, bounds=(lag - 1.0, lag + 1.0), method="bounded", options={"xatol": FINEST}
     )
-    basis = np.column_stack((np.ones(at.size), spline(at + by)))
-    gain = np.linalg.lstsq(basis, fixed)[0]
-    slope = gain[1] * spline(at + by, 1)
-    slope -= basis @ np.linalg.lstsq(basis, slope)[0]
-    strength = float((slope**2).sum())
-    rough = abs(gain[1] * float((fixed - basis @ gain) @ spline(at + by, 2)))
-    if rough > ROUGH * strength or not strength > 0.0:
-        return by, math.inf
-    moved = np.column_stack((np.ones(at.size), CubicSpline(np.arange(second.size), second)(at + by)))
-    score = _smoothed(slope, width) * (first[start:end] - moved @ gain)
-    return by, math.sqrt(at.size * long_run_variance(score)) / strength
-
-
-def _smoothed(values: Values, width: float) -> Values:
-    return np.asarray(ndimage.gaussian_filter1d(values, width, truncate=WINDOW) if width else values)
+    return float(best.x), 1.0 - 0.5 * float(best.fun)
 
 
 def _distance(first: Values, second: Values) -> float:

@@ -16,7 +16,7 @@ from support_exudyn.postprocessing.comparing.compared_channel import (
     ToleranceVerdict,
 )
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair
-from support_exudyn.postprocessing.comparing.statistics import IMPACTS, StatisticDifference
+from support_exudyn.postprocessing.comparing.statistics import StatisticDifference
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable, readable_change, said
 from support_exudyn.simulation.estimate import Estimate
 
@@ -45,32 +45,29 @@ class Table(NamedTuple):
 def tables(pair: ComparedPair, brief: bool) -> list[Table]:
     """The tables of a file compared with the reference, those with rows.
 
-    brief: of the statistics after the parting the means alone, and those that differ.
+    brief: of the statistics after the horizon the means alone, and those that differ.
     """
     statistics = tuple(
-        _statistic(name, channel.unit, statistic)
+        _statistic(name, what, channel.unit, statistic)
         for name, channel in pair.channels.items()
-        for statistic in channel.statistics.values()
-        if not brief or statistic.name == "mean" or statistic.equal is False
+        for what, statistic in channel.statistics.items()
+        if not brief or what == "mean" or statistic.equal is False
     )
-    after = f"{pair.parting.time:.6g} s"
+    after = f"{pair.window.horizon:.6g} s"
     shown = [
         _channels(pair),
         Table(
             f"after {after}: means, and what else differs (all: --page)"
             if brief
             else f"Statistics after {after}",
-            (
-                "channel", "statistic", "unit", ">reference", ">other", ">difference", ">from", ">to",
-                "difference is",
-            ),
+            ("channel", "statistic", "unit", ">reference", ">other", ">difference", ">±", "difference is"),
             statistics,
-            "From, to: confidence interval of the difference, by the stationary block bootstrap.",
+            "±: half of the confidence interval of the difference.",
         ),
         Table(
             "impacts",
             (
-                "contact", ">matched before parting", ">times apart, most", ">speeds apart, most",
+                "contact", ">matched before the horizon", ">times apart, most", ">speeds apart, most",
                 ">matched after", ">only in reference", ">only in other",
             ),
             _impacts(pair),
@@ -93,7 +90,7 @@ def _channels(pair: ComparedPair) -> Table:
     if pair.verdict != "told":
         header = (*header, "verdict")
         rows = [(*row, verdict_words(one)) for row, one in zip(rows, pair.channels.values(), strict=True)]
-    before = " before the parting" if math.isfinite(pair.parting.time) else ""
+    before = " before the horizon" if math.isfinite(pair.window.horizon) else ""
     note = (
         f"Means are over all times. Largest difference, RMS over the reference's range and C of Sprague and "
         f"Geers{before}. Beside errors: whether the largest difference is larger than the numerical errors "
@@ -186,14 +183,12 @@ def verdict_words(one: ComparedChannel) -> str:
     return f"{words}{one.tolerance.text}"
 
 
-def _statistic(channel: str, unit: str, one: StatisticDifference) -> Row:
+def _statistic(channel: str, what: str, unit: str, one: StatisticDifference) -> Row:
     shown = readable(unit, max(abs(one.first), abs(one.second)))
-    if one.name == IMPACTS:
-        shown = DisplayUnit("1/s", 1.0)
     numbers = (f"{shown.scale * value:.5g}" for value in (one.first, one.second, one.difference))
-    ends = (NONE if one.not_told else f"{shown.scale * end:.3g}" for end in (one.low, one.high))
-    words = {True: "0 or not to be told from it", False: "not 0", None: one.not_told}[one.equal]
-    return channel, one.name.replace("_", " "), shown.name, *numbers, *ends, words
+    half = NONE if one.equal is None else f"{shown.scale * one.tellable:.3g}"
+    words = {True: "0 or not to be told from it", False: "not 0", None: "not known: too few records"}[one.equal]
+    return channel, what.replace("_", " "), shown.name, *numbers, half, words
 
 
 def _impacts(pair: ComparedPair) -> tuple[Row, ...]:
@@ -202,7 +197,7 @@ def _impacts(pair: ComparedPair) -> tuple[Row, ...]:
     for contact, matched in pair.impacts.items():
         if not (matched.pairs or matched.only_first or matched.only_second):
             continue
-        before = [two for two in matched.pairs if max(two[0].time, two[1].time) < pair.parting.time]
+        before = [two for two in matched.pairs if max(two[0].time, two[1].time) < pair.window.horizon]
         late = said(max(abs(b.time - a.time) for a, b in before), "s") if before else NONE
         fast = said(max(abs(b.speed - a.speed) for a, b in before), "m/s") if before else NONE
         counts = len(matched.pairs) - len(before), len(matched.only_first), len(matched.only_second)
@@ -218,7 +213,7 @@ def faults(one: ComparedChannel) -> list[str]:
     if one.tolerance is None:
         return []
     if not one.judged:
-        return [f"{one.name}: there is nothing to judge by: no two common times on one side of the parting."]
+        return [f"{one.name}: there is nothing to judge by: there are no two common times."]
     worst_first = sorted(one.judged, key=lambda judged: WORST_FIRST.index(judged.verdict))
     return [_fault(one, judged) for judged in worst_first if judged.verdict in ("not within", "not decided")]
 
@@ -241,7 +236,7 @@ def _fault(one: ComparedChannel, judged: JudgedDifference) -> str:
         share_of = f" ({one.tolerance.text} of the reference's range)"
         constant = ", for the reference is constant (give an amount with its unit)"
         allowed += share_of if judged.allowed else constant
-    what, kind = f"{judged.what.replace('_', ' ')} after the parting", "half its confidence interval"
+    what, kind = f"{judged.what.replace('_', ' ')} after the horizon", "half its confidence interval"
     if judged.what == LARGEST:
         what, kind = LARGEST, "its error"
     if math.isnan(judged.value):

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from scipy import ndimage
 
 from support_exudyn.postprocessing.figures.channels import error_over_time
+from support_exudyn.postprocessing.figures.selection import CLEARANCE
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import ROUNDING, left_by_newton
@@ -27,7 +28,6 @@ DOUBT = 10.0  # times both errors, up to which estimates may be too small
 # Of a single record, coarser runs can agree by chance. Draft, standard and reference runs of 36 drawn scenes
 # were compared: with these, 49 of 7701 curves differ anywhere by more than both errors, the worst 9.7 times.
 AROUND = 5  # records to either side of which the largest error is taken
-LEFT = 0.1  # share of the largest error before that is left
 SINGLE = 3.0  # times what is estimated of numbers, which average
 ARM = 1.0  # [m], of a body, by which places become angles
 # Share of the largest value of a unit, of the whole run, that a safe error is at least: what is nothing in
@@ -92,38 +92,43 @@ def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
     """Numerical errors of channels at each of their records, (n,), in their units, by name.
 
     Record by record as `error_over_time` estimates them from the coarser runs; then of each the largest one of
-    the `AROUND` records to either side, at least a tenth of the largest before, and no less than a step may be
-    wrong by; all of it `SINGLE` times. From the horizon on errors are infinite; NaN if the run has none.
+    the `AROUND` records to either side, and no less than a step may be wrong by; all of it `SINGLE` times. An
+    error is at least the largest before: of thousands of records none is to differ by chance, and in chaos
+    what is behind an impact is not more certain than that is. Rounding on other processors is added. From the
+    horizon on errors are infinite; NaN if the run has none.
     """
     if result.coarser is None:
         return {name: np.full(result.time.size, math.nan) for name in names}
-    least, beyond = least_errors(result), result.time >= result.horizon
+    least, beyond, largest = least_errors(result), result.time >= result.horizon, _largest_values(result)
     found = {}
     for name in names:
         single = error_over_time(result, name)
         if single is None:
             found[name] = np.full(result.time.size, math.nan)
             continue
-        near = ndimage.maximum_filter1d(single, 2 * AROUND + 1)
-        near = np.maximum(near, LEFT * np.maximum.accumulate(near)) + least.get(result.unit(name), 0.0)
-        found[name] = np.where(beyond, math.inf, SINGLE * near)
+        unit = result.unit(name)
+        near = ndimage.maximum_filter1d(single, 2 * AROUND + 1) + least.get(unit, 0.0)
+        errors = np.where(beyond, math.inf, SINGLE * near)
+        found[name] = np.maximum.accumulate(errors) + ROUNDED * largest[unit]
     return found
 
 
-def safe_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
-    """Errors of channels that hold for all of their records together, and on other processors, (n,), by name.
+def errors_at(at: Values, time: Values, errors: Values) -> Values:
+    """Errors of a curve at other times, (m,): those of the next record, which are no smaller.
 
-    Those of `curve_errors`, at least the largest before: of thousands of records none is to differ by chance,
-    and in chaos what is behind an impact is not more certain than that is. Rounding is added.
+    Arguments:
+        at: times [s], (m,). time: of the records [s], (n,), increasing. errors: of the records, (n,).
     """
+    return errors[np.minimum(np.searchsorted(time, at - CLEARANCE), time.size - 1)]
+
+
+def _largest_values(result: RecordedRun) -> Mapping[str, float]:
+    """The largest magnitude of all channels of a unit, by unit."""
     largest: dict[str, float] = {}
     for channel in result.channels.values():
         size = float(np.abs(channel.values[np.isfinite(channel.values)]).max(initial=0.0))
         largest[channel.unit] = max(largest.get(channel.unit, 0.0), size)
-    return {
-        name: np.maximum.accumulate(errors) + ROUNDED * largest[result.unit(name)]
-        for name, errors in curve_errors(result, names).items()
-    }
+    return largest
 
 
 def least_errors(result: RecordedRun) -> Mapping[str, float]:
@@ -144,11 +149,7 @@ def least_errors(result: RecordedRun) -> Mapping[str, float]:
     share = scenario.solver.tolerance if scenario.chooses_steps else max(left_by_newton(scenario), ROUNDING)
     clearances = [place.play for place in scenario.contact_places.values()]
     length = min(clearances, default=0.0)
-    largest: dict[str, float] = {}
-    for name, channel in result.channels.items():
-        if name != "time":
-            size = float(np.abs(channel.values).max())
-            largest[channel.unit] = max(largest.get(channel.unit, 0.0), size)
+    largest = _largest_values(result)
     moving = {
         unit + per: length / arm / shortest**power
         for unit, arm in (("m", 1.0), ("rad", ARM))

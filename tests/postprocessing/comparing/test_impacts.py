@@ -1,19 +1,15 @@
-"""Impacts: matched in two runs, found in a curve of a force, and when curves without errors part."""
+"""Impacts of two runs, matched in time."""
 
 from __future__ import annotations
 
-import math
 from itertools import combinations, pairwise, product
 
-import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from support_exudyn.postprocessing.comparing.impacts import impacts_of_force, match_impacts
-from support_exudyn.postprocessing.comparing.parting import parting_of_impacts
+from support_exudyn.postprocessing.comparing.impacts import match_impacts
 from tests.often import often
-from user_forces import InputError
 from user_forces.contact_state import Onset
 
 
@@ -71,78 +67,3 @@ def test_the_sum_of_costs_is_least(first: list[int], second: list[int]) -> None:
     assert len({i for i, _ in chosen}) == len({j for _, j in chosen}) == len(chosen)
     assert cost(chosen) == pytest.approx(best)
     assert len(found.only_first) == len(first) - len(chosen)
-
-
-def test_impacts_of_a_force() -> None:
-    time = np.linspace(0.0, 1.0, 1001)
-    force = 500.0 * np.maximum(0.0, np.sin(6.0 * np.pi * (time - 0.05)))  # pressed from 0.05 on, for 1/6 s each
-    found = impacts_of_force(time, force)
-    np.testing.assert_allclose([one.time for one in found], [0.05, 0.05 + 1 / 3, 0.05 + 2 / 3], atol=1e-3)
-    np.testing.assert_allclose(
-        [one.separation_time for one in found], [0.05 + 1 / 6, 0.05 + 1 / 2, 0.05 + 5 / 6], atol=1e-3
-    )
-    assert all(math.isnan(one.speed) for one in found)
-
-
-def test_a_force_that_goes_on_at_the_ends() -> None:
-    time = np.arange(6.0)
-    found = impacts_of_force(time, np.array([5.0, 0.0, np.nan, 5.0, 5.0, 5.0]))
-    assert len(found) == 1
-    assert 2.0 <= found[0].time <= 3.0
-    assert found[0].separation_time == math.inf
-    assert impacts_of_force(time, np.zeros(6)) == ()
-    assert impacts_of_force(time[:0], time[:0]) == ()
-    with pytest.raises(InputError, match="a force of -1"):
-        impacts_of_force(time, -np.ones(6))
-
-
-# --- parting without errors ---
-
-
-def grown(count: int, first: float, growth: float) -> tuple[tuple[Onset, ...], tuple[Onset, ...]]:
-    """Impacts 0.1 s apart, of which the second run's come later and later."""
-    times = 0.1 * np.arange(1, count + 1)
-    return onsets(*times), onsets(*(times + first * growth ** np.arange(count)))
-
-
-FIRST, SECOND = grown(20, 1e-6, 2.0)
-NINE, LATE = grown(9, 0.02, 1.0)
-LOST = (*NINE[:5], *NINE[6:])
-DOUBLE = tuple(sorted((*NINE, NINE[4]._replace(time=NINE[4].time + 0.005))))
-
-
-def later(after: int, by: float) -> tuple[Onset, ...]:
-    return (*SECOND[:after], *(one._replace(time=one.time + by) for one in SECOND[after:]))
-
-
-def at_speed(number: int, speed: float) -> tuple[Onset, ...]:
-    return (*NINE[:number], NINE[number]._replace(speed=speed), *NINE[number + 1 :])
-
-
-@pytest.mark.parametrize(
-    ("first", "second", "resolution", "time", "because"),
-    [
-        # 1e-6 2^n > 0.01 s first for n = 14: a tenth of the time between impacts
-        (FIRST, SECOND, 0.0, 1.5, "pin: impacts are 0.016 s apart"),
-        # of 2.6e-4 s ten times 2 are explained, not 5.5e-3; a small distance, below 1 % of 0.1 s, may be sudden
-        (FIRST, later(9, 5e-3), 0.0, 1.0, "s apart"),
-        (FIRST, later(2, 5e-4), 0.0, 1.5, "s apart"),
-        (FIRST, FIRST, 0.0, math.inf, ""),
-        (NINE, LOST, 0.0, 0.6, "pin: one has an impact that the other lacks"),
-        (at_speed(5, 1e-3), LOST, 0.0, math.inf, ""),  # a light impact
-        (NINE, at_speed(4, 1.2), 0.0, 0.5, "impacts hit at 1 and 1.2 m/s"),
-        (NINE, tuple(one._replace(speed=math.nan) for one in NINE), 0.0, math.inf, ""),
-        (NINE, LATE, 0.0, 0.1, "s apart"),
-        (NINE, LATE, 0.03, math.inf, ""),
-        (DOUBLE, NINE, 0.003, math.inf, ""),  # two that a curve may show as one
-        (DOUBLE, NINE, 0.0024, 0.505, "one shows an impact that the other does not, read to 0.0024 s"),
-    ],
-)
-def test_when_curves_without_errors_part(
-    first: tuple[Onset, ...], second: tuple[Onset, ...], resolution: float, time: float, because: str
-) -> None:
-    found = parting_of_impacts({"other": (), "pin": first}, {"pin": second}, resolution=resolution)
-    assert found.time == pytest.approx(time, abs=1e-6)
-    assert because in found.because
-    assert found.contact == ("pin" if because else "")
-    assert parting_of_impacts({"pin": first}, {"third": second}).time == math.inf

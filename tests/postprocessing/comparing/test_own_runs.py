@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
-from support_exudyn.postprocessing.comparing.compared_file import of_run
-from support_exudyn.postprocessing.comparing.impacts import impacts_of, impacts_of_force
-from support_exudyn.postprocessing.comparing.parting import Parting, pair_parting, parting_of_impacts
 from support_exudyn.postprocessing.comparing.statistics import compared_statistics
 from support_exudyn.postprocessing.comparing.with_errors import (
     DOUBT,
@@ -23,8 +19,7 @@ from support_exudyn.postprocessing.comparing.with_errors import (
     curve_errors,
     numbers_beside_errors,
 )
-from tests.cases.run_cases import FORCE, PIN, loose_support
-from user_forces.contact_state import Onset
+from tests.cases.run_cases import FORCE, loose_support
 
 FINE = 1e-4  # an accuracy beyond "standard", whose tolerance is that of "draft" where steps are chosen by one
 SEED = 20261124
@@ -48,12 +43,6 @@ def parted() -> tuple[Result, Result]:
     return simulate(five_pins(), accuracy="draft"), simulate(five_pins(), accuracy=FINE)
 
 
-def parting_of_runs(first: Result, second: Result) -> Parting:
-    """When two runs part, as a comparison of their files finds it."""
-    files = [of_run(run, Path(name), name) for name, run in (("first", first), ("second", second))]
-    return pair_parting(files[0], files[1], (impacts_of(files[0], ()), impacts_of(files[1], ())))
-
-
 def point_by_point(first: Result, second: Result, end: float) -> Iterator[tuple[float, str, float]]:
     """By how many times both errors channels differ up to a time, at worst, and when that is."""
     names = [name for name in first.channels if name in second.channels and name != "time"]
@@ -69,11 +58,9 @@ def point_by_point(first: Result, second: Result, end: float) -> Iterator[tuple[
 
 def told_equal(first: Result, second: Result) -> tuple[int, int]:
     """How many numbers and curves were compared; asserts that none is told different."""
-    parting = parting_of_runs(first, second)
-    assert parting.time >= min(first.horizon, second.horizon), parting
     numbers = numbers_beside_errors(first, second)
     assert [(name, str(one)) for name, one in numbers.items() if one.different] == []
-    curves = list(point_by_point(first, second, parting.time))
+    curves = list(point_by_point(first, second, min(first.horizon, second.horizon)))
     assert [one for one in curves if one[0] > DOUBT] == []
     return len(numbers), len(curves)
 
@@ -100,45 +87,22 @@ def test_accuracies_of_drawn_scenes_are_told_equal(number: int) -> None:
 
 def test_five_pins_are_equal_up_to_the_horizon_and_in_statistics_after_it() -> None:
     first, second = parted()
-    parting = parting_of_runs(first, second)
-    assert parting.time == min(first.horizon, second.horizon) < 0.8 * first.time[-1]  # rounding moves it
-    assert "horizon" in parting.because
+    end = min(first.horizon, second.horizon)
+    assert end < 0.8 * first.time[-1]  # rounding moves it
     told_equal(first, second)
     forces = [name for name in first.channels if name.endswith(".force")]
-    after = first.time > parting.time
+    after = first.time > end
     # beyond the horizon they are not the same point by point
     apart = max(float(np.abs(second[name] - first[name])[after].max()) for name in forces)
     assert apart > 1e4
     for name in forces:
-        impacts = [[onset.time for onset in run.onsets.get(name[4:-6], ())] for run in (first, second)]
-        found = compared_statistics(
-            first.time[after],
-            first[name][after],
-            second.time[after],
-            second[name][after],
-            impacts=(impacts[0], impacts[1]),
-            among=5 * len(forces),
-        )
+        found = compared_statistics(first[name][after], second[name][after], among=4 * len(forces))
         assert [one for one in found.values() if one.equal is False] == [], name
-
-
-def test_without_errors_they_part_near_the_horizon() -> None:
-    first, second = parted()
-    found = parting_of_impacts(first.onsets, second.onsets)
-    true = min(first.horizon, second.horizon)
-    assert 0.5 * true < found.time < 3.0 * true
-    bare = replace(first, coarser=None, goal=None)
-    assert parting_of_runs(bare, replace(second, coarser=None, goal=None)) == found
-    # one that has errors brings its horizon
-    assert parting_of_runs(bare, second).time == min(found.time, second.horizon)
 
 
 def test_a_clearance_that_is_larger_by_a_thousandth_is_told() -> None:
     first, _ = parted()
     other = simulate(five_pins(1.001), accuracy=FINE)
-    parting = parting_of_runs(first, other)
-    assert parting.time == first.onsets[parting.contact][0].time
-    assert "times both errors" in parting.because
     worst = max(point_by_point(first, other, min(first.horizon, other.horizon)))
     assert worst[0] > 100.0 * DOUBT
 
@@ -158,38 +122,6 @@ def test_a_factor_on_a_force_is_told() -> None:
     assert told.pop(FORCE) > DOUBT
     assert set(told.values()) == {0.0}
     assert numbers_beside_errors(run, changed)[f"{FORCE}.mean"].different
-
-
-def with_impacts(run: Result, change: Callable[[tuple[Onset, ...]], tuple[Onset, ...]]) -> Result:
-    """The run, and all that its errors are estimated by, with other impacts of the pin."""
-    coarser = run.coarser and with_impacts(run.coarser, change)
-    return replace(run, onsets={**run.onsets, PIN: change(run.onsets[PIN])}, coarser=coarser)
-
-
-def test_an_impact_that_is_lost_or_late_is_told() -> None:
-    run = simulate(loose_support(1.5, duration=0.19), accuracy="draft")
-    third = run.onsets[PIN][2]
-    lost = parting_of_runs(run, with_impacts(run, lambda onsets: (*onsets[:2], *onsets[3:])))
-    assert lost.time == third.time
-    assert "one has an impact at 0.0721 m/s that the other lacks" in lost.because
-
-    def late(by: float) -> float:
-        def moved(onsets: tuple[Onset, ...]) -> tuple[Onset, ...]:
-            return (*onsets[:2], onsets[2]._replace(time=onsets[2].time + by), *onsets[3:])
-
-        return parting_of_runs(run, with_impacts(run, moved)).time
-
-    error = run.numbers()[f"pin.{PIN}.onset_3.time"].error
-    assert late(100.0 * error) == third.time
-    assert late(0.5 * error) == math.inf
-
-
-def test_impacts_found_in_a_force_are_those_of_the_run() -> None:
-    run = simulate(loose_support(1.5, duration=0.19, record_period=2e-4), accuracy="draft")
-    found, known = impacts_of_force(run.time, run[FORCE]), run.onsets[PIN]
-    assert len(found) == len(known) > 5
-    np.testing.assert_allclose([one.time for one in found], [one.time for one in known], atol=4e-4)
-    assert parting_of_impacts({PIN: known}, {PIN: found}, resolution=4e-4).time == math.inf
 
 
 def test_errors_cover_what_lies_beyond_the_horizon() -> None:
