@@ -115,39 +115,15 @@ class StepPlan:
             return None
         return after if after - t < shortest_step(self.rounding, allowed) else None
 
-    def run_of_steps(self, t: float, largest: float = math.inf) -> tuple[float, int]:
-        """End [s] of the equal steps that begin at t [s], and their number: up to a record or a break.
-
-        With steps not larger than so [s], as after a break, up to where the first grid step after it ends.
-        """
-        before, after = self._stops_around(t)
-        parts, size = self._parts(before, after, min(self.step, largest))
-        done = math.floor((t - before + self._tolerance) / size)
-        if abs(t - before - done * size) > self._tolerance:  # not on this grid
-            return self.next_time(t, largest), 1
-        end = self._end_after_break(t)
-        if largest < self.step and end < after - 2.0 * self._tolerance:
-            steps = math.ceil((end - t) / size)
-            if done + steps < parts:
-                return before + (done + steps) * size, steps
-        return after, parts - done
-
     def _parts(self, before: float, after: float, largest: float) -> tuple[int, float]:
         """Number and size [s] of the equal steps between two stops [s]."""
         parts = max(1, math.ceil((after - before - self._rounding) / largest - CLOSE))
         return parts, (after - before) / parts
 
     def follows_break(self, t: float) -> bool:
-        """Whether t [s] lies in the first grid step after a break, its end excluded."""
-        return self._end_after_break(t) < math.inf
-
-    def _end_after_break(self, t: float) -> float:
-        """Where the first grid step after a break ends that t [s] lies in [s]; infinite if it lies in none.
-
-        See `_settled`.
-        """
+        """Whether t [s] lies in the first grid step after a break, its end excluded; see `_settled`."""
         passed = self._breaks_until(t)
-        return self._after_breaks[passed - 1] if passed and t < self._after_breaks[passed - 1] else math.inf
+        return passed > 0 and t < self._after_breaks[passed - 1]
 
     def _breaks_until(self, t: float) -> int:
         """How many breaks are not after t [s]. There may be thousands, and every step asks."""

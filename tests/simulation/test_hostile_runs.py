@@ -43,7 +43,7 @@ RUNS = {
 
 
 def long(scenario: Scenario) -> Scenario:
-    """The same for minutes; without a clearance pin it is in one stretch, in which the engine tells nothing."""
+    """The same for minutes."""
     return replace(scenario, duration=LONG, record_period=LONG / 10.0)
 
 

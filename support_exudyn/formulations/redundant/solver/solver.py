@@ -2,8 +2,7 @@
 
 Steps lie on the grid of a StepPlan. A step in which a clearance pin makes contact is cut so that it ends at
 the impact, and the remainder of the grid step follows. The engine's own step control is left out of it:
-the size of every step is set here before it is tried. Where nothing can make contact, the engine runs by itself
-from record to record, see `stretches`.
+the size of every step is set here before it is tried.
 
 Two traps of Exudyn 1.13.6 that this avoids: a rejected step loses the algorithmic accelerations of
 generalised alpha if `discontinuous.maxIterations` is 1 or used up; and its recovery of step sizes would
@@ -31,16 +30,12 @@ from support_exudyn.formulations.redundant.solver.refusals import (
     why,
 )
 from support_exudyn.formulations.redundant.solver.step_growth import StepGrowth, step_growth
-from support_exudyn.formulations.redundant.solver.uninterrupted_steps import (
-    UninterruptedSteps,
-    solve_uninterrupted,
-)
 from support_exudyn.formulations.time_grid import StepPlan
 from support_exudyn.mechanics.oil_column import force_rounding
 from support_exudyn.mechanics.trajectory import Counts, Impulse
 from user_forces import Frictionless
 from user_forces.contact_events import SHARE
-from user_forces.lawful import UNLAWFUL, LawError
+from user_forces.lawful import LawError
 
 REPEAT_ERROR = 1e6  # above any tolerance of the engine's discontinuous iteration: the step is repeated
 SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
@@ -48,9 +43,6 @@ SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
 # falls with the spectral radius from step to step. The grid step that follows is divided so often, so that
 # nothing of it is left at the next record.
 BREAK_REFINEMENT = 32
-# The engine computes a new Jacobian at the start of every stretch of steps. Where Python is called in each of
-# them for actuators and energies, stretches are worth that if they are longer than so many.
-FEW_STEPS = 5
 # Before steps that are so many times shorter than the last, velocities are aligned, see `Scene.align`.
 MUCH_SHORTER = 8.0
 
@@ -77,7 +69,6 @@ class SolverRun:
         self.impulses: list[Impulse] = []
         self.legs = scene.legs
         self.cylinders = tuple(scene.cylinders.values())
-        self.valves = any(cylinder.moves for cylinder in self.cylinders)
         unknowns = int(self.data.ODE2Size() + self.data.ODE1Size() + self.data.AEsize())
         self.settings = engine_settings(
             scenario.solver,
@@ -102,17 +93,6 @@ class SolverRun:
         self.repeated = False  # that step is tried again, shorter
         newton = self.settings.timeIntegration.newton
         self.newton = NewtonMethod(self.solver, newton, scenario, self.pins, unknowns)
-        # whether anything of the model has to follow a drive, and whether Python has to see every step
-        moving = [parts for parts in scene.driven if parts.moves(scenario.duration)]
-        self.has_prescribed_motion = self.valves or bool(moving)
-        touching = bool(self.pins or self.frictions or scene.legs.names)
-        self.needs_step_callbacks = touching or self.smooth is not None
-        moves = self.valves or any(parts.rigid or parts.oil for parts in moving)
-        short = scenario.step * FEW_STEPS > scenario.recorded_every
-        if moves and short and (recorder.integrates or recorder.follows):
-            # it is called in every step anyway, and a stretch costs more than it saves
-            self.needs_step_callbacks = True
-        self.checked = -math.inf  # end of the last step that the recorder has been told of [s]
         self.named_pins = tuple(scene.clearance_joints.items())
         # names, pins and depths [m] beyond which a run is given up
         self.limits = [(name, pin, DEEPEST * pin.contact.bearing.size) for name, pin in self.named_pins]
@@ -127,12 +107,7 @@ class SolverRun:
         self.connect()
         try:
             with quiet_engine():
-                if self.needs_step_callbacks:
-                    finished = self.solver.SolveSystem(mbs, self.settings)
-                else:
-                    finished = self._go_uninterrupted()
-        except LawError as error:  # between two stretches
-            raise SimulationError(self._failure(str(error), UNLAWFUL)) from error
+                finished = self.solver.SolveSystem(mbs, self.settings)
         except exudyn.ExudynError as error:
             raise SimulationError(self._failure(*why(error, self.scene, self._ahead))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
@@ -151,43 +126,12 @@ class SolverRun:
         )
 
     def connect(self) -> None:
-        """Have the engine call what has to see every step, and nothing else."""
+        """Have the engine call what has to see every step."""
         mbs = self.scene.mbs
-        if self.needs_step_callbacks:
-            mbs.SetPreStepUserFunction(self._before_try)
-            if self.pins or self.legs.names:
-                mbs.SetPostNewtonUserFunction(self._after_newton)
-            mbs.SetPostStepUserFunction(self._after_step)
-            return
-        if self.has_prescribed_motion:
-            mbs.SetPreStepUserFunction(self._follow)
-        if self.recorder.integrates or self.recorder.follows:
-            mbs.SetPostStepUserFunction(self._result_checks)
-
-    def _go_uninterrupted(self) -> bool:
-        """Integrate where nothing is to be decided between one record or break and the next."""
-        mbs, finished = self.scene.mbs, False
-        try:
-            finished = solve_uninterrupted(self.solver, mbs, self.settings, self._stretch, self._arrive)
-        finally:
-            if not finished:
-                self.time = float(self.data.GetTime())  # inside a stretch
-        return finished
-
-    def _stretch(self, t: float) -> UninterruptedSteps | None:
-        """The equal steps from t [s] on."""
-        if t >= self.plan.duration * (1.0 - 1e-12):
-            return None
-        return UninterruptedSteps(*self.plan.run_of_steps(t, self._longest_step(t)))
-
-    def _arrive(self, t: float, steps: int, repeats: int) -> float:
-        """A stretch of so many steps has ended at t [s]; so many had to be repeated."""
-        self.steps += steps
-        self.failed_newton += repeats
-        self._count()
-        if t == 0.0:  # before the speed jumps; the engine tells the start later
-            self._result_checks(self.scene.mbs, t)
-        return self._arrived(t)
+        mbs.SetPreStepUserFunction(self._before_try)
+        if self.pins or self.legs.names:
+            mbs.SetPostNewtonUserFunction(self._after_newton)
+        mbs.SetPostStepUserFunction(self._after_step)
 
     # --- called by the engine ---
 
@@ -211,19 +155,6 @@ class SolverRun:
             for pin in self.pins:
                 pin.begin_try(step)
             self.newton.begin(step)
-        return True
-
-    def _follow(self, mbs: Any, t: float) -> bool:
-        """Set driven parts to where they are at t [s], the end of a step."""
-        self.scene.drive_to(t)
-        return True
-
-    def _result_checks(self, mbs: Any, t: float) -> bool:
-        """Keep what nothing else sees of a step, such as energies; the start of a stretch is told twice."""
-        if t > self.checked:
-            self.checked = t
-            self.recorder.after_step(t, bool(self.plan.breaks_at(t)))
-            self.recorder.end(t)
         return True
 
     def _after_newton(self, mbs: Any, t: float) -> list[float]:
@@ -337,14 +268,10 @@ class SolverRun:
         rough = (pin for pin in self.pins if not isinstance(pin.contact.friction, Frictionless))
         return bool(self.frictions) or any(rough)
 
-    def _count(self) -> None:
-        """Raise SimulationError if there have been too many steps."""
-        if self.steps + self.cut_steps + self.failed_newton > self.most_steps:
-            raise SimulationError(self._failure(f"more than {self.most_steps} steps", FEWER_STEPS))
-
     def _look_for_limits(self) -> None:
         """Raise SimulationError if a journal is too deep, or there were too many steps, or too many failed."""
-        self._count()
+        if self.steps + self.cut_steps + self.failed_newton > self.most_steps:
+            raise SimulationError(self._failure(f"more than {self.most_steps} steps", FEWER_STEPS))
         if self.newton.failures.too_many:
             reason = f"Newton's method has failed {self.failed_newton} times, and needs next to no step"
             raise SimulationError(self._failure(reason, STEEP))
