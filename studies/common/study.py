@@ -21,7 +21,7 @@ from studies.common.runs import file_name, save_run
 from studies.common.witness import Witness
 from studies.common.words import TextTable, Words
 from support_exudyn import Result
-from support_exudyn.commands.command_line import Parser, answered, folder, say
+from support_exudyn.commands.command_line import Parser, answered, say
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
@@ -139,15 +139,6 @@ def work_in_folder(work: Callable[[Path], None], out: Path) -> int:
             work(out)
 
     return answered(done)
-
-
-def folder_of(name: str, description: str | None, argv: Sequence[str] | None) -> Path:
-    """The folder for output from the command line of `python -m studies.NAME`, which has no other option."""
-    parser = Parser(prog=f"python -m studies.{name}", description=(description or "").splitlines()[0])
-    out = Path("results") / name.rpartition(".")[2]
-    parser.add_argument("--out", type=folder, default=out, metavar="DIR", help=f"folder for output ({out})")
-    found: Path = parser.parse_args(argv).out
-    return found
 
 
 def say_short(chapter: Chapter, out: Path) -> None:

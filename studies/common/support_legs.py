@@ -44,11 +44,6 @@ class PublishedForces(Value):
     bore: Metres[Positive]
 
     @property
-    def implied_setting(self) -> float:
-        """Setting force of legs of this bore at this pressure [N]."""
-        return self.pressure * bore_area(self.bore, self.legs)
-
-    @property
     def yield_pressure(self) -> float:
         """Pressure at which legs of this bore carry the rated force [Pa]."""
         return self.rated / bore_area(self.bore, self.legs)

@@ -5,22 +5,18 @@ plainest scene and taken from the fullest, and every number comes with its numer
 follows which scene a question needs.
 """
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping
 
-from studies.common.options import Options, add_options, read_options
-from studies.common.study import Study, StudyOutcome, say_short, work_in_folder
+from studies.common.options import Options
+from studies.common.study import Study, StudyOutcome
 from studies.scene_detail import measures, scenes, tables
 from studies.scene_detail.figures import figures
 from studies.scene_detail.measures import MeasuredScene
 from studies.scene_detail.runs import run_timed
 from studies.scene_detail.scenes import APART, PLAINEST, UNEQUAL_FULLEST, DetailScene
 from support_exudyn import recommend
-from support_exudyn.commands.command_line import Parser, folder, warn
-from support_exudyn.simulation.evidence.table import EvidenceTable, check_replaceable
 from support_exudyn.simulation.recommend import QUESTIONS, STROKE, UNEQUAL
 from support_exudyn.sweeps.workers import Workers
-from user_forces.values.value import InputError
 
 TABLE = "scene_table.json"
 ORDER = ("unequal", "taken", "combined", "space", "added")  # the longest runs first
@@ -45,7 +41,10 @@ def said(chosen: Mapping[str, DetailScene]) -> dict[str, str]:
 
 
 def work(chosen: Options) -> StudyOutcome:
-    """All scenes, what they change and cost, and the advice that follows; its evidence is kept as a file."""
+    """All scenes, what they change and cost, and the advice that follows.
+
+    The table of the advice is kept as a file, as the package has it in `support_exudyn/simulation/evidence`.
+    """
     measured = run(chosen.workers)
     tried = measures.table(measured, said({one.scene.name: one.scene for one in measured.values()}))
     tried.save(chosen.out / TABLE)
@@ -73,29 +72,4 @@ def work(chosen: Options) -> StudyOutcome:
 
 
 study = Study("scene_detail", __doc__, work, seconds=110.0)
-
-
-def main(argv: Sequence[str] | None = None) -> int:
-    """Entry of `python -m studies.scene_detail`."""
-    parser = Parser(prog=f"python -m studies.{study.name}", description=study.question)
-    add_options(parser, Path("results") / study.name)
-    parser.add_argument(
-        "--commit-evidence",
-        type=folder,
-        metavar="PATH",
-        help="write the table that support_exudyn.simulation.recommend reads there, too",
-    )
-    given = parser.parse_args(argv)
-    try:
-        if given.commit_evidence is not None:
-            check_replaceable(given.commit_evidence)  # now, and not when all is computed
-    except InputError as error:
-        parser.error(f"--commit-evidence {error}")
-    code = work_in_folder(lambda out: say_short(study(read_options(given)), out), given.out)
-    if code == 0 and given.commit_evidence is not None:
-        try:
-            EvidenceTable.load(given.out / TABLE).save(given.commit_evidence)
-        except (OSError, InputError) as error:
-            warn(f"error: --commit-evidence {given.commit_evidence}: {error}")
-            return 1
-    return code
+main = study.main

@@ -12,7 +12,6 @@ from types import FunctionType
 from typing import Any, TypeVar
 
 import numba
-import numpy as np
 from llvmlite import ir
 from numba.extending import intrinsic
 
@@ -92,11 +91,6 @@ def plain(function: Callable[..., Any], **instead: Any) -> Callable[..., Any]:
         return made[written]
 
     return bound(function)
-
-
-def on_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A decorated function without branches, for many instants at once: arrays in place of numbers."""
-    return plain(function, math=np)
 
 
 def _inner(function: Function, **options: bool) -> Function:

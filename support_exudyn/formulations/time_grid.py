@@ -129,10 +129,6 @@ class StepPlan:
         """How many breaks are not after t [s]. There may be thousands, and every step asks."""
         return bisect_right(self.breaks, t + self._tolerance)
 
-    def is_record(self, t: float) -> bool:
-        """Whether time t [s] is one of the records."""
-        return self.record_at(t) is not None
-
     def passes_record(self, start: float, end: float) -> bool:
         """Whether a step from one time to another [s] reaches beyond the first record or break after it."""
         return end > self._stops_around(start)[1] + self._tolerance

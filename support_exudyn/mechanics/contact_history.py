@@ -1,18 +1,26 @@
 """A clearance pin at all records, from the motion of its bodies and what it remembers."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion, PointMotion, pairs
-from support_exudyn.mechanics.joint_forces import PinForce
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.model.pins import ClearancePin
 from user_forces.contact import SHALLOWEST, Contact
 from user_forces.contact_state import PinMemory
 from user_forces.values.value import Vector2
+
+
+@dataclass(frozen=True)
+class PinForce:
+    """A known force in a pin: of the first body on the second (n, 2) [N], and where it acts (n, 2) [m]."""
+
+    force: Series
+    point: Series
 
 
 def ends(motion: BodyMotion, place: PinPlace, pin: ClearancePin) -> tuple[PointMotion, PointMotion]:

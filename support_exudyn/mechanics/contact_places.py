@@ -14,8 +14,7 @@ from typing import Protocol
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.contact_history import RelativeMotion, acting, contact_series, series
-from support_exudyn.mechanics.joint_forces import PinForce
+from support_exudyn.mechanics.contact_history import PinForce, RelativeMotion, acting, contact_series, series
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.guides import Guide, GuideContact

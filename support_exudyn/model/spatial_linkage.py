@@ -12,7 +12,6 @@ from pydantic import Field, model_validator
 from support_exudyn.model.linkage import ROUNDING, check_bodies
 from user_forces.values.value import NonNegative, Positive, Real, Share, Value, Vector3, value
 
-FORWARD: Vector3 = (1.0, 0.0, 0.0)
 UP: Vector3 = (0.0, 1.0, 0.0)
 ACROSS: Vector3 = (0.0, 0.0, 1.0)
 Inertia = tuple[Real, Real, Real, Real, Real, Real]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -13,8 +11,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Result, cylinders_and_rods, load_support, recommend, simulate
-from support_exudyn.simulation.evidence.table import EvidenceTable
-from support_exudyn.simulation.recommend import QUESTIONS
 from tests import strategies as some
 from tests.sound import sound, taken_or_refused
 
@@ -55,45 +51,7 @@ def test_a_machine_file_whose_tree_was_changed_is_read_or_refused(folder: Path, 
     read_or_refused(path)
 
 
-# --- evidence ---
-
-
-@cache
-def evidence() -> Any:
-    """The table of the program, of which a few scenes are enough."""
-    shipped = resources.files("support_exudyn.simulation.evidence")
-    data = json.loads((shipped / "scene_detail.json").read_text("utf-8"))
-    kept = [scene for scene in data["scenes"] if scene["name"] in data["fullest"].values()]
-    return {**data, "scenes": [*kept, *[scene for scene in data["scenes"] if scene not in kept][:4]]}
-
-
-def table_or_refused(path: Path) -> None:
-    """A table is read and can be asked, or it is refused by name."""
-    table = taken_or_refused(lambda: EvidenceTable.load(path), f"{path}: ")
-    if table is None:
-        return
-    for question in QUESTIONS:
-        advice = taken_or_refused(lambda question=question: recommend(question, table))  # type: ignore[misc]
-        if advice is not None:
-            taken_or_refused(lambda advice=advice: advice.apply(some.seeds()[0]))  # type: ignore[misc]
-    table.save(path)
-    assert EvidenceTable.load(path) == table
-
-
-@given(text=some.mangled(st.deferred(lambda: st.just(json.dumps(evidence())))))
-@some.tried("evidence text")
-def test_a_table_whose_text_was_changed_is_read_or_refused(folder: Path, text: str) -> None:
-    path = folder / "table.json"
-    path.write_text(text, encoding="utf-8", errors="surrogatepass")
-    table_or_refused(path)
-
-
-@given(tree=some.mutated(st.deferred(lambda: st.just(evidence()))))
-@some.tried("evidence tree")
-def test_a_table_whose_tree_was_changed_is_read_or_refused(folder: Path, tree: Any) -> None:
-    path = folder / "table.json"
-    path.write_text(json.dumps(tree), encoding="utf-8")
-    table_or_refused(path)
+# --- advice ---
 
 
 @given(question=some.scraps | some.oddities)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from support_exudyn.formulations.compilation import compiled, on_arrays, plain
+from support_exudyn.formulations.compilation import compiled, plain
 
 
 @compiled
@@ -22,7 +22,7 @@ def whole(x: float) -> float:
 def test_a_plain_function_calls_plain_functions() -> None:
     assert plain(whole)(9.0) == 3.0
     assert plain(whole, half=lambda x: x)(9.0) == 18.0
-    np.testing.assert_array_equal(on_arrays(whole)(np.array([4.0, 9.0])), [2.0, 3.0])
+    np.testing.assert_array_equal(plain(whole, math=np)(np.array([4.0, 9.0])), [2.0, 3.0])
 
 
 def test_what_stands_for_a_name_does_so_nowhere_else() -> None:

@@ -24,7 +24,7 @@ from studies.scene_detail.scenes import (
     scenes,
 )
 from support_exudyn import Estimate, recommend
-from support_exudyn.simulation.evidence.table import EvidenceTable, check_replaceable, committed, fields_of
+from support_exudyn.simulation.evidence.table import EvidenceTable, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, comparisons
 from tests.studies.forms import ONLY_WHOLE, written
 
@@ -163,22 +163,3 @@ def test_the_chapter_and_its_pictures_are_there(out: Path) -> None:
     text = (out / "table_cost.txt").read_text(encoding="utf-8")
     assert FULLEST in text
     assert "user functions" in text
-
-
-@pytest.mark.parametrize("kind", ["text", "json", "folder"])
-def test_evidence_takes_the_place_of_nothing_else(
-    tmp_path: Path, kind: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "notes.json"
-    if kind == "folder":
-        path.mkdir()
-    else:
-        path.write_text("of the user" if kind == "text" else "[1]", encoding="utf-8")
-    with pytest.raises(SystemExit):
-        study.main(["--out", str(tmp_path / "out"), "--commit-evidence", str(path)])
-    error = capsys.readouterr().err
-    assert f"--commit-evidence {path}: is no table of tried scenes, and would be lost" in error
-    assert path.is_dir() or path.read_text(encoding="utf-8") in ("of the user", "[1]")
-    assert not (tmp_path / "out").exists()
-    committed().save(tmp_path / "table.json")
-    check_replaceable(tmp_path / "table.json")

@@ -16,6 +16,7 @@ from support_exudyn.formulations.redundant.scene.record_forces import (
     FOLLOWING,
     Applied,
     Following,
+    JointForces,
     following,
     with_causes,
 )
@@ -31,7 +32,6 @@ from support_exudyn.machines.check.freedoms import FIELDS, repeated
 from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
-from support_exudyn.mechanics.joint_forces import JointForces
 from support_exudyn.mechanics.joint_slip import friction_series
 from support_exudyn.mechanics.oil_column import OilSeries, oil_series
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, Outcome, Series, Trajectory

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from support_exudyn.files.whole_file import contents, whole_file
+from support_exudyn.files.whole_file import whole_file
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError, Value, short
 
-LARGEST_FILE = 100_000_000  # bytes
+if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
+
 FORMAT = "support_exudyn scene detail 2"
 FIELDS = ("pins", "actuators", "parts", "start", "dimensions")  # of a scenario: what an element of the model is
 
@@ -82,21 +83,12 @@ class EvidenceTable:
             temporary.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
     @staticmethod
-    def load(path: Path) -> EvidenceTable:
-        """Read it. Raises InputError if it is not such a table, OSError if it cannot be read."""
-        return _table(contents(path, LARGEST_FILE), str(path))
-
-
-def check_replaceable(path: Path) -> None:
-    """Raise InputError if something else than such a table is at a path: it would be lost."""
-    if not path.exists():
-        return
-    try:
-        known = str(json.loads(contents(path, LARGEST_FILE))["format"])
-    except (OSError, ValueError, LookupError, TypeError, RecursionError):
-        known = ""
-    if not known.startswith(FORMAT.rpartition(" ")[0]):
-        raise InputError(f"{path}: is no table of tried scenes, and would be lost; allowed: another name")
+    def load(path: Traversable) -> EvidenceTable:
+        """Read what `save` wrote. Raises InputError if another version of the program wrote it."""
+        data = json.loads(path.read_text(encoding="utf-8"))
+        if data["format"] != FORMAT:
+            raise InputError(f"{path}: format is {short(data['format'])}; allowed: {FORMAT!r}")
+        return EvidenceTable(tuple(map(_tried, data["scenes"])), data["fullest"], data["said"])
 
 
 def fields_of(scenario: Scenario) -> dict[str, Any]:
@@ -107,44 +99,7 @@ def fields_of(scenario: Scenario) -> dict[str, Any]:
 @cache
 def committed() -> EvidenceTable:
     """The table that comes with the program."""
-    file = resources.files("support_exudyn.simulation.evidence") / "scene_detail.json"
-    return _table(file.read_bytes(), file.name)
-
-
-def _table(content: bytes, where: str) -> EvidenceTable:
-    try:
-        data = json.loads(content.decode("utf-8"))
-        if data["format"] != FORMAT:
-            raise KeyError(f"format is {short(data['format'])}, expected {FORMAT!r}")
-        scenes = tuple(map(_tried, data["scenes"]))
-        table = EvidenceTable(scenes, _texts(data["fullest"]), _texts(data["said"]))
-        names = [(scene.family, scene.name) for scene in scenes]
-        for family in {family for family, _ in names if family}:
-            if (family, table.fullest[family]) not in names:
-                raise KeyError(f"the fullest scene of {short(family)} is not there")
-        return table
-    except RecursionError:
-        raise InputError(f"{where}: is nested too deep; allowed: a table of tried scenes") from None
-    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
-        raise InputError(
-            f"{where}: not a table of tried scenes, or damaged ({error}); allowed: what `save` wrote"
-        ) from None
-
-
-def _texts(data: Any) -> dict[str, str]:
-    return {name: _text(item) for name, item in data.items()}
-
-
-def _text(item: Any) -> str:
-    if not isinstance(item, str):
-        raise TypeError(f"{short(item)} is no text")
-    return item
-
-
-def _number(item: Any) -> float:
-    if isinstance(item, bool) or not isinstance(item, (int, float)) or not math.isfinite(item):
-        raise TypeError(f"{short(item)} is no number")
-    return float(item)
+    return EvidenceTable.load(resources.files("support_exudyn.simulation.evidence") / "scene_detail.json")
 
 
 def _plain(scene: Tried) -> dict[str, Any]:
@@ -168,14 +123,5 @@ def _tried(data: Mapping[str, Any]) -> Tried:
         name: {key: Value.from_data(item) for key, item in entry.items()} if isinstance(entry, dict) else entry
         for name, entry in data["fields"].items()
     }
-    numbers = {
-        name: Estimate(_number(size), _number(error), _text(unit))
-        for name, (size, error, unit) in data["numbers"].items()
-    }
-    unknown = [name for name in fields if name not in FIELDS]
-    if unknown:
-        raise KeyError(f"{short(unknown[0])} is no element of a model")
-    seconds, steps = _number(data["seconds"]), _number(data["steps"])
-    if min(seconds, steps, *(number.error for number in numbers.values())) < 0.0:
-        raise ValueError("seconds, steps and errors are not below 0")
-    return Tried(_text(data["name"]), _text(data["family"]), fields, numbers, seconds, int(steps))
+    numbers = {name: Estimate(*written) for name, written in data["numbers"].items()}
+    return Tried(data["name"], data["family"], fields, numbers, data["seconds"], data["steps"])

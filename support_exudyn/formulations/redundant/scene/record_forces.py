@@ -1,7 +1,7 @@
 """What follows at the records of a Exudyn run from its motion: accelerations, and forces of what is held."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -10,7 +10,6 @@ from support_exudyn.mechanics.acting_loads import add_load
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import MOTION, DataNeeds
 from support_exudyn.mechanics.drive_acceleration import accelerations_of
-from support_exudyn.mechanics.joint_forces import JointForces
 from support_exudyn.mechanics.reactions import HeldJoints, direction, equations, push, twist, weight_of
 from support_exudyn.mechanics.trajectory import CompliantSeries, ContactSeries, LoadSeries, Series
 
@@ -37,6 +36,20 @@ class Applied:
     pins: Mapping[str, CompliantSeries]
     actuators: Mapping[str, Series]
     loads: Mapping[str, LoadSeries]
+
+
+@dataclass
+class JointForces:
+    """Forces of joints at all records, in the units of `Trajectory`.
+
+    pins: of the first body on the second (n, 2). cranks (n,). slides: magnitudes of force and moment (n, 2).
+    gears: moment on the second body (n,).
+    """
+
+    pins: dict[str, Series] = field(default_factory=dict)
+    cranks: dict[str, Series] = field(default_factory=dict)
+    slides: dict[str, Series] = field(default_factory=dict)
+    gears: dict[str, Series] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
