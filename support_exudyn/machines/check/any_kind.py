@@ -6,11 +6,8 @@ from dataclasses import replace
 from support_exudyn.machines.check.any_machine import check_any
 from support_exudyn.machines.check.report import CheckReport, CheckTable
 from support_exudyn.machines.check.shield import check_shield
-from support_exudyn.machines.check.slider_crank import check_crank
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.machines.slider_crank import SliderCrank
-from user_forces.values.value import InputError
 
 
 def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport:
@@ -36,10 +33,6 @@ def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport
 def _of_its_kind(data: MachineData, stroke: float | None) -> CheckReport:
     if isinstance(data.machine, FourBarShield):
         return check_shield(data, data.machine, stroke)
-    if isinstance(data.machine, SliderCrank):
-        if stroke is not None:
-            raise InputError(f"stroke = {stroke} m: a crank turns right round; allowed: none")
-        return check_crank(data, data.machine)
     return check_any(data, stroke)
 
 

@@ -1,8 +1,7 @@
-"""Figures of checked machines: postures, paths and static forces over the stroke or a revolution."""
+"""Figures of checked machines: postures, paths and static forces over the stroke."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from functools import singledispatch
 from typing import Any
@@ -15,8 +14,6 @@ from support_exudyn.machines.check.any_machine import MachineReport
 from support_exudyn.machines.check.report import CheckReport
 from support_exudyn.machines.check.shield import ShieldReport
 from support_exudyn.machines.check.shield_stroke import WANDER, Limit, Shield, Station
-from support_exudyn.machines.check.slider_crank import CrankReport
-from support_exudyn.machines.slider_crank import SliderCrank
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.linkage_check import linkage_check_figure
@@ -45,7 +42,6 @@ POSTURES: tuple[tuple[str, Dashes], ...] = (
     (style.IDEAL, "-"),
     (style.THIRD, (0, (3, 1, 1, 1))),
 )
-CRANKS = ((45.0, style.IDEAL, "-"), (135.0, style.WITH_CLEARANCE, "--"), (270.0, style.THIRD, "-."))
 GREY = "#777777"
 
 
@@ -77,27 +73,6 @@ def _(report: ShieldReport) -> Figure:
         axes.axhline(0.0, color=GREY, lw=0.6)
         axes.set(xlabel="stroke [mm]", title=title, ylabel="force [kN]")
         _forces(axes, stroke, forces, room=0.45)
-    return drawing
-
-
-@check_figure.register
-def _(report: CrankReport) -> Figure:
-    """A slider-crank at three angles, and curves over one revolution."""
-    drawing, fine = style.begin(170, 150, report.name), report.fine
-    grid = drawing.add_gridspec(2, 2, height_ratios=(1.2, 1.0))
-    _crank(drawing.add_subplot(grid[0, :]), report.machine)
-    degrees = [math.degrees(one.angle) for one in fine]
-    left, right = drawing.add_subplot(grid[1, 0]), drawing.add_subplot(grid[1, 1])
-    left.plot(degrees, [1e3 * one.slider for one in fine], color=style.IDEAL, lw=1.4)
-    left.set(title="slider; dead centres at 0 and 180 degrees", ylabel="x of the slider [mm]")
-    for dead in (0.0, 180.0, 360.0):
-        left.axvline(dead, color=GREY, ls=":", lw=0.8)
-    forces = {pin: [float(np.hypot(*one.forces.pins[pin])) for one in fine] for pin in fine[0].forces.pins}
-    guide = [abs(one.forces.slides["guide"]) for one in fine]
-    right.set(title="static forces under weight", ylabel="force [N]")
-    _forces(right, degrees, {**forces, "guide": guide}, room=0.4)
-    for axes in (left, right):
-        axes.set(xlim=(0.0, 360.0), xticks=range(0, 361, 90), xlabel="crank from +x [degrees]")
     return drawing
 
 
@@ -260,39 +235,3 @@ def _angles(axes: Axes, fine: Sequence[Station], limits: Mapping[str, Limit | No
     margins = [f"{1e3 * found.margin:.0f} mm {where}" for where, found in limits.items() if found]
     axes.set_title(f"way ends {' and '.join(margins)}" if margins else "no dead centre near")
     axes.legend(loc="best", fontsize=7)
-
-
-def _crank(axes: Axes, machine: SliderCrank) -> None:
-    r, mm = machine.crank_length, 1e3
-    turn = np.linspace(0.0, 2.0 * np.pi, 181)
-    axes.plot(mm * r * np.cos(turn), mm * r * np.sin(turn), color=GREY, lw=0.6, ls=":")
-    axes.axhline(0.0, color=GREY, lw=0.6)
-    side = 0.12 * r * mm
-    for degrees, colour, dashes in CRANKS:
-        angle = math.radians(degrees)
-        pin = mm * r * math.cos(angle), mm * r * math.sin(angle)
-        slider = mm * machine.slider_position(angle)
-        axes.plot([0.0, pin[0]], [0.0, pin[1]], color=colour, ls=dashes, lw=3.0)
-        axes.plot(
-            [pin[0], slider], [pin[1], 0.0], color=colour, ls=dashes, lw=1.6, label=f"{degrees:.0f} degrees"
-        )
-        corners = (
-            [slider - 2 * side, slider + 2 * side, slider + 2 * side, slider - 2 * side],
-            [-side, -side, side, side],
-        )
-        axes.fill(*corners, fc="white", ec=colour, lw=1.2, zorder=3)
-        axes.plot([0.0, pin[0], slider], [0.0, pin[1], 0.0], "o", ms=4, mfc="white", mec=colour, zorder=4)
-    axes.annotate("main", (0.0, 0.0), xytext=(-7, -12), textcoords="offset points", ha="right", fontsize=8)
-    first = math.radians(CRANKS[0][0])
-    axes.annotate(
-        "crank_pin", (mm * r * math.cos(first), mm * r * math.sin(first)), xytext=(6, 6),
-        textcoords="offset points", fontsize=8,
-    )  # fmt: skip
-    axes.annotate(
-        "slider_pin", (mm * machine.slider_position(first), side), xytext=(0, 6), textcoords="offset points",
-        fontsize=8, ha="center",
-    )  # fmt: skip
-    axes.set(aspect="equal", xlabel="x, along the guide [mm]", ylabel="y [mm]")
-    axes.set_title(f"crank {mm * r:g} mm, rod {mm * machine.rod_length:g} mm, at three angles of the crank")
-    axes.legend(loc="lower right", fontsize=8)
-    axes.grid(False)
