@@ -21,10 +21,9 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn import ClearancePin, Drive, Held, HydraulicSupport
-from support_exudyn.machines.four_column_support import BODIES, Posture
+from support_exudyn.machines.check.shield_stroke import moved_by
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.plane_geometry import minus, moved
 from user_forces.values.value import Vector2
 
 Matrix = npt.NDArray[np.float64]
@@ -82,7 +81,7 @@ def stands(support: HydraulicSupport, drive: Drive, times: Sequence[float]) -> l
             if posture is None:
                 raise ArithmeticError(f"no posture of the support at {t} s of {drive}")
             near = posture
-            rows.append(_position(support, closed, posture))
+            rows.append(moved_by(support, closed.linkage, posture))
         before, position, after = rows
         speed = (after - before) / (2.0 * BESIDE)
         found.append(Stand(closed, position, speed, (after - 2.0 * position + before) / BESIDE**2))
@@ -92,24 +91,6 @@ def stands(support: HydraulicSupport, drive: Drive, times: Sequence[float]) -> l
 def standing(support: HydraulicSupport) -> Stand:
     """The support at rest in its start posture."""
     return stands(support, Held(), [0.0])[0]
-
-
-def _position(support: HydraulicSupport, closed: Kinetics, posture: Posture) -> Matrix:
-    """Centres and turns of the bodies since the start, shape (12,)."""
-    start = support.start()
-    anchors = {
-        "rear_link": (support.rear_base, support.rear_base),
-        "front_link": (support.front_base, support.front_base),
-        "shield": (start.rear_shield, posture.rear_shield),
-        "canopy": (start.hinge, posture.hinge),
-    }
-    position = np.zeros(3 * len(BODIES))
-    for name in BODIES:
-        item = closed.bodies[name]
-        turn = getattr(posture, name) - getattr(start, name)
-        x, y = minus(moved(item.body.centre, *anchors[name], turn), item.body.centre)
-        position[item.first : item.first + 3] = x, y, turn
-    return position
 
 
 def forces(stand: Stand, rubbing: Mapping[str, ClearancePin], presses: Sequence[Press] = ()) -> Matrix:
