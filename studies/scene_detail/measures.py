@@ -14,7 +14,6 @@ from studies.common.runs import halvings, impacts
 from studies.scene_detail.runs import Timed, timed
 from studies.scene_detail.scenes import FULLEST, REAR, DetailScene
 from support_exudyn import Estimate, Result
-from support_exudyn.formulations.redundant.inventory import Inventory, inventory
 from support_exudyn.mechanics.time_statistics import TimeWindow
 from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, fields_of
 from support_exudyn.simulation.recommend import STROKE, UNEQUAL
@@ -62,15 +61,13 @@ def change(here: Estimate, there: Estimate) -> Change:
 class Cost:
     """What a scene costs at its longer steps.
 
-    seconds: processor time. scatter: of it [s]. steps. calls: of user functions, a step. held: what the engine
-    holds.
+    seconds: processor time. scatter: of it [s]. steps. calls: of user functions, a step.
     """
 
     seconds: float
     scatter: float
     steps: int
     calls: float
-    held: Inventory
 
     @property
     def per_step(self) -> float:
@@ -212,7 +209,7 @@ def _cost(run: Timed) -> Cost:
         seconds, scatter = min(times), sorted(times)[2] - min(times)
     counts = coarse.counts
     calls = counts.user_function_calls / counts.steps
-    return Cost(seconds, scatter, counts.steps, calls, inventory(coarse.scenario))
+    return Cost(seconds, scatter, counts.steps, calls)
 
 
 # --- for the summary and for advice ---
@@ -229,24 +226,12 @@ def listed(measured: Mapping[str, MeasuredScene]) -> list[Number]:
 
 
 def _costs(name: str, cost: Cost) -> Sequence[Number]:
-    held = cost.held
     share = cost.scatter / cost.seconds
     return [
         Number("processor_time", name, cost.seconds, "s", cost.scatter),
         Number("processor_time_of_a_step", name, cost.per_step, "us", share * cost.per_step),
         Number("user_function_calls_a_step", name, cost.calls, "1", 0.0),
-        *(
-            Number(what, name, float(size), "1", 0.0)
-            for what, size in {
-                "steps": cost.steps,
-                "coordinates": held.coordinates,
-                "constraints": held.constraints,
-                "markers": held.markers,
-                "connectors": held.connectors,
-                "user_functions": held.user_functions,
-                "callbacks_a_step": held.callbacks,
-            }.items()
-        ),
+        Number("steps", name, float(cost.steps), "1", 0.0),
     ]
 
 

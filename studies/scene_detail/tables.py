@@ -132,13 +132,7 @@ def cost_table(measured: Mapping[str, MeasuredScene]) -> TextTable:
         f"of {PLAINEST}": lambda c: f"{c.seconds / plain.cost.seconds:.3g}",
         "steps": lambda c: str(c.steps),
         "a step [us]": lambda c: f"{c.per_step:.0f}",
-        "coordinates": lambda c: str(c.held.coordinates),
-        "constraints": lambda c: str(c.held.constraints),
-        "markers": lambda c: str(c.held.markers),
-        "connectors": lambda c: str(c.held.connectors),
-        "user functions": lambda c: str(c.held.user_functions),
-        "their calls a step": lambda c: f"{c.calls:.3g}",
-        "callbacks a step": lambda c: str(c.held.callbacks),
+        "calls of user functions a step": lambda c: f"{c.calls:.3g}",
     }
     rows = tuple((name, *(get(one.cost) for get in columns.values())) for name, one in measured.items())
     return TextTable(("scene", *columns), rows, width=220)
