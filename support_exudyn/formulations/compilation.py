@@ -13,6 +13,8 @@ from typing import Any, TypeVar
 
 import numba
 from llvmlite import ir
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
 from numba.extending import intrinsic
 
 from support_exudyn.model.hydraulics import oil
@@ -26,7 +28,7 @@ except ImportError:  # Windows
     _fcntl = None  # type: ignore[assignment]
 
 fcntl: Any = _fcntl
-SECONDS = {"compiled": 17}  # that compiling takes on a quiet machine of 2020
+SECONDS = {"compiled": 10}  # that compiling takes on a quiet machine of 2020
 COMPILED = ("compiled", "hydraulics", "statistics")  # folders with compiled functions
 CONSTANTS_OF = (oil,)  # modules of which compiled functions use constants
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
@@ -37,14 +39,19 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 def compiled(function: Function) -> Function:
     """Decorator: compile a function that is called from compiled functions only.
 
-    Divisions by zero give inf or nan, which the integrator looks for. No fast-math: results are the same
-    bit for bit from run to run.
+    It is optimised only with the function that Python calls. Divisions by zero give inf or nan, which the
+    integrator looks for. No fast-math: results are the same bit for bit from run to run.
     """
+    return _inner(function, pipeline_class=_LinkedCompiler)
+
+
+def often(function: Function) -> Function:
+    """Decorator: compile a function that is evaluated many times, and optimise it by itself, too."""
     return _inner(function)
 
 
 def inlined(function: Function) -> Function:
-    """Decorator: compile a formula that is evaluated many times, and put its code where it is called.
+    """Decorator: compile a formula as `often` does, and put its code where it is called.
 
     That makes the right-hand side twice as fast. Of larger functions it would only make compiling slower.
     """
@@ -54,7 +61,7 @@ def inlined(function: Function) -> Function:
 def once(function: Function) -> Function:
     """Decorator: a function that is called in one place is compiled as part of what calls it.
 
-    Each function that is compiled by itself is optimised again with every one that calls it.
+    Of a function that is compiled by itself, numba also writes the call and all its arguments.
     """
     return numba.njit(error_model="numpy", inline="always", **UNCOUNTED)(function)  # type: ignore[no-any-return]
 
@@ -93,7 +100,64 @@ def plain(function: Callable[..., Any], **instead: Any) -> Callable[..., Any]:
     return bound(function)
 
 
+<<<<<<< HEAD
 def _inner(function: Function, **options: bool) -> Function:
+=======
+def on_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A decorated function without branches, for many instants at once: arrays in place of numbers."""
+    return plain(function, math=np)
+
+
+class _NoMachine:
+    """What makes machine code, for code that has none."""
+
+    def __init__(self, maker: Any) -> None:
+        self._maker = maker
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._maker, name)
+
+    def set_env(self, name: str, environment: Any) -> None:
+        """Keep no environment for a function: only code that handles objects of Python has use for it."""
+
+
+class _Linked(JITCodeLibrary):  # type: ignore[misc]
+    """Code that is optimised, and becomes machine code, only as part of the function that Python calls.
+
+    By itself numba does both for each function, with all that it calls, which takes half of the time.
+    """
+
+    def _optimize_functions(self, module: Any) -> None:
+        module.data_layout = self._codegen._data_layout
+
+    def _optimize_final_module(self) -> None:
+        pass
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+    def get_pointer_to_function(self, name: str) -> int:
+        """Return the address of a function in machine code: zero, there is none."""
+        return 0
+
+    @property
+    def codegen(self) -> _NoMachine:
+        """What makes machine code."""
+        return _NoMachine(self._codegen)
+
+
+class _LinkedCompiler(Compiler):  # type: ignore[misc]
+    """Compiles a function to code that is linked into what calls it."""
+
+    def define_pipelines(self) -> Any:
+        """The passes of numba, with another end."""
+        self.state.library = _Linked(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
+        return super().define_pipelines()
+
+
+def _inner(function: Function, **options: Any) -> Function:
+>>>>>>> split
     """Not kept on disk, where those that Python calls hold its code; that would take a tenth of the time.
 
     Without the wrappers for calls from Python and C, which take a third of it.
@@ -104,7 +168,7 @@ def _inner(function: Function, **options: bool) -> Function:
 
 
 def _kept(function: Function) -> Function:
-    options = {"nogil": True} | (UNCOUNTED)
+    options = {"nogil": True, "no_cfunc_wrapper": True} | UNCOUNTED  # nothing in C calls it
     try:
         dispatcher: Any = numba.njit(cache=True, error_model="numpy", **options)(function)
         kept = _is_kept_only_while_unchanged(dispatcher)

@@ -12,9 +12,10 @@ from user_forces.normal.power_laws import Hertz
 
 
 def precompile() -> None:
-    """Compile everything in this process and keep it on disk, so that other processes only load it.
+    """Compile what scenes without hydraulic legs need, and keep it on disk for other processes.
 
-    Runs of a moment: compiled code does not depend on the numbers.
+    Runs of a moment: compiled code does not depend on the numbers. Code for legs is compiled at the first scene
+    that has some.
     """
     from support_exudyn.formulations import compiled  # and the compiler
 

@@ -167,8 +167,8 @@ def test_a_rest_is_moved_over_by_the_rates(rest: float) -> None:
     np.testing.assert_allclose(data.GetODE1Coordinates(), pressures + flows * rest, rtol=1e-14)
     # what the pin remembers is of where it is now
     pin = scene.clearance_joints[PIN]
-    (bx, by, bvx, bvy, *_), (x, y, vx, vy, *_) = pin.frames.moving.now()
-    x, y, vx, vy = x - bx, y - by, vx - bvx, vy - bvy
+    motion = pin.item.relative()
+    (x, y, _), (vx, vy, _) = motion.displacement, motion.velocity
     distance = float(np.hypot(x, y))
     assert pin.kept.depth == pytest.approx(distance - pin.contact.bearing.clearance, abs=1e-13)
     assert pin.kept.rate == pytest.approx((x * vx + y * vy) / distance, rel=1e-9)

@@ -75,14 +75,31 @@ RUBBING = _record(
 )
 
 
+class LegArrays(NamedTuple):
+    """Legs with elements, and their pump if they have one.
+
+    gaps: what passes zero where something happens, shape (legs, GAPS); before: at the start of the step. sides:
+    on which side of zero each is. beyond: how far it has been on the other within the step.
+    events: time, leg, gap, side of each.
+    """
+
+    records: Records
+    pumps: Records
+    gaps: Matrix
+    before: Matrix
+    sides: Matrix
+    beyond: Matrix
+    events: Matrix
+
+
 class SceneArrays(NamedTuple):
     """All that an evaluation of the equations of motion takes. square: C M^-1 C^T and its factors.
 
     repeats: of each row that repeats others, the multipliers of all that cancel each other, (repeats, rows).
     counts: factor of each row [m], see `Kinetics.counts`. spare: a number a row. rounds: in which multipliers
     and accelerations are solved for, at most, see `motion.refine`.
-    gaps, sides, beyond: of legs, what passes zero where something happens, on which side of it each is, and how
-    far it has been on the other within a step, shape (legs, GAPS).
+    legs: None without any. Compiled code that is for legs then has nothing to do by the type of the scene, and
+    is not compiled before a scene has legs.
     """
 
     bodies: Records
@@ -101,11 +118,7 @@ class SceneArrays(NamedTuple):
     contacts: Records
     oil: Records
     cylinders: Records
-    legs: Records
-    pumps: Records
-    gaps: Matrix
-    sides: Matrix
-    beyond: Matrix
+    legs: LegArrays | None
     loads: Records
     bushings: Records
     rubbing: Records
@@ -118,8 +131,7 @@ class Scratch(NamedTuple):
 
     right, impulses: a number a row. end, probe, slope, along: states; see `stabilised`. path: of the
     interpolation. rates: of a step's stages.
-    now, then: contacts at its start and end. gaps: of legs at its start.
-    oil_events: time, leg, gap, side of each.
+    now, then: contacts at its start and end.
     """
 
     right: Vector
@@ -132,8 +144,21 @@ class Scratch(NamedTuple):
     rates: Matrix
     now: Records
     then: Records
-    gaps: Matrix
-    oil_events: Matrix
+
+
+def leg_arrays(records: Records, pumps: Records, gaps: Matrix) -> LegArrays | None:
+    """Legs as a run changes them, from their records, pump and gaps; None without legs."""
+    if not records.size:
+        return None
+    return LegArrays(
+        records=records.copy(),
+        pumps=pumps.copy(),
+        gaps=gaps.copy(),
+        before=np.zeros_like(gaps),
+        sides=np.zeros_like(gaps),
+        beyond=np.zeros_like(gaps),
+        events=np.zeros((MOST_OIL_EVENTS, 4)),
+    )
 
 
 def scratch(scene: SceneArrays, states: int) -> Scratch:
@@ -150,8 +175,6 @@ def scratch(scene: SceneArrays, states: int) -> Scratch:
         rates=np.zeros((STAGES, states)),
         now=scene.contacts.copy(),
         then=scene.contacts.copy(),
-        gaps=np.zeros_like(scene.gaps),
-        oil_events=np.zeros((MOST_OIL_EVENTS if scene.legs.size else 0, 4)),
     )
 
 

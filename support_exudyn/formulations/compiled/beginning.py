@@ -2,10 +2,10 @@
 
 from support_exudyn.formulations.compilation import compiled, once
 from support_exudyn.formulations.compiled.arrays import JUMP_ENERGY, WORK, Matrix, SceneArrays, Scratch, Vector
+from support_exudyn.formulations.compiled.hydraulics import begin_legs
 from support_exudyn.formulations.compiled.motion import SINGULAR, solve
 from support_exudyn.formulations.compiled.recording import write_record
 from support_exudyn.formulations.compiled.step import evaluate
-from support_exudyn.formulations.hydraulics.gaps import begin_sides
 from user_forces.contact_events import STILL
 
 
@@ -19,7 +19,7 @@ def begin_run(scene: SceneArrays, room: Scratch, y: Vector, rows: Matrix) -> boo
             contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
     evaluate(scene, 0.0, y, room.slope, room.right)
     write_record(scene, 0.0, y, room.slope, rows[0])
-    begin_sides(scene.legs, scene.gaps, scene.sides)
+    begin_legs(scene.legs)
     for n in range(scene.courses.size):
         scene.courses[n].still = 0
     return least > SINGULAR

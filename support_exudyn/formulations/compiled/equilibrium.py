@@ -88,8 +88,7 @@ def balance(
         y[one.state + 1] = volumes[n, 1] + one.modulus * math.log(volumes[n, 3] / rod)
     press_oil(scene)
     press_cylinders(scene, y, left)
-    if scene.legs.size > 0:
-        press_resting_legs(scene, y, left)
+    press_resting_legs(scene, scene.legs, y, left)
     press_loads(scene, 0.0, y)
     press_bushings(scene, y)
     for n in range(scene.bodies.size):

@@ -10,6 +10,7 @@ from support_exudyn.formulations.compiled.arrays import (
     ONE_SIDED,
     STRETCH,
     WORK,
+    LegArrays,
     SceneArrays,
     Vector,
 )
@@ -238,6 +239,21 @@ def press_bushings(scene: SceneArrays, y: Vector) -> None:
         push(scene, first.body, 0.0, 0.0, -one.m)
 
 
+@compiled
+def with_legs(
+    legs: LegArrays | None, damping: float, friction: float, work: float
+) -> tuple[float, float, float]:
+    """Losses by damping and friction, and the power of what drives [W], with those of legs and their pump."""
+    if legs is None:
+        return damping, friction, work
+    for n in range(legs.records.size):
+        leg = legs.records[n]
+        work, damping, friction = work + leg.work, damping + leg.loss, friction + leg.friction
+    for n in range(legs.pumps.size):
+        work += legs.pumps[n].work
+    return damping, friction, work
+
+
 @once
 def powers(scene: SceneArrays, y: Vector, slope: Vector) -> None:
     """Write the rates of losses and work into `slope`."""
@@ -250,11 +266,7 @@ def powers(scene: SceneArrays, y: Vector, slope: Vector) -> None:
         work += scene.oil[n].work
     for n in range(scene.cylinders.size):
         work, damping = work + scene.cylinders[n].work, damping + scene.cylinders[n].loss
-    for n in range(scene.legs.size):
-        work, damping = work + scene.legs[n].work, damping + scene.legs[n].loss
-        friction += scene.legs[n].friction
-    for n in range(scene.pumps.size):
-        work += scene.pumps[n].work
+    damping, friction, work = with_legs(scene.legs, damping, friction, work)
     for n in range(scene.loads.size):
         work, damping = work + scene.loads[n].work, damping + scene.loads[n].loss
     for n in range(scene.bushings.size):

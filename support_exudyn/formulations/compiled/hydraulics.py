@@ -1,17 +1,29 @@
-"""Hydraulic legs with elements in the scene: what they are told of the motion, and how they push."""
+"""Hydraulic legs with elements in the scene: what they are told of the motion, and how they push.
+
+Functions that take `LegArrays | None` do nothing where there are no legs. Numba decides that by the type of the
+argument, before it compiles the rest.
+"""
 
 from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import SceneArrays, Vector
+from support_exudyn.formulations.compiled.arrays import LegArrays, Records, SceneArrays, Vector
 from support_exudyn.formulations.compiled.forces import lengthening, push_apart
+from support_exudyn.formulations.hydraulics.gaps import begin_sides
 from support_exudyn.formulations.hydraulics.leg import press_all
 from support_exudyn.formulations.hydraulics.rest import rest_legs
 
 
 @compiled
-def tell_legs(scene: SceneArrays) -> None:
+def begin_legs(legs: LegArrays | None) -> None:
+    """Write the side of zero on which each gap is at the start of a run."""
+    if legs is not None:
+        begin_sides(legs.records, legs.gaps, legs.sides)
+
+
+@compiled
+def tell_legs(scene: SceneArrays, legs: Records) -> None:
     """Write lengths, rates and inlets of all legs into their records."""
-    for n in range(scene.legs.size):
-        leg = scene.legs[n]
+    for n in range(legs.size):
+        leg = legs[n]
         leg.length, leg.rate, _, _ = lengthening(scene, leg.foot, leg.head)
         if leg.course < 0:
             continue
@@ -23,36 +35,38 @@ def tell_legs(scene: SceneArrays) -> None:
 
 
 @compiled
-def press_legs(scene: SceneArrays, y: Vector, slope: Vector) -> None:
+def press_legs(scene: SceneArrays, legs: LegArrays | None, y: Vector, slope: Vector) -> None:
     """Forces, powers and rates of the states of all legs and of the pump, see `hydraulics.leg`."""
-    tell_legs(scene)
-    press_all(scene.legs, scene.pumps, scene.gaps, y, slope)
-    push_legs(scene)
-    reach(scene)
+    if legs is not None:
+        tell_legs(scene, legs.records)
+        press_all(legs.records, legs.pumps, legs.gaps, y, slope)
+        push_legs(scene, legs.records)
+        reach(legs)
 
 
 @compiled
-def push_legs(scene: SceneArrays) -> None:
+def push_legs(scene: SceneArrays, legs: Records) -> None:
     """Let the force of each leg act on what its ends are in."""
-    for n in range(scene.legs.size):
-        leg = scene.legs[n]
+    for n in range(legs.size):
+        leg = legs[n]
         _, _, ux, uy = lengthening(scene, leg.foot, leg.head)
         push_apart(scene, leg.foot, leg.head, leg.force * ux, leg.force * uy)
 
 
 @once
-def reach(scene: SceneArrays) -> None:
+def reach(legs: LegArrays) -> None:
     """Keep how far each gap has been on the other side since it was last forgotten."""
-    for n in range(scene.gaps.shape[0]):
-        for k in range(scene.gaps.shape[1]):
-            beyond = -scene.sides[n, k] * scene.gaps[n, k]
-            if beyond > scene.beyond[n, k]:
-                scene.beyond[n, k] = beyond
+    for n in range(legs.gaps.shape[0]):
+        for k in range(legs.gaps.shape[1]):
+            beyond = -legs.sides[n, k] * legs.gaps[n, k]
+            if beyond > legs.beyond[n, k]:
+                legs.beyond[n, k] = beyond
 
 
 @compiled
-def press_resting_legs(scene: SceneArrays, y: Vector, slope: Vector) -> None:
+def press_resting_legs(scene: SceneArrays, legs: LegArrays | None, y: Vector, slope: Vector) -> None:
     """Forces of all legs at rest, see `hydraulics.rest`; their states there into y."""
-    tell_legs(scene)
-    rest_legs(scene.legs, scene.pumps, scene.gaps, y, slope)
-    push_legs(scene)
+    if legs is not None:
+        tell_legs(scene, legs.records)
+        rest_legs(legs.records, legs.pumps, legs.gaps, y, slope)
+        push_legs(scene, legs.records)

@@ -121,7 +121,7 @@ def take_up(
     """
     now, rates, right = room.now, room.rates, room.right
     if passes:
-        if not pass_gap(scene, room, leg, gap, t, report):
+        if not pass_gap(scene.legs, leg, gap, t, report):
             return TOO_MANY_OIL_EVENTS
     else:
         evaluate(scene, t, y, room.slope, right)  # places and factors are those of what was looked at last
@@ -129,7 +129,7 @@ def take_up(
             return TOO_MANY_IMPACTS
     evaluate(scene, t, y, rates[0], right)
     copy_contacts(scene.contacts, now)
-    keep_gaps(scene, room.gaps)
+    keep_gaps(scene.legs)
     # whatever rounding says
     if not passes and what == CUT:
         now[n].push = 1e-30 if was_cut else -1e-30
@@ -199,7 +199,7 @@ def integrate(
         report[RECORDS] = max(1.0, report[RECORDS])
         jump(scene, room, t, y, jumps, report)
         evaluate(scene, t, y, k[0], right)
-        keep_gaps(scene, room.gaps)
+        keep_gaps(scene.legs)
         copy_contacts(scene.contacts, now)
         begin_nodes(scene, t, y, k[0], nodes, report)
     begin_method(room, going, weights)
@@ -218,7 +218,7 @@ def integrate(
         if last:
             h = stop - t
         decay = going[DECAY]
-        forget_beyond(scene)
+        forget_beyond(scene.legs)
         error = try_step(scene, room, going, t, h, y, weights, report)
         if not error <= 1.0:
             h *= min(factor_of(error, 1.0, decay), 1.0)
@@ -228,8 +228,8 @@ def integrate(
         if going[UNCUT] > 0.0:
             overlook_cuts(now)
         n, what, low, high = first_event(scene, h, now, then, room.path, room.probe, room.slope)
-        oil, leg, gap = first_gap(scene, room)
-        hidden = hidden_gap(scene, room, t, h) if scene.legs.size > 0 else 1.0
+        oil, leg, gap = first_gap(scene.legs)
+        hidden = hidden_gap(scene, scene.legs, room, t, h)
         # events are met by the explicit method
         if decay > 0.0 and (what != NOTHING or oil != NONE or hidden < 1.0):
             h = leave_stabilised(going, h)
@@ -238,14 +238,14 @@ def integrate(
             h *= SHORTEN if what == TOO_LONG else hidden
             continue
         if oil == AT_ONCE:
-            if not pass_gap(scene, room, leg, gap, t, report):
+            if not pass_gap(scene.legs, leg, gap, t, report):
                 return TOO_MANY_OIL_EVENTS
             evaluate(scene, t, y, k[0], right)
             begin_nodes(scene, t, y, k[0], nodes, report)
-            keep_gaps(scene, room.gaps)
+            keep_gaps(scene.legs)
             continue
         if oil == GAP:
-            h = land_on_gap(scene, room, leg, gap, t, h, y, weights, report)
+            h = land_on_gap(scene, scene.legs, room, leg, gap, t, h, y, weights, report)
             copy_contacts(scene.contacts, then)
             fit_step(room, 0.0, h, y)
             last = h >= stop - t
@@ -264,7 +264,7 @@ def integrate(
             )
             fit_step(room, 0.0, h, y)
             last = h >= stop - t
-        keep_gaps(scene, room.gaps)
+        keep_gaps(scene.legs)
         copy_contacts(then, scene.contacts)
         write_nodes(scene, room, t, h, nodes, report)
         note_peaks(scene, room, t, h, report)

@@ -9,7 +9,7 @@ by factors L D L^T of the square matrix, within the envelope that the order of t
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, inlined
+from support_exudyn.formulations.compilation import compiled, inlined, often
 from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
 from support_exudyn.mechanics.closing import Conditions
 
@@ -142,7 +142,7 @@ def hold(scene: SceneArrays, y: Vector) -> None:
         row.ox, row.oy, row.ot = -ux, -uy, first.ry * ux - first.rx * uy - carried
 
 
-@compiled
+@often
 def factor(scene: SceneArrays) -> float:
     """Write C M^-1 C^T as its factors L, and 1 / D on the diagonal; the least share that is left of a row."""
     count = scene.rows.size
@@ -297,7 +297,7 @@ def rate_of(scene: SceneArrays, row: int, v: Vector, start: int) -> float:
     return float(total)
 
 
-@compiled
+@often
 def respond(scene: SceneArrays, multipliers: Vector, v: Vector, start: int) -> None:
     """Take M^-1 C^T L off the velocities or displacements that stand in `v` from `start` on."""
     for n in range(scene.rows.size):

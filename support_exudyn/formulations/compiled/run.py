@@ -206,9 +206,11 @@ def _outcome(going: _Run) -> Outcome:
 
 def _oil_events(going: _Run) -> dict[str, tuple[OilEvent, ...]]:
     """What happened in each leg."""
-    names = going.model.legs.names
+    names, legs = going.model.legs.names, going.model.scene.legs
+    if legs is None:
+        return {}
     found: dict[str, list[OilEvent]] = {name: [] for name in names}
-    for t, leg, gap, side in going.room.oil_events[: int(going.report[OIL_EVENTS])].tolist():
+    for t, leg, gap, side in legs.events[: int(going.report[OIL_EVENTS])].tolist():
         found[names[int(leg)]].append(OilEvent(t, GAP_NAMES[int(gap)], side > 0.0))
     return {name: tuple(events) for name, events in found.items()}
 
@@ -221,7 +223,7 @@ def _failure(going: _Run) -> Failure:
     for n, name in enumerate(scenario.linkage.bodies):
         state[f"{name}.angular_velocity"] = float(going.y[count + 3 * n + 2])
     state["impacts"] = float(report[IMPACTS])
-    code = going.code
+    code, legs = going.code, going.model.scene.legs
     if code == TOO_MANY_STEPS:
         reason, advice = (
             f"more than {scenario.solver.most_steps} steps",
@@ -233,7 +235,7 @@ def _failure(going: _Run) -> Failure:
         reason, advice = f"more than {MOST_OIL_EVENTS} openings and closings of valves", CHATTER
     elif broken := _broken_law(going):
         reason, advice = broken
-    elif empty := empty_legs(going.model.legs.names, going.model.scene.legs):
+    elif legs is not None and (empty := empty_legs(going.model.legs.names, legs.records)):
         reason, advice = empty, EMPTY
     elif pressed := _pressed_through(going):
         reason, advice = pressed, ENDS

@@ -90,8 +90,7 @@ def evaluate(scene: SceneArrays, t: float, y: Vector, slope: Vector, right: Vect
         press_oil(scene)
     if scene.cylinders.size > 0:
         press_cylinders(scene, y, slope)
-    if scene.legs.size > 0:
-        press_legs(scene, y, slope)
+    press_legs(scene, scene.legs, y, slope)
     if scene.loads.size > 0:
         press_loads(scene, t, y)
     if scene.bushings.size > 0:
