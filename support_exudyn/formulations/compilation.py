@@ -100,14 +100,6 @@ def plain(function: Callable[..., Any], **instead: Any) -> Callable[..., Any]:
     return bound(function)
 
 
-<<<<<<< HEAD
-def _inner(function: Function, **options: bool) -> Function:
-=======
-def on_arrays(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A decorated function without branches, for many instants at once: arrays in place of numbers."""
-    return plain(function, math=np)
-
-
 class _NoMachine:
     """What makes machine code, for code that has none."""
 
@@ -157,7 +149,6 @@ class _LinkedCompiler(Compiler):  # type: ignore[misc]
 
 
 def _inner(function: Function, **options: Any) -> Function:
->>>>>>> split
     """Not kept on disk, where those that Python calls hold its code; that would take a tenth of the time.
 
     Without the wrappers for calls from Python and C, which take a third of it.
