@@ -222,7 +222,6 @@ def test_figure_and_page(folder: Path) -> None:
     for part in (
         "Not all channels",
         "NOT",
-        "magnitude error",
         "tip.force: largest difference 50",
         "difference [",
     ):

@@ -112,7 +112,7 @@ def _curves(
             look = {"ls": "", "marker": "o", "ms": 3.5, "mfc": "none", "mew": 1.0, "zorder": 3}
         axes.plot(seconds.scale * time, shown.scale * values, color=colour, label=file.name, **look)
     label_values(axes, units.QUANTITIES.get(one.unit, "value"), shown.name)
-    axes.set_title(f"{one.name}: {one.meaning}" if one.meaning else one.name, fontsize=8)
+    axes.set_title(one.name, fontsize=8)
 
 
 def _differences(axes: Axes, there: Compared, seconds: DisplayUnit) -> None:

@@ -1,4 +1,4 @@
-"""The tables of a comparison, which the terminal and the page show: channels, statistics, impacts."""
+"""The tables of a comparison, which the terminal and the page show: channels and statistics."""
 
 from __future__ import annotations
 
@@ -64,16 +64,7 @@ def tables(pair: ComparedPair, brief: bool) -> list[Table]:
             statistics,
             "±: half of the confidence interval of the difference.",
         ),
-        Table(
-            "impacts",
-            (
-                "contact", ">matched before the horizon", ">times apart, most", ">speeds apart, most",
-                ">matched after", ">only in reference", ">only in other",
-            ),
-            _impacts(pair),
-            "Matched in their order.",
-        ),
-    ]  # fmt: skip
+    ]
     return [table for table in shown if table.rows]
 
 
@@ -189,20 +180,6 @@ def _statistic(channel: str, what: str, unit: str, one: StatisticDifference) -> 
     half = NONE if one.equal is None else f"{shown.scale * one.tellable:.3g}"
     words = {True: "0 or not to be told from it", False: "not 0", None: "not known: too few records"}[one.equal]
     return channel, what.replace("_", " "), shown.name, *numbers, half, words
-
-
-def _impacts(pair: ComparedPair) -> tuple[Row, ...]:
-    """A row for each contact that both runs know."""
-    rows = []
-    for contact, matched in pair.impacts.items():
-        if not (matched.pairs or matched.only_first or matched.only_second):
-            continue
-        before = [two for two in matched.pairs if max(two[0].time, two[1].time) < pair.window.horizon]
-        late = said(max(abs(b.time - a.time) for a, b in before), "s") if before else NONE
-        fast = said(max(abs(b.speed - a.speed) for a, b in before), "m/s") if before else NONE
-        counts = len(matched.pairs) - len(before), len(matched.only_first), len(matched.only_second)
-        rows.append((contact, str(len(before)), late, fast, *map(str, counts)))
-    return tuple(rows)
 
 
 # --- why a channel is not within its tolerance ---
