@@ -39,7 +39,7 @@ def write_page(compared: FilesCompared, path: Path) -> None:
         {
             "name": pair.other.name,
             "anchor": f"file{n}",
-            "faults": [text for text in map(tables.fault, pair.channels.values()) if text],
+            "faults": [text for one in pair.channels.values() for text in tables.faults(one)],
             "sentences": [line[:1].upper() + line[1:].rstrip(".") for line in notes(pair)],
             "tables": [_shown(table) for table in tables.tables(pair, brief=False)],
             "curves": _curves(drawn[n], Markup(pages.places[f"curves{n}"])),
