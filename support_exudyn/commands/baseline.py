@@ -166,7 +166,6 @@ def _object(one: Looked) -> dict[str, Any]:
         return None if item is None else item._asdict()
 
     changed = [
-        change._replace(curve=None)._asdict() | {"was": number(change.was), "now": number(change.now)}
-        for change in one.changes
+        change._asdict() | {"was": number(change.was), "now": number(change.now)} for change in one.changes
     ]
     return {"state": one.state, "failed": one.failed or None, "changes": changed}

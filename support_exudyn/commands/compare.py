@@ -181,7 +181,8 @@ def _print(compared: FilesCompared) -> None:
         for pair in compared.pairs:
             for table in tables.tables(pair, brief=True):
                 show_table(console, table.title, table.header, table.rows)
-            for line in (*notes(pair), *filter(None, map(tables.fault, pair.channels.values()))):
+            faults = [text for one in pair.channels.values() for text in tables.faults(one)]
+            for line in (*notes(pair), *faults):
                 console.print(line, markup=False, soft_wrap=True)
         console.print(tables.VERDICTS[compared.verdict], markup=False, soft_wrap=True)
 

@@ -29,7 +29,6 @@ MARKS = {  # by the fixture that a test uses
 }
 WRITTEN = "baseline written"  # property of a test, by which workers tell
 CACHE = "support_exudyn"  # folder in pytest's cache
-FIGURES = "support_exudyn_figures"
 
 
 class SimulateCached(Protocol):
@@ -135,11 +134,11 @@ def _cache_folder(config: pytest.Config, temporary: pytest.TempPathFactory) -> P
 
 
 @pytest.fixture(scope="session")
-def assert_close(tmp_path_factory: pytest.TempPathFactory) -> AssertClose:
+def assert_close() -> AssertClose:
     """Fail if a result, a curve or a number is farther from a reference than is allowed.
 
     `assert_close(result, reference, tolerance=None, channels=(), after=0, until=inf)`. Without a tolerance the
-    errors of both are allowed. The failure tells the worst number with its time, and the path of a figure.
+    errors of both are allowed. The failure tells the worst number with its time.
     """
 
     def check(
@@ -157,7 +156,7 @@ def assert_close(tmp_path_factory: pytest.TempPathFactory) -> AssertClose:
 
         found = closeness(result, reference, tolerance, channels=channels, after=after, until=until)
         if any(not one.is_close for one in found):
-            raise AssertionError(said_apart(found, tmp_path_factory.mktemp(FIGURES)))
+            raise AssertionError(said_apart(found))
 
     return check
 
@@ -170,9 +169,7 @@ def _baselines(pytestconfig: pytest.Config) -> SessionBaselines:
 
 
 @pytest.fixture
-def baseline(
-    request: pytest.FixtureRequest, _baselines: SessionBaselines, tmp_path_factory: pytest.TempPathFactory
-) -> Baseline:
+def baseline(request: pytest.FixtureRequest, _baselines: SessionBaselines) -> Baseline:
     """Fail if a result or number has changed by more than both errors from its baseline.
 
     `baseline(item, name="")` takes a Result with errors, an Estimate, or Estimates by names. The baseline is
@@ -183,8 +180,7 @@ def baseline(
     def check(item: Result | Estimate | Mapping[str, Estimate], name: str = "") -> None:
         __tracebackhide__ = True
         whole = f"{request.path.stem}.{name or request.node.name}"
-        figures = tmp_path_factory.getbasetemp() / FIGURES / request.path.stem
-        said, written = _baselines.compare(item, request.path, whole, figures)
+        said, written = _baselines.compare(item, request.path, whole)
         if written:
             request.node.user_properties.append((WRITTEN, said))
         elif said:

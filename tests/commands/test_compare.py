@@ -19,7 +19,6 @@ from user_forces import InputError
 
 TIME = np.arange(0.0, 1.0, 0.005)
 ROWS = "0,0,10,7\n0.1,1,10,7\n0.2,2,10,7\n0.3,3,10,7\n"
-WAVE = [math.sin(2.0 * math.pi * n / 100.0) for n in range(101)]
 MAPPED = """
 [files."seen.csv".columns]
 "tip.x" = { column = "Tip X", sign = -1 }
@@ -45,7 +44,6 @@ TEXTS = {
     "other.csv": "time_s,a,b_N\n0,1,1\n1,2,2\n",
     "share.csv": "time_s,a [-],F[1]_N,load [g]\n0,0.02,5,1000\n1,0.01,5,3000\n",
     "percent.csv": "time_s,a [%],F[1]_N,load [kg]\n0,2.5,6,1.5\n1,1,5,3\n",
-    "wave.csv": "time_s,a_m\n" + "".join(f"{n / 100},{value:.17g}\n" for n, value in enumerate(WAVE)),
     "units.toml": '[units]\nt = "s"\n',
     "compare.toml": MAPPED,
 }
@@ -165,8 +163,6 @@ def test_the_table_in_engineers_units(folder: Path, capsys: pytest.CaptureFixtur
     row = next(line.split() for line in capsys.readouterr().out.splitlines() if "tip.force" in line)
     # a factor of 1.01: the largest difference is that at the peak; M and C are 1 %
     assert (row[1], row[4], row[5], row[8:10]) == ("N", "50", "0.4", ["1", "%"])
-    assert ended("wave.csv wave.csv") == 0
-    assert "e-1" not in capsys.readouterr().out  # means that balance are zero
 
 
 def test_several_files_as_json_and_as_junit(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -222,7 +218,6 @@ def test_figure_and_page(folder: Path) -> None:
     for part in (
         "Not all channels",
         "NOT",
-        "magnitude error",
         "tip.force: largest difference 50",
         "difference [",
     ):

@@ -15,7 +15,7 @@ from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import writing_alone
 from support_exudyn.formulations.contract import Progress, SimulationError
 from support_exudyn.postprocessing.comparing.changes import RunChange, changes, line, worst_first
-from support_exudyn.postprocessing.comparing.closeness import Closeness, save_figure
+from support_exudyn.postprocessing.comparing.closeness import Closeness
 from support_exudyn.postprocessing.comparing.kept_run import (
     KeptRun,
     kept_numbers,
@@ -152,32 +152,23 @@ def _write(looked: Looked, now: KeptRun, path: Path, reason: str = "") -> None:
 # --- in tests ---
 
 
-def said_apart(compared: Sequence[Closeness], figures: Path) -> str:
-    """The message of a failed comparison; empty if all is close. figures: folder for the worst curve."""
+def said_apart(compared: Sequence[Closeness]) -> str:
+    """The message of a failed comparison; empty if all is close."""
     apart = [one for one in compared if not one.is_close]
-    if not apart:
-        return ""
-    lines = [str(apart[0])]
-    if len(compared) > 1:
-        others = ", ".join(one.name for one in apart[1:TOLD])
-        lines.append(f"{len(apart)} of {len(compared)} are not close{f'; further: {others}' if others else ''}")
-    if path := save_figure(apart[0], figures, file_name(apart[0].name)):
-        lines.append(f"figure: {path}")
-    return "\n".join(lines)
+    if not apart or len(compared) == 1:
+        return "".join(map(str, apart))
+    others = ", ".join(one.name for one in apart[1:TOLD])
+    more = f"; further: {others}" if others else ""
+    return f"{apart[0]}\n{len(apart)} of {len(compared)} are not close{more}"
 
 
-def said_changed(name: str, was: KeptRun, now: KeptRun, figures: Path) -> str:
-    """The message of a changed baseline, with the figure of the worst curve; empty if nothing has changed."""
-    found = worst_first(changes(was, now))
+def said_changed(name: str, found: Sequence[RunChange]) -> str:
+    """The message of a changed baseline; empty if nothing has changed."""
     if not found:
         return ""
-    lines = [f"{name}: {len(found)} changed by more than both errors, new, or gone", *map(line, found[:TOLD])]
-    if len(found) > TOLD:
-        lines.append(f"and {len(found) - TOLD} more")
-    curves = [change.curve for change in found if change.curve is not None and change.what == "channel"]
-    if curves and (path := save_figure(curves[0], figures, file_name(f"{name}.{curves[0].name}"))):
-        lines.append(f"figure: {path}")
-    return "\n".join(lines)
+    lines = [f"{name}: {len(found)} changed by more than both errors, new, or gone"]
+    lines += map(line, worst_first(found)[:TOLD])
+    return "\n".join(lines + [f"and {len(found) - TOLD} more"] * (len(found) > TOLD))
 
 
 def file_name(text: str) -> str:
@@ -197,7 +188,7 @@ class SessionBaselines:
         self._used: set[Path] = set()
 
     def compare(
-        self, item: Result | Estimate | Mapping[str, Estimate], beside: Path, name: str, figures: Path
+        self, item: Result | Estimate | Mapping[str, Estimate], beside: Path, name: str
     ) -> tuple[str, bool]:
         """Compare with the baseline, or write it if its name is among those.
 
@@ -205,7 +196,6 @@ class SessionBaselines:
             item: what is compared: a result with errors, a number, or numbers by their names.
             beside: the file of the test, next to which the folder of baselines is.
             name: of the baseline.
-            figures: folder for the figure of a failure.
 
         Returns:
             The changes, or that there is no baseline, in lines, empty if nothing has changed; and whether
@@ -221,11 +211,12 @@ class SessionBaselines:
         self._used.add(path)
         now = _kept(item)
         was = read_baseline(path) if path.exists() else None
-        said = said_changed(path.stem, was, now, figures) if was is not None else f"{path.stem}: first"
+        found = tuple(changes(was, now)) if was is not None else ()
+        said = said_changed(path.stem, found) if was is not None else f"{path.stem}: first"
         if not said:
             return "", False
         if any(fnmatchcase(path.stem, pattern) for pattern in self.updated):
-            _write(Looked(path.stem, was, now, tuple(changes(was, now)) if was is not None else ()), now, path)
+            _write(Looked(path.stem, was, now, found), now, path)
             return f"{path}: written\n{said}", True
         if was is None:
             said = f"{path}: there is no such baseline"

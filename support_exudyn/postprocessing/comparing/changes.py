@@ -8,9 +8,15 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from support_exudyn.postprocessing.comparing.closeness import Closeness, compared_columns
+from support_exudyn.postprocessing.comparing.closeness import compared_columns
 from support_exudyn.postprocessing.comparing.impacts import match_impacts
-from support_exudyn.postprocessing.comparing.kept_run import MOST_IMPACTS, KeptColumn, KeptImpact, KeptRun
+from support_exudyn.postprocessing.comparing.kept_run import (
+    MOST_IMPACTS,
+    KeptColumn,
+    KeptImpact,
+    KeptRun,
+    kept_number,
+)
 from support_exudyn.postprocessing.figures.units import readable_change
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.contact_state import Onset
@@ -30,7 +36,7 @@ class RunChange(NamedTuple):
     kind: whether it has changed, is new, or gone. what: "number", "channel", "impact", "key" of the scenario.
     name: of it. was, now: its value; None if it has none, or is not there. time: when that is [s], of channels
     and impacts. ratio: the difference over the sum of both errors; infinite if nothing measures it.
-    said: was and now in words, of what is no number. curve: the curve that has changed.
+    said: was and now in words, of what is no number.
     """
 
     kind: Kind
@@ -41,7 +47,6 @@ class RunChange(NamedTuple):
     time: float | None = None
     ratio: float = math.inf
     said: str = ""
-    curve: Closeness | None = None
 
 
 def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
@@ -59,7 +64,7 @@ def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
     ]
     alike = math.isinf(old.horizon) == math.isinf(new.horizon)
     end = min(old.horizon, new.horizon)
-    first, second = ({name: _number(one) for name, one in run.numbers.items()} for run in (old, new))
+    first, second = ({name: kept_number(one) for name, one in run.numbers.items()} for run in (old, new))
     return [
         *sorted(keys, key=lambda change: change.name),
         *(_columns("number", first, second, math.inf) if alike else ()),
@@ -82,14 +87,13 @@ def _leaves(data: Any, place: str = "") -> Iterator[tuple[str, Any]]:
 
 def _gone_and_new(what: str, was: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[RunChange]:
     for name in [name for name in was if name not in now]:
-        yield RunChange("gone", what, name, _value(was[name]), said=_words(what, was[name]))
+        yield RunChange("gone", what, name, _value(what, was[name]), said=_words(what, was[name]))
     for name in [name for name in now if name not in was]:
-        yield RunChange("new", what, name, now=_value(now[name]), said=_words(what, now[name]))
+        yield RunChange("new", what, name, now=_value(what, now[name]), said=_words(what, now[name]))
 
 
-def _value(item: Any) -> Estimate | None:
-    """The value of a number; None of all else."""
-    return _at(item, 0.0) if isinstance(item, KeptColumn) and not item.time.size else None
+def _value(what: str, item: Any) -> Estimate | None:
+    return _at(item, 0.0) if what == "number" else None
 
 
 def _words(what: str, item: Any) -> str:
@@ -113,19 +117,14 @@ def _column(
     elif not was.time.size or was.time[0] <= end:
         one = compared_columns(name, now, was, until=end)
         if one.verdict == "not within":
-            time = float(one.time[one.where]) if one.time.size else None
-            first, second = _at(was, time or 0.0), _at(now, time or 0.0)
-            yield RunChange("changed", what, name, first, second, time, one.ratio, curve=one)
+            first, second = _at(was, one.time or 0.0), _at(now, one.time or 0.0)
+            yield RunChange("changed", what, name, first, second, one.time, one.ratio)
 
 
 def _at(column: KeptColumn, time: float) -> Estimate:
     """A column at the record next to a time [s], with its error; of a number its value."""
     n = int(np.abs(column.time - time).argmin()) if column.time.size else 0
     return Estimate(float(column.values[n]), float(column.errors[n]), column.unit or "")
-
-
-def _number(one: Estimate) -> KeptColumn:
-    return KeptColumn(one.unit, np.zeros(0), np.array([one.value]), np.array([one.error]))
 
 
 def _impacts(old: KeptRun, new: KeptRun, end: float) -> Iterator[RunChange]:
@@ -143,7 +142,9 @@ def _impacts(old: KeptRun, new: KeptRun, end: float) -> Iterator[RunChange]:
         for one, other in matched.pairs:
             n, m = places[0][one], places[1][other]
             for word, first, second in zip(("time", "speed"), was[n], now[m], strict=True):
-                for change in _column("impact", f"{pin}: {n + 1}, {word}", _number(first), _number(second)):
+                for change in _column(
+                    "impact", f"{pin}: {n + 1}, {word}", kept_number(first), kept_number(second)
+                ):
                     yield change._replace(time=one.time)
         last = min([end, *(side[-1].time.value for side in (was, now) if len(side) >= MOST_IMPACTS)])
         least = SLIGHT * max((impact.speed.value for impact in (*was, *now)), default=0.0)

@@ -9,8 +9,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
-from matplotlib.figure import Figure
 
 from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
 from support_exudyn.files.series.read import read_series
@@ -19,12 +17,10 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.comparing.common_times import on_common_times
 from support_exudyn.postprocessing.comparing.compared_channel import ToleranceVerdict
 from support_exudyn.postprocessing.comparing.compared_file import is_own
-from support_exudyn.postprocessing.comparing.kept_run import KeptColumn, kept_impacts
+from support_exudyn.postprocessing.comparing.kept_run import KeptColumn, kept_impacts, kept_number
 from support_exudyn.postprocessing.comparing.mapping import PERCENT, Tolerance, tolerance
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors, errors_at
-from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.selection import matching
-from support_exudyn.postprocessing.figures.units import readable, readable_change
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.names import meant
@@ -32,83 +28,47 @@ from user_forces.values.value import InputError, short
 
 Measured = Result | NamedSeries | Estimate | float
 Reference = Measured | SeriesFile | str | PathLike[str] | Mapping[str, NamedSeries | Estimate | float]
-Flags = npt.NDArray[np.bool_]
 ALONE = "it"  # the name of a number without a name
 KINDS = "a Result, a NamedSeries, an Estimate, a number"
 BOTH_ERRORS = "both errors"
-WIDTH_MM, HEIGHT_MM = 140.0, 95.0
-SIDE = 10.0  # times the largest difference up to which the allowed difference is drawn
 
 
 class Closeness(NamedTuple):
-    """A curve or number against its reference.
+    """A curve or number against its reference, at the record that is farthest beyond what is allowed.
 
-    name: of it. unit: of all. time: [s], (n,); of a number empty. values, reference, allowed, errors: (n,), of
-    a number (1,). allowed: by how much they may differ. errors: of the difference, where they are not what is
-    allowed. rule: the tolerance in words.
+    name: of it. unit: of all. time: of the record [s]; None of a number. value, reference: there.
+    allowed: by how much they may differ. error: of their difference, where that is not what is allowed.
+    ratio: difference over what is allowed; infinite if nothing is allowed, or unknown.
+    verdict: on all records. rule: the tolerance in words.
     """
 
     name: str
     unit: str
-    time: Series
-    values: Series
-    reference: Series
-    allowed: Series
-    errors: Series
+    time: float | None
+    value: float
+    reference: float
+    allowed: float
+    error: float
+    ratio: float
+    verdict: ToleranceVerdict
     rule: str
-
-    @property
-    def _verdicts(self) -> tuple[Series, Flags, Flags]:
-        """Shares of what is allowed (n,), where it is exceeded (n,), and where that cannot be decided (n,).
-
-        Where errors are larger than what is allowed, and a difference that is within them could turn the
-        answer, nothing is decided.
-        """
-        off = np.abs(self.values - self.reference)
-        off[np.isnan(self.reference)] = 0.0  # where there is nothing to compare with
-        off = np.where(np.isnan(off), math.inf, off)
-        unknown = ~np.isfinite(self.allowed)
-        undecided = unknown | ((self.errors > self.allowed) & (off - self.errors <= self.allowed))
-        ratio = np.divide(off, self.allowed, out=np.where(off > 0.0, math.inf, 0.0), where=self.allowed > 0.0)
-        return np.where(unknown, 0.0, ratio), (off > self.allowed) & ~undecided, undecided
-
-    @property
-    def verdict(self) -> ToleranceVerdict:
-        """Within, not within, or not decided."""
-        _, beyond, undecided = self._verdicts
-        return "not within" if beyond.any() else "not decided" if undecided.any() else "within"
 
     @property
     def is_close(self) -> bool:
         """Whether it is surely as close as is allowed."""
         return self.verdict == "within"
 
-    @property
-    def where(self) -> int:
-        """The record that is farthest beyond what is allowed, as a share of it; or least decided."""
-        ratio, beyond, undecided = self._verdicts
-        if not beyond.any() and undecided.any():
-            errors = np.where(np.isfinite(self.allowed), self.errors, math.inf)
-            return int(np.where(undecided, errors, -1.0).argmax())
-        return int(np.where(beyond | ~beyond.any(), ratio, -1.0).argmax())
-
-    @property
-    def ratio(self) -> float:
-        """Difference over what is allowed where that is worst; infinite if nothing is allowed, or unknown."""
-        return float(self._verdicts[0][self.where])
-
     def __str__(self) -> str:
         """The worst number in a line: where, what it is, what it should be."""
-        where = self.where
-        now, was, allowed = (float(one[where]) for one in (self.values, self.reference, self.allowed))
-        at = f" at t = {self.time[where]:.6g} s" if self.time.size else ""
-        words = f"{self.name}: {self._said(now, 9)}{at}, where the reference is {self._said(was, 9)}: "
-        limit = f"allowed: {self._said(allowed, 3)} ({self.rule})"
+        at = "" if self.time is None else f" at t = {self.time:.6g} s"
+        now, was, limit = self._said(self.value, 9), self._said(self.reference, 9), self._said(self.allowed, 3)
+        words = f"{self.name}: {now}{at}, where the reference is {was}: "
         if self.verdict == "not decided":
-            known = self._said(float(self.errors[where]), 3) if math.isfinite(allowed) else "not known"
-            why = f"it cannot be told whether they are close, for the numerical error is {known}"
-            return f"{words}{why}; {limit}; a higher accuracy may tell"
-        return f"{words}they differ by {self._said(abs(now - was), 3)}; {limit}"
+            known = self._said(self.error, 3) if math.isfinite(self.allowed) else "not known"
+            words += f"it cannot be told whether they are close, for the numerical error is {known}"
+            return f"{words}; allowed: {limit} ({self.rule}); a higher accuracy may tell"
+        apart = self._said(abs(self.value - self.reference), 3)
+        return f"{words}they differ by {apart}; allowed: {limit} ({self.rule})"
 
     def _said(self, value: float, digits: int) -> str:
         return f"{value:.{digits}g} {self.unit}".rstrip()
@@ -219,9 +179,9 @@ def _column(item: Any) -> KeptColumn:
     if isinstance(item, NamedSeries):
         return KeptColumn(item.unit, item.time, item.values, np.full(item.time.size, math.nan))
     if isinstance(item, Estimate):
-        return KeptColumn(item.unit, np.zeros(0), np.array([item.value]), np.array([item.error]))
+        return kept_number(item)
     if isinstance(item, (int, float)) and not isinstance(item, bool):
-        return KeptColumn(None, np.zeros(0), np.array([float(item)]), np.array([math.nan]))
+        return kept_number(Estimate(float(item), math.nan, ""))._replace(unit=None)
     raise InputError(f"{short(item)}: cannot be compared; allowed: {KINDS}")
 
 
@@ -263,49 +223,42 @@ def compared_columns(
                 f"{name}: no numerical error is known; allowed: a tolerance, such as '2 %', or runs with an "
                 "accuracy"
             )
-        return Closeness(name, unit, time, values, reference, errors + more, np.zeros(values.size), BOTH_ERRORS)
+        return _worst(name, unit, time, values, reference, errors + more, np.zeros(values.size), BOTH_ERRORS)
     size = float(np.nanmax(reference) - np.nanmin(reference)) if time.size else abs(float(reference[0]))
     allowed = np.full(values.size, rule.in_si(name, unit, size))
     of = f" of the {'range' if time.size else 'value'} of the reference" if rule.is_relative else ""
     errors = np.nan_to_num(errors) + more
-    return Closeness(name, unit, time, values, reference, allowed, errors, f"{rule.text}{of}")
+    return _worst(name, unit, time, values, reference, allowed, errors, f"{rule.text}{of}")
 
 
-# --- the figure of a curve ---
+def _worst(
+    name: str,
+    unit: str,
+    time: Series,
+    values: Series,
+    reference: Series,
+    allowed: Series,
+    errors: Series,
+    rule: str,
+) -> Closeness:
+    """The verdict on all records (n,), and the worst: the farthest, as a share of what is allowed.
 
-
-def save_figure(one: Closeness, folder: Path, name: str) -> Path | None:
-    """Write the figure of a curve as PNG; nothing of a number, or of a single record."""
-    if one.time.size < 2:
-        return None
-    with style.look():
-        return style.save(difference_figure(one), folder, name, pdf=False)[0]
-
-
-def difference_figure(one: Closeness) -> Figure:
-    """Both curves in the same panel, below them their difference within the band that is allowed."""
-    off = one.values - one.reference
-    size, largest = (
-        float(np.nanmax(np.abs(values), initial=0.0)) for values in (np.append(one.values, one.reference), off)
-    )
-    seconds, shown = readable("s", float(np.ptp(one.time))), readable(one.unit, size)
-    smaller = readable_change(one.unit, size, largest)
-    word = "farthest" if one.verdict == "not within" else "not decided"
-    with style.look():
-        drawing = style.begin(WIDTH_MM, HEIGHT_MM, f"{one.name}: {word} at {one.time[one.where]:.6g} s")
-        above, below = drawing.subplots(2, 1, sharex=True)
-        time = seconds.scale * one.time
-        curves = (("reference", one.reference), ("result", one.values))
-        for (name, values), (colour, dashes) in zip(curves, style.CURVES, strict=False):
-            above.plot(time, shown.scale * values, color=colour, ls=dashes, label=name)
-        above.legend(fontsize=7)
-        above.set_ylabel(f"[{shown.name}]")
-        below.plot(time, smaller.scale * off, color=style.IDEAL, lw=0.9)
-        allowed = np.where(np.isfinite(one.allowed), one.allowed, np.nan)
-        reach = smaller.scale * np.minimum(allowed, SIDE * largest if largest else np.inf)
-        below.fill_between(time, -reach, reach, color=style.THIRD, alpha=0.25, lw=0.0)
-        below.axvline(time[one.where], color=style.CONTACT, lw=0.8, ls=":")
-        below.set_ylabel(f"difference [{smaller.name}]")
-        below.set_xlabel(f"time [{seconds.name}]")
-        style.caption(drawing, f"Shaded: allowed, {one.rule}. Dotted: {word}.")
-    return drawing
+    Where errors are larger than what is allowed, and a difference that is within them could turn the answer,
+    nothing is decided. Where the reference has no value there is nothing to compare with.
+    """
+    off = np.abs(values - reference)
+    off[np.isnan(reference)] = 0.0
+    off = np.where(np.isnan(off), math.inf, off)
+    unknown = ~np.isfinite(allowed)
+    undecided = unknown | ((errors > allowed) & (off - errors <= allowed))
+    beyond = (off > allowed) & ~undecided
+    ratio = np.divide(off, allowed, out=np.where(off > 0.0, math.inf, 0.0), where=allowed > 0.0)
+    ratio[unknown] = 0.0
+    verdict: ToleranceVerdict = "not within" if beyond.any() else "not decided" if undecided.any() else "within"
+    if verdict == "not decided":
+        where = int(np.where(undecided, np.where(unknown, math.inf, errors), -1.0).argmax())
+    else:
+        where = int(np.where(beyond | ~beyond.any(), ratio, -1.0).argmax())
+    at = float(time[where]) if time.size else None
+    now, was, limit, error = (float(one[where]) for one in (values, reference, allowed, errors))
+    return Closeness(name, unit, at, now, was, limit, error, float(ratio[where]), verdict, rule)

@@ -27,8 +27,6 @@ MOST = 8  # channels
 FEW = 60  # points of a curve that are drawn as markers
 CURVES_MM, DIFFERENCE_MM, REST_MM, LINE_MM = 38.0, 30.0, 30.0, 4.5
 ALLOWED, AFTER = "#009E73", "#f0f0f0"  # colours of what is allowed, and of what lies after the horizon
-BEYOND = 8.0  # times the largest difference at which what is allowed lies beyond a panel
-SPARE = 1.15
 BY_STATISTICS = "compared by statistics"  # after the horizon
 Compared = Sequence[tuple[str, ComparedPair, ComparedChannel]]  # a channel of each file, with its colour
 
@@ -112,14 +110,14 @@ def _curves(
             look = {"ls": "", "marker": "o", "ms": 3.5, "mfc": "none", "mew": 1.0, "zorder": 3}
         axes.plot(seconds.scale * time, shown.scale * values, color=colour, label=file.name, **look)
     label_values(axes, units.QUANTITIES.get(one.unit, "value"), shown.name)
-    axes.set_title(f"{one.name}: {one.meaning}" if one.meaning else one.name, fontsize=8)
+    axes.set_title(one.name, fontsize=8)
 
 
 def _differences(axes: Axes, there: Compared, seconds: DisplayUnit) -> None:
     """The differences from the reference before the horizon, with numerical errors, inside what is allowed."""
-    allowed, unit = there[0][2].allowed, there[0][2].unit
-    size, titles = max(_size(one) for _, _, one in there), []
-    shown = readable(unit, size)
+    allowed, unit, titles = there[0][2].allowed, there[0][2].unit, []
+    sizes = [one.largest.value for _, _, one in there if math.isfinite(one.largest.value)]
+    shown = readable(unit, max(sizes, default=0.0))
     for colour, pair, one in there:
         _difference(axes, one, colour, seconds.scale, shown.scale)
         name = f"{pair.other.name}: " if len(there) > 1 else "less reference: "
@@ -131,25 +129,13 @@ def _differences(axes: Axes, there: Compared, seconds: DisplayUnit) -> None:
         titles.append(f"{name}largest {said(one.measures.largest, one.unit)} {at}{verdict}")
     if any(one.before < one.common.time.size for _, _, one in there):
         axes.text(0.99, 0.5, BY_STATISTICS, transform=axes.transAxes, ha="right", va="center", fontsize=7)
-    beyond = allowed > BEYOND * size > 0.0
-    height = SPARE * shown.scale * (size if beyond or math.isnan(allowed) else max(size, allowed))
-    if height > 0.0:
-        axes.set_ylim(-height, height)
-    if math.isfinite(allowed) and not beyond:
+    if math.isfinite(allowed):
         bound = shown.scale * allowed
         axes.axhspan(-bound, bound, color=ALLOWED, alpha=0.10, lw=0.0, zorder=0)
-        ends = seconds.scale * there[0][2].common.time[[0, -1]]
         for end in (-bound, bound):
-            axes.plot(ends, [end, end], color=ALLOWED, lw=0.8, ls="--", label="allowed")
+            axes.axhline(end, color=ALLOWED, lw=0.8, ls="--", label="allowed")
     label_values(axes, "difference", shown.name)
     axes.set_title("; ".join(titles), fontsize=7)
-
-
-def _size(one: ComparedChannel) -> float:
-    """Largest difference of a panel: before the horizon, or where nothing lies before, at all."""
-    difference = np.abs(one.common.other - one.common.reference)
-    before = difference[: one.before]
-    return float(np.nanmax(before if np.isfinite(before).any() else difference, initial=0.0))
 
 
 def _difference(axes: Axes, one: ComparedChannel, colour: str, seconds: float, scale: float) -> None:

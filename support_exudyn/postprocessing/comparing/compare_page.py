@@ -1,8 +1,7 @@
-"""The page of a comparison: verdict, notes, tables, curves to look into, all measures."""
+"""The page of a comparison: verdict, notes, tables, and curves to look into."""
 
 from __future__ import annotations
 
-import math
 import tempfile
 from pathlib import Path
 
@@ -11,12 +10,9 @@ from markupsafe import Markup
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.comparing import tables
 from support_exudyn.postprocessing.comparing.compare_figure import MOST, compare_figure
-from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
-from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
-from support_exudyn.postprocessing.comparing.measures import CurveMeasures
+from support_exudyn.postprocessing.comparing.files_compared import FilesCompared
 from support_exudyn.postprocessing.comparing.notes import notes
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.units import readable
 from support_exudyn.postprocessing.page.live import of_drawing
 from support_exudyn.postprocessing.page.live_html import html
 from support_exudyn.postprocessing.page.pieces import Sheet, ShownFigure, ShownTable, image, templates
@@ -24,9 +20,6 @@ from user_forces.values.value import InputError
 
 TEMPLATE = "compare.html.j2"
 ENDING = ".html"
-MEASURES = tuple(name for name in CurveMeasures._fields if name not in ("times", "left_out"))
-SHARES = {"rms_of_range", "largest_of_range", "magnitude_error", "phase_error", "combined_error"}
-PLAIN = {"r_squared", "largest_time"}
 
 
 def check_page(path: Path) -> None:
@@ -46,11 +39,10 @@ def write_page(compared: FilesCompared, path: Path) -> None:
         {
             "name": pair.other.name,
             "anchor": f"file{n}",
-            "faults": [text for text in map(tables.fault, pair.channels.values()) if text],
+            "faults": [text for one in pair.channels.values() for text in tables.faults(one)],
             "sentences": [line[:1].upper() + line[1:].rstrip(".") for line in notes(pair)],
             "tables": [_shown(table) for table in tables.tables(pair, brief=False)],
             "curves": _curves(drawn[n], Markup(pages.places[f"curves{n}"])),
-            "measures": ShownTable(_measures(pair), f"measures{n}"),
         }
         for n, pair in enumerate(compared.pairs)
     ]
@@ -83,23 +75,3 @@ def _curves(compared: FilesCompared, live: Markup) -> ShownFigure:
         path = Path(folder) / "drawing.png"
         compare_figure(compared, MOST).savefig(path)
         return ShownFigure(image(path), caption, live)
-
-
-def _measures(pair: ComparedPair) -> Sheet:
-    """A row a measure, a column a channel."""
-    channels = pair.channels.values()
-    rows = [(name.replace("_", " "), *(_measure(one, name) for one in channels)) for name in MEASURES]
-    return Sheet(f"{pair.other.name} less {pair.reference.name}", ("measure", *pair.channels), tuple(rows))
-
-
-def _measure(one: ComparedChannel, name: str) -> str:
-    measure = getattr(one.measures, name)
-    value = measure.value if name.startswith("peak") else measure
-    if math.isnan(value):
-        return tables.NONE
-    if name in SHARES:
-        return tables.share(value)
-    if name in PLAIN:
-        return f"{value:.5g}"
-    unit = readable(one.unit, abs(value))
-    return f"{unit.scale * value:.5g} {unit.name}"

@@ -78,7 +78,7 @@ class ComparedWindow:
 class ComparedChannel:
     """A channel of a file against that of the reference; all in SI.
 
-    name, unit, meaning: of the channel. common: both curves at common times.
+    name, unit: of the channel. common: both curves at common times.
     errors: numerical errors of the difference at these times, (n,), of the files `with_errors`; NaN if of none.
     before: number of the times that lie before the horizon. measures: of these.
     reference, other, mean: means over the whole window, and that of the difference. largest: magnitude of the
@@ -89,7 +89,6 @@ class ComparedChannel:
 
     name: str
     unit: str
-    meaning: str
     common: CommonCurves
     errors: Values
     with_errors: tuple[str, ...]
@@ -184,7 +183,6 @@ def compared_channel(
     return ComparedChannel(
         name=channel,
         unit=unit,
-        meaning=reference.meaning(channel) or other.meaning(channel),
         common=common,
         errors=errors,
         with_errors=tuple(file.name for file in (reference, other) if file.has_errors),

@@ -23,7 +23,6 @@ from support_exudyn.postprocessing.comparing.mapping import MappedColumn, Mapped
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
-from user_forces.contact_state import Onset
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
@@ -74,12 +73,6 @@ class ComparedFile:
         """The time from which on shorter steps change its impacts [s]; infinite if none is known."""
         return self.run.horizon + self.mapped.shift if self.run is not None and self.has_errors else math.inf
 
-    @property
-    def onsets(self) -> Mapping[str, Sequence[Onset]]:
-        """The impacts of a run at its shifted times, by contact; of another file none."""
-        shift, onsets = self.mapped.shift, {} if self.run is None else self.run.onsets
-        return {name: [one._replace(time=one.time + shift) for one in own] for name, own in onsets.items()}
-
     def column(self, channel: str) -> MappedColumn:
         """The column that is a channel. Raises InputError if there is none."""
         if column := self.mapped.columns.get(channel):
@@ -93,11 +86,6 @@ class ComparedFile:
     def unit(self, channel: str) -> str | None:
         """Unit of a channel in the file; None if it names none."""
         return self.series[self.column(channel).column].unit
-
-    def meaning(self, channel: str) -> str:
-        """The meaning of a channel, in words; empty if the file does not state it."""
-        known = None if self.run is None else self.run.channels.get(self.column(channel).column)
-        return "" if known is None else known.meaning
 
     def time(self, channel: str) -> Values:
         """Times of a channel, shifted [s], (n,)."""

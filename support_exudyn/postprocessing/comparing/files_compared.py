@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
@@ -27,7 +26,6 @@ from support_exudyn.postprocessing.comparing.compared_file import (
     of_run,
     turns_apart,
 )
-from support_exudyn.postprocessing.comparing.impacts import MatchedImpacts, match_impacts
 from support_exudyn.postprocessing.comparing.mapping import (
     CompareFile,
     Tolerance,
@@ -39,7 +37,6 @@ from support_exudyn.postprocessing.comparing.mapping import (
 )
 from support_exudyn.postprocessing.comparing.shift import FoundShift, found_shift
 from support_exudyn.postprocessing.comparing.statistics import STATISTICS
-from support_exudyn.postprocessing.comparing.with_errors import BesideErrors, numbers_beside_errors
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -67,7 +64,7 @@ class ComparedPair:
     """A file compared with the reference.
 
     channels: by their names. window: the part that is compared, and the earlier horizon of both; beyond it
-    single impacts are no result of a run. impacts: of contacts that both runs have.
+    single impacts are no result of a run.
     shift: the shift in time that was determined, and applied to `other`; None: none was asked for.
     same: number of channels, if both are runs and all records are the same to the bit; else 0.
     common: which channels are compared, and which are not.
@@ -77,18 +74,9 @@ class ComparedPair:
     other: ComparedFile
     channels: Mapping[str, ComparedChannel]
     window: ComparedWindow
-    impacts: Mapping[str, MatchedImpacts]
     shift: FoundShift | None
     same: int
     common: CommonChannels
-
-    @cached_property
-    def numbers(self) -> Mapping[str, BesideErrors]:
-        """The numbers that two runs report, see `Result.numbers`, with their errors; none without errors."""
-        first, second = self.reference.run, self.other.run
-        if first is None or second is None or not (self.reference.has_errors and self.other.has_errors):
-            return {}
-        return numbers_beside_errors(first, second, self.window.after, self.window.until)
 
     @property
     def verdict(self) -> ToleranceVerdict:
@@ -197,9 +185,7 @@ def _pair(
         name: compared_channel(reference, other, name, unit, window, of_channel(tolerances, name))
         for name, unit in units.items()
     }
-    mine, its = reference.onsets, other.onsets
-    impacts = {name: match_impacts(mine[name], its[name]) for name in mine if name in its}
-    return ComparedPair(reference, other, channels, window, impacts, shift, same, common)
+    return ComparedPair(reference, other, channels, window, shift, same, common)
 
 
 def _turns(

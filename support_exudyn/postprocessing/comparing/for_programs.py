@@ -11,7 +11,7 @@ from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
 from support_exudyn.postprocessing.comparing.notes import notes
-from support_exudyn.postprocessing.comparing.tables import beside, faults, number, share, shown_unit
+from support_exudyn.postprocessing.comparing.tables import faults
 from user_forces.values.value import cleaned
 
 NAME = "support-exudyn compare"
@@ -28,26 +28,13 @@ def as_data(compared: FilesCompared) -> dict[str, Any]:
 
 
 def _pair(pair: ComparedPair) -> dict[str, Any]:
-    shift = pair.shift
     return {
         "path": pair.other.path,
         "kind": pair.other.kind,
         "verdict": pair.verdict,
         "notes": list(notes(pair)),
-        "same_to_the_bit": pair.same > 0,
         "shift_s": pair.other.mapped.shift,
-        "found_shift": None if shift is None else {"channel": shift.channel, **shift.found._asdict()},
         "horizon_s": pair.window.horizon,
-        "impacts": {
-            contact: {
-                "matched": matched.pairs,
-                "number_matched": len(matched.pairs),
-                "only_reference": matched.only_first,
-                "only_other": matched.only_second,
-            }
-            for contact, matched in pair.impacts.items()
-        },
-        "numbers": {name: {**one._asdict(), "times": one.times} for name, one in pair.numbers.items()},
         "left_out": pair.common.lacking,
         "not_alike": pair.common.not_alike,
         "channels": {name: _channel(one) for name, one in pair.channels.items()},
@@ -55,27 +42,19 @@ def _pair(pair: ComparedPair) -> dict[str, Any]:
 
 
 def _channel(one: ComparedChannel) -> dict[str, Any]:
-    largest = {
-        "signed": one.measures.largest,
-        "time_s": one.measures.largest_time,
-        "of_reference_there": one.largest_of_reference,
-    }
     return {
         "unit": one.unit,
         "verdict": one.verdict,
         "tolerance": None if one.tolerance is None else one.tolerance.text,
         "allowed": one.allowed,
         "faults": faults(one),
-        "errors_of": one.with_errors,
         "reference": one.reference,
         "other": one.other,
         "mean": one.mean,
-        "largest": one.largest._asdict() | largest,
+        "largest": one.largest._asdict() | {"of_reference_there": one.largest_of_reference},
         "beside_errors": {"within": one.beside_errors.within, "times": one.beside_errors.times},
-        "judged": [{**judged._asdict(), "verdict": judged.verdict} for judged in one.judged],
         "measures": one.measures,
         "statistics": {name: {**what._asdict(), "equal": what.equal} for name, what in one.statistics.items()},
-        "interpolated": one.common.interpolated,
     }
 
 
@@ -120,10 +99,3 @@ def _case(suite: ElementTree.Element, pair: ComparedPair, one: ComparedChannel) 
     case = _within(suite, "testcase", classname=pair.other.name, name=one.name)
     if lines := faults(one):
         _within(case, "failure", type=one.verdict, message=lines[0]).text = cleaned("\n".join(lines))
-    unit = shown_unit(one)
-    _within(case, "system-out").text = cleaned(
-        f"mean difference {number(one.mean, unit.scale)} {unit.name}; largest difference "
-        f"{number(one.largest, unit.scale)} {unit.name} at {one.measures.largest_time:.6g} s; RMS "
-        f"{share(one.measures.rms_of_range)} of the range; Sprague-Geers C "
-        f"{share(one.measures.combined_error)}; beside the numerical errors: {beside(one)}"
-    )

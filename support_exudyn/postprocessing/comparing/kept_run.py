@@ -53,6 +53,11 @@ class KeptColumn(NamedTuple):
     errors: Series
 
 
+def kept_number(number: Estimate) -> KeptColumn:
+    """A number as a column of a single value."""
+    return KeptColumn(number.unit, np.zeros(0), np.array([number.value]), np.array([number.error]))
+
+
 class KeptImpact(NamedTuple):
     """An impact of a clearance pin: onset [s] and initial impact velocity [m/s], with their errors."""
 

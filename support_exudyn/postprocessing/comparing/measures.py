@@ -15,13 +15,6 @@ from user_forces.values.value import InputError
 Values = npt.NDArray[np.float64]
 
 
-class CurvePeak(NamedTuple):
-    """The value of a curve that is largest in magnitude, with its sign, and the first time [s] that has it."""
-
-    value: float
-    time: float
-
-
 class CurveMeasures(NamedTuple):
     """Measures of another curve c against a reference r at common times; d = c - r; <f> = 1/T integral f dt.
 
@@ -30,18 +23,15 @@ class CurveMeasures(NamedTuple):
 
     largest: d where its magnitude is largest, with its sign. largest_time: the first time of that [s].
     rms: sqrt(<d^2>).
-    largest_of_range, rms_of_range: magnitude of `largest`, and `rms`, over max r - min r.
+    rms_of_range: `rms` over max r - min r.
     mean_reference, mean_other, mean_difference: <r>, <c>, <d>.
-    spread_reference, spread_other, spread_difference: sqrt(<(f - <f>)^2>), f one of r, c, d: standard
-        deviations over time.
-    peak_reference, peak_other: see CurvePeak.
     r_squared: 1 - <d^2> / <(r - <r>)^2>: the coefficient of determination; 1 if c is r, below 0 if c is farther
         from r than the constant <r> is. It is not the square of a correlation, which would not see a factor.
     magnitude_error: M = sqrt(<c^2> / <r^2>) - 1, of Sprague and Geers: 0.1 if c is 10 % larger.
     phase_error: P = 1/pi arccos(<r c> / sqrt(<r^2> <c^2>)): 0 if c is a multiple of r, 1 if a negative one; a
         sine that lags by a share x of its half period has P = x.
     combined_error: C = sqrt(M^2 + P^2).
-    times: number of times at which both are known. left_out: number at which one of them is not.
+    times: number of times at which both are known.
 
     Sources: M. A. Sprague and T. L. Geers, "A spectral-element method for modelling cavitation in transient
     fluid-structure interaction", Int. J. Numer. Meth. Engng 60 (2004) 2467-2499; L. E. Schwer, "Validation
@@ -51,22 +41,15 @@ class CurveMeasures(NamedTuple):
     largest: float = math.nan
     largest_time: float = math.nan
     rms: float = math.nan
-    largest_of_range: float = math.nan
     rms_of_range: float = math.nan
     mean_reference: float = math.nan
     mean_other: float = math.nan
     mean_difference: float = math.nan
-    spread_reference: float = math.nan
-    spread_other: float = math.nan
-    spread_difference: float = math.nan
-    peak_reference: CurvePeak = CurvePeak(math.nan, math.nan)
-    peak_other: CurvePeak = CurvePeak(math.nan, math.nan)
     r_squared: float = math.nan
     magnitude_error: float = math.nan
     phase_error: float = math.nan
     combined_error: float = math.nan
     times: int = 0
-    left_out: int = 0
 
 
 def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasures:
@@ -82,7 +65,7 @@ def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasu
     known = np.isfinite(reference) & np.isfinite(other)
     t, r, c = (np.asarray(curve, dtype=np.float64)[known] for curve in (time, reference, other))
     if not t.size:
-        return CurveMeasures(left_out=len(time))
+        return CurveMeasures()
     d, weights = c - r, _weights(np.asarray(time, dtype=np.float64), known)[known]
 
     def mean(values: Values) -> float:
@@ -91,10 +74,8 @@ def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasu
     def rms(values: Values) -> float:
         return math.sqrt(mean(values**2))
 
-    def spread(values: Values) -> float:
-        return rms(values - mean(values)) if np.ptp(values) > 0.0 else 0.0 * mean(values)
-
     worst, extent, size = int(np.abs(d).argmax()), float(np.ptp(r)), rms(r)
+    spread = rms(r - mean(r)) if extent > 0.0 else 0.0
     magnitude, phase = _ratio(rms(c), size) - 1.0, math.nan
     if size > 0.0 and rms(c) > 0.0:  # the angle between both by its half, whose small values keep their digits
         phase = 2.0 / math.pi * math.atan2(rms(r / size - c / rms(c)), rms(r / size + c / rms(c)))
@@ -102,22 +83,15 @@ def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasu
         largest=float(d[worst]),
         largest_time=float(t[worst]),
         rms=rms(d),
-        largest_of_range=_ratio(abs(float(d[worst])), extent),
         rms_of_range=_ratio(rms(d), extent),
         mean_reference=mean(r),
         mean_other=mean(c),
         mean_difference=mean(d),
-        spread_reference=spread(r),
-        spread_other=spread(c),
-        spread_difference=spread(d),
-        peak_reference=_peak(t, r),
-        peak_other=_peak(t, c),
-        r_squared=1.0 - _ratio(rms(d), spread(r)) ** 2,
+        r_squared=1.0 - _ratio(rms(d), spread) ** 2,
         magnitude_error=magnitude,
         phase_error=phase,
         combined_error=math.hypot(magnitude, phase) if math.isfinite(phase) else math.nan,
         times=int(t.size),
-        left_out=len(time) - int(t.size),
     )
 
 
@@ -125,11 +99,6 @@ def _weights(time: Values, known: npt.NDArray[np.bool_]) -> Values:
     """Weights of the times in an integral [s], (n,): half of the neighbouring intervals with known ends."""
     intervals = np.where(known[1:] & known[:-1], np.diff(time), 0.0)
     return np.asarray(0.5 * (np.append(intervals, 0.0) + np.append(0.0, intervals)))
-
-
-def _peak(time: Values, values: Values) -> CurvePeak:
-    where = int(np.abs(values).argmax())
-    return CurvePeak(float(values[where]), float(time[where]))
 
 
 def _ratio(part: float, whole: float) -> float:

@@ -33,7 +33,6 @@ def notes(pair: ComparedPair) -> Iterator[str]:
             f"found by {pair.shift.channel} (correlation {shift.correlation:.4f}); that is taken off its times"
         )
     yield from _horizon(pair)
-    yield from _numbers(pair)
     yield from _times(pair)
     for channel in pair.channels.values():
         for file, values in ((pair.reference, channel.common.reference), (pair.other, channel.common.other)):
@@ -71,18 +70,6 @@ def _horizon(pair: ComparedPair) -> Iterator[str]:
         yield f"after it {len(differ)} of {len(known)} statistics differ, {sure}: {_some(differ, FEW)}"
     else:
         yield f"after it {len(known)} statistics are equal within the intervals, {sure}"
-
-
-def _numbers(pair: ComparedPair) -> Iterator[str]:
-    """How many of the numbers that two runs report are within both errors."""
-    known = {name: number for name, number in pair.numbers.items() if number.within is not None}
-    larger = {name: number for name, number in known.items() if not number.within}
-    farthest = ""
-    if larger:
-        name = max(larger, key=lambda name: larger[name].times)
-        farthest = f"; the farthest from it is {name}, {larger[name]}"
-    if known:
-        yield f"{len(known) - len(larger)} of {len(known)} reported numbers are within both errors{farthest}"
 
 
 def _times(pair: ComparedPair) -> Iterator[str]:

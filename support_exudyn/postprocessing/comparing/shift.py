@@ -9,7 +9,7 @@ import numpy.typing as npt
 from scipy import optimize, signal
 from scipy.interpolate import CubicSpline
 
-from support_exudyn.postprocessing.comparing.common_times import EvenSamples, even_samples
+from support_exudyn.postprocessing.comparing.common_times import even_samples
 from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
 from user_forces.values.value import InputError
 
@@ -29,13 +29,11 @@ class TimeShift(NamedTuple):
         reference.
     correlation: of both curves at this shift, -1 to 1.
     next_best: the largest correlation at another shift that is a peak of its own; NaN if there is none.
-    at_limit: whether the best shift is the largest that was tried, so that a better shift may lie beyond.
     """
 
     shift: float
     correlation: float
     next_best: float
-    at_limit: bool
 
     @property
     def is_sure(self) -> bool:
@@ -45,7 +43,7 @@ class TimeShift(NamedTuple):
         repeat themselves no shift is sure.
         """
         alone = not self.next_best > self.correlation - APART
-        return not self.at_limit and self.correlation >= ALIKE and alone
+        return self.correlation >= ALIKE and alone
 
 
 class FoundShift(NamedTuple):
@@ -87,9 +85,7 @@ def _shift_or_why(reference: ComparedFile, other: ComparedFile, name: str, unit:
         return str(error)
 
 
-def time_shift(
-    reference_time: Values, reference: Values, other_time: Values, other: Values, most: float = math.inf
-) -> TimeShift:
+def time_shift(reference_time: Values, reference: Values, other_time: Values, other: Values) -> TimeShift:
     """The shift at which two curves correlate best (Pearson), whatever the factor and offset between them.
 
     Both are sampled at the shorter spacing. All lags are tried by which both overlap for half of the shorter
@@ -99,9 +95,8 @@ def time_shift(
     Arguments:
         reference_time, other_time: [s], (n,) and (m,), increasing. reference, other: values; their units may
             differ, for only the shape counts. NaN where a value is not known.
-        most: largest shift that is tried, either way [s].
 
-    Raises InputError if a curve is constant or has too few values, or if no shift is small enough.
+    Raises InputError if a curve is constant or has too few values, or is so at all shifts that are tried.
     """
     pairs = ((reference_time, reference), (other_time, other))
     finest = min(even_samples(*pair).spacing for pair in pairs)
@@ -112,7 +107,7 @@ def time_shift(
                 f"the {name} has {curve.size} values from {curve.min():g} to {curve.max():g}; "
                 f"allowed for a shift in time: at least {FEWEST} that are not all equal"
             )
-    lags, heights = _correlations(mine, its, most)
+    lags, heights = _correlations(mine.values, its.values)
     best = int(np.nanargmax(heights))
     heights = np.where(np.isfinite(heights), heights, -1.0)
     peaks, _ = signal.find_peaks(heights, prominence=APART)
@@ -122,22 +117,19 @@ def time_shift(
         shift=its.start - mine.start + lag * finest,
         correlation=height,
         next_best=float(others.max()) if others.size else math.nan,
-        at_limit=best in (0, lags.size - 1),
     )
 
 
-def _correlations(mine: EvenSamples, its: EvenSamples, most: float) -> tuple[npt.NDArray[np.int64], Values]:
+def _correlations(mine: Values, its: Values) -> tuple[npt.NDArray[np.int64], Values]:
     """The lags that are tried, in samples, and Pearson's correlation over the overlap at each of them.
 
     The correlation is NaN where a curve is constant in the overlap. Sums over the overlap at every lag are
     themselves cross-correlations, of the curves, their squares and ones.
     """
-    count, other_count = mine.values.size, its.values.size
+    count, other_count = mine.size, its.size
     least = max(FEWEST, math.ceil(LEAST_OVERLAP * min(count, other_count)))
     lags = np.arange(least - count, other_count - least + 1, dtype=np.int64)
-    shifts = its.start - mine.start + lags * mine.spacing
-    lags = lags[np.abs(shifts) <= most + 0.5 * mine.spacing]
-    centred = (curve.values - curve.values.mean() for curve in (mine, its))
+    centred = (curve - curve.mean() for curve in (mine, its))
     first, second = (curve / np.abs(curve).max() for curve in centred)
 
     def sums(one: Values, other: Values) -> Values:
@@ -153,8 +145,8 @@ def _correlations(mine: EvenSamples, its: EvenSamples, most: float) -> tuple[npt
     heights = np.clip((sums(first, second) / number - mean * other_mean) / size, -1.0, 1.0)
     if not known.any():
         raise InputError(
-            f"most = {most:g} s: at no shift so small do both curves overlap for half of the shorter curve and "
-            f"vary there; allowed: from {np.abs(shifts).min():g} s on"
+            "at no shift by which both curves overlap for half of the shorter curve do both vary; allowed: "
+            "curves that vary for longer"
         )
     return lags, heights
 

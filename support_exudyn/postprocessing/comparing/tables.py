@@ -1,11 +1,9 @@
-"""The tables of a comparison, which the terminal and the page show: channels, statistics, impacts."""
+"""The tables of a comparison, which the terminal and the page show: channels and statistics."""
 
 from __future__ import annotations
 
 import math
 from typing import NamedTuple
-
-import numpy as np
 
 from support_exudyn.postprocessing.comparing.compared_channel import (
     GAPS,
@@ -23,7 +21,6 @@ from support_exudyn.simulation.estimate import Estimate
 Row = tuple[str, ...]
 DIGITS = 6  # of numbers without a known error
 MOST_DECIMALS = 9
-BALANCED = 1e-14  # of the largest value
 NONE = "-"
 VERDICTS: dict[ToleranceVerdict, str] = {
     "within": "All channels are within their tolerances.",
@@ -64,16 +61,7 @@ def tables(pair: ComparedPair, brief: bool) -> list[Table]:
             statistics,
             "±: half of the confidence interval of the difference.",
         ),
-        Table(
-            "impacts",
-            (
-                "contact", ">matched before the horizon", ">times apart, most", ">speeds apart, most",
-                ">matched after", ">only in reference", ">only in other",
-            ),
-            _impacts(pair),
-            "Matched in their order.",
-        ),
-    ]  # fmt: skip
+    ]
     return [table for table in shown if table.rows]
 
 
@@ -101,14 +89,10 @@ def _channels(pair: ComparedPair) -> Table:
 
 def _errors_known(pair: ComparedPair) -> str:
     """Whose numerical errors are known, in words."""
-    known = [file for file in (pair.reference, pair.other) if file.has_errors]
+    known = [file.name for file in (pair.reference, pair.other) if file.has_errors]
     if len(known) == 2:
         return "± numerical errors of both runs"
-    if not known:
-        run = pair.reference.run or pair.other.run
-        return "numerical errors not known" + ("" if run is None else ": an accuracy was not asked of the runs")
-    rest = pair.other if known[0] is pair.reference else pair.reference
-    return f"± numerical errors of {known[0].name}; those of {rest.name} are not known"
+    return f"± numerical errors of {known[0]} alone" if known else "numerical errors not known"
 
 
 def _channel(one: ComparedChannel) -> Row:
@@ -119,21 +103,14 @@ def _channel(one: ComparedChannel) -> Row:
     return (
         one.name,
         unit.name,
-        number(_rounded(one.reference._replace(error=math.nan), one), unit.scale),
-        number(_rounded(one.mean, one), unit.scale),
+        number(one.reference._replace(error=math.nan), unit.scale),
+        number(one.mean, unit.scale),
         number(largest, unit.scale),
         NONE if math.isnan(one.measures.largest_time) else f"{one.measures.largest_time:.6g}",
         share(one.measures.rms_of_range),
         share(one.measures.combined_error),
         beside(one),
     )
-
-
-def _rounded(mean: Estimate, one: ComparedChannel) -> Estimate:
-    """A mean; 0 if it is the rounding of values that balance."""
-    curves = np.abs(np.concatenate((one.common.reference, one.common.other)))
-    balanced = math.isnan(mean.error) and abs(mean.value) < BALANCED * np.nanmax(curves, initial=0.0)
-    return mean._replace(value=0.0) if balanced else mean
 
 
 def shown_unit(one: ComparedChannel) -> DisplayUnit:
@@ -164,15 +141,12 @@ def share(value: float) -> str:
 
 def beside(one: ComparedChannel) -> str:
     """The largest difference against the numerical errors that are known, in words."""
-    if not one.with_errors:
-        return "not known"
-    words = str(one.beside_errors)
-    if len(one.with_errors) == 2:
-        return words
-    of = f"the error of {one.with_errors[0]}"
-    if one.beside_errors.within is False and math.isfinite(one.beside_errors.times):
-        return f"{words} {of}"
-    return words.replace("both errors", of)
+    words = str(one.beside_errors) if one.with_errors else "not known"
+    return (
+        words.replace("both errors", f"the error of {one.with_errors[0]}")
+        if len(one.with_errors) == 1
+        else words
+    )
 
 
 def verdict_words(one: ComparedChannel) -> str:
@@ -191,20 +165,6 @@ def _statistic(channel: str, what: str, unit: str, one: StatisticDifference) -> 
     return channel, what.replace("_", " "), shown.name, *numbers, half, words
 
 
-def _impacts(pair: ComparedPair) -> tuple[Row, ...]:
-    """A row for each contact that both runs know."""
-    rows = []
-    for contact, matched in pair.impacts.items():
-        if not (matched.pairs or matched.only_first or matched.only_second):
-            continue
-        before = [two for two in matched.pairs if max(two[0].time, two[1].time) < pair.window.horizon]
-        late = said(max(abs(b.time - a.time) for a, b in before), "s") if before else NONE
-        fast = said(max(abs(b.speed - a.speed) for a, b in before), "m/s") if before else NONE
-        counts = len(matched.pairs) - len(before), len(matched.only_first), len(matched.only_second)
-        rows.append((contact, str(len(before)), late, fast, *map(str, counts)))
-    return tuple(rows)
-
-
 # --- why a channel is not within its tolerance ---
 
 
@@ -216,12 +176,6 @@ def faults(one: ComparedChannel) -> list[str]:
         return [f"{one.name}: there is nothing to judge by: there are no two common times."]
     worst_first = sorted(one.judged, key=lambda judged: WORST_FIRST.index(judged.verdict))
     return [_fault(one, judged) for judged in worst_first if judged.verdict in ("not within", "not decided")]
-
-
-def fault(one: ComparedChannel) -> str:
-    """The first of the faults, and how many more there are; empty if there are none."""
-    first, *more = faults(one) or [""]
-    return f"{first} And {len(more)} more." if more else first
 
 
 def _fault(one: ComparedChannel, judged: JudgedDifference) -> str:

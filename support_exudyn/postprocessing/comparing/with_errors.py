@@ -73,21 +73,6 @@ class BesideErrors(NamedTuple):
         return f"larger: {float(f'{self.times:.2g}'):.15g} times"  # 310, and not 3.1e+02
 
 
-def numbers_beside_errors(
-    first: Result, second: Result, after: float = 0.0, until: float = math.inf
-) -> dict[str, BesideErrors]:
-    """Differences of the numbers that both runs report between two times [s], see `Result.numbers`, by name.
-
-    Raises InputError if a run was made without an accuracy, or if no record lies between the times.
-    """
-    mine, its = first.numbers(after, until), second.numbers(after, until)
-    return {
-        name: BesideErrors(its[name].value - number.value, number.error + its[name].error)
-        for name, number in mine.items()
-        if name in its
-    }
-
-
 def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
     """Numerical errors of channels at each of their records, (n,), in their units, by name.
 

@@ -16,8 +16,6 @@ from user_forces.values.names import meant
 from user_forces.values.units import Metres, Pascals
 from user_forces.values.value import InputError, NonNegative, Positive, Whole, value
 
-ALIKE = 1e-6  # share by which two areas differ that are the same
-
 
 @value
 class PressureGauge(Instrument):
@@ -26,12 +24,12 @@ class PressureGauge(Instrument):
     Of a hydraulic cylinder it is the recorded pressure of that side. Otherwise the side that the force F loads
     has |F| / A, and the other none: the piston side where the column is pressed together, the rod side where
     it is pulled apart. A is the area of that side, all cylinders of the column together. A column of oil says
-    it in its scenario; then a bore of the gauge has to fit.
+    it in its scenario.
 
     Arguments:
         column: name of an actuator; in space also of one of a pair, such as front_column_left.
         side: "piston", by default, or "rod".
-        bore: diameter of a cylinder's bore [m], where the scenario says none.
+        bore: diameter of a cylinder's bore [m]; None: as the scenario says.
         rod: diameter of its rod [m], less than the bore; for the rod side.
         cylinders: number of cylinders that the column stands for, 1 by default.
         rate, low_pass, noise [Pa], resolution [Pa]: see `Instrument`.
@@ -63,44 +61,28 @@ class PressureGauge(Instrument):
     def area(self, scenario: Scenario) -> float:
         """Area on which the oil of its side presses [m^2], all cylinders together.
 
-        Raises InputError if neither the scenario nor the gauge says it, or if they contradict each other.
+        That of the gauge goes before that of the scenario. Raises InputError if neither says it.
         """
-        known, own = self._known_area(scenario), self._own_area()
-        if own is None:
-            if known is None:
-                needed = "bore_mm" if self.side == "piston" else "bore_mm and rod_mm"
+        if self.bore is not None and (self.side == "piston" or self.rod is not None):
+            rod = self.rod if self.side == "rod" and self.rod is not None else 0.0
+            if rod >= self.bore:
                 raise InputError(
-                    f"gauge on {self.column}: the area on which the oil presses is not known; "
-                    f"allowed: {needed} of the gauge, diameters, with the number of cylinders; or a scenario "
-                    "whose column is a HydraulicCylinder, or on the piston side an OilColumn"
+                    f"gauge on {self.column}: rod = {1e3 * rod:g} mm: allowed: less than the bore, "
+                    f"{1e3 * self.bore:g} mm"
                 )
-            return known
-        if known is not None and abs(own - known) > ALIKE * known:
-            raise InputError(
-                f"gauge on {self.column}: bore, rod and cylinders give {1e6 * own:.6g} mm^2, and the scenario "
-                f"has {1e6 * known:.6g} mm^2; allowed: the same, or a gauge without them"
-            )
-        return own
-
-    def _known_area(self, scenario: Scenario) -> float | None:
-        """The area of its side that the scenario says [m^2]."""
+            return self.cylinders * math.pi / 4.0 * (self.bore**2 - rod**2)
         whole, share = column_of(scenario, self.column)
         leg = scenario.hydraulics.get(whole)
         if isinstance(leg, HydraulicCylinder):
             return share * (leg.bore_area if self.side == "piston" else leg.rod_side_area)
-        return share * leg.bore_area if isinstance(leg, OilColumn) and self.side == "piston" else None
-
-    def _own_area(self) -> float | None:
-        """The area that the gauge says [m^2]."""
-        if self.bore is None or (self.side == "rod" and self.rod is None):
-            return None
-        rod = self.rod if self.side == "rod" and self.rod is not None else 0.0
-        if rod >= self.bore:
-            raise InputError(
-                f"gauge on {self.column}: rod = {1e3 * rod:g} mm: allowed: less than the bore, "
-                f"{1e3 * self.bore:g} mm"
-            )
-        return self.cylinders * math.pi / 4.0 * (self.bore**2 - rod**2)
+        if isinstance(leg, OilColumn) and self.side == "piston":
+            return share * leg.bore_area
+        needed = "bore_mm" if self.side == "piston" else "bore_mm and rod_mm"
+        raise InputError(
+            f"gauge on {self.column}: the area on which the oil presses is not known; "
+            f"allowed: {needed} of the gauge, diameters, with the number of cylinders; or a scenario "
+            "whose column is a HydraulicCylinder, or on the piston side an OilColumn"
+        )
 
 
 @value

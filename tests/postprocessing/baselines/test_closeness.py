@@ -12,8 +12,7 @@ import pytest
 
 from support_exudyn import InputError, Result, simulate
 from support_exudyn.files.series.named_series import NamedSeries
-from support_exudyn.postprocessing.comparing.baselines import said_apart
-from support_exudyn.postprocessing.comparing.closeness import closeness, difference_figure
+from support_exudyn.postprocessing.comparing.closeness import closeness
 from support_exudyn.postprocessing.export.tables import to_hdf5
 from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
 from support_exudyn.simulation.estimate import Estimate
@@ -106,16 +105,6 @@ def test_what_cannot_be_compared_is_refused(now: Any, was: Any, allowed: Any, sa
         closeness(now, was, allowed)
 
 
-def test_a_failure_has_a_figure_of_both_curves_and_the_difference(tmp_path: Path) -> None:
-    found = closeness(curve(TIME + 0.1), curve(TIME), "0.05 mm")
-    assert said_apart(found, tmp_path).endswith(f"figure: {tmp_path / 'tip.x.png'}")
-    assert (tmp_path / "tip.x.png").read_bytes().startswith(b"\x89PNG")
-    above, below = difference_figure(found[0]).axes
-    assert [line.get_label() for line in above.lines] == ["reference", "result"]
-    assert np.asarray(below.lines[0].get_ydata()) == pytest.approx(0.1)
-    assert below.get_ylabel() == "difference [mm]"
-
-
 # --- runs ---
 
 
@@ -126,7 +115,7 @@ def test_a_run_is_close_to_one_with_other_steps(
     assert_close(other, run)
     assert_close(run.numbers()["pin.B.force.mean"], other.numbers()["pin.B.force.mean"])
     heavier = simulate(replace(rocker(), gravity=(0.0, -9.82)))
-    with pytest.raises(AssertionError, match=r"at t = \S+ s, where the reference is [\s\S]*figure: "):
+    with pytest.raises(AssertionError, match=r"at t = \S+ s, where the reference is "):
         assert_close(heavier, run)
     with pytest.raises(AssertionError, match=r"pin\.B\.\S+: "):
         assert_close(heavier, run, channels=["pin.B.*"])

@@ -17,7 +17,6 @@ from support_exudyn.postprocessing.comparing.with_errors import (
     DOUBT,
     BesideErrors,
     curve_errors,
-    numbers_beside_errors,
 )
 from tests.cases.run_cases import FORCE, loose_support
 
@@ -54,6 +53,16 @@ def point_by_point(first: Result, second: Result, end: float) -> Iterator[tuple[
         assert not np.isnan(error).any()
         times = np.divide(apart, error, out=np.where(apart > 0.0, np.inf, 0.0), where=error > 0.0)
         yield float(times.max()), name, float(first.time[times.argmax()])
+
+
+def numbers_beside_errors(first: Result, second: Result) -> dict[str, BesideErrors]:
+    """Differences of the numbers that both runs report, with both errors, by name."""
+    mine, its = first.numbers(), second.numbers()
+    return {
+        name: BesideErrors(its[name].value - one.value, one.error + its[name].error)
+        for name, one in mine.items()
+        if name in its
+    }
 
 
 def told_equal(first: Result, second: Result) -> tuple[int, int]:

@@ -113,19 +113,16 @@ def test_noise_moves_a_shift_by_a_little(noise: float, least: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("first", "second", "most"),
+    ("first", "second"),
     [
-        (np.sin(60.0 * SECOND), np.sin(60.0 * (SECOND - 0.003)), math.inf),  # repeats itself
-        (*np.random.default_rng(5).normal(size=(2, SECOND.size)), math.inf),  # not alike
-        (bump(SECOND), bump(SECOND - 0.05), 0.02),  # at its limit
+        (np.sin(60.0 * SECOND), np.sin(60.0 * (SECOND - 0.003))),  # repeats itself
+        tuple(np.random.default_rng(5).normal(size=(2, SECOND.size))),  # not alike
     ],
 )
-def test_a_shift_that_is_not_sure(first: np.ndarray, second: np.ndarray, most: float) -> None:
-    assert not time_shift(SECOND, first, SECOND, second, most=most).is_sure
+def test_a_shift_that_is_not_sure(first: np.ndarray, second: np.ndarray) -> None:
+    assert not time_shift(SECOND, first, SECOND, second).is_sure
 
 
 def test_what_has_no_shift_is_refused() -> None:
     with pytest.raises(InputError, match="not all equal"):
         time_shift(SECOND, bump(SECOND), SECOND, np.zeros(SECOND.size))
-    with pytest.raises(InputError, match="at no shift so small"):
-        time_shift(SECOND, bump(SECOND), SECOND + 9.0, bump(SECOND), most=1.0)
