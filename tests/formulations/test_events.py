@@ -16,10 +16,10 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from support_exudyn.formulations.compilation import plain
 from support_exudyn.formulations.compiled import depth as depths
 from support_exudyn.formulations.compiled import events as general_events
 from support_exudyn.formulations.compiled.arrays import CONTACT
+from tests.formulations.plain import plain
 
 C = 10.0  # clearance [m], large: dips of a thousandth of a step are then far above what is called still
 DEPTH = 1.0  # [m], of the order of all depths

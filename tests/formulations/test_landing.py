@@ -8,10 +8,10 @@ import numpy as np
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from support_exudyn.formulations.compilation import plain
 from support_exudyn.formulations.compiled import depth
 from support_exudyn.formulations.compiled import landing as general
 from support_exudyn.formulations.compiled.arrays import CONTACT, REPORT
+from tests.formulations.plain import plain
 
 STEP = 0.125
 
