@@ -41,7 +41,7 @@ def compiled(function: Function) -> Function:
     It is optimised only with the function that Python calls. Divisions by zero give inf or nan, which the
     integrator looks for. No fast-math: results are the same bit for bit from run to run.
     """
-    return _inner(function, pipeline_class=_LinkedCompiler)
+    return _inner(function, **({"pipeline_class": _LinkedCompiler} if CAN_LINK else {}))
 
 
 def often(function: Function) -> Function:
@@ -110,6 +110,18 @@ class _Linked(JITCodeLibrary):  # type: ignore[misc]
     def codegen(self) -> _NoMachine:
         """What makes machine code."""
         return _NoMachine(self._codegen)
+
+
+# other versions of numba may name their parts otherwise: functions are then optimised by themselves, too
+CAN_LINK = all(
+    hasattr(JITCodeLibrary, name)
+    for name in (
+        "_optimize_functions",
+        "_optimize_final_module",
+        "_finalize_final_module",
+        "_finalize_dynamic_globals",
+    )
+)
 
 
 class _LinkedCompiler(Compiler):  # type: ignore[misc]
