@@ -18,16 +18,15 @@ from pathlib import Path
 
 from studies.benchmarking import trade, yardstick
 from studies.benchmarking.peers.built_in import Evaluator, run_built_in
-from studies.benchmarking.scenes import SCENES
 from studies.benchmarking.trade import COMPILED, ENGINE, OURS_COMPILED, OURS_ENGINE, WORK, Point
 from studies.common import paper_machine
-from support_exudyn import CubicStep, Scenario, SolverSettings, simulate
+from support_exudyn import CubicStep, Held, Scenario, SolverSettings, simulate
 from support_exudyn.formulations.registry import FormulationName
 from support_exudyn.postprocessing.page.pieces import Sheet
 
 TURNS = 5
 LONG = 10.0  # more turns are not begun after this time [s]
-DROP, DROP_STEP = replace(SCENES["drop"].scenario, duration=1.0), 5e-5  # [s]
+DROP, DROP_STEP = replace(trade.rise(friction=0.0), drive=Held(), duration=1.0), 5e-5  # [s]
 C_TOLERANCE = 1e-5
 OURS_TOLERANCE = 5e-5  # by which the compiled formulation is as accurate
 CONNECTOR_MOST = 1.25  # the ratio that the user function may cost beside the engine's contact
@@ -89,7 +88,7 @@ def _simulated(scenario: Scenario, formulation: FormulationName, **settings: obj
 
 def measured() -> Iterator[Row]:
     """All rows but those against the programs of others."""
-    rise = SCENES[trade.SCENE].scenario
+    rise = trade.rise()
     yield _beside_c(rise)
     yield connector("function")
     yield connector("joint")
@@ -143,8 +142,9 @@ def _beside_c(rise: Scenario) -> Row:
 def first_run() -> Row:
     """The first run of a fresh installation, which has no compiled code: a process from start to end."""
     program = (
-        "from studies.benchmarking.scenes import SCENES; from support_exudyn import simulate; "
-        f"simulate(SCENES[{trade.SCENE!r}].scenario, accuracy='draft')"
+        "from studies.common import paper_machine as paper; from support_exudyn import simulate; "
+        f"rise = paper.clearance_rise({trade.CLEARANCE_MM}, {paper_machine.SLIDING_COEFFICIENT}, 5e-4, "
+        "law=paper.PAPERS_LAW); simulate(rise, accuracy='draft')"
     )
     with tempfile.TemporaryDirectory() as empty:
         known = {"NUMBA_CACHE_DIR": empty, "PYTHONPATH": str(Path(__file__).parents[2])}

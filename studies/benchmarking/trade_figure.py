@@ -12,6 +12,7 @@ from studies.benchmarking.trade import (
     OURS_ENGINE,
     PRESETS,
     PROGRAMS,
+    STOCK,
     Point,
     lasting_errors,
 )
@@ -21,7 +22,7 @@ from support_exudyn.postprocessing.figures import style
 LOOKS: Mapping[str, tuple[str, str]] = {
     OURS_COMPILED: ("#0072B2", "o"),
     OURS_ENGINE: ("#56B4E9", "o"),
-    "Exudyn, stock recipe": ("#000000", "s"),
+    STOCK: ("#000000", "s"),
     "MuJoCo": ("#D55E00", "P"),
     "Drake": ("#882255", "^"),
     "scipy's LSODA": ("#009E73", "v"),

@@ -12,8 +12,7 @@ from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.contact_ringing import ringing_step
 
 # Errors of the Exudyn formulation are of second order in its steps. At these shares of a scene's times, and
-# with so many steps an impact, statistics of the reference support are right to 1e-4
-# (`studies/speed_accuracy/run.py`).
+# with so many steps an impact, statistics of the reference support are right to 1e-4.
 GOAL_OF_SHARES = 1e-4
 FLIGHT, RESTING, DRIVE = 1.0 / 35.0, 0.2, 1.0 / 250.0
 IMPACT_STEPS = 512

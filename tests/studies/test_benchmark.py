@@ -46,6 +46,12 @@ def test_the_caption_names_what_was_kept_with_its_machine_date_and_versions() ->
     assert "Not measured here" not in trade.caption(HERE)
 
 
+def test_errors_are_distances_from_a_tight_run() -> None:
+    exact = trade.exact_force()
+    assert exact.value == pytest.approx(444589.8641, rel=2e-8)  # errors in kept.json are distances from it
+    assert exact.error < 1e-8 * exact.value  # measured: 1e-10
+
+
 def test_programs_that_are_not_installed_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     absent = {"none": trade.Program("none", {"x": 1.0}, lambda scenario, x: x, "no_such_package")}
     monkeypatch.setattr(trade, "PROGRAMS", {**PROGRAMS, **absent})
