@@ -78,7 +78,11 @@ def test_columns_follow_the_drive_and_friction_acts(peer: Peer) -> None:
             peer.run(scenario, peer.setting)
         return
     found = peer.run(scenario, peer.setting)
-    mean, spread = found.statistics(0.03)
+    inside = found.time > 0.03
+    time = np.concatenate([[0.03], found.time[inside]])
+    series = np.concatenate([[np.interp(0.03, found.time, found.force)], found.force[inside]])
+    mean = np.trapezoid(series, time) / np.ptp(time)
+    spread = np.sqrt(np.trapezoid((series - mean) ** 2, time) / np.ptp(time))
     force = exact.window(f"pin.{PIN}.force", 0.03)
     assert mean == pytest.approx(force.mean, rel=1e-3)
     assert spread == pytest.approx(force.std, rel=2e-3)
@@ -88,7 +92,7 @@ def test_columns_follow_the_drive_and_friction_acts(peer: Peer) -> None:
 @pytest.mark.parametrize("contact", ["function", "joint"])
 def test_our_connector_makes_the_steps_of_the_built_in_contact(contact: Evaluator) -> None:
     built_in, ours = (run_built_in(drop(), 5e-5, contact=one) for one in ("built_in", contact))
-    assert ours.steps == built_in.steps
+    assert ours.time.size == built_in.time.size
     assert ours.force.max() == pytest.approx(built_in.force.max(), rel=1e-4)
 
 

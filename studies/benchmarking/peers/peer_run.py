@@ -1,6 +1,5 @@
 """What a competitor's run gives, how its impacts are found afterwards, and what the competitors share."""
 
-import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -39,19 +38,6 @@ class PeerRun:
     def onsets(self) -> tuple[Onset, ...]:
         """Impacts, by interpolation of the depth."""
         return impacts(self.time, self.depth, self.rate)
-
-    @property
-    def steps(self) -> int:
-        """Accepted steps."""
-        return len(self.time) - 1
-
-    def statistics(self, after: float) -> tuple[float, float]:
-        """Mean and standard deviation of the pin force [N] from a time [s] on, by trapezoids."""
-        inside = self.time > after
-        t = np.concatenate([[after], self.time[inside]])
-        force = np.concatenate([[np.interp(after, self.time, self.force)], self.force[inside]])
-        mean = float(np.trapezoid(force, t) / (t[-1] - t[0]))
-        return mean, math.sqrt(np.trapezoid((force - mean) ** 2, t) / (t[-1] - t[0]))
 
 
 def impacts(
