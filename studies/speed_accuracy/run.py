@@ -52,5 +52,5 @@ def outcome(points: Sequence[Point]) -> StudyOutcome:
     return StudyOutcome(numbers, words, {benchmark.FIGURE: figure(points)}, tables)
 
 
-study = Study("speed_accuracy", __doc__, work, seconds=90.0)
+study = Study("speed_accuracy", __doc__, work, seconds=120.0)
 main = study.main
