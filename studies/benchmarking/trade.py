@@ -35,7 +35,7 @@ from support_exudyn.commands.command_line import warn
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.registry import FormulationName
 from support_exudyn.simulation.provenance import versions
-from support_exudyn.sweeps.precompile import precompile
+from support_exudyn.sweeps.warm_up import warm_up
 
 KEPT = Path(__file__).with_name("kept.json")
 CLEARANCE_MM = 1.5
@@ -185,7 +185,7 @@ def measured(names: Sequence[str] = tuple(PROGRAMS), with_slow: bool = False) ->
     programs = [PROGRAMS[one] for one in names if PROGRAMS[one].is_installed]
     if not programs:
         return
-    precompile()
+    warm_up()
     scenario, exact = rise(), exact_force().value
     name, setting = COMMON
     common = PROGRAMS[name]

@@ -23,7 +23,7 @@ from support_exudyn import SimulationError
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import contents, whole_file
 from support_exudyn.simulation.provenance import installed
-from support_exudyn.sweeps.precompile import precompile
+from support_exudyn.sweeps.warm_up import warm_up
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, worker_pool
 from user_forces.values.value import InputError
 
@@ -68,7 +68,7 @@ def run(
         ended[place] = MachineRow(sample, None, error.reason)
 
     if missing:
-        precompile()  # compile once, for all processes
+        warm_up()  # compile once, for all processes
         with worker_pool(workers) as pool:
             pool.run(missing, _run_one, lambda shares: progress(before + int(sum(shares)), len(samples)), note)
     rows = [ended.get(place) or _read(place) for place in places]

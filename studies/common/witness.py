@@ -89,8 +89,7 @@ def run_on_exudyn(cases: Mapping[str, Scenario], chosen: Options) -> dict[str, R
 def compiling() -> Iterator[None]:
     """Compile the witness meanwhile, in a process of low priority; what is compiled is kept on disk."""
     code = (
-        "import os; getattr(os, 'nice', int)(19); "
-        "from support_exudyn.sweeps.precompile import precompile; precompile()"
+        "import os; getattr(os, 'nice', int)(19); from support_exudyn.sweeps.warm_up import warm_up; warm_up()"
     )
     process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
     try:

@@ -20,7 +20,7 @@ from support_exudyn import (
     SimulationError,
     UniformSpeed,
 )
-from support_exudyn.sweeps.precompile import precompile
+from support_exudyn.sweeps.warm_up import warm_up
 from tests.cases.machine_cases import contact, support
 from tests.compiled_runs import simulate_compiled
 from user_forces import (
@@ -145,7 +145,7 @@ def _bytes() -> bytes:
 
 
 def test_runs_are_the_same_bit_for_bit_also_in_another_process() -> None:
-    precompile()
+    warm_up()
     here = _bytes()
     assert _bytes() == here
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:

@@ -22,10 +22,10 @@ def main() -> None:
     """Until there are no more lines."""
     from studies.claims import hypercube, plausible
     from support_exudyn.sweeps import workers
-    from support_exudyn.sweeps.precompile import precompile
+    from support_exudyn.sweeps.warm_up import warm_up
 
     hypercube._program = lambda: PROGRAM  # type: ignore[assignment]
-    precompile()
+    warm_up()
     for line in sys.stdin:
         method, count, folder = line.rstrip("\n").split(" ", 2)
         machines = plausible.samples(int(count), SEED)

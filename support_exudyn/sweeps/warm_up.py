@@ -11,7 +11,7 @@ from user_forces.journal import JournalBearing
 from user_forces.normal.power_laws import Hertz
 
 
-def precompile() -> None:
+def warm_up() -> None:
     """Compile what scenes without hydraulic legs need, and keep it on disk for other processes.
 
     Runs of a moment: compiled code does not depend on the numbers. Code for legs is compiled at the first scene
