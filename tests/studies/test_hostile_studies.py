@@ -367,7 +367,7 @@ def test_a_machine_whose_process_is_killed_is_a_row_that_is_not_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(hypercube, "_run_one", cheap)
-    monkeypatch.setattr(hypercube, "precompile", lambda: None)
+    monkeypatch.setattr(hypercube, "warm_up", lambda: None)
     machines = [REFERENCE | {"scale": scale} for scale in (0.7, 0.8, 0.9)]
     rows = hypercube.run(machines, tmp_path, OneIsKilled(), lambda done, of: None)
     assert [row.sample["scale"] for row in rows] == [0.7, 0.8, 0.9]

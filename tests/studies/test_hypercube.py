@@ -220,7 +220,7 @@ def ran(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
     monkeypatch.setattr(hypercube, "measures", cheap)
     monkeypatch.setattr(hypercube, "worker_pool", here)
-    monkeypatch.setattr(hypercube, "precompile", lambda: None)
+    monkeypatch.setattr(hypercube, "warm_up", lambda: None)
     return done
 
 
