@@ -23,7 +23,7 @@ from studies.common.runs import run_cases
 from studies.common.study import output_folder
 from studies.extremes import figures as extremes_figures
 from studies.extremes.cases import STEP_STIFFNESS, mapped
-from studies.extremes.runs import run_all
+from studies.extremes.runs import judge_all
 from support_exudyn import Result
 from support_exudyn.commands.command_line import Parser, answered, count, folder
 from support_exudyn.files.whole_file import whole_file
@@ -98,7 +98,7 @@ def spectrum(runs: Runs, path: Path) -> None:
 def map_step_stiffness(runs: Runs, path: Path) -> None:
     """The map of `extremes` by step and stiffness: 169 of its scenes."""
     found = [case for case in mapped() if case.group == STEP_STIFFNESS]
-    verdicts, _ = run_all(found, {}, runs.workers)
+    verdicts = judge_all(found, runs.workers)
     drawn = extremes_figures.figures(list(zip(found, verdicts, strict=True)))
     _save(drawn["map_step_stiffness"], path)
 

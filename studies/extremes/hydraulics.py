@@ -1,26 +1,24 @@
 """Machines on hydraulic legs: what stands on drawn legs, and whether their oil is conserved."""
 
 import math
+from collections.abc import Callable, Mapping
 from functools import cache
 
 import numpy as np
 
-from studies.extremes.drawn_legs import DURATION, Leg
+from studies.extremes.drawn_legs import DURATION, Leg, drawn_drive, drawn_leg, drawn_pump
 from studies.extremes.ranges import Point
-from studies.extremes.scenes import settings
+from studies.extremes.scenes import logarithmic, pressing_roof, settings
 from support_exudyn import (
     Body,
-    CubicStep,
-    Drive,
+    Held,
     HydraulicCylinder,
     IdealPin,
     LinearActuator,
     Linkage,
     Machine,
     OilColumn,
-    PumpStation,
     Result,
-    Roof,
     Scenario,
     Slide,
     reference_support,
@@ -33,6 +31,7 @@ from user_forces.values.value import Vector2, value
 
 RECORDS = 60  # into which a run is cut
 STEP = 2e-4  # [s] where steps are chosen
+FORMULATIONS: tuple[FormulationName, ...] = ("compiled", "exudyn")
 MASS = 16e3  # [kg] of the upright one
 
 
@@ -78,30 +77,18 @@ class CrankOnLeg(Machine):
         )
 
 
-def _leg(head: str, foot_point: Vector2, head_point: Vector2) -> LinearActuator:
-    """A leg from the ground."""
-    return LinearActuator(foot=GROUND, head=head, foot_point=foot_point, head_point=head_point)
-
-
-MACHINES = {  # and their pins that get clearance in some scenes
-    "upright mass": "",
-    "reference support": "rear_base",
-    "two-leg shield": "rear_base",
-    "slider-crank on a leg": "slider_pin",
+MACHINES: Mapping[str, tuple[Callable[[], Machine], str]] = {  # and the pin that gets clearance in some scenes
+    "upright mass": (Upright, ""),
+    "reference support": (reference_support, "rear_base"),
+    "two-leg shield": (lambda: shipped("two_leg_shield").machine, "rear_base"),
+    "slider-crank on a leg": (CrankOnLeg, "slider_pin"),
 }
-
-
-def machine_of(name: str) -> Machine:
-    """The machine of a name."""
-    if name == "two-leg shield":
-        return shipped("two_leg_shield").machine
-    return {"upright mass": Upright, "slider-crank on a leg": CrankOnLeg}.get(name, reference_support)()
 
 
 @cache
 def loads_of(name: str) -> dict[str, tuple[float, float]]:
     """What every actuator of a machine carries at the start [N], < 0 if it is pulled, and its length [m]."""
-    linkage = machine_of(name).linkage()
+    linkage = MACHINES[name][0]().linkage()
     loads = static_loads(linkage, (0.0, -9.81))
     return {leg: (load, linkage.actuators[leg].start_length) for leg, load in loads.items()}
 
@@ -109,56 +96,46 @@ def loads_of(name: str) -> dict[str, tuple[float, float]]:
 # --- scenes ---
 
 
-def on_legs(
-    point: Point,
-    name: str,
-    legs: dict[str, Leg],
-    pump: PumpStation | None,
-    drive: Drive,
-    loose: bool,
-    roof: float,
-    formulation: FormulationName,
-) -> Scenario:
-    """A machine on drawn legs.
+def on_legs(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """A machine on drawn legs: machines take turns, and both formulations; each on columns, cylinders or both.
 
-    Arguments:
-        point: of the clearance pin. name: of the machine. legs: by the names of its actuators.
-        pump: of cylinders. drive: of columns. loose: whether a pin has clearance. roof: what presses the
-        canopy in the end, as a share of what the legs carry; 0: nothing.
+    Columns are driven, and cylinders have a pump in some scenes. A pin may have clearance, and a roof presses
+    the canopy in the end with a share of what the legs carry.
     """
-    machine = machine_of(name)
-    pin = MACHINES[name]
-    under = roof > 0.0 and "canopy" in machine.linkage().bodies
+    name = [*MACHINES][i % len(MACHINES)]
+    make, pin = MACHINES[name]
+    machine, loads = make(), loads_of(name)
+    legs: dict[str, Leg] = {leg: drawn_leg(random, *carried) for leg, carried in loads.items()}
+    cylinders = [leg for leg in legs.values() if isinstance(leg, HydraulicCylinder)]
+    pumped = bool(cylinders) and random.uniform() < 0.4
+    pump = drawn_pump(random, cylinders[0].system_pressure) if pumped else None
+    drive = drawn_drive(random) if len(cylinders) < len(legs) else Held()
+    loose = random.uniform() < 0.4
+    share = logarithmic(random, -1.0, 1.5) if random.uniform() < 0.5 else 0.0
+    roof = {}
+    if share > 0.0 and "canopy" in machine.linkage().bodies:
+        force = share * sum(abs(load) for load, _ in loads.values())
+        roof = {"roof": pressing_roof(_over_columns(machine), 1e-3, 1e8, force, (0.0, 0.9 * DURATION))}
     return Scenario(
         machine=machine,
         pins={pin: point.pin if loose else IdealPin()} if pin else {},
         actuators=legs,
         pump=pump,
         drive=drive,
-        loads={"roof": _roof(machine, name, roof)} if under else {},
+        loads=roof,
         duration=DURATION,
         step=STEP,
         record_period=DURATION / RECORDS,
         solver=settings(point),
-        formulation=formulation,
+        formulation=FORMULATIONS[i // len(MACHINES) % 2],
     )
 
 
-def _roof(machine: Machine, name: str, share: float) -> Roof:
-    """A roof that comes down on the canopy over its columns."""
+def _over_columns(machine: Machine) -> Vector2:
+    """The place of the canopy over its columns."""
     linkage = machine.linkage()
     x = [actuator.head_point[0] for actuator in linkage.actuators.values() if actuator.head == "canopy"]
-    tip = linkage.points["tip"].point
-    force, gap, stiffness = share * sum(abs(load) for load, _ in loads_of(name).values()), 1e-3, 1e8
-    descent = CubicStep(stroke=gap + force / stiffness, start=0.0, end=0.9 * DURATION)
-    return Roof(
-        body="canopy",
-        point=(sum(x) / len(x), tip[1]),
-        gap=gap,
-        stiffness=stiffness,
-        damping=0.0,
-        descent=descent,
-    )
+    return sum(x) / len(x), linkage.points["tip"].point[1]
 
 
 # --- what is asked of them ---

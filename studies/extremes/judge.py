@@ -11,11 +11,10 @@ A run is good if it has finished and what can be asked of it is so:
 """
 
 import math
-import time
 import traceback
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -57,15 +56,14 @@ RADII = (0.5, 0.9)
 class Case:
     """A scene of the study.
 
-    name, group: what it is, and what it belongs to. box: whether it is physically sensible. scenario: makes
-    it, or raises InputError. values: what was varied, for the table.
+    name, group: what it is, and what it belongs to. scenario: makes it, or raises InputError. values: what a
+    map varies.
     """
 
     name: str
     group: str
-    box: bool
     scenario: Callable[[], Scenario]
-    values: Mapping[str, float | str]
+    values: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -77,7 +75,7 @@ class Judgement:
     nan if there is none. energy: by how much it is open as a share of what was turned over. depth: largest
     share of the bore's radius. oil: by how much that of a leg is open as a share of it, nan if none is
     counted. restitution: the largest of free impacts over that of the law, nan if there is none. met: whether
-    an accuracy that was asked for was reached. wall_s: of everything.
+    an accuracy that was asked for was reached.
     """
 
     outcome: str
@@ -90,11 +88,6 @@ class Judgement:
     oil: float = math.nan
     restitution: float = math.nan
     met: bool = False
-    wall_s: float = 0.0
-
-    def row(self) -> dict[str, object]:
-        """Return the verdict as plain data."""
-        return asdict(self)
 
 
 Run = Callable[[Scenario], Result]
@@ -107,16 +100,14 @@ def run_with_its_error(scenario: Scenario) -> Result:
 
 def judge(make: Callable[[], Scenario], run: Run = run_with_its_error) -> Judgement:
     """Make a scene, run it and look at what comes out; warnings are errors."""
-    began = time.perf_counter()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            verdict = _judged(make, run)
+            return _judged(make, run)
     except Exception as error:  # whatever it is: nobody has explained it
         where = traceback.extract_tb(error.__traceback__)[-1]
         said = f"{type(error).__name__}: {error} ({where.filename.rpartition('/')[2]}:{where.lineno})"
-        verdict = Judgement(SILENT, said[:400])
-    return replace(verdict, wall_s=time.perf_counter() - began)
+        return Judgement(SILENT, said[:400])
 
 
 def _judged(make: Callable[[], Scenario], run: Run) -> Judgement:
@@ -229,14 +220,11 @@ def _pull(scenario: Scenario) -> float:
 
     That of a running machine from the time of flight that is known of it; of other drives a guess.
     """
-    moves = (
-        PULL if any(drive.span(scenario.duration) != (0.0, 0.0) for drive in scenario.drives_in_use) else 0.0
-    )
+    moved = any(drive.span(scenario.duration) != (0.0, 0.0) for drive in scenario.drives_in_use)
     clearances = [pin.contact.bearing.clearance for pin in scenario.clearance_pins.values()]
     flight = timescales(scenario).flight
-    return max(
-        [math.hypot(*scenario.gravity), moves, *(2.0 * clearance / flight**2 for clearance in clearances)]
-    )
+    flights = (2.0 * clearance / flight**2 for clearance in clearances)
+    return max(math.hypot(*scenario.gravity), PULL if moved else 0.0, *flights)
 
 
 def _halved(result: Result) -> tuple[Result, Result] | None:

@@ -7,7 +7,7 @@ takes far more steps. A run is measured in the process that calls; for memory th
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -28,8 +28,7 @@ from support_exudyn import (
 )
 from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.formulations.registry import formulation
-from support_exudyn.mechanics.trajectory import Outcome
-from support_exudyn.scenario.recorded_channels import Channel, channels
+from support_exudyn.scenario.recorded_channels import channels
 from support_exudyn.simulation.result_checks import energy_open, joints_apart, result_checks, turned_over
 from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact_state import PinMemory
@@ -56,16 +55,14 @@ STATUS = Path("/proc/self/status")
 class LongRun:
     """What a long run came to.
 
-    scene, simulated, wall: name, [s], [s]. steps, impacts: numbers. gap_first, gap_last: largest distance of
+    simulated, wall: times [s]. steps, impacts: numbers. gap_first, gap_last: largest distance of
     what is joined, in the first and the last tenth of the run [m]. gap_slope: of the line through all [m/s].
     energy_first, energy_open: by how much the balance is open after the first tenth and at the end [J].
     turned_over: kinetic, potential and elastic energy, losses and work that changed hands [J].
-    memory_first, memory_end: resident after a tenth and at the end [bytes]. memory_slope: their difference less
-    what records and impacts take, by simulated time [bytes/s]; nan where the system does not tell.
-    late: largest distance of a record from its time [s].
+    memory_slope: of resident memory from a tenth of the run to its end, less what records and impacts take, by
+    simulated time [bytes/s]; nan where the system does not tell.
     """
 
-    scene: str
     simulated: float
     wall: float
     steps: int
@@ -76,10 +73,7 @@ class LongRun:
     energy_first: float
     energy_open: float
     turned_over: float
-    memory_first: float
-    memory_end: float
     memory_slope: float
-    late: float
 
     @property
     def energy_share(self) -> float:
@@ -90,21 +84,13 @@ class LongRun:
 # --- scenes ---
 
 
-def scene(name: str, duration: float) -> Scenario:
-    """The scene of this name, for so long [s]; names are the keys of SCENES."""
-    return SCENES[name](duration)
-
-
 def _support(duration: float, sliding_coefficient: float | None = None, drive: Drive | None = None) -> Scenario:
-    pin = paper_machine.CLEARANCE_PIN
-    with_clearance = (
-        {}
-        if sliding_coefficient is None
-        else {pin: paper_machine.clearance_joint(CLEARANCE_MM, sliding_coefficient)}
-    )
+    loose = {}
+    if sliding_coefficient is not None:
+        loose[paper_machine.CLEARANCE_PIN] = paper_machine.clearance_joint(CLEARANCE_MM, sliding_coefficient)
     return Scenario(
         machine=reference_support(),
-        pins=with_clearance,
+        pins=loose,
         drive=drive or Reciprocating(stroke=STROKE, period=PERIOD),
         duration=duration,
         formulation="exudyn",
@@ -156,18 +142,18 @@ DURATIONS = {name: 100.0 if name == CRANK else 1000.0 for name in SCENES}  # [s]
 # --- running and measuring ---
 
 
-def run(scenario: Scenario, name: str = "", progress: Progress = silent) -> LongRun:
+def run(scenario: Scenario, progress: Progress = silent) -> LongRun:
     """Run a scenario and measure it.
 
     Raises SimulationError if it fails or does not stand up to the result checks, as `simulate` does.
     """
-    memory = [resident(), math.nan, math.nan]  # before, after a tenth, at the end [bytes]
+    memory = [math.nan, math.nan]  # after a tenth, at the end [bytes]
 
     def watch(share: float) -> None:
-        if share >= 1.0 / PARTS and math.isnan(memory[1]):
-            memory[1] = resident()
+        if share >= 1.0 / PARTS and math.isnan(memory[0]):
+            memory[0] = resident()
         if share >= 1.0:
-            memory[2] = resident()
+            memory[1] = resident()
         progress(share)
 
     chosen = formulation(scenario.formulation)
@@ -179,29 +165,15 @@ def run(scenario: Scenario, name: str = "", progress: Progress = silent) -> Long
     found = channels(scenario, outcome.trajectory)
     if (failure := result_checks(scenario, outcome, found)) is not None:
         raise SimulationError(failure)
-    return _measured(scenario, name, outcome, found, wall, memory)
-
-
-def _measured(
-    scenario: Scenario,
-    name: str,
-    outcome: Outcome,
-    found: dict[str, Channel],
-    wall: float,
-    memory: Sequence[float],
-) -> LongRun:
-    times = outcome.trajectory.time
-    first, last = times <= scenario.duration / PARTS, times >= scenario.duration * (1.0 - 1.0 / PARTS)
     gaps = joints_apart(scenario, outcome)
-    if gaps is None:
-        raise ValueError("the motion was not recorded")
+    assert gaps is not None  # the motion is recorded
     open_by, _ = energy_open(scenario, found)
+    times, tenth = outcome.trajectory.time, scenario.duration / PARTS
+    first, last = times <= tenth, times >= scenario.duration - tenth
     begun = [onset.time for pin in outcome.onsets.values() for onset in pin]
-    later = sum(t > scenario.duration / PARTS for t in begun)
+    later = sum(t > tenth for t in begun)
     kept = (times.size - first.sum()) * record_bytes(scenario) + later * IMPACT
-    nominal = np.minimum(np.arange(times.size) * scenario.recorded_every, scenario.duration)
     return LongRun(
-        scene=name,
         simulated=scenario.duration,
         wall=wall,
         steps=outcome.counts.steps,
@@ -212,10 +184,7 @@ def _measured(
         energy_first=float(open_by[first][-1]),
         energy_open=float(open_by[-1]),
         turned_over=turned_over(found),
-        memory_first=memory[1],
-        memory_end=memory[2],
-        memory_slope=float(memory[2] - memory[1] - kept) / (scenario.duration * (1.0 - 1.0 / PARTS)),
-        late=float(np.abs(times - nominal).max()),
+        memory_slope=float(memory[1] - memory[0] - kept) / (scenario.duration - tenth),
     )
 
 

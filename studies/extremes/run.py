@@ -5,13 +5,11 @@ far beyond what is sensible, in grids and random corners; and runs of up to a th
 judged is told in `studies.extremes.judge`.
 """
 
-import json
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -26,12 +24,10 @@ from studies.extremes.figures import figures
 from studies.extremes.judge import BEFORE, FREE, GOOD, LEAK, MORE, REFUSED, SILENT, Case, Judgement
 from studies.extremes.long_runs import LongRun
 from studies.extremes.ranges import SPANS
-from studies.extremes.runs import PATIENCE, run_all
-from support_exudyn.files.whole_file import whole_file
+from studies.extremes.runs import PATIENCE, judge_all, run_long
 from support_exudyn.formulations.limits import DEEPEST
 from support_exudyn.simulation.result_checks import OPEN
 
-LARGEST_GAP = 1e-8  # [m] in a long run
 OUTCOMES = (GOOD, REFUSED, SILENT)
 SURE = 0.95  # of intervals of what is drawn
 Judged = Sequence[tuple[Case, Judgement]]
@@ -110,10 +106,8 @@ def middle(values: Sequence[float]) -> tuple[float, float]:
 
 def numbers(judged: Judged, long: Long) -> list[Number]:
     """Shares with their counting errors, extremes of this very set of runs, and what long runs came to."""
-    box = [verdict for case, verdict in judged if case.box]
-    random = [verdict for case, verdict in judged if case.group in RANDOM]
-    good = [verdict for verdict in random if verdict.outcome == GOOD]
-    error, of_error = middle([one.error for one in good])
+    box, random = of_groups(judged, (BOX,)), of_groups(judged, RANDOM)
+    error, of_error = middle([one.error for one in random if one.outcome == GOOD])
     found = [
         _share("good", "physically sensible", [one.outcome == GOOD for one in box]),
         _share("accuracy_met", "physically sensible", [one.met for one in box]),
@@ -155,10 +149,24 @@ def _largest(values: Sequence[float]) -> float:
     return max((value for value in values if math.isfinite(value)), default=0.0)
 
 
-def counts(judged: Judged) -> dict[str, int]:
-    """How many runs ended how."""
-    counted = Counter(verdict.outcome for _, verdict in judged)
-    return {f"runs_{outcome}": counted[outcome] for outcome in OUTCOMES}
+def of_groups(judged: Judged, groups: Collection[str]) -> list[Judgement]:
+    """The verdicts on the cases of these groups."""
+    return [verdict for case, verdict in judged if case.group in groups]
+
+
+def ended(verdicts: Sequence[Judgement]) -> dict[str, int]:
+    """How many runs ended how, by outcome."""
+    return {outcome: sum(one.outcome == outcome for one in verdicts) for outcome in OUTCOMES}
+
+
+def checked_twice(verdicts: Sequence[Judgement]) -> int:
+    """How many runs another formulation checked, too."""
+    return sum(math.isfinite(one.other) for one in verdicts)
+
+
+def counts(verdicts: Sequence[Judgement]) -> dict[str, int]:
+    """The counts of the summary."""
+    return {f"runs_{outcome}": number for outcome, number in ended(verdicts).items()}
 
 
 # --- tables ---
@@ -168,10 +176,8 @@ def kind_table(judged: Judged) -> TextTable:
     """How the runs ended, by what they are; the key table."""
     rows = []
     for kind, groups in {**KINDS, "all": (*MAPS, *RANDOM)}.items():
-        here = [verdict for case, verdict in judged if case.group in groups]
-        counted = Counter(verdict.outcome for verdict in here)
-        checked = sum(math.isfinite(verdict.other) for verdict in here)
-        rows.append((kind, str(len(here)), *(str(counted[one]) for one in OUTCOMES), str(checked)))
+        here = of_groups(judged, groups)
+        rows.append((kind, str(len(here)), *map(str, ended(here).values()), str(checked_twice(here))))
     header = ("scenes", "runs", "good", "refused", "silently wrong", "checked by another formulation")
     return TextTable(header, tuple(rows))
 
@@ -180,11 +186,10 @@ def group_table(judged: Judged) -> TextTable:
     """How the runs of every group ended."""
     rows = []
     for group in (*MAPS, *RANDOM):
-        here = [verdict for case, verdict in judged if case.group == group]
-        counted = Counter(verdict.outcome for verdict in here)
+        here = of_groups(judged, (group,))
         good = [verdict for verdict in here if verdict.outcome == GOOD]
         rows.append((
-            group, str(len(here)), *(str(counted[outcome]) for outcome in OUTCOMES),
+            group, str(len(here)), *map(str, ended(here).values()),
             f"{np.median([one.error for one in good]):.1g}" if good else "",
             f"{max(one.energy for one in good):.1g}" if good else "",
         ))  # fmt: skip
@@ -236,11 +241,11 @@ def long_table(long: Long) -> TextTable:
 
 
 def work(chosen: Options) -> StudyOutcome:
-    """All scenes and long runs, judged; every verdict is kept as a line of runs.jsonl."""
+    """All scenes and long runs, judged."""
     found = cases(chosen.runs or DRAWN)
-    verdicts, long = run_all(found, long_runs.DURATIONS, chosen.workers)
+    long = run_long(long_runs.DURATIONS, chosen.workers)
+    verdicts = judge_all(found, chosen.workers)
     judged = list(zip(found, verdicts, strict=True))
-    save_rows(chosen.out / "runs.jsonl", judged)
     tables = {
         "table_kinds": kind_table(judged),
         "table_groups": group_table(judged),
@@ -249,15 +254,14 @@ def work(chosen: Options) -> StudyOutcome:
         "table_long": long_table(long),
     }
     return StudyOutcome(
-        numbers(judged, long), words(judged, long), figures(judged), tables, counts=counts(judged)
+        numbers(judged, long), words(judged, long), figures(judged), tables, counts=counts(verdicts)
     )
 
 
 def words(judged: Judged, long: Long) -> dict[str, object]:
     """What the sentences are filled with."""
-    box = [verdict for case, verdict in judged if case.box]
-    random = [verdict for case, verdict in judged if case.group in RANDOM]
-    refused = [verdict for _, verdict in judged if verdict.outcome == REFUSED]
+    every = [verdict for _, verdict in judged]
+    box, random = of_groups(judged, (BOX,)), of_groups(judged, RANDOM)
     lasting = [run for run in long.values() if isinstance(run, LongRun)]
     return {
         "runs": len(judged),
@@ -266,14 +270,14 @@ def words(judged: Judged, long: Long) -> dict[str, object]:
         "limits": SimpleNamespace(OPEN=OPEN, DEEPEST=DEEPEST, FREE=FREE, LEAK=LEAK, MORE=MORE),
         "patience": PATIENCE,
         "sure": SURE,
-        "counts": counts(judged),
+        "counts": counts(every),
         "silent": of([verdict.outcome == SILENT for verdict in random]),
         "good_in_box": of([verdict.outcome == GOOD for verdict in box]),
         "met_in_box": of([verdict.met for verdict in box]),
-        "no_scene": sum(verdict.reason.startswith(BEFORE) for verdict in refused),
-        "checked": sum(math.isfinite(verdict.other) for _, verdict in judged),
+        "no_scene": sum(verdict.reason.startswith(BEFORE) for verdict in every),
+        "checked": checked_twice(every),
         "maps": {group: _of_map(group, judged) for group in MAPS},
-        "energy_open": _largest([one.energy for _, one in judged if one.outcome == GOOD]),
+        "energy_open": _largest([one.energy for one in every if one.outcome == GOOD]),
         "lasting": lasting,
         "lost": {name: why for name, why in long.items() if isinstance(why, str)},
         "gap": _largest([run.gap_last for run in lasting]),
@@ -283,25 +287,9 @@ def words(judged: Judged, long: Long) -> dict[str, object]:
 
 def _of_map(group: str, judged: Judged) -> dict[str, float]:
     """How the runs of a map ended, and the errors of its good ones."""
-    here = [verdict for case, verdict in judged if case.group == group]
-    counted = Counter(verdict.outcome for verdict in here)
+    here = of_groups(judged, (group,))
     errors = [verdict.error for verdict in here if verdict.outcome == GOOD]
-    found = {outcome: counted[outcome] for outcome in OUTCOMES}
-    return {**found, "runs": len(here), "median": float(np.median(errors)), "worst": _largest(errors)}
-
-
-def save_rows(path: Path, judged: Judged) -> None:
-    """One line of JSON a run: its name, what was varied, and its verdict."""
-    with whole_file(path) as temporary, temporary.open("w", encoding="utf-8") as file:
-        for case, verdict in judged:
-            row = {"name": case.name, "group": case.group, "box": case.box, "values": case.values}
-            file.write(json.dumps(row | _known(verdict), allow_nan=False) + "\n")
-
-
-def _known(verdict: Judgement) -> dict[str, object]:
-    """What a verdict says, without what JSON has no word for."""
-    said = verdict.row().items()
-    return {name: value for name, value in said if not isinstance(value, float) or math.isfinite(value)}
+    return {**ended(here), "runs": len(here), "median": float(np.median(errors)), "worst": _largest(errors)}
 
 
 study = Study("extremes", __doc__, work, seconds=830.0)

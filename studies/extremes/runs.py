@@ -1,26 +1,18 @@
 """All cases and long runs in parallel processes, each watched: hangs and crashes are silent failures, too."""
 
 import signal
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
 from studies.common.runs import bar
 from studies.extremes import judge, long_runs
-from studies.extremes.cases import BOX, CLEARANCE_SPEED
 from studies.extremes.judge import SILENT, Case, Judgement
 from studies.extremes.long_runs import LongRun
 from support_exudyn import SimulationError
-from support_exudyn.sweeps.workers import ProcessEndedError, Workers, report, worker_pool
+from support_exudyn.sweeps.workers import Workers, report, worker_pool
 
 PATIENCE = 300.0  # [s]; a run that takes longer hangs
-# what a scene takes on average [s], of those that do not take a second: the longest are begun first
-SECONDS = {
-    "dead centre": 12.0, "slider-crank": 8.0, "space": 4.0, "hang-up": 3.0, BOX: 2.0, CLEARANCE_SPEED: 1.5,
-}  # fmt: skip
-OTHERS = 0.8  # [s]
-OF_LONG = 15.0  # [s], of a long run
-Job = tuple[Any, ...]
 
 
 class HangError(BaseException):
@@ -47,8 +39,9 @@ def patience(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
-def judged(case: Case) -> Judgement:
+def judged(place: int, case: Case) -> Judgement:
     """Judge a case, in a worker."""
+    del place
     report(0.0)
     try:
         with patience(PATIENCE):
@@ -57,52 +50,34 @@ def judged(case: Case) -> Judgement:
         return Judgement(SILENT, f"hang: {error}")
 
 
-def lasted(name: str, duration: float) -> LongRun | str:
+def lasted(place: int, name: str, duration: float) -> LongRun | str:
     """Make a long run, in a worker; return why there is none if it fails."""
+    del place
     try:
-        return long_runs.run(long_runs.scene(name, duration), name, report)
+        return long_runs.run(long_runs.SCENES[name](duration), report)
     except SimulationError as error:
         return str(error)
 
 
-def run_all(
-    cases: Sequence[Case], durations: dict[str, float], workers: int | Workers
-) -> tuple[list[Judgement], dict[str, LongRun | str]]:
-    """Verdicts on cases, in their order, and long runs by name, under a progress bar.
+def judge_all(cases: Sequence[Case], workers: int | Workers) -> list[Judgement]:
+    """Verdicts on cases, in their order, under a progress bar.
 
-    Arguments:
-        cases: the cases.
-        durations: of long runs, by their names [s].
-        workers: number of processes, or a pool.
-
-    A long run that failed says why.
+    workers: number of processes, or a pool.
     """
-    jobs: list[tuple[float, Job]] = [
-        (OF_LONG, (lasted, name, duration)) for name, duration in durations.items()
-    ]
-    jobs += [(SECONDS.get(case.group, OTHERS), (judged, case)) for case in cases]
-    order = sorted(range(len(jobs)), key=lambda n: -jobs[n][0])
-    seconds = [jobs[n][0] for n in order]
-    mean = sum(seconds) / max(1, len(seconds))
-
-    def crashed(error: ProcessEndedError) -> Judgement | str:
-        said = f"crash: {error.reason}"
-        return said if order[error.place] < len(durations) else Judgement(SILENT, said)
-
-    title = f"{len(cases)} scenes" + (f", {len(durations)} long runs" if durations else "")
-    with worker_pool(workers) as pool, bar(title) as told:
-
-        def tell(shares: Sequence[float]) -> None:
-            told([share * one / mean for share, one in zip(shares, seconds, strict=True)])
-
-        found = pool.run([jobs[n][1] for n in order], _do, tell, crashed)
-    results = [one for _, one in sorted(zip(order, found, strict=True), key=lambda pair: pair[0])]
-    verdicts = [one for one in results if isinstance(one, Judgement)]
-    return verdicts, {
-        name: one for name, one in zip(durations, results, strict=False) if not isinstance(one, Judgement)
-    }
+    with worker_pool(workers) as pool, bar(f"{len(cases)} scenes") as told:
+        return pool.run(
+            [(case,) for case in cases],
+            judged,
+            told,
+            lambda error: Judgement(SILENT, f"crash: {error.reason}"),
+        )
 
 
-def _do(place: int, work: Callable[..., Judgement | LongRun | str], *given: Any) -> Judgement | LongRun | str:
-    del place
-    return work(*given)
+def run_long(durations: Mapping[str, float], workers: int | Workers) -> dict[str, LongRun | str]:
+    """Long runs by their names, under a progress bar; of a run that failed why.
+
+    durations: of the runs [s]. workers: number of processes, or a pool.
+    """
+    with worker_pool(workers) as pool, bar(f"{len(durations)} long runs") as told:
+        found = pool.run([*durations.items()], lasted, told, lambda error: f"crash: {error.reason}")
+    return dict(zip(durations, found, strict=True))

@@ -1,12 +1,15 @@
-"""Scenes at the extremes, made from a point of the ranges and what is special to a group."""
+"""Scenes at the extremes, made from a point of the ranges and what is special to a group.
+
+A random scene of a group takes the point, its number in the group, by which alternatives take turns, and a
+generator of random numbers that draws the rest.
+"""
 
 import math
 from dataclasses import replace
 from functools import cache
-from typing import Literal, TypedDict
+from typing import TypedDict
 
 import numpy as np
-from typing_extensions import Unpack
 
 from studies.common import paper_machine
 from studies.extremes.ranges import Point
@@ -20,7 +23,6 @@ from support_exudyn import (
     Reciprocating,
     Roof,
     Scenario,
-    SliderCrank,
     SolverSettings,
     Steady,
     cylinders_and_rods,
@@ -46,6 +48,11 @@ HALF, LOAD = 0.5, 5e4  # of the depth under this load [N], at which journals sta
 RECORDS = 101.0  # of two free bodies: none of them at the impact
 MOST_OF_FLIGHT = 10_000.0  # steps of theirs
 SLIDER_BEARING = 0.01  # bore radius at the slider [m]
+ACCURACIES: tuple[Accuracy, ...] = ("draft", "standard", "reference")
+STARTS = ("concentric", "closed", "overlapping", "settled")
+BODIES = ("rear_link", "front_link", "shield", "canopy")
+LONG_ROD = 0.12  # [m] of the slider-crank that passes dead centres
+GROWTHS = (1.0, 8.0, 64.0)  # of steps
 
 
 class Times(TypedDict):
@@ -56,17 +63,10 @@ class Times(TypedDict):
     duration: float
 
 
-class OtherSettings(TypedDict, total=False):
-    """What is tried of the solver besides step and spectral radius, see `SolverSettings`."""
-
-    newton: Literal["modified", "full"]
-    growth: float
-
-
-def settings(point: Point, **more: Unpack[OtherSettings]) -> SolverSettings:
+def settings(point: Point) -> SolverSettings:
     """The settings of a run whose steps are chosen."""
     return SolverSettings(
-        spectral_radius=point.spectral_radius, impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS, **more
+        spectral_radius=point.spectral_radius, impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS
     )
 
 
@@ -109,6 +109,15 @@ def fallen(point: Point) -> Scenario:
     )
 
 
+def corner(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """The fall; by turns without static friction, and with friction whose two speeds are alike."""
+    if i % 10 == 0:
+        point = replace(point, static_speed_m_s=0.0)
+    elif i % 10 == 1:
+        point = replace(point, mu=max(point.mu, 0.1), static_speed_m_s=point.dynamic_speed_m_s)
+    return fallen(point)
+
+
 def stroke_of(point: Point, time: float, stroke: float, accuracy: Accuracy, records: int) -> Scenario:
     """The support raised or lowered within a time [s], to an accuracy."""
     drive = CubicStep(stroke=stroke, start=0.1 * time, end=1.1 * time)
@@ -138,6 +147,11 @@ def boxed(point: Point, accuracy: Accuracy, drive: Drive) -> Scenario:
     return limited(scene)
 
 
+def drawn_boxed(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """A physically sensible scene: the accuracies take turns, and strokes with supports that are held."""
+    return boxed(point, ACCURACIES[i % 3], Held() if i % 2 else gentle(point))
+
+
 def limited(scene: Scenario) -> Scenario:
     """A scene to an accuracy, with as many steps as its formulation may take in a minute or so."""
     assert scene.goal is not None
@@ -151,25 +165,23 @@ def gentle(point: Point) -> Drive:
     return CubicStep(stroke=0.1 * seconds, start=0.5 * seconds, end=0.9 * seconds)
 
 
-def with_solver(point: Point, **solver: Unpack[OtherSettings]) -> Scenario:
-    """The fall, with other settings of the solver."""
-    scene = fallen(point)
-    return replace(scene, solver=settings(point, **solver))
+def with_solver(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """The fall with other settings of the solver, by turns on columns of oil."""
+    point = replace(point, spectral_radius=(0.0, 0.5, 1.0, point.spectral_radius)[i % 4])
+    solver = replace(settings(point), newton="full" if i % 2 else "modified", growth=GROWTHS[i % 3])
+    actuators = paper_machine.oil_columns() if i % 2 else {}
+    return replace(fallen(point), solver=solver, actuators=actuators)
 
 
-def on_oil(point: Point, **solver: Unpack[OtherSettings]) -> Scenario:
-    """The fall on columns of oil, with other settings of the solver."""
-    return replace(with_solver(point, **solver), actuators=paper_machine.oil_columns())
-
-
-def weightless(point: Point) -> Scenario:
+def weightless(point: Point, i: int, random: np.random.Generator) -> Scenario:
     """Columns that go up and down without gravity: the journal flies from side to side."""
     drive = Reciprocating(stroke=0.01, period=0.1)
     return replace(fallen(point), gravity=(0.0, 0.0), drive=drive)
 
 
-def started(point: Point, start: str) -> Scenario:
+def started(point: Point, i: int, random: np.random.Generator) -> Scenario:
     """The journal in the middle, touching, pressed in, or settled."""
+    start = STARTS[i % len(STARTS)]
     x, y = rest_direction()
     share = {"concentric": 0.0, "closed": 1.0, "overlapping": 1.0, "settled": 0.0}[start]
     here = replace(point, bore="first", eccentricity=(share * x, share * y))
@@ -180,9 +192,9 @@ def started(point: Point, start: str) -> Scenario:
     return replace(scene, start="settled" if start == "settled" else "concentric")
 
 
-def everywhere(point: Point, friction: bool) -> Scenario:
-    """Clearance in every pin at once."""
-    pin = (point if friction else replace(point, mu=0.0)).pin
+def everywhere(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """Clearance in every pin at once, by turns with friction."""
+    pin = (point if i % 2 else replace(point, mu=0.0)).pin
     machine = reference_support()
     return Scenario(
         machine=machine,
@@ -192,8 +204,14 @@ def everywhere(point: Point, friction: bool) -> Scenario:
     )
 
 
-def of_masses(point: Point, body: str, factor: float) -> Scenario:
-    """One body so many times as heavy."""
+def logarithmic(random: np.random.Generator, low: float, high: float) -> float:
+    """A number between two powers of ten, given by their exponents; its logarithm is even."""
+    return float(10.0 ** random.uniform(low, high))
+
+
+def of_masses(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """One body up to ten thousand times as heavy, or as light."""
+    body, factor = BODIES[i % len(BODIES)], logarithmic(random, -4.0, 4.0)
     machine = reference_support()
     parts = {
         name: tuple(_heavier(part, factor) for part in kept) if name == body else kept
@@ -226,45 +244,62 @@ def colliding(point: Point, ratio: float, speed: float) -> Scenario:
     )
 
 
-def of_posture(point: Point, height: float, stroke: float, with_clearance: bool) -> Scenario:
-    """The support from a height of its hinge [m], through a stroke [m] within a tenth of a second."""
+def drawn_impact(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """Two free bodies without friction, of any mass ratio and speed."""
+    ratio, speed = logarithmic(random, -4.0, 4.0), logarithmic(random, -4.0, 1.0)
+    return colliding(replace(point, mu=0.0), ratio, speed)
+
+
+def of_posture(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """The support from any height of its hinge, through any stroke within a tenth of a second."""
+    height, stroke = float(random.uniform(1.0, 3.6)), float(random.uniform(-1.0, 1.5))  # [m]
     machine: HydraulicSupport = replace(reference_support(), start_hinge_height=height)
     return Scenario(
         machine=machine,
-        pins={PIN: point.pin if with_clearance else IdealPin()},
+        pins={PIN: point.pin if i % 2 else IdealPin()},
         drive=CubicStep(stroke=stroke, start=0.01, end=0.11),
         solver=settings(point),
         **times(point),
     )
 
 
-def under_roof(point: Point, force: float, stiffness: float, oil: bool) -> Scenario:
-    """A roof that lands on the canopy and presses with a force [N], with a clearance pin below."""
+def under_roof(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """A roof that lands on the canopy and presses, with a clearance pin below; by turns on columns of oil."""
+    force, stiffness = logarithmic(random, 4.0, 7.0), logarithmic(random, 7.0, 10.0)  # [N], [N/m]
     machine = reference_support()
     tip = machine.linkage().points["tip"].point
-    hinge = machine.start().hinge
-    place = (0.5 * (tip[0] + hinge[0]), tip[1])
-    gap = 0.002
-    roof = Roof(
+    place = (0.5 * (tip[0] + machine.start().hinge[0]), tip[1])
+    return replace(
+        fallen(replace(point, step_s=min(point.step_s, 1e-3))),
+        loads={"roof": pressing_roof(place, 0.002, stiffness, force, (0.01, 0.09))},
+        actuators=paper_machine.oil_columns() if i % 2 else {},
+        duration=max(0.1, 0.12 * point.pace),
+    )
+
+
+def pressing_roof(
+    place: tuple[float, float], gap: float, stiffness: float, force: float, span: tuple[float, float]
+) -> Roof:
+    """A roof that closes a gap [m] over a place of the canopy [m] and then presses with a force [N].
+
+    stiffness: [N/m]. span: start and end of its descent [s].
+    """
+    start, end = span
+    return Roof(
         body="canopy",
         point=place,
         gap=gap,
         stiffness=stiffness,
         damping=0.0,
-        descent=CubicStep(stroke=gap + force / stiffness, start=0.01, end=0.09),
-    )
-    return replace(
-        fallen(replace(point, step_s=min(point.step_s, 1e-3))),
-        loads={"roof": roof},
-        actuators=paper_machine.oil_columns() if oil else {},
-        duration=max(0.1, 0.12 * point.pace),
+        descent=CubicStep(stroke=gap + force / stiffness, start=start, end=end),
     )
 
 
-def hung_up(point: Point, angle: float) -> Scenario:
-    """The slider-crank at rest, its rod hung up by friction in the clearance slider pin."""
+def hung_up(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """The slider-crank at rest at any angle, its rod hung up by friction in the clearance slider pin."""
+    angle = float(random.uniform(0.0, 2.0 * math.pi))
     machine = replace(ravn_slider_crank(), start_angle=angle)
-    pin = _small(point)
+    pin = _small(replace(point, mu=max(point.mu, 0.5)))
     x = pin.contact.bearing.clearance
     return Scenario(
         machine=machine,
@@ -292,6 +327,11 @@ def cranked(point: Point, rpm: float, accuracy: Accuracy | None) -> Scenario:
     return scene if accuracy is None else limited(replace(scene, accuracy=accuracy))
 
 
+def drawn_crank(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """A slider-crank of 10 to 10 000 rpm, by turns to the accuracies and at chosen steps."""
+    return cranked(point, logarithmic(random, 1.0, 4.0), (*ACCURACIES, None)[i % 4])
+
+
 def _small(point: Point) -> ClearancePin:
     """The pin in the slider's bearing, whose clearance is at most half of the bore."""
     clearance = min(point.clearance_m, 0.5 * SLIDER_BEARING)
@@ -299,27 +339,21 @@ def _small(point: Point) -> ClearancePin:
     return replace(point, clearance_m=clearance, bore_radius=SLIDER_BEARING, stiffness=light).pin
 
 
-def long_crank(rod: float, crank: float) -> SliderCrank:
-    """A slider-crank of these lengths [m]; as long as each other it would have no dead centre left to pass."""
-    return replace(ravn_slider_crank(), rod_length=rod, crank_length=crank)
+def past_dead_centre(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """A crank nearly as long as its rod: the slider is then nearly at the crank's pivot.
+
+    As long as each other they would have no dead centre left to pass.
+    """
+    share = 1.0 - logarithmic(random, -6.0, -0.5)
+    machine = replace(ravn_slider_crank(), rod_length=LONG_ROD, crank_length=LONG_ROD * share)
+    return replace(cranked(point, 300.0, None), machine=machine)
 
 
-def past_dead_centre(point: Point, share: float) -> Scenario:
-    """A crank nearly as long as its rod: the slider is then nearly at the crank's pivot."""
-    scene = cranked(point, 300.0, None)
-    return replace(scene, machine=long_crank(0.12, 0.12 * share))
-
-
-def in_space(point: Point) -> Scenario:
+def in_space(point: Point, i: int, random: np.random.Generator) -> Scenario:
     """The fall, with both sides of the machine."""
     return replace(fallen(point), dimensions=3, duration=times(point, 0.05)["duration"], solver=settings(point))
 
 
-def heavy_columns(point: Point) -> Scenario:
+def heavy_columns(point: Point, i: int, random: np.random.Generator) -> Scenario:
     """The fall with columns of two bodies each."""
     return replace(fallen(point), actuators=cylinders_and_rods())
-
-
-def rest_angle(random: np.random.Generator) -> float:
-    """A crank angle [rad]."""
-    return float(random.uniform(0.0, 2.0 * math.pi))

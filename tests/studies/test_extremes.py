@@ -9,11 +9,9 @@ import os
 import signal
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import fields, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,7 +21,7 @@ from studies.common.options import Options
 from studies.extremes import judge as judge_module
 from studies.extremes import long_runs, runs, scenes
 from studies.extremes import run as extremes
-from studies.extremes.cases import BOX, DRAWN, HYDRAULICS, MAPS, RANDOM, cases, mapped
+from studies.extremes.cases import ALL, BOX, DRAWN, HYDRAULICS, MAPS, RANDOM, cases, mapped
 from studies.extremes.hydraulics import oil_open
 from studies.extremes.judge import (
     GOOD,
@@ -35,7 +33,7 @@ from studies.extremes.judge import (
     judge,
     run_with_its_error,
 )
-from studies.extremes.ranges import LARGEST_SPEED, SPANS, Point
+from studies.extremes.ranges import LARGEST_SPEED, SPANS, Point, drawn
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.formulations.limits import DEEPEST
 from support_exudyn.mechanics.time_statistics import TimeStatistics
@@ -43,8 +41,8 @@ from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.reported_numbers import measured
 from support_exudyn.simulation.result_checks import turned_over
 from support_exudyn.sweeps import workers
-from support_exudyn.sweeps.workers import Workers, worker_pool
-from tests.at_once import AtOnce, at_once
+from support_exudyn.sweeps.workers import worker_pool
+from tests.at_once import at_once
 from tests.hostile import posix_only
 from user_forces import InputError
 
@@ -70,7 +68,7 @@ def impact() -> Scenario:
 @pytest.fixture(scope="module")
 def full() -> list[Case]:
     """As many as were drawn at first."""
-    return cases(sum(RANDOM.values()))
+    return cases(ALL)
 
 
 def test_there_are_many_different_cases_of_every_group(full: list[Case]) -> None:
@@ -82,23 +80,18 @@ def test_there_are_many_different_cases_of_every_group(full: list[Case]) -> None
     assert len(cases(1)) - len(list(mapped())) == len(RANDOM)  # one of each
 
 
-def told(chosen: list[Case]) -> list[tuple[object, ...]]:
-    return [(case.name, case.group, case.box, dict(case.values)) for case in chosen]
-
-
-def test_cases_are_the_same_every_time_and_more_have_fewer_among_them(full: list[Case]) -> None:
-    assert told(cases(sum(RANDOM.values()))) == told(full)
-    by_name = {one[0]: one for one in told(full)}
-    for number in (1, 100, DRAWN):
-        assert all(by_name[one[0]] == one for one in told(cases(number)))
-
-
 def made_of(case: Case) -> Scenario | str:
     """Its scenario, or why there is none."""
     try:
         return case.scenario()
     except InputError as error:
         return str(error)
+
+
+def test_cases_are_the_same_every_time_and_more_have_fewer_among_them(full: list[Case]) -> None:
+    by_name = {case.name: case for case in full}
+    for case in cases(100):
+        assert case.group in MAPS or made_of(by_name[case.name]) == made_of(case)
 
 
 def test_every_case_makes_a_scenario_or_says_why_not(full: list[Case]) -> None:
@@ -109,33 +102,29 @@ def test_every_case_makes_a_scenario_or_says_why_not(full: list[Case]) -> None:
     assert 0 < len(said) < 0.1 * len(made)
 
 
-def test_random_cases_keep_to_their_ranges_and_those_of_the_box_lie_in_it(full: list[Case]) -> None:
-    checked = 0
-    for case in full:
+@pytest.mark.parametrize("box", [False, True])
+def test_random_points_keep_to_their_ranges(box: bool) -> None:
+    for n in range(500):
+        point = drawn(np.random.default_rng(n), box)
         for name, span in SPANS.items():
-            value = case.values.get(name)
-            if not isinstance(value, float):
-                continue
-            low, high = span.sensible if case.box else (span.low, span.high)
-            if name in ("static_speed_m_s", "mu") and value == 0.0:
+            value = getattr(point, name, None)
+            if value is None or (name in ("static_speed_m_s", "mu") and value == 0.0):
                 continue  # without static friction, or any
-            checked += 1
+            low, high = span.sensible if box else (span.low, span.high)
             # the rounding of powers
-            assert low * (1.0 - 1e-12) <= value <= high * (1.0 + 1e-12), (case.name, name)
-        assert float(case.values.get("dynamic_speed_m_s", 0.0)) <= LARGEST_SPEED
-    assert checked > 10_000
+            assert low * (1.0 - 1e-12) <= value <= high * (1.0 + 1e-12), (n, name)
+        assert point.dynamic_speed_m_s <= LARGEST_SPEED
 
 
 def test_the_box_is_what_its_scenes_are(full: list[Case]) -> None:
-    boxed = [case for case in full if case.box]
-    assert {case.group for case in boxed} == {BOX}
-    for case in boxed[::10]:
+    boxed = [case for case in full if case.group == BOX]
+    for n, case in enumerate(boxed[:60:10]):
         scene = case.scenario()
         contact = scene.clearance_pins[PIN].contact
         low, high = SPANS["clearance_m"].sensible
         assert low * (1.0 - 1e-12) <= contact.bearing.clearance <= high * (1.0 + 1e-12)
         assert SPANS["restitution"].sensible[0] <= contact.normal.restitution <= 1.0
-        assert scene.accuracy == case.values["accuracy"]
+        assert scene.accuracy == scenes.ACCURACIES[10 * n % 3]
 
 
 # --- the judge ---
@@ -390,7 +379,7 @@ def test_a_check_by_steps_does_not_damp_out_what_the_loaded_contact_still_does(
 
 
 def of(make: Callable[[], Scenario], name: str = "one", group: str = "start") -> Case:
-    return Case(name, group, False, make, {})
+    return Case(name, group, make)
 
 
 def sleep() -> Scenario:
@@ -415,7 +404,7 @@ def test_a_run_that_hangs_is_a_silent_failure(
 ) -> None:
     monkeypatch.setattr(runs, "PATIENCE", 0.3)
     before, began = signal.getsignal(signal.SIGALRM), time.perf_counter()
-    found = runs.judged(of(make))
+    found = runs.judged(0, of(make))
     assert found == Judgement(SILENT, "hang: no end after 0.3 s")
     assert time.perf_counter() - began < 50.0  # not 60, or for ever
     # nothing rings later
@@ -425,10 +414,10 @@ def test_a_run_that_hangs_is_a_silent_failure(
 
 def test_a_run_that_ends_in_time_is_let_be(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(runs, "PATIENCE", 60.0)
-    assert runs.judged(of(impact)).outcome == GOOD
+    assert runs.judged(0, of(impact)).outcome == GOOD
 
 
-def killed_at_one(case: Case) -> Judgement:
+def killed_at_one(place: int, case: Case) -> Judgement:
     """In a process of its own, in place of `runs.judged`."""
     if case.name == "1":
         os.kill(os.getpid(), signal.SIGKILL)
@@ -444,36 +433,9 @@ def test_a_process_that_is_killed_is_a_silent_failure_of_its_case_alone(
     context.set_forkserver_preload([__name__])
     monkeypatch.setattr(workers, "CONTEXT", context)
     with worker_pool(1) as pool:
-        found, _ = runs.run_all([of(impact, str(n)) for n in range(3)], {}, pool)
+        found = runs.judge_all([of(impact, str(n)) for n in range(3)], pool)
     assert [verdict.outcome for verdict in found] == [GOOD, SILENT, GOOD]
     assert found[1].reason.startswith("crash: the process that computed it ended: signal 9 (SIGKILL")
-
-
-def test_the_share_done_is_that_of_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    shares: list[float] = []
-
-    @contextmanager
-    def listening(name: str) -> Iterator[Callable[[list[float]], None]]:
-        assert name == "2 scenes"
-        yield lambda parts: shares.append(sum(parts) / len(parts))
-
-    class Half(Workers):
-        """Tells of each job when it is done."""
-
-        def run(self, jobs: Any, work: Any, progress: Any, ended: Any = None) -> list[Any]:
-            done = []
-            for n, job in enumerate(jobs, 1):
-                done.append(work(n - 1, *job))
-                progress([1.0] * n + [0.0] * (len(jobs) - n))
-            return done
-
-    monkeypatch.setattr(runs, "bar", listening)
-    monkeypatch.setattr(runs, "judged", lambda case: Judgement(GOOD, case.name))
-    two = [of(fall, "short", "roof"), of(fall, "long", "dead centre")]
-    found, _ = runs.run_all(two, {}, Half(AtOnce(), []))
-    assert [verdict.reason for verdict in found] == ["short", "long"]
-    long, short = runs.SECONDS["dead centre"], runs.OTHERS
-    assert shares == [pytest.approx(long / (long + short)), pytest.approx(1.0)]  # the longest is first
 
 
 # --- shares of what was drawn ---
@@ -510,6 +472,7 @@ def test_the_error_of_a_median_covers_that_of_all_that_could_be_drawn() -> None:
 # --- the whole study ---
 
 SHORT = 2.0  # [s] of long runs
+LARGEST_GAP = 1e-8  # [m] in them
 LASTING = (long_runs.IDEAL, long_runs.SMOOTH)
 
 
@@ -528,7 +491,7 @@ def few() -> list[Case]:
     found[5] = replace(found[5], scenario=broken)
     point = Point(pace=0.2)
     box = of(lambda: scenes.boxed(point, "draft", scenes.Held()), "boxed", BOX)
-    return [*found, replace(box, box=True, values={"accuracy": "draft"})]
+    return [*found, box]
 
 
 def shorter(case: Case) -> Case:
@@ -583,19 +546,8 @@ def test_the_summary_counts_every_run(out: Path) -> None:
     assert numbers["accuracy_met", "physically sensible"] == 1.0
     assert 0.0 < numbers["largest_half_over_reported", "the 5 good of 7 runs"] < 1.0
     for name in LASTING:
-        assert 0.0 < numbers["largest_gap", f"{name}, {SHORT:g} s"] < extremes.LARGEST_GAP
+        assert 0.0 < numbers["largest_gap", f"{name}, {SHORT:g} s"] < LARGEST_GAP
     assert all(math.isfinite(value) for value in numbers.values())
-
-
-def test_every_run_has_its_line(out: Path) -> None:
-    rows = [json.loads(line) for line in (out / "runs.jsonl").read_text(encoding="utf-8").splitlines()]
-    assert [row["name"] for row in rows] == [case.name for case in few()]
-    outcomes = [row["outcome"] for row in rows]
-    assert outcomes == [GOOD, REFUSED, GOOD, GOOD, GOOD, SILENT, GOOD]
-    assert rows[1]["reason"].startswith("before the run: Scenario.duration = -1.0")
-    assert rows[5]["reason"].startswith("ZeroDivisionError")
-    assert rows[0]["half"] < rows[0]["error"]
-    assert "restitution" not in rows[0]  # no impact there is free: not a number, and left out
 
 
 def test_the_chapter_can_be_read_and_its_maps_are_there(out: Path) -> None:
@@ -618,14 +570,3 @@ def test_the_chapter_can_be_read_and_its_maps_are_there(out: Path) -> None:
         assert (out / f"{picture.stem}.png").stat().st_size > 10_000
     silent = next(sheet for sheet in told.sheets if sheet.title == "Silent failures")
     assert [row[0] for row in silent.rows] == [few()[5].name]
-
-
-def test_numbers_that_json_has_no_word_for_are_left_out(tmp_path: Path) -> None:
-    verdict = Judgement(GOOD, error=math.inf, half=math.nan, energy=0.25)
-    extremes.save_rows(tmp_path / "rows.jsonl", [(of(fall), verdict)])
-
-    def unknown(word: str) -> float:
-        raise AssertionError(word)
-
-    row = json.loads((tmp_path / "rows.jsonl").read_text(encoding="utf-8"), parse_constant=unknown)
-    assert (row["energy"], "error" in row, "half" in row) == (0.25, False, False)
