@@ -23,7 +23,7 @@ MAPPED = """
 [files."seen.csv".columns]
 "tip.x" = { column = "Tip X", sign = -1 }
 "tip.force" = "Force"
-[units]
+[files."seen.csv".units]
 t = "s"
 "Tip X" = "m"
 Force = "kN"
@@ -44,7 +44,7 @@ TEXTS = {
     "other.csv": "time_s,a,b_N\n0,1,1\n1,2,2\n",
     "share.csv": "time_s,a [-],F[1]_N,load [g]\n0,0.02,5,1000\n1,0.01,5,3000\n",
     "percent.csv": "time_s,a [%],F[1]_N,load [kg]\n0,2.5,6,1.5\n1,1,5,3\n",
-    "units.toml": '[units]\nt = "s"\n',
+    "units.toml": '[files."seen.csv".units]\nt = "s"\n',
     "compare.toml": MAPPED,
 }
 
@@ -146,8 +146,9 @@ def test_what_is_compared(
         ("marked.csv kind.csv --tolerance pin.force=1N", "pin.force: is in kN in marked.csv"),
         (
             "marked.csv same.csv less.csv --tolerance pin.force=1%",
-            "has a tolerance, 1%, and is not in all files",
+            "pin.force: less.csv has no such channel; marked.csv has tip.x, pin.force",
         ),
+        ("marked.csv same.csv --tolerance pin.*=1%,tup.*=1mm", "'tup.*': no such channel is compared"),
         ("plain.csv other.csv", "b: is in m in plain.csv"),
     ],
 )
@@ -191,7 +192,9 @@ def test_what_has_no_unit_or_another_kind_is_left_out(folder: Path, capsys: pyte
     assert ended("marked.csv same.csv kind.csv --json --junit x.xml") == 0
     files = json.loads(capsys.readouterr().out)["files"]
     assert [list(one["channels"]) for one in files.values()] == [["tip.x", "pin.force"], ["tip.x"]]
-    assert 'compare.toml, [units] "Marker" = "mm"' in files["same.csv"]["not_alike"]["Marker"]
+    assert (
+        'compare.toml, [files."marked.csv".units] "Marker" = "mm"' in files["same.csv"]["not_alike"]["Marker"]
+    )
     assert any(note.startswith("left out: pin.force, Marker; ") for note in files["kind.csv"]["notes"])
     skipped = ElementTree.parse(folder / "x.xml").getroot().findall("testsuite/testcase[skipped]")
     assert [case.get("name") for case in skipped] == ["Marker", "pin.force", "Marker"]

@@ -123,7 +123,7 @@ def _increasing(
     if unit is None:
         raise InputError(
             f"{where}: have no unit; allowed: one in the title, such as time_s or 'time [ms]', or in "
-            f'compare.toml, [units] "{column.name}" = "s"'
+            f'compare.toml, [files."{path.name}".units] "{column.name}" = "s"'
         )
     if not is_time(unit):
         raise InputError(f"{where}: are in {short(unit)}; allowed: a unit of time, such as s, ms, min")

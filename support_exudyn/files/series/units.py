@@ -124,7 +124,7 @@ def converted(series: NamedSeries, unit: str) -> npt.NDArray[np.float64]:
         wanted = unit or "1"
         raise InputError(
             f"{series.name}: its file gives no unit, and {unit or 'a pure number'} is asked for; allowed: a "
-            f"unit in the column's title, '{series.name} [{wanted}]', or in compare.toml, [units] "
-            f'"{series.name}" = "{wanted}"'
+            f"unit in the column's title, '{series.name} [{wanted}]', or in compare.toml, "
+            f'[files.FILE.units] "{series.name}" = "{wanted}"'
         )
     return scaled(series.values, series.unit, unit, series.name)

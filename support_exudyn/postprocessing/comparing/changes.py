@@ -8,8 +8,8 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.comparing.closeness import compared_columns
-from support_exudyn.postprocessing.comparing.impacts import match_impacts
 from support_exudyn.postprocessing.comparing.kept_run import (
     MOST_IMPACTS,
     KeptColumn,
@@ -17,9 +17,9 @@ from support_exudyn.postprocessing.comparing.kept_run import (
     KeptRun,
     kept_number,
 )
+from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.units import readable_change
 from support_exudyn.simulation.estimate import Estimate
-from user_forces.contact_state import Onset
 
 Kind = Literal["changed", "new", "gone"]
 # share of a pin's fastest impact, below which rounding decides whether there is a touch at all
@@ -116,9 +116,9 @@ def _column(
         yield RunChange("changed", what, name, said=f"in {was.unit} -> in {now.unit}")
     elif not was.time.size or was.time[0] <= end:
         one = compared_columns(name, now, was, until=end)
-        if one.verdict == "not within":
+        if one.judged.verdict == "not within":
             first, second = _at(was, one.time or 0.0), _at(now, one.time or 0.0)
-            yield RunChange("changed", what, name, first, second, one.time, one.ratio)
+            yield RunChange("changed", what, name, first, second, one.time, one.judged.ratio)
 
 
 def _at(column: KeptColumn, time: float) -> Estimate:
@@ -128,7 +128,7 @@ def _at(column: KeptColumn, time: float) -> Estimate:
 
 
 def _impacts(old: KeptRun, new: KeptRun, end: float) -> Iterator[RunChange]:
-    """Impacts are matched in their order; an impact without a partner is gone, or new.
+    """Two impacts are matched that are nearest to each other; an impact without a partner is gone, or new.
 
     Only so many of a pin are kept: beyond the last that both have kept nothing is gone.
     """
@@ -137,27 +137,30 @@ def _impacts(old: KeptRun, new: KeptRun, end: float) -> Iterator[RunChange]:
     end = min([(1.0 - AT_THE_HORIZON) * end, *((1.0 - AT_THE_END) * time for time in times)])
     for pin in [pin for pin in old.impacts if pin in new.impacts]:
         was, now = old.impacts[pin], new.impacts[pin]
-        places = [{_onset(impact): n for n, impact in enumerate(side)} for side in (was, now)]
-        matched = match_impacts([*places[0]], [*places[1]])
-        for one, other in matched.pairs:
-            n, m = places[0][one], places[1][other]
+        times_of = [np.array([impact.time.value for impact in side]) for side in (was, now)]
+        matched = _matched(*times_of)
+        for n, m in matched.items():
             for word, first, second in zip(("time", "speed"), was[n], now[m], strict=True):
                 for change in _column(
                     "impact", f"{pin}: {n + 1}, {word}", kept_number(first), kept_number(second)
                 ):
-                    yield change._replace(time=one.time)
+                    yield change._replace(time=was[n].time.value)
         last = min([end, *(side[-1].time.value for side in (was, now) if len(side) >= MOST_IMPACTS)])
         least = SLIGHT * max((impact.speed.value for impact in (*was, *now)), default=0.0)
-        for onset in matched.only_first:
-            if _counts(was[n := places[0][onset]], last, least):
-                yield RunChange("gone", "impact", f"{pin}: {n + 1}", was[n].time, None, onset.time)
-        for onset in matched.only_second:
-            if _counts(now[n := places[1][onset]], last, least):
-                yield RunChange("new", "impact", f"{pin}: {n + 1}", None, now[n].time, onset.time)
+        for n, impact in enumerate(was):
+            if n not in matched and _counts(impact, last, least):
+                yield RunChange("gone", "impact", f"{pin}: {n + 1}", impact.time, None, impact.time.value)
+        for m, impact in enumerate(now):
+            if m not in matched.values() and _counts(impact, last, least):
+                yield RunChange("new", "impact", f"{pin}: {m + 1}", None, impact.time, impact.time.value)
 
 
-def _onset(impact: KeptImpact) -> Onset:
-    return Onset(impact.time.value, impact.speed.value)
+def _matched(first: Series, second: Series) -> dict[int, int]:
+    """Times of two runs (n,) and (m,) [s] that are nearest to each other, by their places in both."""
+    if not (first.size and second.size):
+        return {}
+    partners, back = nearest(second, first).tolist(), nearest(first, second).tolist()
+    return {n: m for n, m in enumerate(partners) if back[m] == n}
 
 
 def _counts(impact: KeptImpact, end: float, least: float) -> bool:

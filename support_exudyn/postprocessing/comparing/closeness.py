@@ -15,7 +15,11 @@ from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.comparing.common_times import on_common_times
-from support_exudyn.postprocessing.comparing.compared_channel import ToleranceVerdict
+from support_exudyn.postprocessing.comparing.compared_channel import (
+    WORST_FIRST,
+    JudgedDifference,
+    verdict_ranks,
+)
 from support_exudyn.postprocessing.comparing.compared_file import is_own
 from support_exudyn.postprocessing.comparing.kept_run import KeptColumn, kept_impacts, kept_number
 from support_exudyn.postprocessing.comparing.mapping import PERCENT, Tolerance, tolerance
@@ -29,7 +33,7 @@ from user_forces.values.value import InputError, short
 Measured = Result | NamedSeries | Estimate | float
 Reference = Measured | SeriesFile | str | PathLike[str] | Mapping[str, NamedSeries | Estimate | float]
 ALONE = "it"  # the name of a number without a name
-KINDS = "a Result, a NamedSeries, an Estimate, a number"
+KINDS = "a NamedSeries, an Estimate, a number"
 BOTH_ERRORS = "both errors"
 
 
@@ -37,9 +41,7 @@ class Closeness(NamedTuple):
     """A curve or number against its reference, at the record that is farthest beyond what is allowed.
 
     name: of it. unit: of all. time: of the record [s]; None of a number. value, reference: there.
-    allowed: by how much they may differ. error: of their difference, where that is not what is allowed.
-    ratio: difference over what is allowed; infinite if nothing is allowed, or unknown.
-    verdict: on all records. rule: the tolerance in words.
+    judged: their difference, with its error where that is not what is allowed. rule: the tolerance in words.
     """
 
     name: str
@@ -47,28 +49,25 @@ class Closeness(NamedTuple):
     time: float | None
     value: float
     reference: float
-    allowed: float
-    error: float
-    ratio: float
-    verdict: ToleranceVerdict
+    judged: JudgedDifference
     rule: str
 
     @property
     def is_close(self) -> bool:
         """Whether it is surely as close as is allowed."""
-        return self.verdict == "within"
+        return self.judged.verdict == "within"
 
     def __str__(self) -> str:
         """The worst number in a line: where, what it is, what it should be."""
         at = "" if self.time is None else f" at t = {self.time:.6g} s"
-        now, was, limit = self._said(self.value, 9), self._said(self.reference, 9), self._said(self.allowed, 3)
+        now, was = self._said(self.value, 9), self._said(self.reference, 9)
+        limit = self._said(self.judged.allowed, 3)
         words = f"{self.name}: {now}{at}, where the reference is {was}: "
-        if self.verdict == "not decided":
-            known = self._said(self.error, 3) if math.isfinite(self.allowed) else "not known"
+        if self.judged.verdict == "not decided":
+            known = self._said(self.judged.error, 3) if math.isfinite(self.judged.error) else "not known"
             words += f"it cannot be told whether they are close, for the numerical error is {known}"
             return f"{words}; allowed: {limit} ({self.rule}); a higher accuracy may tell"
-        apart = self._said(abs(self.value - self.reference), 3)
-        return f"{words}they differ by {apart}; allowed: {limit} ({self.rule})"
+        return f"{words}they differ by {self._said(self.judged.value, 3)}; allowed: {limit} ({self.rule})"
 
     def _said(self, value: float, digits: int) -> str:
         return f"{value:.{digits}g} {self.unit}".rstrip()
@@ -107,7 +106,7 @@ def closeness(
         end = min([until, *(kept_impacts(run)[1] for run in runs)])
     pairs = _pairs(result, reference, channels, (after, until))
     compared = [compared_columns(name, mine, its, rule, after, end) for name, mine, its in pairs]
-    return sorted(compared, key=lambda one: (one.is_close, -one.ratio))
+    return sorted(compared, key=lambda one: (one.is_close, -one.judged.ratio))
 
 
 def _rule(allowed: float | str | None) -> Tolerance | None:
@@ -129,31 +128,18 @@ def _pairs(
     result: Measured, reference: Any, channels: Sequence[str], window: tuple[float, float]
 ) -> list[tuple[str, KeptColumn, KeptColumn]]:
     """Names, and the columns of both."""
-    several = isinstance(reference, (Result, SeriesFile, Mapping))
     if not isinstance(result, Result):
-        if several:
-            raise InputError(
-                f"result = {short(result)}: has one value, its reference several; allowed: a Result, or the "
-                "one channel or number of the reference"
-            )
         name = result.name if isinstance(result, NamedSeries) else ALONE
         return [(name, _column(result), _column(reference))]
-    if not several and not isinstance(reference, NamedSeries):
-        raise InputError(
-            f"reference = {short(reference)}: is one number, the result a whole run; allowed: numbers by names"
-        )
     numbers = result.numbers(*window) if result.coarser is not None else {}
-    others: Mapping[str, Any] = {reference.name: reference} if isinstance(reference, NamedSeries) else reference
-    if isinstance(reference, SeriesFile):
-        others = reference.series
-    elif isinstance(reference, Result):
-        others = {name: None for name, channel in reference.channels.items() if channel.is_determined}
-    known = [name for name in others if name in result.channels or name in numbers]
-    if isinstance(reference, Mapping) and len(known) < len(others):
-        missing = next(name for name in others if name not in known)
-        meaning = meant(missing, [*result.channels, *numbers])
-        raise InputError(f"{missing}: the result has no such channel or number with an error; {meaning}")
-    names = [name for name in (matching(known, channels) if channels else known) if name != "time"]
+    own = [*result.channels, *numbers]
+    others = _several(reference)
+    if isinstance(reference, Mapping) and (missing := [name for name in others if name not in own]):
+        raise InputError(
+            f"{missing[0]}: the result has no such channel or number with an error; {meant(missing[0], own)}"
+        )
+    known = [name for name in others if name in own and name != "time"]
+    names = matching(known, channels) if channels else known
     if not names:
         raise InputError(
             "reference: has no channel of the result; allowed: names such as "
@@ -166,6 +152,21 @@ def _pairs(
     else:
         its = {name: _column(others[name]) for name in names}
     return [(name, mine[name], its[name]) for name in names]
+
+
+def _several(reference: Any) -> Mapping[str, Any]:
+    """What a run is compared with, by its names. Raises InputError if that is a number without a name."""
+    if isinstance(reference, Result):
+        return {name: channel for name, channel in reference.channels.items() if channel.is_determined}
+    if isinstance(reference, SeriesFile):
+        return reference.series
+    if isinstance(reference, NamedSeries):
+        return {reference.name: reference}
+    if isinstance(reference, Mapping):
+        return reference
+    raise InputError(
+        f"reference = {short(reference)}: is one number, the result a whole run; allowed: numbers by names"
+    )
 
 
 def _columns(run: Result, names: Sequence[str]) -> dict[str, KeptColumn]:
@@ -223,7 +224,9 @@ def compared_columns(
                 f"{name}: no numerical error is known; allowed: a tolerance, such as '2 %', or runs with an "
                 "accuracy"
             )
-        return _worst(name, unit, time, values, reference, errors + more, np.zeros(values.size), BOTH_ERRORS)
+        known = np.isfinite(errors)
+        allowed, errors = np.where(known, errors + more, 0.0), np.where(known, 0.0, math.inf)
+        return _worst(name, unit, time, values, reference, allowed, errors, BOTH_ERRORS)
     size = float(np.nanmax(reference) - np.nanmin(reference)) if time.size else abs(float(reference[0]))
     allowed = np.full(values.size, rule.in_si(name, unit, size))
     of = f" of the {'range' if time.size else 'value'} of the reference" if rule.is_relative else ""
@@ -249,16 +252,12 @@ def _worst(
     off = np.abs(values - reference)
     off[np.isnan(reference)] = 0.0
     off = np.where(np.isnan(off), math.inf, off)
-    unknown = ~np.isfinite(allowed)
-    undecided = unknown | ((errors > allowed) & (off - errors <= allowed))
-    beyond = (off > allowed) & ~undecided
-    ratio = np.divide(off, allowed, out=np.where(off > 0.0, math.inf, 0.0), where=allowed > 0.0)
-    ratio[unknown] = 0.0
-    verdict: ToleranceVerdict = "not within" if beyond.any() else "not decided" if undecided.any() else "within"
-    if verdict == "not decided":
-        where = int(np.where(undecided, np.where(unknown, math.inf, errors), -1.0).argmax())
+    ranks = verdict_ranks(off, errors, allowed)
+    if WORST_FIRST[ranks.min()] == "not decided":
+        sizes = errors
     else:
-        where = int(np.where(beyond | ~beyond.any(), ratio, -1.0).argmax())
+        sizes = np.divide(off, allowed, out=np.where(off > 0.0, math.inf, 0.0), where=allowed > 0.0)
+    where = int(np.where(ranks == ranks.min(), sizes, -1.0).argmax())
     at = float(time[where]) if time.size else None
-    now, was, limit, error = (float(one[where]) for one in (values, reference, allowed, errors))
-    return Closeness(name, unit, at, now, was, limit, error, float(ratio[where]), verdict, rule)
+    judged = JudgedDifference(rule, float(off[where]), float(errors[where]), float(allowed[where]))
+    return Closeness(name, unit, at, float(values[where]), float(reference[where]), judged, rule)

@@ -41,17 +41,36 @@ class JudgedDifference(NamedTuple):
 
     @property
     def verdict(self) -> ToleranceVerdict:
-        """Within, or not; not decided if the error is larger than what is allowed and could turn the answer.
+        """Whether it is allowed, see `verdict_ranks`."""
+        return WORST_FIRST[int(verdict_ranks(self.value, self.error, self.allowed))]
 
-        A difference that is no number is not decided: it could not be computed. Without a tolerance it is told.
-        """
-        if math.isnan(self.allowed):
-            return "told"
-        if math.isnan(self.value) or math.isinf(self.error):
-            return "not decided"
-        if self.error > self.allowed and self.value - self.error <= self.allowed:
-            return "not decided"
-        return "within" if self.value <= self.allowed * (1.0 + ROUNDING) else "not within"
+    @property
+    def ratio(self) -> float:
+        """The difference over what is allowed; infinite if nothing is allowed, NaN if one is not known."""
+        if self.allowed > 0.0 or math.isnan(self.allowed):
+            return self.value / self.allowed
+        return math.inf if self.value > 0.0 else 0.0
+
+
+def verdict_ranks(
+    value: float | Values, error: float | Values, allowed: float | Values
+) -> npt.NDArray[np.intp]:
+    """Verdicts on differences as places in `WORST_FIRST`, in the shape of the arguments.
+
+    Within, or not; not decided if the error is larger than what is allowed and could turn the answer, or if it
+    has no end. A difference that is no number is not decided: it could not be computed. Without a tolerance,
+    NaN, it is told.
+
+    Arguments:
+        value: magnitudes of differences. error: by how much they may be wrong. allowed: magnitudes.
+    """
+    value, error, allowed = (np.asarray(item) for item in (value, error, allowed))
+    unsure = (error > allowed) & (value - error <= allowed)
+    return np.select(
+        [np.isnan(allowed), np.isnan(value) | np.isinf(error) | unsure, value <= allowed * (1.0 + ROUNDING)],
+        [WORST_FIRST.index("told"), WORST_FIRST.index("not decided"), WORST_FIRST.index("within")],
+        WORST_FIRST.index("not within"),
+    )
 
 
 def worst(verdicts: Iterable[ToleranceVerdict]) -> ToleranceVerdict:

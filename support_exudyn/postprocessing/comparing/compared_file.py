@@ -21,6 +21,7 @@ from support_exudyn.files.series.units import converted, scaled, unit_checked
 from support_exudyn.files.toml.faults import nearest
 from support_exudyn.postprocessing.comparing.mapping import MappedColumn, MappedFile
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
+from support_exudyn.postprocessing.figures.units import QUANTITIES
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -30,12 +31,7 @@ ENDING = ".h5"  # of runs
 HEAD = 64  # bytes by which a run is recognised
 ANGLE, TURN = "rad", 2.0 * math.pi
 ROUNDING = 1e-6  # of a turn, by which a file's digits may leave the range of a wrapped angle
-# the house's units, each of another kind; of a work and a moment the words decide
-UNITS = (
-    "s", "m", "m/s", "m/s^2", "N", "N m", "rad", "rad/s", "rad/s^2", "Pa", "m^3/s", "kg", "Hz", "W", "N/m",
-    "N s", "m^2", "m^3", "1",
-)  # fmt: skip
-WORK = re.compile(r"joule|J|Wh")
+WORK = re.compile(r"joule|J|Wh")  # of a work and a moment, which have one unit, the words decide
 
 
 @dataclass(frozen=True)
@@ -238,13 +234,13 @@ def turns_apart(reference: Values, other: Values) -> float:
 
 @cache
 def si_unit(unit: str) -> str:
-    """The house's unit of the kind of a unit: "N" of kN, "m" of inch; itself if it is of no kind of the house.
+    """The SI unit of the kind of a unit: "N" of kN, "m" of inch; the unit itself if no channel is of its kind.
 
     Raises InputError if it is no unit.
     """
-    known = ("J", *UNITS) if WORK.search(unit) else (*UNITS, "J")
     unit_checked(unit, "unit")
-    return next((each for each in known if of_a_kind(unit, each)), unit)
+    kinds = [each for each in QUANTITIES if of_a_kind(unit, each)]
+    return "J" if "J" in kinds and WORK.search(unit) else next(iter(kinds), unit)
 
 
 @cache
@@ -272,7 +268,7 @@ def channel_unit(reference: ComparedFile, other: ComparedFile, channel: str) -> 
         )
         raise InputError(
             f"{which}; allowed: one in the column's title, such as '{column} [mm]', or in compare.toml, "
-            f'[units] "{column}" = "mm"'
+            f'[files."{file.path.name}".units] "{column}" = "mm"'
         )
     runs = [unit for file, unit in zip(files, units, strict=True) if file.run is not None]
     for unit in runs[:1] or [si_unit(unit) for unit in units]:  # g may be of an acceleration, not where kg are

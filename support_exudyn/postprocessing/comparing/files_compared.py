@@ -29,7 +29,6 @@ from support_exudyn.postprocessing.comparing.compared_file import (
 from support_exudyn.postprocessing.comparing.mapping import (
     CompareFile,
     Tolerance,
-    check_patterns,
     of_channel,
     read_compare_file,
     read_tolerances,
@@ -134,8 +133,11 @@ def compare_files(
     first, *rest = _read(given, mapping, channels, progress)
     asked = read_tolerances(tolerance) if isinstance(tolerance, str) else list(tolerance)
     tolerances = [*asked, *tolerances_of(mapping)]
-    chosen = [common_channels(first, other, channels) for other in rest]
-    check_named(tolerances, chosen)
+    named = [*channels, *(each.pattern for each in tolerances)]
+    chosen = [common_channels(first, other, channels, named) for other in rest]
+    compared = list(dict.fromkeys(name for common in chosen for name in common.units))
+    for each in tolerances:
+        matching(compared, [each.pattern], f"channel is compared, tolerance {each.text}")
     pairs = tuple(
         _pair(first, other, common, (after, until), tolerances, find_shift)
         for other, common in zip(rest, chosen, strict=True)
@@ -211,17 +213,19 @@ def same_to_the_bit(reference: ComparedFile, other: ComparedFile) -> int:
 # --- the channels that two files have in common ---
 
 
-def common_channels(reference: ComparedFile, other: ComparedFile, patterns: Sequence[str]) -> CommonChannels:
+def common_channels(
+    reference: ComparedFile, other: ComparedFile, patterns: Sequence[str], named: Sequence[str]
+) -> CommonChannels:
     """The channels that are compared, and those that are not, though they are asked for.
 
     patterns: names, or patterns as in a shell; without, of two runs forces and traced points, else all.
+    named: of channels that are asked for, or have a tolerance; patterns among them are passed over.
 
-    Raises InputError if nothing is left, or if a channel that is asked for by its name, or that is mapped,
-    cannot be compared.
+    Raises InputError if nothing is left, or if a channel that is named, or mapped, cannot be compared.
     """
     mine, its = reference.channels, set(other.channels)
     asked = matching(mine, patterns) if patterns else _usual(reference, other)
-    for name in patterns:
+    for name in named:
         if name in mine and name not in its:
             raise InputError(f"{name}: {other.name} has no such channel; {_way_out(reference, other)}")
     if its.isdisjoint(asked):
@@ -229,10 +233,10 @@ def common_channels(reference: ComparedFile, other: ComparedFile, patterns: Sequ
             f"{reference.path}, {other.path}: have no channel in common; {_way_out(reference, other)}"
         )
     known = {name: _unit_or_why(reference, other, name) for name in asked if name in its}
-    named = {*patterns, *reference.mapped.columns, *other.mapped.columns}
     units = {name: unit for name, (unit, why) in known.items() if not why}
     not_alike = {name: why for name, (_, why) in known.items() if why}
-    if refused := [why for name, why in not_alike.items() if name in named]:
+    wanted = {*named, *reference.mapped.columns, *other.mapped.columns}
+    if refused := [why for name, why in not_alike.items() if name in wanted]:
         raise InputError(refused[0])
     if not units:
         raise InputError("\n".join(list(not_alike.values())[:SHOWN]))
@@ -245,23 +249,6 @@ def _unit_or_why(reference: ComparedFile, other: ComparedFile, name: str) -> tup
         return channel_unit(reference, other, name), ""
     except InputError as error:
         return "", str(error)
-
-
-def check_named(tolerances: Sequence[Tolerance], common: Sequence[CommonChannels]) -> None:
-    """Raise InputError for a tolerance of no channel that is compared.
-
-    Of several files, a channel whose tolerance has its name has to be compared in each.
-    """
-    for each in tolerances:
-        for of_pair in common:
-            if each.pattern in of_pair.not_alike:
-                raise InputError(of_pair.not_alike[each.pattern])
-            if each.pattern in of_pair.lacking:
-                raise InputError(
-                    f"{each.pattern}: has a tolerance, {each.text}, and is not in all files; allowed: channels "
-                    "that are, or patterns"
-                )
-    check_patterns(tolerances, list(dict.fromkeys(name for of_pair in common for name in of_pair.units)))
 
 
 def _usual(reference: ComparedFile, other: ComparedFile) -> list[str]:

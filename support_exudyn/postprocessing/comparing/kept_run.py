@@ -1,15 +1,14 @@
 """What a baseline keeps of a run: numbers, impacts and thinned curves, each with its error; and its file.
 
-The file is JSON with a line for each number and impact, so that its versions can be compared. A digest of its
-contents stands in it: a damaged file, or a file written by hand, is not taken for a baseline.
+The file is JSON with a line for each number, impact and curve, so that its versions can be compared. A number
+is a text of its value, its error and its unit; a curve is a text of its values.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -32,7 +31,7 @@ RECORDS = 100  # of every curve that are kept
 MOST_IMPACTS = 100  # of every clearance pin that are kept
 DOUBTFUL = 0.01  # share by which an impact may be uncertain; soon behind it nothing is known
 ONSET = ".onset_"  # in names of numbers: impacts are kept by themselves
-FORMAT = "support_exudyn baseline 1"
+FORMAT = "support_exudyn baseline 2"
 MOST = 100_000_000  # bytes
 DIGITS, OF_ERRORS = 13, 3  # of values and errors that are written; errors count rounding from 1e-10 on
 DAMAGES = (LookupError, AttributeError, TypeError, ValueError, RecursionError, OverflowError)
@@ -157,70 +156,52 @@ def kept_impacts(result: Result) -> tuple[Mapping[str, tuple[KeptImpact, ...]], 
     return {pin: tuple(of_pin[:MOST_IMPACTS]) for pin, of_pin in kept.items()}, end
 
 
-# --- the file: numbers that are not known, or without end, as null ---
+# --- the file ---
 
 
 def write_baseline(kept: KeptRun, path: Path) -> None:
     """Write a baseline whole or not at all. Raises OSError that names the file if it cannot be written."""
     time = next((curve.time for curve in kept.curves.values()), np.zeros(0))
-    body = {
+    data = {
+        "format": FORMAT,
         "provenance": dict(kept.provenance),
         "history": [dict(entry) for entry in kept.history],
-        "horizon_s": _finite(kept.horizon),
-        "numbers": {name: [*_pair(number), number.unit] for name, number in kept.numbers.items()},
+        "horizon_s": kept.horizon if math.isfinite(kept.horizon) else None,
+        "numbers": {name: f"{_words(number)} {number.unit}" for name, number in kept.numbers.items()},
         "impacts": {
-            pin: [[*_pair(impact.time), *_pair(impact.speed)] for impact in impacts]
+            pin: [f"{_words(impact.time)} {_words(impact.speed)}" for impact in impacts]
             for pin, impacts in kept.impacts.items()
         },
-        "time_s": _rounded(time, DIGITS),
+        "time_s": _rounded(time.tolist(), DIGITS),
         "curves": {
             name: {
                 "unit": curve.unit,
-                "values": _rounded(curve.values, DIGITS),
-                "errors": _rounded(curve.errors, OF_ERRORS),
+                "values": _rounded(curve.values.tolist(), DIGITS),
+                "errors": _rounded(curve.errors.tolist(), OF_ERRORS),
             }
             for name, curve in kept.curves.items()
         },
-        "scenario": json.loads(json.dumps(kept.scenario)),
+        "scenario": kept.scenario,
     }
-    parts = []
-    for key, item in {"format": FORMAT, "digest": _digest(body), **body}.items():
-        text = _line(item)
-        if isinstance(item, dict) and item and key != "scenario":
-            inside = ",\n".join(f"  {json.dumps(name)}: {_line(entry)}" for name, entry in item.items())
-            text = f"{{\n{inside}\n }}"
-        parts.append(f" {json.dumps(key)}: {text}")
+    text = json.dumps(data, indent=1, allow_nan=False)
     with whole_file(path) as temporary:
-        temporary.write_text("{\n" + ",\n".join(parts) + "\n}\n", encoding="utf-8", newline="\n")
+        temporary.write_text(f"{text}\n", encoding="utf-8", newline="\n")
 
 
-def _digest(body: Mapping[str, Any]) -> str:
-    text = json.dumps(body, sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(text.encode()).hexdigest()
+def _words(number: Estimate) -> str:
+    value = float(number.value) if math.isfinite(number.value) else math.nan
+    return f"{value!r} {_rounded([number.error], OF_ERRORS)}"
 
 
-def _pair(number: Estimate) -> list[float | None]:
-    return [_finite(number.value), _finite(float(f"{number.error:.{OF_ERRORS}g}"))]
-
-
-def _rounded(values: Series, digits: int) -> list[float | None]:
-    return [_finite(float(f"{value:.{digits}g}")) for value in values.tolist()]
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
-def _line(item: Any) -> str:
-    if isinstance(item, list) and item and isinstance(item[0], list):  # impacts
-        return "[\n" + ",\n".join(f"   {json.dumps(row)}" for row in item) + "\n  ]"
-    return json.dumps(item, allow_nan=False)
+def _rounded(values: Iterable[float], digits: int) -> str:
+    """Numbers in a text; those that are not known, or without end, as nan."""
+    return " ".join(f"{value:.{digits}g}" if math.isfinite(value) else "nan" for value in values)
 
 
 def read_baseline(path: Path) -> KeptRun:
     """Read what `write_baseline` wrote.
 
-    Raises InputError if the file is no baseline, damaged, or changed by hand; OSError if it cannot be read.
+    Raises InputError if the file is no baseline or damaged; OSError if it cannot be read.
     """
     if not path.exists():
         raise missing_file(path, "the file of a baseline")
@@ -228,37 +209,39 @@ def read_baseline(path: Path) -> KeptRun:
         data = json.loads(contents(path, MOST).decode("utf-8"))
         if not isinstance(data, dict) or data.pop("format", None) != FORMAT:
             raise ValueError(f"it does not begin with {FORMAT!r}")
-        if data.pop("digest", None) != _digest(data):
-            raise ValueError("its digest is that of other contents")
         time = _series(data["time_s"])
         return KeptRun(
-            numbers={name: Estimate(*_read(*pair), unit) for name, (*pair, unit) in data["numbers"].items()},
+            numbers={name: _estimate(*text.split(" ", 2)) for name, text in data["numbers"].items()},
             provenance=data["provenance"],
             scenario=data["scenario"],
-            curves={
-                name: KeptColumn(
-                    curve["unit"], time, _series(curve["values"]), _series(curve["errors"], math.inf)
-                )
-                for name, curve in data["curves"].items()
-            },
-            impacts={
-                pin: tuple(
-                    KeptImpact(Estimate(*_read(*row[:2]), "s"), Estimate(*_read(*row[2:]), "m/s"))
-                    for row in rows
-                )
-                for pin, rows in data["impacts"].items()
-            },
+            curves={name: _curve(time, **curve) for name, curve in data["curves"].items()},
+            impacts={pin: tuple(map(_impact, rows)) for pin, rows in data["impacts"].items()},
             horizon=math.inf if data["horizon_s"] is None else data["horizon_s"],
             history=tuple(data["history"]),
         )
     except DAMAGES as error:
         why = cleaned(" ".join(str(error).split()))[:200]
-        raise InputError(f"{path}: is no baseline, damaged, or changed by hand ({why}); {MEND}") from None
+        raise InputError(f"{path}: is no baseline, or damaged ({why}); {MEND}") from None
 
 
-def _read(value: float | None, error: float | None) -> tuple[float, float]:
-    return math.nan if value is None else value, math.inf if error is None else error
+def _estimate(value: str, error: str, unit: str) -> Estimate:
+    """A number and its error, which is infinite if it is not known."""
+    known = float(error)
+    return Estimate(float(value), math.inf if math.isnan(known) else known, unit)
 
 
-def _series(items: Sequence[float | None], unknown: float = math.nan) -> Series:
-    return np.array([unknown if item is None else item for item in items], dtype=np.float64)
+def _impact(text: str) -> KeptImpact:
+    time, of_time, speed, of_speed = text.split()
+    return KeptImpact(_estimate(time, of_time, "s"), _estimate(speed, of_speed, "m/s"))
+
+
+def _curve(time: Series, unit: str | None, values: str, errors: str) -> KeptColumn:
+    """A curve; errors that are not known are infinite. Raises ValueError if it has not as many as times."""
+    of_values, of_errors = _series(values), _series(errors)
+    if not of_values.size == of_errors.size == time.size:
+        raise ValueError("a curve has more or fewer values than there are times")
+    return KeptColumn(unit, time, of_values, np.where(np.isnan(of_errors), math.inf, of_errors))
+
+
+def _series(text: str) -> Series:
+    return np.array([float(word) for word in text.split()], dtype=np.float64)

