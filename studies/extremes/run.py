@@ -29,12 +29,13 @@ from support_exudyn.formulations.limits import DEEPEST
 from support_exudyn.simulation.result_checks import OPEN
 
 OUTCOMES = (GOOD, REFUSED, SILENT)
+SENSIBLE = "physically sensible"
 SURE = 0.95  # of intervals of what is drawn
 Judged = Sequence[tuple[Case, Judgement]]
 Long = Mapping[str, LongRun | str]
 # the rows of the key table
 KINDS = {
-    "physically sensible": (BOX,),
+    SENSIBLE: (BOX,),
     "pin, steps and start beyond": ("corners", "solver", "start"),
     "slider-crank": ("slider-crank", "hang-up", "dead centre"),
     "other machines and loads": (
@@ -89,6 +90,17 @@ def of(held: Sequence[bool]) -> CountedShare:
     return CountedShare(sum(held), len(held))
 
 
+def shares(judged: Judged) -> dict[tuple[str, str], CountedShare]:
+    """What holds of the physically sensible scenes and of all that were drawn, by its name and theirs."""
+    box, random = of_groups(judged, (BOX,)), of_groups(judged, RANDOM)
+    return {
+        (GOOD, SENSIBLE): of([one.outcome == GOOD for one in box]),
+        ("accuracy_met", SENSIBLE): of([one.met for one in box]),
+        (SILENT, SENSIBLE): of([one.outcome == SILENT for one in box]),
+        **{(outcome, "drawn"): of([one.outcome == outcome for one in random]) for outcome in OUTCOMES},
+    }
+
+
 def middle(values: Sequence[float]) -> tuple[float, float]:
     """The median of what was drawn, and how far that of all that could be drawn may be from it.
 
@@ -106,14 +118,9 @@ def middle(values: Sequence[float]) -> tuple[float, float]:
 
 def numbers(judged: Judged, long: Long) -> list[Number]:
     """Shares with their counting errors, extremes of this very set of runs, and what long runs came to."""
-    box, random = of_groups(judged, (BOX,)), of_groups(judged, RANDOM)
+    random = of_groups(judged, RANDOM)
     error, of_error = middle([one.error for one in random if one.outcome == GOOD])
-    found = [
-        _share("good", "physically sensible", [one.outcome == GOOD for one in box]),
-        _share("accuracy_met", "physically sensible", [one.met for one in box]),
-        _share("silent", "physically sensible", [one.outcome == SILENT for one in box]),
-        *(_share(outcome, "drawn", [one.outcome == outcome for one in random]) for outcome in OUTCOMES),
-    ]
+    found = [Number(*name, share.value, "1", share.error) for name, share in shares(judged).items()]
     if math.isfinite(of_error):
         found.append(Number("median_reported_error", "drawn, good", error, "1", of_error))
     every = [verdict for _, verdict in judged if verdict.outcome == GOOD]
@@ -137,11 +144,6 @@ def numbers(judged: Judged, long: Long) -> list[Number]:
             if math.isfinite(run.memory_slope):
                 found.append(Number("memory_slope", case, run.memory_slope, "bytes/s", 0.0))
     return found
-
-
-def _share(name: str, case: str, held: Sequence[bool]) -> Number:
-    found = of(held)
-    return Number(name, case, found.value, "1", found.error)
 
 
 def _largest(values: Sequence[float]) -> float:
@@ -261,7 +263,7 @@ def work(chosen: Options) -> StudyOutcome:
 def words(judged: Judged, long: Long) -> dict[str, object]:
     """What the sentences are filled with."""
     every = [verdict for _, verdict in judged]
-    box, random = of_groups(judged, (BOX,)), of_groups(judged, RANDOM)
+    shared = shares(judged)
     lasting = [run for run in long.values() if isinstance(run, LongRun)]
     return {
         "runs": len(judged),
@@ -271,9 +273,9 @@ def words(judged: Judged, long: Long) -> dict[str, object]:
         "patience": PATIENCE,
         "sure": SURE,
         "counts": counts(every),
-        "silent": of([verdict.outcome == SILENT for verdict in random]),
-        "good_in_box": of([verdict.outcome == GOOD for verdict in box]),
-        "met_in_box": of([verdict.met for verdict in box]),
+        "silent": shared[SILENT, "drawn"],
+        "good_in_box": shared[GOOD, SENSIBLE],
+        "met_in_box": shared["accuracy_met", SENSIBLE],
         "no_scene": sum(verdict.reason.startswith(BEFORE) for verdict in every),
         "checked": checked_twice(every),
         "maps": {group: _of_map(group, judged) for group in MAPS},
