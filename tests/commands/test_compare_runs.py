@@ -137,7 +137,7 @@ def test_errors_cover_what_a_finer_run_finds(runs: Path, accuracy: str) -> None:
             assert abs(mine.value - its.value) <= mine.error + its.error, (name, number)
     two_accuracies = compare_files(runs / "with_clearance.h5", runs / "fine.h5").pairs[0]
     assert two_accuracies.same == 0
-    assert not any(channel.beside_errors.times > 10.0 for channel in two_accuracies.channels.values())
+    assert not any(channel.beside_errors.ratio > 10.0 for channel in two_accuracies.channels.values())
 
 
 def test_the_same_run_other_records_and_a_bit(runs: Path) -> None:

@@ -15,7 +15,7 @@ from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
 from support_exudyn.postprocessing.comparing.mapping import Tolerance
 from support_exudyn.postprocessing.comparing.measures import CurveMeasures, curve_measures
 from support_exudyn.postprocessing.comparing.statistics import StatisticDifference, compared_statistics
-from support_exudyn.postprocessing.comparing.with_errors import BesideErrors, errors_at
+from support_exudyn.postprocessing.comparing.with_errors import errors_at
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError
 
@@ -50,6 +50,12 @@ class JudgedDifference(NamedTuple):
         if self.allowed > 0.0 or math.isnan(self.allowed):
             return self.value / self.allowed
         return math.inf if self.value > 0.0 else 0.0
+
+
+def beside_errors(difference: float, error: float) -> JudgedDifference:
+    """A difference against the error that it may have, the sum of those of both sides; "told" if not known."""
+    is_known = math.isfinite(difference) and math.isfinite(error)
+    return JudgedDifference(LARGEST, abs(difference), 0.0, error if is_known else math.nan)
 
 
 def verdict_ranks(
@@ -122,9 +128,9 @@ class ComparedChannel:
     allowed: float
 
     @property
-    def beside_errors(self) -> BesideErrors:
-        """The largest difference with the numerical errors that are known."""
-        return BesideErrors(self.largest.value, self.largest.error)
+    def beside_errors(self) -> JudgedDifference:
+        """The largest difference against the numerical errors that are known."""
+        return beside_errors(self.largest.value, self.largest.error)
 
     @property
     def where(self) -> int:

@@ -42,6 +42,7 @@ def _pair(pair: ComparedPair) -> dict[str, Any]:
 
 
 def _channel(one: ComparedChannel) -> dict[str, Any]:
+    within = {"within": True, "not within": False}
     return {
         "unit": one.unit,
         "verdict": one.verdict,
@@ -52,7 +53,7 @@ def _channel(one: ComparedChannel) -> dict[str, Any]:
         "other": one.other,
         "mean": one.mean,
         "largest": one.largest._asdict() | {"of_reference_there": one.largest_of_reference},
-        "beside_errors": {"within": one.beside_errors.within, "times": one.beside_errors.times},
+        "beside_errors": {"within": within.get(one.beside_errors.verdict), "times": one.beside_errors.ratio},
         "measures": one.measures,
         "statistics": {name: {**what._asdict(), "equal": what.equal} for name, what in one.statistics.items()},
     }

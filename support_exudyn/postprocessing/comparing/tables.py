@@ -141,12 +141,19 @@ def share(value: float) -> str:
 
 def beside(one: ComparedChannel) -> str:
     """The largest difference against the numerical errors that are known, in words."""
-    words = str(one.beside_errors) if one.with_errors else "not known"
-    return (
-        words.replace("both errors", f"the error of {one.with_errors[0]}")
-        if len(one.with_errors) == 1
-        else words
-    )
+    if not one.with_errors:
+        return "not known"
+    errors = "both errors" if len(one.with_errors) > 1 else f"the error of {one.with_errors[0]}"
+    return in_multiples(one.beside_errors, errors)
+
+
+def in_multiples(judged: JudgedDifference, errors: str = "both errors") -> str:
+    """A difference against errors: "within both errors", "larger: 3.1 times", "errors not known"."""
+    if judged.verdict != "not within":
+        return f"within {errors}" if judged.verdict == "within" else "errors not known"
+    if math.isinf(judged.ratio):
+        return "larger, and no errors"
+    return f"larger: {float(f'{judged.ratio:.2g}'):.15g} times"  # 310, and not 3.1e+02
 
 
 def verdict_words(one: ComparedChannel) -> str:

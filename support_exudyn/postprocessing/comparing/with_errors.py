@@ -8,7 +8,6 @@ ten times on it is certain that both are different.
 
 import math
 from collections.abc import Iterable, Mapping
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +22,6 @@ from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
-UNKNOWN = "errors not known"
 # Of a single record, coarser runs can agree by chance. Draft, standard and reference runs of 36 drawn scenes
 # were compared: with these, 49 of 7701 curves differ anywhere by more than both errors, the worst 9.7 times.
 AROUND = 5  # records to either side of which the largest error is taken
@@ -32,39 +30,6 @@ ARM = 1.0  # [m], of a body, by which places become angles
 # Share of the largest value of a unit, of the whole run, that a safe error is at least: what is nothing in
 # truth, as the force of a pin that carries nothing or what is missing of an energy, is rounding of others.
 ROUNDED = 1e-12
-
-
-class BesideErrors(NamedTuple):
-    """A difference, and the error that it may have: the sum of those of both sides; not finite: not known."""
-
-    difference: float
-    error: float
-
-    @property
-    def within(self) -> bool | None:
-        """Whether the difference is no larger than the error; None if that is not known."""
-        if not (math.isfinite(self.error) and math.isfinite(self.difference)):
-            return None
-        return abs(self.difference) <= self.error
-
-    @property
-    def times(self) -> float:
-        """The difference as a multiple of the error: 0 of none, infinite beside no error, NaN: not known."""
-        if self.within is None:
-            return math.nan
-        if self.difference == 0.0:
-            return 0.0
-        return abs(self.difference) / self.error if self.error > 0.0 else math.inf
-
-    def __str__(self) -> str:
-        """In words: "within both errors", "larger: 3.1 times", "errors not known"."""
-        if self.within is None:
-            return UNKNOWN
-        if self.within:
-            return "within both errors"
-        if math.isinf(self.times):
-            return "larger, and no errors"
-        return f"larger: {float(f'{self.times:.2g}'):.15g} times"  # 310, and not 3.1e+02
 
 
 def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:

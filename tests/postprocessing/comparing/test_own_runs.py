@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
+from support_exudyn.postprocessing.comparing.compared_channel import JudgedDifference, beside_errors
 from support_exudyn.postprocessing.comparing.statistics import compared_statistics
-from support_exudyn.postprocessing.comparing.with_errors import BesideErrors, curve_errors
+from support_exudyn.postprocessing.comparing.tables import in_multiples
+from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from tests.cases.run_cases import FORCE, loose_support
 
 FINE = 1e-4  # an accuracy beyond "standard", whose tolerance is that of "draft" where steps are chosen by one
@@ -52,11 +54,11 @@ def point_by_point(first: Result, second: Result, end: float) -> Iterator[tuple[
         yield float(times.max()), name, float(first.time[times.argmax()])
 
 
-def numbers_beside_errors(first: Result, second: Result) -> dict[str, BesideErrors]:
+def numbers_beside_errors(first: Result, second: Result) -> dict[str, JudgedDifference]:
     """Differences of the numbers that both runs report, with both errors, by name."""
     mine, its = first.numbers(), second.numbers()
     return {
-        name: BesideErrors(its[name].value - one.value, one.error + its[name].error)
+        name: beside_errors(its[name].value - one.value, one.error + its[name].error)
         for name, one in mine.items()
         if name in its
     }
@@ -65,7 +67,7 @@ def numbers_beside_errors(first: Result, second: Result) -> dict[str, BesideErro
 def told_equal(first: Result, second: Result) -> tuple[int, int]:
     """How many numbers and curves were compared; asserts that none is told different."""
     numbers = numbers_beside_errors(first, second)
-    assert [(name, str(one)) for name, one in numbers.items() if one.times > DOUBT] == []
+    assert [(name, in_multiples(one)) for name, one in numbers.items() if one.ratio > DOUBT] == []
     curves = list(point_by_point(first, second, min(first.horizon, second.horizon)))
     assert [one for one in curves if one[0] > DOUBT] == []
     return len(numbers), len(curves)
@@ -127,7 +129,7 @@ def test_a_factor_on_a_force_is_told() -> None:
     told = {name: times for times, name, _ in point_by_point(run, changed, math.inf)}
     assert told.pop(FORCE) > DOUBT
     assert set(told.values()) == {0.0}
-    assert numbers_beside_errors(run, changed)[f"{FORCE}.mean"].times > DOUBT
+    assert numbers_beside_errors(run, changed)[f"{FORCE}.mean"].ratio > DOUBT
 
 
 def test_errors_cover_what_lies_beyond_the_horizon() -> None:
@@ -140,18 +142,18 @@ def test_errors_cover_what_lies_beyond_the_horizon() -> None:
 
 
 @pytest.mark.parametrize(
-    ("difference", "error", "within", "said"),
+    ("difference", "error", "verdict", "said"),
     [
-        (1.0, 2.0, True, "within both errors"),
-        (-2.0, 2.0, True, "within both errors"),
-        (-6.2, 2.0, False, "larger: 3.1 times"),
-        (25.0, 2.0, False, "larger: 12 times"),
-        (0.0, 0.0, True, "within both errors"),
-        (1e-9, 0.0, False, "larger, and no errors"),
-        (1.0, math.nan, None, "errors not known"),
-        (1.0, math.inf, None, "errors not known"),
+        (1.0, 2.0, "within", "within both errors"),
+        (-2.0, 2.0, "within", "within both errors"),
+        (-6.2, 2.0, "not within", "larger: 3.1 times"),
+        (25.0, 2.0, "not within", "larger: 12 times"),
+        (0.0, 0.0, "within", "within both errors"),
+        (1e-9, 0.0, "not within", "larger, and no errors"),
+        (1.0, math.nan, "told", "errors not known"),
+        (1.0, math.inf, "told", "errors not known"),
     ],
 )
-def test_differences_in_words(difference: float, error: float, within: bool | None, said: str) -> None:
-    found = BesideErrors(difference, error)
-    assert (found.within, str(found)) == (within, said)
+def test_differences_in_words(difference: float, error: float, verdict: str, said: str) -> None:
+    found = beside_errors(difference, error)
+    assert (found.verdict, in_multiples(found)) == (verdict, said)
