@@ -44,7 +44,7 @@ def kernel(function: Function) -> Function:
 
 
 def _is_ours(function: FunctionType) -> bool:
-    return function.__module__.partition(".")[0] in ("user_forces", "support_exudyn")
+    return (function.__module__ or "").partition(".")[0] in ("user_forces", "support_exudyn")
 
 
 def name_of(function: Callable[..., Any]) -> str:
@@ -193,7 +193,12 @@ def _teach_numbers() -> None:
         if not isinstance(count, numba.types.IntegerLiteral):
             return None
         length = count.literal_value
-        return lambda constants, first, count: to_fixed_tuple(constants[first:], length)
+
+        def taken(constants, first, count):  # type: ignore[no-untyped-def]
+            return to_fixed_tuple(constants[first:], length)
+
+        taken.__qualname__ = f"{length}_numbers"  # so that machine code for other lengths has another name
+        return taken
 
 
 def compiled_or_plain(function: Function, arguments: tuple[Any, ...]) -> Function:

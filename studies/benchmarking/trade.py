@@ -71,7 +71,7 @@ def exact_force() -> Estimate:
 
 
 @dataclass(frozen=True)
-class Program:
+class PeerProgram:
     """A program or a way to use it.
 
     settings: labels and values from coarse to fine. run: the scenario by a setting, and the largest pin force
@@ -140,19 +140,19 @@ OURS_COMPILED, OURS_ENGINE = "support-exudyn, compiled", "support-exudyn on Exud
 ONCE = ", single run"
 STOCK = "Exudyn, stock recipe"
 COMMON = (OURS_COMPILED, "standard")
-PROGRAMS: Mapping[str, Program] = {
+PROGRAMS: Mapping[str, PeerProgram] = {
     one.name: one
     for one in (
-        Program(OURS_COMPILED, dict(zip(PRESETS, PRESETS, strict=True)), _to_accuracy(COMPILED)),
-        Program(
+        PeerProgram(OURS_COMPILED, dict(zip(PRESETS, PRESETS, strict=True)), _to_accuracy(COMPILED)),
+        PeerProgram(
             OURS_ENGINE, dict(zip(PRESETS, PRESETS, strict=True)), _to_accuracy(ENGINE), slow=["reference"]
         ),
-        Program(
+        PeerProgram(
             OURS_COMPILED + ONCE,
             {f"tolerance {x:.0e}": {"solver": {"tolerance": x}} for x in (1e-3, 1e-4, 1e-5, 1e-6)},
             _once(COMPILED),
         ),
-        Program(
+        PeerProgram(
             OURS_ENGINE + ONCE,
             {
                 f"{n} steps an impact": {"step": step, "solver": {"impact_steps": n}}
@@ -160,15 +160,15 @@ PROGRAMS: Mapping[str, Program] = {
             },
             _once(ENGINE),
         ),
-        Program(STOCK, _steps(3e-4, 2e-4, 1e-4, 5e-5), _of_peer(run_stock)),
-        Program("MuJoCo", _steps(2e-4, 1e-4, 5e-5, 2e-5), _of_peer(run_mujoco), "mujoco"),
-        Program(
+        PeerProgram(STOCK, _steps(3e-4, 2e-4, 1e-4, 5e-5), _of_peer(run_stock)),
+        PeerProgram("MuJoCo", _steps(2e-4, 1e-4, 5e-5, 2e-5), _of_peer(run_mujoco), "mujoco"),
+        PeerProgram(
             "Drake",
             {f"accuracy {x:.0e}": x for x in (1e-2, 1e-3, 1e-4, 1e-5)},
             _of_peer(run_drake),
             "pydrake",
         ),
-        Program(
+        PeerProgram(
             "scipy's LSODA",
             {f"tolerance {x:.0e}": x for x in (1e-4, 1e-5, 1e-6, 1e-7)},
             _of_peer(run_lsoda),

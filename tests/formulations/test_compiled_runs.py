@@ -51,11 +51,13 @@ def hertz(stiffness: float) -> ClearancePin:
 class Softened(LankaraniNikravesh):
     """A law whose force is no longer that of its family."""
 
-    def elastic_force(self, depth: float) -> float:
-        return 0.5 * super().elastic_force(depth)
+    @staticmethod
+    def elastic(depth: float, stiffness: float, exponent: float) -> float:
+        return 0.5 * stiffness * depth**exponent
 
-    def elastic_energy(self, depth: float) -> float:
-        return 0.5 * super().elastic_energy(depth)
+    @staticmethod
+    def energy(depth: float, stiffness: float, exponent: float) -> float:
+        return 0.5 * stiffness / (exponent + 1.0) * depth ** (exponent + 1.0)
 
 
 def pin_with(law: NormalLaw) -> ClearancePin:

@@ -53,7 +53,7 @@ def test_errors_are_distances_from_a_tight_run() -> None:
 
 
 def test_programs_that_are_not_installed_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    absent = {"none": trade.Program("none", {"x": 1.0}, lambda scenario, x: x, "no_such_package")}
+    absent = {"none": trade.PeerProgram("none", {"x": 1.0}, lambda scenario, x: x, "no_such_package")}
     monkeypatch.setattr(trade, "PROGRAMS", {**PROGRAMS, **absent})
     assert list(trade.measured(["none"])) == []
 

@@ -102,19 +102,15 @@ class ContactConnector:
         return self._place
 
     def observe(self, state: Any) -> ContactForce:
-        """Kinematics of the contact in a state of the engine, the surfaces being separated."""
-        self._read(state)
-        return self.force
-
-    def _read(self, state: Any) -> None:
-        """Evaluate the contact without its memory in a state of the engine."""
+        """Kinematics of the contact in a state of the engine, without its memory: the surfaces are separated."""
         motion, contact = self.item.relative(state), self.contact
         in_axes = connector_kernel(contact.force_kernel, self.item.at, contact.bearing.is_slot)
         spins = motion.turn, motion.turning, motion.bore_spin
         memory = False, 0.0, 0.0, 0.0, 0.0
         result = in_axes(*motion.displacement, *motion.velocity, *spins, *memory, contact.constants)
-        self.force, self._place = ContactForce(*result[FIRST:LAST]), (result[LAST], result[LAST + 1])
+        self._place = result[LAST], result[LAST + 1]
         self._turn, self._turn_rate = motion.turn, motion.turning
+        return ContactForce(*result[FIRST:LAST])
 
     # --- called by the solver ---
 

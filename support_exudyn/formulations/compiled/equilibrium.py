@@ -240,6 +240,8 @@ def settle(model: Model, y: Vector) -> None:
     """
     scenario, scene = model.scenario, model.scene
     scene.courses["value"] = scene.courses["rate"] = scene.courses["bend"] = 0.0
+    of_loads = [course(0.0) for load in scenario.acting_loads.values() for course in load.courses]
+    scene.courses["value"][len(scene.courses) - len(of_loads) :] = of_loads  # which come last
     weights = {what: scene.bodies[what].copy() for what in ("weight_x", "weight_y")}
     search = _Search(model, y)
     falling = [list(scenario.linkage.bodies).index(name) for name in scenario.blocks]
