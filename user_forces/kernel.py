@@ -11,13 +11,15 @@ import math
 import re
 import threading
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from inspect import Parameter, signature
 from types import CodeType, FunctionType
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
+
+from user_forces.values.value import InputError
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 KERNELS: list[Callable[..., Any]] = []  # that numba does not know yet, as long as nothing is compiled
@@ -135,6 +137,19 @@ def formula_of(owner: object, function: Callable[..., Any], variables: int) -> F
         known = getattr(owner, name)
         given += known if parameter.kind is Parameter.VAR_POSITIONAL else [known]
     return Formula(kernel(function), tuple(map(float, given)))
+
+
+def refuse_methods(law: type[object], functions: Mapping[str, str]) -> None:
+    """Raise InputError if a law overrides a method that follows from a function of numbers.
+
+    functions: names of such functions, by those of the methods.
+    """
+    for method, function in functions.items():
+        if method in vars(law):
+            raise InputError(
+                f"class {law.__name__}: {method}: follows from a function of numbers; allowed: a static method "
+                f"`{function}` in its place"
+            )
 
 
 @cache

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from studies.benchmarking import rows, trade
 from studies.benchmarking.rows import Row
-from studies.benchmarking.trade import Point, machine_name
+from studies.benchmarking.trade import TradePoint, machine_name
 from studies.benchmarking.trade_figure import figure
 from studies.common.study import print_table, work_in_folder
 from support_exudyn.commands.command_line import Parser, folder, say, warn
@@ -37,7 +37,7 @@ def study(out: Path) -> None:
     say(f"\nlook at {out / 'RESULTS.md'}")
 
 
-def write(out: Path, found: Sequence[Row], points: Sequence[Point], took: float) -> None:
+def write(out: Path, found: Sequence[Row], points: Sequence[TradePoint], took: float) -> None:
     """Print the tables, and write them and the figure."""
     tables = [rows.sheet(found), points_sheet(points)]
     packages = ", ".join(f"{name} {number}" for name, number in versions().items())
@@ -53,7 +53,7 @@ def write(out: Path, found: Sequence[Row], points: Sequence[Point], took: float)
         temporary.write_text("\n\n".join(words) + "\n", encoding="utf-8")
 
 
-def points_sheet(points: Sequence[Point]) -> Sheet:
+def points_sheet(points: Sequence[TradePoint]) -> Sheet:
     """All settings of all programs as a table."""
     return Sheet(
         title="What accuracy costs: error of the largest pin force and time",

@@ -18,7 +18,7 @@ from pathlib import Path
 
 from studies.benchmarking import trade, yardstick
 from studies.benchmarking.peers.built_in import Evaluator, run_built_in
-from studies.benchmarking.trade import COMPILED, ENGINE, OURS_COMPILED, OURS_ENGINE, WORK, Point
+from studies.benchmarking.trade import COMPILED, ENGINE, OURS_COMPILED, OURS_ENGINE, WORK, TradePoint
 from studies.common import paper_machine
 from support_exudyn import CubicStep, Held, Scenario, SolverSettings, simulate
 from support_exudyn.formulations.registry import FormulationName
@@ -156,7 +156,7 @@ def first_run() -> Row:
 # --- rows from the points ---
 
 
-def of_points(points: Sequence[Point]) -> Iterator[Row]:
+def of_points(points: Sequence[TradePoint]) -> Iterator[Row]:
     """What an accuracy costs; our fastest way to a good largest force beside that of other programs."""
     for program in (OURS_COMPILED, OURS_ENGINE):
         for one in (one for one in points if one.program == program):
@@ -177,7 +177,7 @@ def of_points(points: Sequence[Point]) -> Iterator[Row]:
                 yield Row(name, goal, what, mine.seconds, against, its.seconds, ratio, _source(its))
 
 
-def _source(point: Point) -> str:
+def _source(point: TradePoint) -> str:
     return "kept, see the caption of the figure" if point.is_kept else ""
 
 

@@ -91,7 +91,7 @@ class PeerProgram:
         return not self.package or find_spec(self.package) is not None
 
 
-class Point(NamedTuple):
+class TradePoint(NamedTuple):
     """A program by a setting: processor time [s], the same over that of COMMON, relative error of the largest
     force.
 
@@ -180,7 +180,7 @@ PROGRAMS: Mapping[str, PeerProgram] = {
 # --- measured ---
 
 
-def measured(names: Sequence[str] = tuple(PROGRAMS), with_slow: bool = False) -> Iterator[Point]:
+def measured(names: Sequence[str] = tuple(PROGRAMS), with_slow: bool = False) -> Iterator[TradePoint]:
     """Run the programs that are installed, each by all its settings beside COMMON."""
     programs = [PROGRAMS[one] for one in names if PROGRAMS[one].is_installed]
     if not programs:
@@ -196,7 +196,7 @@ def measured(names: Sequence[str] = tuple(PROGRAMS), with_slow: bool = False) ->
         for label, value in program.settings.items():
             if with_slow or label not in program.slow:
                 seconds, force = _timed(lambda p=program, v=value: p.run(scenario, v))  # type: ignore[misc]
-                yield Point(program.name, label, seconds, seconds / beside, abs(force / exact - 1.0))
+                yield TradePoint(program.name, label, seconds, seconds / beside, abs(force / exact - 1.0))
 
 
 def _timed(run: Callable[[], float]) -> tuple[float, float]:
@@ -219,19 +219,19 @@ def _kept() -> dict[str, Any]:
     return cast(dict[str, Any], json.loads(KEPT.read_text(encoding="utf-8")))
 
 
-def with_kept(found: Sequence[Point]) -> list[Point]:
+def with_kept(found: Sequence[TradePoint]) -> list[TradePoint]:
     """The points, and those that are kept of what was not measured here; in the order of PROGRAMS."""
     common = next(one.seconds for one in found if (one.program, one.setting) == COMMON)
     here = {(one.program, one.setting): one for one in found}
     points = []
     for program, settings in _kept()["points"].items():
         for label, (ratio, error) in settings.items():
-            kept = Point(program, label, ratio * common, ratio, error, True)
+            kept = TradePoint(program, label, ratio * common, ratio, error, True)
             points.append(here.get((program, label), kept))
     return points
 
 
-def keep(found: Sequence[Point]) -> None:
+def keep(found: Sequence[TradePoint]) -> None:
     """Write kept.json from points that were measured here."""
     points: dict[str, dict[str, tuple[float, float]]] = {}
     for one in found:
@@ -257,7 +257,7 @@ def machine_name() -> str:
     return f"{name}, {os.cpu_count()} cores"
 
 
-def caption(points: Sequence[Point]) -> str:
+def caption(points: Sequence[TradePoint]) -> str:
     """What the figure shows, and what of it was measured elsewhere."""
     settings = {one.program: [two.is_kept for two in points if two.program == one.program] for one in points}
     taken = [
@@ -282,7 +282,7 @@ def caption(points: Sequence[Point]) -> str:
     return words
 
 
-def lasting_errors(points: Sequence[Point]) -> list[float]:
+def lasting_errors(points: Sequence[TradePoint]) -> list[float]:
     """Of one program's settings, from coarse to fine: the largest error of a setting and all finer ones.
 
     So an error that is small by chance, as that of a single number may be, does not count.
@@ -291,7 +291,7 @@ def lasting_errors(points: Sequence[Point]) -> list[float]:
     return found
 
 
-def cheapest(points: Sequence[Point], program: str, error: float = GOOD) -> Point | None:
+def cheapest(points: Sequence[TradePoint], program: str, error: float = GOOD) -> TradePoint | None:
     """The fastest setting of a program whose error, and that of all finer ones, is at most so large."""
     mine = [one for one in points if one.program == program]
     good = [one for one, lasting in zip(mine, lasting_errors(mine), strict=True) if lasting <= error]

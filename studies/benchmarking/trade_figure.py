@@ -13,7 +13,7 @@ from studies.benchmarking.trade import (
     PRESETS,
     PROGRAMS,
     STOCK,
-    Point,
+    TradePoint,
     lasting_errors,
 )
 from support_exudyn.postprocessing.figures import style
@@ -30,7 +30,7 @@ LOOKS: Mapping[str, tuple[str, str]] = {
 SMALLEST = 1e-10  # errors below are those of the reference
 
 
-def figure(points: Sequence[Point]) -> Figure:
+def figure(points: Sequence[TradePoint]) -> Figure:
     """Errors of all programs over their processor time, on logarithmic axes."""
     drawing = Figure(figsize=style.size(160, 100))
     axes = drawing.subplots()
@@ -51,7 +51,7 @@ def figure(points: Sequence[Point]) -> Figure:
     return drawing
 
 
-def _line(axes: Axes, name: str, points: Sequence[Point]) -> None:
+def _line(axes: Axes, name: str, points: Sequence[TradePoint]) -> None:
     if not points:
         return
     colour, marker = LOOKS[name.removesuffix(ONCE)]

@@ -7,7 +7,7 @@ finer settings; what is not installed, or takes minutes, is taken from what the 
 from collections.abc import Sequence
 
 from studies.benchmarking import benchmark, trade
-from studies.benchmarking.trade import Point
+from studies.benchmarking.trade import TradePoint
 from studies.benchmarking.trade_figure import figure
 from studies.common.numbers import Number
 from studies.common.options import Options
@@ -21,7 +21,7 @@ def work(chosen: Options) -> StudyOutcome:
     return outcome(trade.with_kept(list(trade.measured())))
 
 
-def outcome(points: Sequence[Point]) -> StudyOutcome:
+def outcome(points: Sequence[TradePoint]) -> StudyOutcome:
     """What is said of the settings of all programs."""
     sheet, exact = benchmark.points_sheet(points), trade.exact_force()
     own_error = exact.error / exact.value

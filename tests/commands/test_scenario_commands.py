@@ -150,10 +150,15 @@ from user_forces.values.value import value
 @value
 class Twice(Hertz):
     """Hertz's law, twice as stiff."""
-    def elastic_force(self, depth):
-        return 2.0 * super().elastic_force(depth)
-    def elastic_energy(self, depth):
-        return 2.0 * super().elastic_energy(depth)
+    @staticmethod
+    def force(depth, rate, impact_velocity, stiffness, exponent):
+        return 2.0 * stiffness * depth**exponent
+    @staticmethod
+    def elastic(depth, stiffness, exponent):
+        return 2.0 * stiffness * depth**exponent
+    @staticmethod
+    def energy(depth, stiffness, exponent):
+        return 2.0 * stiffness / (exponent + 1.0) * depth ** (exponent + 1.0)
 '''
 FALL = """
 duration_s = 0.01

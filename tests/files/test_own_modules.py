@@ -46,7 +46,8 @@ class ForeignLaw(LankaraniNikravesh):
 
 @value
 class ForeignFriction(FrictionLaw):
-    def __call__(self, slip, normal_force, deflection=0.0):
+    @staticmethod
+    def force(slip, normal_force):
         return -1e-3 * normal_force * slip
 
 @value

@@ -12,11 +12,11 @@ from matplotlib import image
 from studies import __main__ as all_studies
 from studies.benchmarking import benchmark, rows, trade
 from studies.benchmarking.rows import Row, beside, of_points
-from studies.benchmarking.trade import COMMON, ONCE, OURS_COMPILED, PROGRAMS, Point, cheapest, with_kept
+from studies.benchmarking.trade import COMMON, ONCE, OURS_COMPILED, PROGRAMS, TradePoint, cheapest, with_kept
 
 
-def point(program: str, error: float, seconds: float = 1.0, setting: str = "") -> Point:
-    return Point(program, setting or f"{error:g}", seconds, 10.0 * seconds, error)
+def point(program: str, error: float, seconds: float = 1.0, setting: str = "") -> TradePoint:
+    return TradePoint(program, setting or f"{error:g}", seconds, 10.0 * seconds, error)
 
 
 HERE = [point(*COMMON[:1], 1e-8, 0.5, COMMON[1]), point("MuJoCo", 2e-4, 9.0, "step 0.02 ms")]
@@ -31,7 +31,7 @@ def test_what_is_not_measured_is_taken_as_a_ratio_to_the_common_row() -> None:
     assert points["MuJoCo", "step 0.02 ms"] == HERE[1]
     kept = json.loads(trade.KEPT.read_text("utf-8"))
     ratio, error = kept["points"]["Drake"]["accuracy 1e-05"]
-    assert points["Drake", "accuracy 1e-05"] == Point(
+    assert points["Drake", "accuracy 1e-05"] == TradePoint(
         "Drake", "accuracy 1e-05", 0.5 * ratio, ratio, error, True
     )
     # every setting of every program is there, so that a figure has all lines

@@ -8,15 +8,18 @@ from pathlib import Path
 import pytest
 
 from studies.benchmarking import benchmark, trade
-from studies.benchmarking.trade import COMMON, ONCE, OURS_COMPILED, PROGRAMS, Point
+from studies.benchmarking.trade import COMMON, ONCE, OURS_COMPILED, PROGRAMS, TradePoint
 from studies.common.options import Options
 from studies.speed_accuracy import run as speed_accuracy
 from tests.at_once import at_once
 
 HERE = [
-    Point(*COMMON, 0.5, 1.0, 1e-8),
-    *(Point(OURS_COMPILED + ONCE, label, 0.05, 0.1, 1e-5) for label in PROGRAMS[OURS_COMPILED + ONCE].settings),
-    *(Point(trade.STOCK, label, 2.0, 4.0, 0.1) for label in PROGRAMS[trade.STOCK].settings),
+    TradePoint(*COMMON, 0.5, 1.0, 1e-8),
+    *(
+        TradePoint(OURS_COMPILED + ONCE, label, 0.05, 0.1, 1e-5)
+        for label in PROGRAMS[OURS_COMPILED + ONCE].settings
+    ),
+    *(TradePoint(trade.STOCK, label, 2.0, 4.0, 0.1) for label in PROGRAMS[trade.STOCK].settings),
 ]
 
 

@@ -102,7 +102,7 @@ class ContactConnector:
         return self._place
 
     def observe(self, state: Any) -> ContactForce:
-        """Kinematics of the contact in a state of the engine, without its memory: the surfaces are separated."""
+        """Kinematics of the contact in a state of the engine, as if the surfaces were separated."""
         motion, contact = self.item.relative(state), self.contact
         in_axes = connector_kernel(contact.force_kernel, self.item.at, contact.bearing.is_slot)
         spins = motion.turn, motion.turning, motion.bore_spin

@@ -11,7 +11,7 @@ from typing import Any
 from pydantic import model_validator
 from typing_extensions import Self
 
-from user_forces.kernel import Formula, formula_of, kernel, sign
+from user_forces.kernel import Formula, formula_of, kernel, refuse_methods, sign
 from user_forces.values.value import Coefficient, Value, value
 
 LONG = 1.0  # [s], in which a deflection becomes that of steady slip
@@ -39,6 +39,10 @@ class FrictionLaw(Value, ABC):
        the step with it. A third function, `rate(deflection, slip)`, is the rate of the deflection [m/s]; by
        default what `advance` makes of a step that tends to nothing. `swing_time` limits the steps.
     """
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        refuse_methods(cls, {"__call__": "force", "next_deflection": "advance", "deflection_rate": "rate"})
 
     @staticmethod
     @abstractmethod

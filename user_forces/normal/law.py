@@ -8,7 +8,7 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
-from user_forces.kernel import Formula, formula_of, quadrature
+from user_forces.kernel import Formula, formula_of, quadrature, refuse_methods
 from user_forces.roots import bracketed_root
 from user_forces.values.value import InputError, Value
 
@@ -35,6 +35,10 @@ class NormalLaw(Value, ABC):
     6. A law that needs a mass has a field `mass` [kg]. If that is None, a scenario takes the joint's effective
        mass in the start posture, a constant of the run.
     """
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        refuse_methods(cls, {"__call__": "force", "elastic_force": "elastic", "elastic_energy": "energy"})
 
     @staticmethod
     @abstractmethod

@@ -41,7 +41,7 @@ def run_lsoda(scenario: Scenario, tolerance: float) -> PeerRun:
     Raises InputError if the scenario is not covered, RuntimeError if LSODA gives up.
     """
     support = plain_support(scenario)
-    equations = Equations(support)
+    equations = PeerEquations(support)
     breaks = [t for t in scenario.drive.breaks if 0.0 < t < scenario.duration]
     t, state, speed, closed = 0.0, np.zeros(24), 0.0, False
     pieces: list[tuple[float, Any]] = []  # initial impact velocity and what `solve_ivp` gave
@@ -73,7 +73,7 @@ def run_lsoda(scenario: Scenario, tolerance: float) -> PeerRun:
 
 
 def _smooth(
-    equations: "Equations",
+    equations: "PeerEquations",
     begin: float,
     end: float,
     state: Series,
@@ -105,8 +105,8 @@ def _smooth(
     )
 
 
-class Equations:
-    """Equations of motion; a state has displacements [m] and turns [rad] of the links, then their rates,
+class PeerEquations:
+    """PeerEquations of motion; a state has displacements [m] and turns [rad] of the links, then their rates,
     shape (24,).
 
     Points of links are the pins at the links' own ends, the same pins on their parents, the heads of the

@@ -52,7 +52,7 @@ class Link(NamedTuple):
     inertia: float
 
 
-class Column(NamedTuple):
+class PeerColumn(NamedTuple):
     """A driven column: its foot on the ground, its head on the canopy and its length at the start [m]."""
 
     name: str
@@ -70,7 +70,7 @@ class PlainSupport:
     """
 
     links: tuple[Link, ...]
-    columns: tuple[Column, ...]
+    columns: tuple[PeerColumn, ...]
     bore: Vector2
     contact: JournalContact
     clearance: float
@@ -126,7 +126,7 @@ def plain_support(scenario: Scenario) -> PlainSupport:
             )
         )
     columns = [
-        Column(name, one.foot_point, one.head_point, one.start_length)
+        PeerColumn(name, one.foot_point, one.head_point, one.start_length)
         for name, one in linkage.actuators.items()
     ]
     return PlainSupport(
