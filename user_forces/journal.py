@@ -54,7 +54,7 @@ def journal_in_bore(
     eccentricity = math.sqrt(x * x + y * y)
     depth = eccentricity - clearance
     bore_arm = radius + 0.5 * depth
-    arm = bore_arm - eccentricity
+    arm = bore_arm - depth - clearance
     if eccentricity == 0.0:
         slip = journal_spin * arm - bore_spin * bore_arm
         return depth, math.sqrt(vx * vx + vy * vy), slip, 0.0, 0.0, arm

@@ -21,7 +21,6 @@ from studies.catalogue import STUDIES
 from studies.common import study as study_module
 from studies.common.options import Options, add_options, read_options
 from studies.common.study import Study
-from studies.scene_detail import run as scene_detail
 from support_exudyn.commands.command_line import Parser
 from support_exudyn.commands.parser import NAMES
 from support_exudyn.commands.parser import parser as program_parser
@@ -110,7 +109,7 @@ def noted(monkeypatch: pytest.MonkeyPatch) -> list[Options]:
     monkeypatch.setattr(benchmark, "study", lambda out: found.append(Options(out)))
     for module in (study_module, all_studies):
         monkeypatch.setattr(module, "output_folder", nothing)
-    for module in (study_module, all_studies, scene_detail):
+    for module in (study_module, all_studies):
         monkeypatch.setattr(module, "say_short", lambda *_: None)
     for module in (all_studies, report):
         monkeypatch.setattr(module, "rebuild", lambda *_: 0)

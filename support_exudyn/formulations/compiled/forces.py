@@ -106,7 +106,10 @@ def push_contact(scene: SceneArrays, n: int) -> None:
     if contact.closed == 0.0:
         return
     bore, journal = scene.points[contact.first], scene.points[contact.second]
-    x, y = contact.arm * contact.nx, contact.arm * contact.ny  # from the journal's centre
+    arm = contact.radius
+    if contact.slot == 0:
+        arm -= contact.clearance + 0.5 * contact.depth
+    x, y = arm * contact.nx, arm * contact.ny  # from the journal's centre
     fx, fy = contact.fx, contact.fy
     push(scene, journal.body, fx, fy, (journal.rx + x) * fy - (journal.ry + y) * fx)
     x, y = x + journal.x - bore.x, y + journal.y - bore.y
