@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import exudyn
 import numpy as np
+import numpy.typing as npt
 from exudyn.itemInterface import (
     MarkerBodyRigid,
     ObjectConnectorRigidBodySpringDamper,
@@ -34,6 +35,7 @@ FRAME_TURN = 1e-4
 OUTPUT = exudyn.OutputVariableType
 CURRENT, INITIAL = exudyn.ConfigurationType.Current, exudyn.ConfigurationType.Initial
 Frame = list[list[float]]
+Array = npt.NDArray[np.float64]
 
 
 class Mount(NamedTuple):
@@ -131,16 +133,14 @@ class JointItem:
             for marker in (self.bore_marker, self.journal_marker)
         )
         axes, other = bore[2].reshape(3, 3), journal[2].reshape(3, 3)
-        d, v = axes.T @ (journal[0] - bore[0]), axes.T @ (journal[1] - bore[1])
-        against = axes.T @ other
-        turn = math.atan2(against[1, 0] - against[0, 1], against[0, 0] + against[1, 1])
-        spins = bore[3] @ axes[:, 2], journal[3] @ axes[:, 2]
+        rotation = rotation_vector(axes.T @ other)
         if self.at is Attachment.MIDDLE:
-            c, s = math.cos(0.5 * turn), math.sin(0.5 * turn)
-            half = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-            stretch = 0.5 * turn / s if s else 1.0
-            d, v = stretch * (half @ d), half @ v
-        return Relative(d.tolist(), v.tolist(), turn, float(spins[1] - spins[0]), float(spins[0]))
+            axes = axes @ rotation_matrix(0.5 * rotation)
+        d, v, spin = (axes.T @ (journal[k] - bore[k]) for k in (0, 1, 3))
+        turn, half = float(rotation[2]), 0.5 * float(rotation[2])
+        if self.at is Attachment.MIDDLE and half:
+            d *= half / math.sin(half)
+        return Relative(d.tolist(), v.tolist(), turn, float(spin[2]), self.bore_spin(state))
 
     def line_up(self, turn: float) -> bool:
         """Line up the marker frames if the journal's will have turned by so much [rad]; whether it was done."""
@@ -174,3 +174,20 @@ def frame(centre: tuple[float, float], turn: float = 0.0) -> Frame:
     c, s = math.cos(turn), math.sin(turn)
     x, y = centre
     return [[c, -s, 0.0, x], [s, c, 0.0, y], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+
+
+def rotation_vector(matrix: Array) -> Array:
+    """The rotation vector [rad] (3) of a rotation matrix by less than half a turn."""
+    twice = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
+    sine, cosine = 0.5 * float(np.linalg.norm(twice)), 0.5 * float(np.trace(matrix) - 1.0)
+    return 0.5 * twice * (math.atan2(sine, cosine) / sine if sine else 1.0)
+
+
+def rotation_matrix(vector: Array) -> Array:
+    """The rotation matrix of a rotation vector [rad] (3), by Rodrigues' formula."""
+    angle = float(np.linalg.norm(vector))
+    if not angle:
+        return np.eye(3)
+    x, y, z = vector / angle
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross)
