@@ -114,15 +114,12 @@ class Calls:
 
 @value
 class Interrupting(LankaraniNikravesh):
-    """Is interrupted while it is asked for its force."""
+    """Is interrupted while its force is computed, which is in Python: numba cannot compile it."""
 
-    def __call__(self, depth: float, rate: float, impact_velocity: float) -> float:
+    @staticmethod
+    def elastic(depth: float, stiffness: float, exponent: float) -> float:
         Calls.count()
-        return super().__call__(depth, rate, impact_velocity)
-
-    def elastic_force(self, depth: float) -> float:
-        Calls.count()
-        return super().elastic_force(depth)
+        return float(stiffness * depth**exponent)
 
 
 def interrupting(scenario: Scenario) -> Scenario:
@@ -132,9 +129,10 @@ def interrupting(scenario: Scenario) -> Scenario:
     return replace(scenario, pins={PIN: ClearancePin(contact=contact)})
 
 
+@pytest.mark.filterwarnings("ignore:computed in Python")
 @pytest.mark.parametrize("start", ["concentric", "settled"])
 @pytest.mark.parametrize("call", [1, 3])
-@pytest.mark.parametrize("name", ["plane", "space", "compiled"])
+@pytest.mark.parametrize("name", ["plane", "space"])
 def test_an_interruption_in_a_law_is_not_taken_for_a_failed_run(name: str, call: int, start: str) -> None:
     Calls.left = call
     with pytest.raises(KeyboardInterrupt):

@@ -24,8 +24,17 @@ def test_a_law_says_at_its_definition_what_it_lacks() -> None:
         class Damper(NormalLaw):
             damping: float
 
+            @staticmethod
+            def elastic(depth: float, damping: float) -> float:
+                return damping * depth
+
+
+def test_a_law_says_at_its_definition_which_method_is_of_no_use() -> None:
+    with pytest.raises(InputError, match="class Doubled: elastic_force: follows .* static method `elastic`"):
+
+        class Doubled(Hertz):
             def elastic_force(self, depth: float) -> float:
-                return self.damping * depth
+                return 2.0 * depth
 
 
 def test_a_drive_says_at_its_definition_that_a_property_is_missing() -> None:
