@@ -22,7 +22,7 @@ def simulate_compiled(
     return simulate(replace(scenario, formulation="compiled", solver=solver), progress=progress)
 
 
-def simulate_redundant(scenario: Scenario) -> Result:
+def simulate_on_exudyn(scenario: Scenario) -> Result:
     """Run a scenario with the engine's bodies and constraints."""
     return simulate(replace(scenario, formulation="exudyn"))
 

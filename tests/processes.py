@@ -51,7 +51,7 @@ def soon_started(module: str) -> Iterator[None]:
         yield
         return
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["support_exudyn.formulations.redundant.run", module])
+    context.set_forkserver_preload(["support_exudyn.formulations.exudyn.run", module])
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(workers, "CONTEXT", context)
         yield

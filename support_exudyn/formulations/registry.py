@@ -70,7 +70,7 @@ HERE = __name__.rpartition(".")[0]
 FORMULATIONS = {
     one.name: one
     for one in (
-        Formulation("exudyn", f"{HERE}.redundant.run", cost=2, safety=3.0),
+        Formulation("exudyn", f"{HERE}.exudyn.run", cost=2, safety=3.0),
         Formulation("compiled", f"{HERE}.compiled", cost=1, safety=2.5),
     )
 }

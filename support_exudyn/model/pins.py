@@ -1,7 +1,7 @@
 """The kinds of pins: ideal, with clearance, and whatever derives from `Pin`. A field of the scenario chooses.
 
 A kind is one class, which answers what every stage asks of a pin; its channels, see `mechanics.pin_channels`;
-and what stands for it in the engine, see `formulations.redundant.scene.scene_builder`.
+and what stands for it in the engine, see `formulations.exudyn.scene.scene_builder`.
 """
 
 from __future__ import annotations

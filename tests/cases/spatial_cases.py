@@ -10,8 +10,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 from support_exudyn import Body, LinearActuator, Linkage, Machine, PinPlace, Scenario
-from support_exudyn.formulations.redundant.run import run
-from support_exudyn.formulations.redundant.space.observation import SpatialObservation
+from support_exudyn.formulations.exudyn.run import run
+from support_exudyn.formulations.exudyn.space.observation import SpatialObservation
 from support_exudyn.mechanics.trajectory import Outcome
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from user_forces import (

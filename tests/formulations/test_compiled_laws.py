@@ -19,7 +19,7 @@ from tests.cases.law_cases import (
     one_of_a_formula,
 )
 from tests.cases.run_cases import PIN, loose_support, paper_contact
-from tests.compiled_runs import same_channels, simulate_compiled, simulate_redundant
+from tests.compiled_runs import same_channels, simulate_compiled, simulate_on_exudyn
 from tests.formulations.test_every_law_is_located import SPEED, TIME
 from user_forces import FrictionLaw, Johnson, KelvinVoigt, NormalLaw, friction_law
 
@@ -34,7 +34,7 @@ def drop(bore: str = "first", duration: float = 0.042, **laws: Any) -> Scenario:
 
 def check(scenario: Scenario) -> None:
     """Both do the same."""
-    compare(simulate_compiled(scenario, 1e-9), simulate_redundant(scenario))
+    compare(simulate_compiled(scenario, 1e-9), simulate_on_exudyn(scenario))
 
 
 def compare(ours: Result, theirs: Result) -> None:
@@ -98,7 +98,7 @@ def test_a_contact_beyond_the_range_of_its_law_stops_the_run(tolerance: float) -
     assert "Johnson: depth = 0.000812" in failure.advice
     assert "allowed: up to 0.000812" in failure.advice
     with pytest.raises(SimulationError) as engines:
-        simulate_redundant(scenario)
+        simulate_on_exudyn(scenario)
     assert engines.value.failure.reason == failure.reason
     # the engine stops at the start of a step of 4e-5 s; the depth of a coarse run is right to 1e-3 of the way
     assert failure.time == pytest.approx(engines.value.failure.time, abs=1e-4)

@@ -55,10 +55,10 @@ def on_oil(tolerance: float = 1e-8, friction: float = 0.25, **changes: object) -
     return support(**fields | changes)
 
 
-# --- against the redundant formulation ---
+# --- against the formulation on Exudyn ---
 
 
-def test_the_redundant_formulation_tends_to_the_compiled_one() -> None:
+def test_the_formulation_on_exudyn_tends_to_the_compiled_one() -> None:
     ours = simulate(on_oil(1e-11, drive=Held(), duration=0.06))
     settings = SolverSettings(impact_steps=256)
     base = on_oil(drive=Held(), duration=0.06, formulation="exudyn", step=1e-4, solver=settings)

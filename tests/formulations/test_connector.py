@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, Held, Result, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from tests.cases.run_cases import PIN, Pair, loose_support, paper_contact
 from tests.formulations.test_momentum import ONE, TWO, momenta
 from tests.often import often

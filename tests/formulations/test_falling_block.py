@@ -62,7 +62,7 @@ def test_a_blow_gives_back_what_was_asked(
 ) -> None:
     rock = block(restitution=restitution, exponent=exponent, stiffness=stiffness)
     result = simulate(weightless(rock, formulation=formulation, solver=EXACT))
-    # of the redundant formulation: second order in 512 steps an impact
+    # of the formulation on Exudyn: second order in 512 steps an impact
     (onset,) = result.onsets["rock"]
     assert onset.time == pytest.approx(0.01 / 3.0, rel=1e-9)
     assert onset.speed == pytest.approx(3.0, rel=1e-9)

@@ -8,7 +8,7 @@ import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, SimulationError
 from tests.cases.run_cases import PIN, paper_contact, support
-from tests.compiled_runs import simulate_redundant
+from tests.compiled_runs import simulate_on_exudyn
 from user_forces import Flores
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.contact import ContactForce
@@ -30,7 +30,7 @@ def test_a_law_that_gives_no_force_inside_a_step_is_told_with_its_pin(monkeypatc
 
     monkeypatch.setattr(ContactConnector, "force_within", fail)
     with pytest.raises(SimulationError, match=f"{PIN}: no force at "):
-        simulate_redundant(dropping())
+        simulate_on_exudyn(dropping())
 
 
 @pytest.mark.parametrize("top", [0.01, 0.3, 0.5, 0.93, 0.99])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from support_exudyn.formulations.redundant.solver.step_growth import CALM_STEPS, SMOOTH, StepGrowth
-from support_exudyn.formulations.redundant.solver.within_steps import StepEnd, between
+from support_exudyn.formulations.exudyn.solver.step_growth import CALM_STEPS, SMOOTH, StepGrowth
+from support_exudyn.formulations.exudyn.solver.within_steps import StepEnd, between
 
 MASS = np.array([2.0, 2.0, 1.0])
 WEIGHT = math.sqrt(2.0) * 9.81

@@ -16,7 +16,7 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
-from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from tests.cases.run_cases import FORCE, PIN, paper_contact, support
 from user_forces import Ambrosio, FrictionLaw, LuGre
 

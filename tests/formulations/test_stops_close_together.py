@@ -26,8 +26,8 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
-from support_exudyn.formulations.redundant.scene.engine_scene import slide
-from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.exudyn.scene.engine_scene import slide
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from tests.cases.run_cases import PIN, loose_support, support
 
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
@@ -184,7 +184,7 @@ def test_one_rest_is_moved_over_once(scene: str, beside: float, monkeypatch: pyt
         rests.append(rest)
         slide(moving, rest)
 
-    monkeypatch.setattr("support_exudyn.formulations.redundant.solver.solver.slide", slid)
+    monkeypatch.setattr("support_exudyn.formulations.exudyn.solver.solver.slide", slid)
     found, without = (simulate(replace(SCENES[scene](t), duration=0.012)) for t in (BREAK + beside, BREAK))
     assert rests == [pytest.approx(abs(beside), rel=1e-6)]
     assert found.counts.steps == without.counts.steps

@@ -20,8 +20,8 @@ from support_exudyn import (
     Slide,
     SliderCrank,
 )
-from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
-from support_exudyn.formulations.redundant.scene.scene_builder import build
+from support_exudyn.formulations.exudyn.scene.engine_scene import INITIAL
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.mechanics.body_coordinates import BodyItem
 from support_exudyn.mechanics.kinetics import Kinetics
 from support_exudyn.model.linkage import GROUND, pinned

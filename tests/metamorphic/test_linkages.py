@@ -73,7 +73,7 @@ def compare(scene: Scenario, other: Result, finer: float) -> None:
 
 @given(scene=drawn_linkages.opened())
 @scenes(60)  # 20 of them by hand
-def test_compiled_and_redundant_move_a_linkage_alike(scene: Scenario) -> None:
+def test_both_formulations_move_a_linkage_alike(scene: Scenario) -> None:
     assert mobility(scene.linkage).free == 1
     other = told(scene)
     try:

@@ -24,8 +24,8 @@ from support_exudyn import (
 )
 from support_exudyn.__main__ import main
 from support_exudyn.files import save_scenario
-from support_exudyn.formulations.redundant.run import model
-from support_exudyn.formulations.redundant.solver import solver
+from support_exudyn.formulations.exudyn.run import model
+from support_exudyn.formulations.exudyn.solver import solver
 from support_exudyn.postprocessing.export.solution_file import read_solution, rows
 from support_exudyn.postprocessing.look.poses import Poses, strut_pose
 from support_exudyn.postprocessing.look.solid import solids_of

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import ClearancePin, CubicStep, Held, Result, SolverSettings, simulate
-from support_exudyn.formulations.redundant.solver.step_growth import SMOOTH
+from support_exudyn.formulations.exudyn.solver.step_growth import SMOOTH
 from tests.cases.run_cases import (
     FORCE,
     PIN,

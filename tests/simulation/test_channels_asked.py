@@ -125,7 +125,7 @@ def with_iterations(most: int, monkeypatch: pytest.MonkeyPatch) -> None:
         made.timeIntegration.newton.maxIterations = most
         return made
 
-    monkeypatch.setattr("support_exudyn.formulations.redundant.solver.solver.engine_settings", fewer)
+    monkeypatch.setattr("support_exudyn.formulations.exudyn.solver.solver.engine_settings", fewer)
 
 
 HASTY = support(drive=CubicStep(stroke=0.4, start=0.0, end=0.02), duration=0.05, step=0.01, record_period=0.01)

@@ -20,8 +20,8 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
-from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
-from support_exudyn.formulations.redundant.solver.solver import SolverRun
+from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
+from support_exudyn.formulations.exudyn.solver.solver import SolverRun
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, paper_contact
 from tests.hostile import Interruption, posix_only
 from user_forces import LankaraniNikravesh, value

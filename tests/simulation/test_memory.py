@@ -10,8 +10,8 @@ from dataclasses import replace
 import pytest
 
 from support_exudyn import Held, Scenario, SolverSettings, simulate
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem
-from support_exudyn.formulations.redundant.scene.scene import Scene
+from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
+from support_exudyn.formulations.exudyn.scene.scene import Scene
 from support_exudyn.model.loads.load import AnyLoad
 from tests.cases.run_cases import loose_support
 from tests.roof_cases import over_the_canopy

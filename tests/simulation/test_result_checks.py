@@ -22,8 +22,8 @@ from support_exudyn import (
     Steady,
     simulate,
 )
+from support_exudyn.formulations.exudyn.run import run
 from support_exudyn.formulations.limits import DEEPEST
-from support_exudyn.formulations.redundant.run import run
 from support_exudyn.mechanics.trajectory import Outcome, Trajectory
 from support_exudyn.scenario.recorded_channels import Channel, channels
 from support_exudyn.simulation.result_checks import (

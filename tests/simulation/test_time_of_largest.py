@@ -12,7 +12,7 @@ import pytest
 from support_exudyn import Held, Result, simulate
 from tests import synthetic
 from tests.cases.run_cases import FORCE, SLIDER_PIN, loose_slider_crank, support
-from tests.compiled_runs import simulate_compiled, simulate_redundant
+from tests.compiled_runs import simulate_compiled, simulate_on_exudyn
 
 TIME = np.linspace(0.0, 1.0, 101)
 PERIOD = 0.01
@@ -51,7 +51,7 @@ def test_where_another_time_could_be_meant_the_error_reaches_there() -> None:
 DURATION = 0.004
 
 
-@pytest.mark.parametrize("run", [simulate_compiled, simulate_redundant])
+@pytest.mark.parametrize("run", [simulate_compiled, simulate_on_exudyn])
 def test_the_largest_force_at_any_step_is_there_at_its_time_and_not_before(
     run: Callable[..., Result], tmp_path: Path
 ) -> None:

@@ -15,8 +15,8 @@ import pytest
 from exudyn.itemInterface import MarkerBodyRigid, NodeGenericData, ObjectContactSphereSphere
 
 from support_exudyn import SolverSettings, simulate
-from support_exudyn.formulations.redundant.scene.scene_builder import build
-from support_exudyn.formulations.redundant.solver.solver import quiet_engine
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
+from support_exudyn.formulations.exudyn.solver.solver import quiet_engine
 from tests.cases.run_cases import SLIDER_PIN, loose_slider_crank, slider_crank_contact
 
 DURATION = 1.3e-3  # five impacts [s]

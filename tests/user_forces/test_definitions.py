@@ -30,7 +30,7 @@ def test_a_law_says_at_its_definition_what_it_lacks() -> None:
 
 
 def test_a_law_says_at_its_definition_which_method_is_of_no_use() -> None:
-    with pytest.raises(InputError, match="class Doubled: elastic_force: follows .* static method `elastic`"):
+    with pytest.raises(InputError, match=r"class Doubled: elastic_force: follows .* static method `elastic`"):
 
         class Doubled(Hertz):
             def elastic_force(self, depth: float) -> float:

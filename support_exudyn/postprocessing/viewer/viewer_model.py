@@ -13,8 +13,8 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import ObjectGround, VObjectGround
 
-from support_exudyn.formulations.redundant.run import Model, model
-from support_exudyn.formulations.redundant.scene.engine_scene import INITIAL
+from support_exudyn.formulations.exudyn.run import Model, model
+from support_exudyn.formulations.exudyn.scene.engine_scene import INITIAL
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look import looks

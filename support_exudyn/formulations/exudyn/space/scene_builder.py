@@ -16,13 +16,13 @@ from exudyn.itemInterface import (
     ObjectRigidBody,
 )
 
-from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
-from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
-from support_exudyn.formulations.redundant.space.block_face import BlockFace, places
-from support_exudyn.formulations.redundant.space.loads import add_load
-from support_exudyn.formulations.redundant.space.scene import SpatialBodyItem, SpatialScene
-from support_exudyn.formulations.redundant.space.section_pin import SectionJournal, SectionPin, part_of
-from support_exudyn.formulations.redundant.space.sections import ends, marker_frame, sections
+from support_exudyn.formulations.exudyn.scene.driven_parts import OilColumnItem, by_drive
+from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
+from support_exudyn.formulations.exudyn.space.block_face import BlockFace, places
+from support_exudyn.formulations.exudyn.space.loads import add_load
+from support_exudyn.formulations.exudyn.space.scene import SpatialBodyItem, SpatialScene
+from support_exudyn.formulations.exudyn.space.section_pin import SectionJournal, SectionPin, part_of
+from support_exudyn.formulations.exudyn.space.sections import ends, marker_frame, sections
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg, preloaded_legs
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill

@@ -14,8 +14,8 @@ from exudyn.itemInterface import (
     ObjectGround,
 )
 
-from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
-from support_exudyn.formulations.redundant.scene.leg_circuit import LegItem
+from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
+from support_exudyn.formulations.exudyn.scene.leg_circuit import LegItem
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.linkage import GROUND

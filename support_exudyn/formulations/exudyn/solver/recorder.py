@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import exudyn
 import numpy as np
 
-from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem
-from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
-from support_exudyn.formulations.redundant.solver.within_steps import RunningIntegrals, StepEnd, between
+from support_exudyn.formulations.exudyn.scene.driven_parts import OilColumnItem
+from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
+from support_exudyn.formulations.exudyn.solver.within_steps import RunningIntegrals, StepEnd, between
 from support_exudyn.formulations.statistics.collected import RunStatistics
 from support_exudyn.formulations.statistics.ends import beside_jumps
 from support_exudyn.mechanics.channels import EVERYTHING, DataNeeds

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from support_exudyn.formulations.redundant.scene.scene import Scene
+from support_exudyn.formulations.exudyn.scene.scene import Scene
 from support_exudyn.mechanics.acting_loads import add_load
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import MOTION, DataNeeds

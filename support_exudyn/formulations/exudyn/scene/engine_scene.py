@@ -6,11 +6,11 @@ from typing import Any, Protocol
 
 import exudyn
 
-from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
-from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts
-from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
-from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem
+from support_exudyn.formulations.exudyn.scene.cylinder_item import CylinderItem
+from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts
+from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
+from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
+from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.trajectory import CompliantSeries, Impulse, Series
 from support_exudyn.model.linkage import PinPlace

@@ -10,9 +10,9 @@ from typing import TypeVar
 import numpy as np
 
 from support_exudyn.formulations.contract import Progress
-from support_exudyn.formulations.redundant.scene.cylinder_item import UNIT, CylinderItem
-from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
-from support_exudyn.formulations.redundant.scene.record_forces import (
+from support_exudyn.formulations.exudyn.scene.cylinder_item import UNIT, CylinderItem
+from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
+from support_exudyn.formulations.exudyn.scene.record_forces import (
     FOLLOWING,
     Applied,
     Following,
@@ -20,14 +20,14 @@ from support_exudyn.formulations.redundant.scene.record_forces import (
     following,
     with_causes,
 )
-from support_exudyn.formulations.redundant.scene.scene import Scene
-from support_exudyn.formulations.redundant.scene.scene_builder import build
-from support_exudyn.formulations.redundant.scene.static_equilibrium import find_static_equilibrium
-from support_exudyn.formulations.redundant.solver.recorder import History, Recorder
-from support_exudyn.formulations.redundant.solver.solver import SolverRun
-from support_exudyn.formulations.redundant.space.observation import SpatialObservation
-from support_exudyn.formulations.redundant.space.scene import SpatialScene
-from support_exudyn.formulations.redundant.space.scene_builder import build as build_in_space
+from support_exudyn.formulations.exudyn.scene.scene import Scene
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
+from support_exudyn.formulations.exudyn.scene.static_equilibrium import find_static_equilibrium
+from support_exudyn.formulations.exudyn.solver.recorder import History, Recorder
+from support_exudyn.formulations.exudyn.solver.solver import SolverRun
+from support_exudyn.formulations.exudyn.space.observation import SpatialObservation
+from support_exudyn.formulations.exudyn.space.scene import SpatialScene
+from support_exudyn.formulations.exudyn.space.scene_builder import build as build_in_space
 from support_exudyn.machines.check.freedoms import FIELDS, repeated
 from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion

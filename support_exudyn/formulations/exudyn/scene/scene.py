@@ -8,17 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
-from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
-from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
-from support_exudyn.formulations.redundant.scene.engine_scene import (
+from support_exudyn.formulations.exudyn.scene.cylinder_item import CylinderItem
+from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts, OilColumnItem
+from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
+from support_exudyn.formulations.exudyn.scene.engine_scene import (
     CURRENT,
     INITIAL,
     CompliantItem,
     EngineScene,
 )
-from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem
+from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
+from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace

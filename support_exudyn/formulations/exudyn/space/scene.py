@@ -8,20 +8,20 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
-from support_exudyn.formulations.redundant.scene.driven_parts import DrivenParts, OilColumnItem
-from support_exudyn.formulations.redundant.scene.engine_legs import EngineLegs
-from support_exudyn.formulations.redundant.scene.engine_scene import (
+from support_exudyn.formulations.exudyn.scene.cylinder_item import CylinderItem
+from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts, OilColumnItem
+from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
+from support_exudyn.formulations.exudyn.scene.engine_scene import (
     CURRENT,
     INITIAL,
     CompliantItem,
     EngineScene,
 )
-from support_exudyn.formulations.redundant.scene.joint_friction import JointFriction
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem
-from support_exudyn.formulations.redundant.space.block_face import BlockFace
-from support_exudyn.formulations.redundant.space.section_pin import SectionPin
-from support_exudyn.formulations.redundant.space.sections import ends
+from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
+from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
+from support_exudyn.formulations.exudyn.space.block_face import BlockFace
+from support_exudyn.formulations.exudyn.space.section_pin import SectionPin
+from support_exudyn.formulations.exudyn.space.sections import ends
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.space.constraints import (
     SHIFTS,

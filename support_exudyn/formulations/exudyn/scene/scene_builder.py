@@ -23,20 +23,20 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
 )
 
-from support_exudyn.formulations.redundant.scene.bushing import BushingItem
-from support_exudyn.formulations.redundant.scene.cylinder_item import CylinderItem
-from support_exudyn.formulations.redundant.scene.driven_parts import OilColumnItem, by_drive
-from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
-from support_exudyn.formulations.redundant.scene.engine_scene import CompliantItem
-from support_exudyn.formulations.redundant.scene.joint_friction import (
+from support_exudyn.formulations.exudyn.scene.bushing import BushingItem
+from support_exudyn.formulations.exudyn.scene.cylinder_item import CylinderItem
+from support_exudyn.formulations.exudyn.scene.driven_parts import OilColumnItem, by_drive
+from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
+from support_exudyn.formulations.exudyn.scene.engine_scene import CompliantItem
+from support_exudyn.formulations.exudyn.scene.joint_friction import (
     GuideFriction,
     JointFriction,
     PinFriction,
     rotations,
 )
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem, add_force, add_moment
-from support_exudyn.formulations.redundant.scene.scene import Scene
-from support_exudyn.formulations.redundant.scene.stretch_item import add_stretch
+from support_exudyn.formulations.exudyn.scene.load_item import LoadItem, add_force, add_moment
+from support_exudyn.formulations.exudyn.scene.scene import Scene
+from support_exudyn.formulations.exudyn.scene.stretch_item import add_stretch
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.cylinder_chambers import fill_cylinders
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs

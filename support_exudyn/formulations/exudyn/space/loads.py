@@ -10,9 +10,9 @@ import exudyn
 import numpy as np
 from exudyn.itemInterface import MarkerBodyRigid, ObjectConnectorRigidBodySpringDamper
 
-from support_exudyn.formulations.redundant.scene.engine_builder import EngineBuilder
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem, MomentItem, add_force
-from support_exudyn.formulations.redundant.scene.stretch_item import StretchItem
+from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
+from support_exudyn.formulations.exudyn.scene.load_item import LoadItem, MomentItem, add_force
+from support_exudyn.formulations.exudyn.scene.stretch_item import StretchItem
 from support_exudyn.mechanics.space.acting_loads import turning_axis
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.loads.load import ActingLoad, Load

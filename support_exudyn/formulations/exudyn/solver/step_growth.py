@@ -8,7 +8,7 @@ Steps grow twofold while the change is small, and halve at once when it is not.
 
 import math
 
-from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene
+from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
 from support_exudyn.mechanics.trajectory import Series
 
 # Largest change of accelerations over a step, as a share of what the bodies have, or of gravity if that is

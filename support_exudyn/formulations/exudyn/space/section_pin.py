@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from support_exudyn.formulations.redundant.space.sections import Section
+from support_exudyn.formulations.exudyn.space.sections import Section
 from support_exudyn.mechanics.space.constraints import BearingEnd
 from support_exudyn.scenario.solver_settings import SolverSettings
 from user_forces.connector.attachment import Attachment

@@ -6,11 +6,11 @@ from functools import cached_property
 
 import numpy as np
 
-from support_exudyn.formulations.redundant.solver.recorder import History
-from support_exudyn.formulations.redundant.space.block_face import BlockFace
-from support_exudyn.formulations.redundant.space.scene import SpatialScene
-from support_exudyn.formulations.redundant.space.section_pin import SectionPin
-from support_exudyn.formulations.redundant.space.sections import SectionMotion, section_motion
+from support_exudyn.formulations.exudyn.solver.recorder import History
+from support_exudyn.formulations.exudyn.space.block_face import BlockFace
+from support_exudyn.formulations.exudyn.space.scene import SpatialScene
+from support_exudyn.formulations.exudyn.space.section_pin import SectionPin
+from support_exudyn.formulations.exudyn.space.sections import SectionMotion, section_motion
 from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
 from support_exudyn.mechanics.drive_acceleration import accelerations_of
 from support_exudyn.mechanics.oil_column import OilSeries

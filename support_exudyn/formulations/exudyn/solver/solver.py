@@ -16,11 +16,10 @@ import exudyn
 
 from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.formulations.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
-from support_exudyn.formulations.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
-from support_exudyn.formulations.redundant.scene.engine_scene import EngineScene, slide
-from support_exudyn.formulations.redundant.solver.newton_method import NewtonMethod
-from support_exudyn.formulations.redundant.solver.recorder import Recorder
-from support_exudyn.formulations.redundant.solver.refusals import (
+from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene, slide
+from support_exudyn.formulations.exudyn.solver.newton_method import NewtonMethod
+from support_exudyn.formulations.exudyn.solver.recorder import Recorder
+from support_exudyn.formulations.exudyn.solver.refusals import (
     ADVICE,
     FEWER_STEPS,
     STEEP,
@@ -29,7 +28,8 @@ from support_exudyn.formulations.redundant.solver.refusals import (
     unlawful,
     why,
 )
-from support_exudyn.formulations.redundant.solver.step_growth import StepGrowth, step_growth
+from support_exudyn.formulations.exudyn.solver.step_growth import StepGrowth, step_growth
+from support_exudyn.formulations.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
 from support_exudyn.formulations.time_grid import StepPlan
 from support_exudyn.mechanics.oil_column import force_rounding
 from support_exudyn.mechanics.trajectory import Counts, Impulse

@@ -8,7 +8,7 @@ from typing import Any
 import exudyn
 from exudyn.itemInterface import ObjectConnectorRigidBodySpringDamper
 
-from support_exudyn.formulations.redundant.scene.load_item import LoadItem
+from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
 from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
 
 NAME = "springForceTorqueUserFunction"  # the engine's, of its rigid-body connector
