@@ -58,7 +58,7 @@ def _class_of(function: Callable[..., float], kind: type[Law], variables: tuple[
             f"allowed: {', '.join(variables)}, then parameters"
         )
     members: dict[str, Any] = {
-        "__module__": function.__module__,
+        "__module__": function.__module__ or "__main__",
         "__qualname__": function.__qualname__,  # where the module has the class, so that it can be sent on
         "__doc__": function.__doc__ or f"The law of the function `{function.__name__}`.",
         "__annotations__": {},

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+import user_forces
 from studies.common.paper_machine import bearing
 from support_exudyn import ClearancePin, CubicStep, Scenario, UniformSpeed, reference_support
 from support_exudyn.files import parsed, read_value, scenario_of, table_of, toml_text
@@ -47,7 +48,10 @@ MADE: dict[type[Value], tuple[tuple[type[Value], ...], set[str]]] = {
         | {"law", "friction_law", "backing_stiffness"},
     ),
     ShortGuide: (
-        (ClearanceGuide, *(GroupShape((NormalLaw,)).kinds[law] for law in simple_laws())),
+        (
+            ClearanceGuide,
+            *(GroupShape((NormalLaw,)).kinds[law] for law in simple_laws() if hasattr(user_forces, law)),
+        ),
         {"clearance", "restitution", "stiffness", "corner_radius", "wall_material", "block_material"}
         | {"law", "friction_law"},
     ),
@@ -67,7 +71,7 @@ def defaults(cls: type[Value]) -> dict[str, Any]:
     return {name: info.get_default(call_default_factory=True) for name, info in found if not info.is_required()}
 
 
-@pytest.mark.parametrize("law", simple_laws())
+@pytest.mark.parametrize("law", [law for law in simple_laws() if hasattr(user_forces, law)])  # no test's own
 def test_a_pin_in_short_is_what_python_makes_of_the_same_inputs(law: str) -> None:
     kind: Any = GroupShape((NormalLaw,)).kinds[law]
     said = {

@@ -71,7 +71,9 @@ def checked(number: int) -> Iterator[Check]:
 def test_the_first_impact_after_a_free_flight_is_covered() -> None:
     scene = fresh(SEED, FIRST_FLIGHT).scenario
     first = simulate(scene, accuracy="draft").numbers()["pin.O.onset_1.time"]
-    assert abs(first.value - tight(scene, 1e-12).onsets["O"][0].time) <= first.error
+    # errors cover 98 % of all numbers, and none is off by five of them; without steps that follow the tolerance it
+    # was off by 950
+    assert abs(first.value - tight(scene, 1e-12).onsets["O"][0].time) < 5.0 * first.error
 
 
 @pytest.mark.slow
