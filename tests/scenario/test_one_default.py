@@ -32,6 +32,7 @@ from user_forces import (
     external_contact_stiffness,
 )
 
+OUR_SIMPLE_LAWS = [law for law in simple_laws() if hasattr(user_forces, law)]  # without those of other tests
 TOP = 'machine = "reference"\nduration_s = 5\n'
 WITH_CLEARANCE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
 some.kinds()  # imports all modules: not while something is drawn
@@ -71,7 +72,7 @@ def defaults(cls: type[Value]) -> dict[str, Any]:
     return {name: info.get_default(call_default_factory=True) for name, info in found if not info.is_required()}
 
 
-@pytest.mark.parametrize("law", [law for law in simple_laws() if hasattr(user_forces, law)])  # no test's own
+@pytest.mark.parametrize("law", OUR_SIMPLE_LAWS)
 def test_a_pin_in_short_is_what_python_makes_of_the_same_inputs(law: str) -> None:
     kind: Any = GroupShape((NormalLaw,)).kinds[law]
     said = {
