@@ -71,8 +71,8 @@ def checked(number: int) -> Iterator[Check]:
 def test_the_first_impact_after_a_free_flight_is_covered() -> None:
     scene = fresh(SEED, FIRST_FLIGHT).scenario
     first = simulate(scene, accuracy="draft").numbers()["pin.O.onset_1.time"]
-    # errors cover 98 % of all numbers, and no number is off by five of them; without first steps that follow the
-    # tolerance this impact was off by 950
+    # errors cover 98 % of all numbers, and no number is off by five of them; without first steps that follow
+    # the tolerance this impact was off by 950
     assert abs(first.value - tight(scene, 1e-12).onsets["O"][0].time) < 5.0 * first.error
 
 
