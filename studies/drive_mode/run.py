@@ -40,9 +40,7 @@ def work(chosen: Options) -> StudyOutcome:
             **({"table_valves": tables.valve_table(known, plan)} if "cylinder" in plan.columns else {}),
         }
 
-    # the journal strikes its bore after the sudden stop, which steps of 1 ms reach too late
-    struck = case_name(next(iter(MODES)), plan.pins[-1], "oil")
-    made = run_on_exudyn(cases, chosen, finer=[struck] if struck in cases else [])
+    made = run_on_exudyn(cases, chosen)
     results = {name: made[name] for name in plan.scenarios}
     numbers = with_errors(numbers_of(made))
     drawings = figures(plan, results)
