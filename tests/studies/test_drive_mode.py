@@ -99,7 +99,7 @@ def test_clearance_matters_at_the_stop_more_than_at_the_start(
         if (window, pin) == ("after_stop", WITH_CLEARANCE):  # 1 ms is too long for this strike
             assert abs(number["value"] - number["witness"]) <= number["numerical_error"]
         else:
-            assert number["numerical_error"] < 0.01 * number["value"]
+            assert number["numerical_error"] < 0.02 * number["value"]
 
 
 def test_the_peak_has_a_band_from_assumptions_and_depends_on_the_contact(numbers: Numbers) -> None:
