@@ -96,10 +96,19 @@ def test_clearance_matters_at_the_stop_more_than_at_the_start(
     for pin, expected in ((WITH_CLEARANCE, loose), (IDEAL, tight)):
         number = numbers[f"largest_pin_force_{window}", case_name("mode 1", pin, "oil")]
         assert number["value"] == pytest.approx(1e3 * expected, rel=0.02)
-        if (window, pin) == ("after_stop", WITH_CLEARANCE):  # 1 ms is too long for this strike
-            assert abs(number["value"] - number["witness"]) <= number["numerical_error"]
-        else:
-            assert number["numerical_error"] < 0.02 * number["value"]
+        assert abs(number["value"] - number["witness"]) <= number["numerical_error"]
+
+
+MISSED = pytest.mark.xfail(
+    reason="steps of 1 ms: errors are 1.2 kN of 105 kN and 229 kN of 213 kN", strict=True
+)
+
+
+@pytest.mark.parametrize("window", ["in_motion", pytest.param("after_stop", marks=MISSED)])
+def test_errors_of_peaks_are_below_one_percent(numbers: Numbers, window: str) -> None:
+    for pin in (WITH_CLEARANCE, IDEAL):
+        number = numbers[f"largest_pin_force_{window}", case_name("mode 1", pin, "oil")]
+        assert number["numerical_error"] < 0.01 * number["value"]
 
 
 def test_the_peak_has_a_band_from_assumptions_and_depends_on_the_contact(numbers: Numbers) -> None:
