@@ -34,7 +34,7 @@ ALLOWED = "allowed: a share of the reference's range, '2 %', or an amount with i
 
 @dataclass(frozen=True)
 class Tolerance:
-    """By how much the channels that a pattern matches may differ.
+    """A tolerance bounds how much the channels that a pattern matches may differ.
 
     pattern: name of a channel, or a pattern as in a shell. text: as it was written. amount: number of `unit`,
     which is "%" of the reference's range or a unit of the channel.
