@@ -104,6 +104,12 @@ def test_a_new_class_needs_no_further_code() -> None:
     assert read(Sheave, toml_text(table_of(expected))) == expected
 
 
+@pytest.mark.parametrize("mark", ["\x85", "\u2028", "\x0b", "\x1c"], ids=ascii)
+def test_a_name_in_a_list_keeps_every_mark_that_looks_like_the_end_of_a_line(mark: str) -> None:
+    named = {"bodies": ["ground", mark, f"a{mark}b"]}
+    assert parsed(toml_text(named), "a.toml") == named
+
+
 def test_numbers_are_rounded_once() -> None:
     # 0.1 mm + rounding of 1e-3 would be 1.0000000000000002e-04 for some of them
     for written in ("0.1", "0.3", "65.5", "1.1", "0.7", "37.7"):

@@ -59,7 +59,7 @@ def _reason(said: str, text: str, named: bool) -> str:
 
     named: the line by its number only.
     """
-    lines = text.replace("\r\n", "\n").splitlines()
+    lines = text.replace("\r\n", "\n").split("\n")
     place = PLACE.search(said)
     number = int(place[1]) if place else len(lines)
     if named:
@@ -113,7 +113,7 @@ def toml_text(table: dict[str, Any]) -> str:
 
 def _in_a_line(found: re.Match[str]) -> str:
     """A list as it is written where it fits into a line; of numbers, as many in a line as fit."""
-    items = [item.strip() for item in found[1].splitlines()]
+    items = [item.strip() for item in found[1].split("\n")]
     line = "[" + " ".join(items).removesuffix(",") + "]"
     if len(line) < LINE // 2:
         return line
