@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from support_exudyn.files.own_modules import trusted
     from support_exudyn.files.scenarios.scenario_file import read_scenario
     from support_exudyn.files.scenarios.simple_scenario import simple_scenario
-    from support_exudyn.formulations.contract import Failure, SimulationError
     from support_exudyn.machines.four_column_support import HydraulicSupport
     from support_exudyn.machines.free_impact import ImpactStand
     from support_exudyn.machines.planar_linkage import PlanarLinkage
@@ -105,6 +104,7 @@ if TYPE_CHECKING:
     from support_exudyn.scenario.recorded_channels import Channel
     from support_exudyn.scenario.scenario import Scenario
     from support_exudyn.scenario.solver_settings import SolverSettings
+    from support_exudyn.scene.contract import Failure, SimulationError
     from support_exudyn.simulation.estimate import Estimate
     from support_exudyn.simulation.recommend import Recommendation, recommend
     from support_exudyn.simulation.result import Result
@@ -225,7 +225,7 @@ __all__ = [
 _PLACES = {
     "user_forces.contact_state": ("Onset",),
     ".files.machines": ("cylinders_and_rods", "load_machine", "load_support", "machine", "reference_support"),
-    ".formulations.contract": ("Failure", "SimulationError"),
+    ".scene.contract": ("Failure", "SimulationError"),
     ".machines.four_column_support": ("HydraulicSupport",),
     ".machines.free_impact": ("ImpactStand",),
     ".machines.planar_linkage": ("PlanarLinkage",),

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from support_exudyn import Result, Scenario, simulate
-from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.scenario.solver_settings import MOST_STEPS
+from support_exudyn.scene.contract import Progress, silent
 
 
 def simulate_compiled(

@@ -16,7 +16,7 @@ PACKAGES = ("support_exudyn", "user_forces", "studies")
 LONGEST = 420  # lines of a file
 ALIKE = ("ClearanceGuide",)  # of a scenario, and of a user's own model of the engine
 ABOVE = ("commands", "documentation", "postprocessing", "sweeps", "simulation", "files")
-BELOW = ("formulations", "machines", "scenario", "mechanics", "model")
+BELOW = ("formulations", "scene", "machines", "scenario", "mechanics", "model")
 ROOMS = [*(ROOT / "support_exudyn" / name for name in ABOVE + BELOW), ROOT / "user_forces", ROOT / "studies"]
 
 

@@ -20,10 +20,10 @@ import numpy as np
 
 from studies.extremes.hydraulics import oil_open
 from support_exudyn import Result, Scenario, SimulationError, SolverSettings, simulate
-from support_exudyn.formulations.limits import DEEPEST
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario_data import LARGEST_STEP
 from support_exudyn.scenario.timescales import timescales
+from support_exudyn.scene.limits import DEEPEST
 from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.estimate import disagreement, rounding_share
 from support_exudyn.simulation.result_checks import OPEN, energy_open

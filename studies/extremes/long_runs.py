@@ -26,9 +26,9 @@ from support_exudyn import (
     Steady,
     reference_support,
 )
-from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.recorded_channels import channels
+from support_exudyn.scene.contract import Progress, silent
 from support_exudyn.simulation.result_checks import energy_open, joints_apart, result_checks, turned_over
 from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact_state import PinMemory

@@ -25,7 +25,7 @@ from studies.extremes.judge import BEFORE, FREE, GOOD, LEAK, MORE, REFUSED, SILE
 from studies.extremes.long_runs import LongRun
 from studies.extremes.ranges import SPANS
 from studies.extremes.runs import PATIENCE, judge_all, run_long
-from support_exudyn.formulations.limits import DEEPEST
+from support_exudyn.scene.limits import DEEPEST
 from support_exudyn.simulation.result_checks import OPEN
 
 OUTCOMES = (GOOD, REFUSED, SILENT)

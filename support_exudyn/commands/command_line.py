@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
-from support_exudyn.formulations.contract import Progress, SimulationError, told
+from support_exudyn.scene.contract import Progress, SimulationError, told
 from support_exudyn.simulation.at_start import EXIT_CODE, INTERRUPTED, be_readable
 from user_forces.values.texts import InputError, cleaned, short
 

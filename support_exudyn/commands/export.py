@@ -20,7 +20,7 @@ from support_exudyn.commands.command_line import (
     shown_progress,
     warn,
 )
-from support_exudyn.formulations.contract import Progress
+from support_exudyn.scene.contract import Progress
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Protocol, cast
 
 from support_exudyn.commands.command_line import CommandParser, Parser, mendable, say
-from support_exudyn.formulations.contract import told
+from support_exudyn.scene.contract import told
 from user_forces.values.texts import InputError
 
 NAMES = {  # of commands, each with a line of what it does

@@ -35,9 +35,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.formulations.limits import rounding_of_positions
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.limits import rounding_of_positions
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import (
     ROUNDING,

@@ -7,9 +7,9 @@ halved again, a few times. If that does not help, nothing is known of the number
 
 from dataclasses import replace
 
-from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.solver_settings import REFINED_TOLERANCE, SMALLEST_TOLERANCE
+from support_exudyn.scene.contract import Failure, Progress, SimulationError
 from support_exudyn.simulation.estimate import disagreement, rounding_share
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.single_run import single_run

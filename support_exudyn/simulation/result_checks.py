@@ -9,12 +9,12 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from support_exudyn.formulations import change_points
-from support_exudyn.formulations.contract import Failure
-from support_exudyn.formulations.limits import DEEPEST, ENDS, SOFT, too_deep
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.contract import Failure
+from support_exudyn.scene.limits import DEEPEST, ENDS, SOFT, too_deep
 from user_forces.lawful import UNLAWFUL, is_own
 from user_forces.values.value import Vector2
 

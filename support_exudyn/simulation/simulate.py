@@ -4,9 +4,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal, overload
 
-from support_exudyn.formulations.contract import Failure, Progress, SimulationError, silent, told
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import Accuracy
+from support_exudyn.scene.contract import Failure, Progress, SimulationError, silent, told
 from support_exudyn.simulation.automatic_settings import covered
 from support_exudyn.simulation.halved_steps import run_halving_steps
 from support_exudyn.simulation.provenance import FORMULATION_ASKED

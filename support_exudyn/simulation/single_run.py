@@ -5,11 +5,11 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from support_exudyn.formulations.contract import Failure, Progress, SimulationError, first_line
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.mechanics.channels import EvaluationContext
 from support_exudyn.scenario.recorded_channels import asked, channels, evaluated
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.contract import Failure, Progress, SimulationError, first_line
 from support_exudyn.simulation.memory import check_room
 from support_exudyn.simulation.provenance import WARNINGS, provenance
 from support_exudyn.simulation.result import Result

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from support_exudyn.formulations.contract import Progress, SimulationError, silent
 from support_exudyn.mechanics.channels import ALL_CHANNELS
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.solver_settings import MOST_SECTIONS
+from support_exudyn.scene.contract import Progress, SimulationError, silent
 from support_exudyn.simulation.automatic_settings import settings_for
 from support_exudyn.simulation.reported_numbers import ROUNDING, measured, measures
 from support_exudyn.simulation.result import Result

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from support_exudyn.formulations.contract import Failure
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.contract import Failure
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, report, worker_pool

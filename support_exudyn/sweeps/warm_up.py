@@ -3,9 +3,9 @@
 from dataclasses import replace
 
 from support_exudyn.files.machines import reference_support
-from support_exudyn.formulations.contract import silent
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.contract import silent
 from user_forces.contact import JournalContact
 from user_forces.journal import JournalBearing
 from user_forces.normal.power_laws import Hertz

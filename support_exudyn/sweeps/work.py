@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from support_exudyn.files.temporary import workshop
-from support_exudyn.formulations.contract import SimulationError, told
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.contract import SimulationError, told
 from support_exudyn.simulation.result import Result, with_digest
 from support_exudyn.simulation.simulate import simulate
 from support_exudyn.sweeps.chunks import Chunks

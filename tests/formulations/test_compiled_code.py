@@ -13,9 +13,9 @@ from typing import Any
 import numba
 import pytest
 
-from support_exudyn.formulations import compilation
+from support_exudyn.scene import compilation
 from support_exudyn.formulations.compiled.integrate import integrate
-from support_exudyn.formulations.hydraulics.leg import evaluate_legs
+from support_exudyn.scene.hydraulics.leg import evaluate_legs
 
 
 def twice(value: float) -> float:

@@ -18,7 +18,7 @@ from numpy.polynomial import Polynomial
 
 from support_exudyn.formulations.compiled import depth as depths
 from support_exudyn.formulations.compiled import events as general_events
-from support_exudyn.formulations.compiled.arrays import CONTACT
+from support_exudyn.scene.arrays import CONTACT
 from tests.formulations.plain import plain
 
 C = 10.0  # clearance [m], large: dips of a thousandth of a step are then far above what is called still

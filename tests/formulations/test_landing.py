@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from support_exudyn.formulations.compiled import depth
 from support_exudyn.formulations.compiled import landing as general
-from support_exudyn.formulations.compiled.arrays import CONTACT, REPORT
+from support_exudyn.scene.arrays import CONTACT, REPORT
 from tests.formulations.plain import plain
 
 STEP = 0.125

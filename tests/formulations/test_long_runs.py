@@ -9,8 +9,8 @@ import pytest
 
 from studies.extremes import long_runs
 from support_exudyn import Scenario, SolverSettings, Steady, simulate
-from support_exudyn.formulations.contract import silent
 from support_exudyn.formulations.registry import formulation
+from support_exudyn.scene.contract import silent
 from support_exudyn.simulation.result_checks import joints_apart
 from tests.cases.run_cases import slider_crank
 from tests.linkage_cases import CrankRocker

@@ -23,10 +23,10 @@ from support_exudyn import (
     Steady,
     simulate,
 )
-from support_exudyn.formulations.contract import SimulationError
 from support_exudyn.machines.check.freedoms import shared
 from support_exudyn.model.linkage import GROUND, Body, Crank, Linkage, Slide, TracePoint, pinned
 from support_exudyn.postprocessing.summary import how
+from support_exudyn.scene.contract import SimulationError
 from tests.linkages import bar_of, four_bar, towards
 from user_forces import Ambrosio, JournalBearing, JournalContact, LankaraniNikravesh
 from user_forces.values.value import InputError

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from support_exudyn.formulations.time_grid import StepPlan, shortest_step
+from support_exudyn.scene.time_grid import StepPlan, shortest_step
 
 Times = list[float]
 

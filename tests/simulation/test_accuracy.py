@@ -21,7 +21,7 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
-from support_exudyn.formulations.contract import Progress
+from support_exudyn.scene.contract import Progress
 from support_exudyn.simulation import to_accuracy
 from support_exudyn.simulation.reported_numbers import measures
 from support_exudyn.simulation.to_accuracy import FEWEST_RUNS, MOST_RUNS, PATIENCE

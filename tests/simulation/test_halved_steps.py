@@ -21,8 +21,8 @@ from support_exudyn import (
     UniformSpeed,
     simulate,
 )
-from support_exudyn.formulations.contract import Progress
 from support_exudyn.scenario.solver_settings import MOST_IMPACT_STEPS, SMALLEST_TOLERANCE
+from support_exudyn.scene.contract import Progress
 from support_exudyn.simulation import halved_steps
 from support_exudyn.simulation.estimate import disagreement
 from support_exudyn.simulation.halved_steps import LARGEST_ERROR, MOST_RUNS

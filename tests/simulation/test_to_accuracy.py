@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import Failure, Held, Scenario, SimulationError
-from support_exudyn.formulations.contract import silent
 from support_exudyn.mechanics.trajectory import Counts
+from support_exudyn.scene.contract import silent
 from support_exudyn.simulation import to_accuracy
 from tests.cases.run_cases import loose_support
 

@@ -35,8 +35,8 @@ from studies.extremes.judge import (
 )
 from studies.extremes.ranges import LARGEST_SPEED, SPANS, Point, drawn
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
-from support_exudyn.formulations.limits import DEEPEST
 from support_exudyn.mechanics.time_statistics import TimeStatistics
+from support_exudyn.scene.limits import DEEPEST
 from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.reported_numbers import measured
 from support_exudyn.simulation.result_checks import turned_over

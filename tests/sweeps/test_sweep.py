@@ -11,7 +11,7 @@ import pytest
 
 from support_exudyn import Result, Scenario
 from support_exudyn.__main__ import main
-from support_exudyn.formulations.contract import Failure, SimulationError
+from support_exudyn.scene.contract import Failure, SimulationError
 from support_exudyn.sweeps import SweepOutcome, read_sweep, read_table, sweep, work
 from support_exudyn.sweeps.run import known
 from support_exudyn.sweeps.store import Store

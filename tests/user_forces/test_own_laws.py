@@ -15,7 +15,7 @@ import pytest
 
 from support_exudyn import ClearancePin, ImpactStand, Result, Scenario, SolverSettings, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.formulations.compilation import UncompiledLawError, address_of, contact_law
+from support_exudyn.scene.compilation import UncompiledLawError, address_of, contact_law
 from tests.cases.law_cases import BEARING
 from user_forces import (
     Ambrosio,

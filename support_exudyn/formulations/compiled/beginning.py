@@ -1,11 +1,11 @@
 """How a run begins, and how velocities jump where the speed of a drive does."""
 
-from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import JUMP_ENERGY, WORK, Matrix, SceneArrays, Scratch, Vector
-from support_exudyn.formulations.compiled.hydraulics import begin_legs
-from support_exudyn.formulations.compiled.motion import SINGULAR, solve
 from support_exudyn.formulations.compiled.recording import write_record
 from support_exudyn.formulations.compiled.step import evaluate
+from support_exudyn.scene.arrays import JUMP_ENERGY, WORK, Matrix, SceneArrays, Scratch, Vector
+from support_exudyn.scene.compilation import compiled, once
+from support_exudyn.scene.legs import begin_legs
+from support_exudyn.scene.motion import SINGULAR, solve
 from user_forces.contact_events import STILL
 
 

@@ -2,9 +2,9 @@
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import IMPACTS, Matrix, SceneArrays, Vector
 from support_exudyn.formulations.compiled.depth import IMPACT, SEPARATION, TOGETHER
+from support_exudyn.scene.arrays import IMPACTS, Matrix, SceneArrays, Vector
+from support_exudyn.scene.compilation import compiled, once
 
 
 @compiled

@@ -2,12 +2,12 @@
 
 from typing import NoReturn
 
-from support_exudyn.formulations.compilation import UncompiledLawError, address_of, contact_law, load_law
-from support_exudyn.formulations.compiled.setup import friction_law
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.compilation import UncompiledLawError, address_of, contact_law, load_law
+from support_exudyn.scene.setup import friction_law
 from user_forces.values.value import InputError
 
 COMPILED = "laws and loads that are functions of numbers, in what numba knows of Python"

@@ -4,7 +4,7 @@ Over a part the depth is the cubic that fits both; where that leaves in doubt wh
 step is too long, and is made again shorter.
 """
 
-from support_exudyn.formulations.compilation import compiled
+from support_exudyn.scene.compilation import compiled
 from user_forces.contact_events import DepthPath
 
 # CUT: the law begins or ceases to ask for tension

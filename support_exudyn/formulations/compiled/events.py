@@ -6,8 +6,6 @@ leaves in doubt whether something happens, the step is too long, and is made aga
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import Matrix, Records, SceneArrays, Vector
 from support_exudyn.formulations.compiled.depth import (
     CUT,
     CUT_MET,
@@ -23,8 +21,10 @@ from support_exudyn.formulations.compiled.depth import (
     in_contact,
     rise,
 )
-from support_exudyn.formulations.compiled.forces import observe, press
 from support_exudyn.formulations.compiled.step import within
+from support_exudyn.scene.arrays import Matrix, Records, SceneArrays, Vector
+from support_exudyn.scene.compilation import compiled, once
+from support_exudyn.scene.forces import observe, press
 
 
 @compiled

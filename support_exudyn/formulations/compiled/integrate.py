@@ -1,27 +1,5 @@
 """The run: steps of chosen length, cut at impacts and separations, between two breaks of drives and loads."""
 
-from support_exudyn.formulations.compilation import entry, once
-from support_exudyn.formulations.compiled.arrays import (
-    ACCEPTED,
-    CUTS,
-    DEAD_CENTRE,
-    FINISHED,
-    LAST_STEP,
-    PAUSED,
-    RECORDS,
-    STAGES,
-    STEPS,
-    STOPPED_AT,
-    STUCK,
-    TOO_MANY_IMPACTS,
-    TOO_MANY_OIL_EVENTS,
-    TOO_MANY_STEPS,
-    Matrix,
-    Records,
-    SceneArrays,
-    Scratch,
-    Vector,
-)
 from support_exudyn.formulations.compiled.beginning import begin_run, jump
 from support_exudyn.formulations.compiled.changes import happen
 from support_exudyn.formulations.compiled.depth import (
@@ -64,6 +42,28 @@ from support_exudyn.formulations.compiled.oil_events import (
 from support_exudyn.formulations.compiled.recording import begin_nodes, note_peaks, write_nodes, write_records
 from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.formulations.compiled.step_control import AFTER_IMPACT, CLOSE, SHORTEN, SMALLEST_STEP
+from support_exudyn.scene.arrays import (
+    ACCEPTED,
+    CUTS,
+    DEAD_CENTRE,
+    FINISHED,
+    LAST_STEP,
+    PAUSED,
+    RECORDS,
+    STAGES,
+    STEPS,
+    STOPPED_AT,
+    STUCK,
+    TOO_MANY_IMPACTS,
+    TOO_MANY_OIL_EVENTS,
+    TOO_MANY_STEPS,
+    Matrix,
+    Records,
+    SceneArrays,
+    Scratch,
+    Vector,
+)
+from support_exudyn.scene.compilation import entry, once
 
 MOST_CUTS = 150  # of steps cut one after the other where tension begins or ceases; counted threefold
 OVERLOOKED = 500.0  # steps for which that is overlooked then

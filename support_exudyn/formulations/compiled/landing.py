@@ -1,7 +1,9 @@
 """A step made again so that it ends where something happens to a contact."""
 
-from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import (
+from support_exudyn.formulations.compiled.depth import CUT, CUT_MET, IMPACT, TOGETHER
+from support_exudyn.formulations.compiled.step import advance
+from support_exudyn.formulations.compiled.step_control import LANDED, LANDINGS, crossing
+from support_exudyn.scene.arrays import (
     EVALUATIONS,
     STAGES,
     Matrix,
@@ -9,9 +11,7 @@ from support_exudyn.formulations.compiled.arrays import (
     SceneArrays,
     Vector,
 )
-from support_exudyn.formulations.compiled.depth import CUT, CUT_MET, IMPACT, TOGETHER
-from support_exudyn.formulations.compiled.step import advance
-from support_exudyn.formulations.compiled.step_control import LANDED, LANDINGS, crossing
+from support_exudyn.scene.compilation import compiled, once
 
 
 @compiled

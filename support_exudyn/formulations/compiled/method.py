@@ -2,16 +2,6 @@
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import (
-    EVALUATIONS,
-    NOT_A_NUMBER,
-    STAGES,
-    STIFF,
-    SceneArrays,
-    Scratch,
-    Vector,
-)
 from support_exudyn.formulations.compiled.stabilised import (
     AT_FIRST,
     FEWEST_STAGES,
@@ -28,6 +18,16 @@ from support_exudyn.formulations.compiled.stabilised import (
 )
 from support_exudyn.formulations.compiled.step import advance, fit
 from support_exudyn.formulations.compiled.step_control import FASTEST, SAFETY, SLOWEST, factor
+from support_exudyn.scene.arrays import (
+    EVALUATIONS,
+    NOT_A_NUMBER,
+    STAGES,
+    STIFF,
+    SceneArrays,
+    Scratch,
+    Vector,
+)
+from support_exudyn.scene.compilation import compiled, once
 
 # With what a run goes on: whether it is in the midst of a segment, time, next step, last error; the fastest
 # decay, above 0 while steps are stabilised; steps since it was looked for, and after how many it is; how many

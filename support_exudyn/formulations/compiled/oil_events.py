@@ -7,8 +7,8 @@ Without legs nothing happens, and the code for it is not compiled, see `SceneArr
 
 import math
 
-from support_exudyn.formulations.compilation import compiled
-from support_exudyn.formulations.compiled.arrays import (
+from support_exudyn.formulations.compiled.step import advance, close_joints, evaluate, within
+from support_exudyn.scene.arrays import (
     EVALUATIONS,
     OIL_EVENTS,
     STAGES,
@@ -17,10 +17,10 @@ from support_exudyn.formulations.compiled.arrays import (
     Scratch,
     Vector,
 )
-from support_exudyn.formulations.compiled.step import advance, close_joints, evaluate, within
-from support_exudyn.formulations.hydraulics.gaps import met
-from support_exudyn.formulations.hydraulics.leg import OPEN
-from support_exudyn.formulations.hydraulics.records import RELIEF, YIELD
+from support_exudyn.scene.compilation import compiled
+from support_exudyn.scene.hydraulics.gaps import met
+from support_exudyn.scene.hydraulics.leg import OPEN
+from support_exudyn.scene.hydraulics.records import RELIEF, YIELD
 
 LOOKS = 40  # for a gap, by false position
 PARTS, NARROWER = 8, 16  # of a step that are looked at for a highest place; how often it is closed in then

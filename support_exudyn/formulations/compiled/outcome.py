@@ -6,9 +6,6 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from support_exudyn.formulations.compiled.arrays import LOSSES, MEMORY, Matrix
-from support_exudyn.formulations.compiled.setup import Model
-from support_exudyn.formulations.hydraulics.series import leg_series
 from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.bushing import bushing_series
@@ -18,6 +15,9 @@ from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, OilEvent, Series, Trajectory
 from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.scenario.recorded_channels import needs
+from support_exudyn.scene.arrays import LOSSES, MEMORY, Matrix
+from support_exudyn.scene.hydraulics.series import leg_series
+from support_exudyn.scene.setup import Model
 from user_forces.contact_state import PinMemory
 
 

@@ -2,8 +2,11 @@
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import (
+from support_exudyn.formulations.compiled.events import look
+from support_exudyn.formulations.compiled.landing import copy_contacts
+from support_exudyn.formulations.compiled.step import close_joints, evaluate, within
+from support_exudyn.formulations.statistics.steps import INNER, OF_STEP
+from support_exudyn.scene.arrays import (
     CLAMPED,
     MEMORY,
     NODES,
@@ -14,10 +17,7 @@ from support_exudyn.formulations.compiled.arrays import (
     Scratch,
     Vector,
 )
-from support_exudyn.formulations.compiled.events import look
-from support_exudyn.formulations.compiled.landing import copy_contacts
-from support_exudyn.formulations.compiled.step import close_joints, evaluate, within
-from support_exudyn.formulations.statistics.steps import INNER, OF_STEP
+from support_exudyn.scene.compilation import compiled, once
 from user_forces.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK, NEAR_TOP, PEAK_SAMPLES
 
 

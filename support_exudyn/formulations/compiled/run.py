@@ -3,7 +3,19 @@
 import numpy as np
 
 from support_exudyn.formulations import change_points
-from support_exudyn.formulations.compiled.arrays import (
+from support_exudyn.formulations.compiled.integrate import integrate
+from support_exudyn.formulations.compiled.method import AT, GOING, MIDST, NEXT_STEP
+from support_exudyn.formulations.compiled.outcome import record_width, trajectory
+from support_exudyn.formulations.compiled.start import error_weights, first_state
+from support_exudyn.formulations.statistics.collected import RunStatistics, within_steps
+from support_exudyn.formulations.statistics.steps import OF_STEP
+from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Outcome
+from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.hydraulic_cylinder import Inlet
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.arrays import (
     ACCEPTED,
     CLAMPED,
     CUTS,
@@ -27,23 +39,11 @@ from support_exudyn.formulations.compiled.arrays import (
     Vector,
     scratch,
 )
-from support_exudyn.formulations.compiled.integrate import integrate
-from support_exudyn.formulations.compiled.method import AT, GOING, MIDST, NEXT_STEP
-from support_exudyn.formulations.compiled.outcome import record_width, trajectory
-from support_exudyn.formulations.compiled.setup import Model, model_of
-from support_exudyn.formulations.compiled.start import error_weights, first_state
-from support_exudyn.formulations.contract import Failure, Progress, SimulationError
-from support_exudyn.formulations.hydraulics.fill import empty_legs
-from support_exudyn.formulations.hydraulics.records import GAP_NAMES
-from support_exudyn.formulations.limits import ENDS, past_ends
-from support_exudyn.formulations.statistics.collected import RunStatistics, within_steps
-from support_exudyn.formulations.statistics.steps import OF_STEP
-from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Outcome
-from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.hydraulic_cylinder import Inlet
-from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.contract import Failure, Progress, SimulationError
+from support_exudyn.scene.hydraulics.fill import empty_legs
+from support_exudyn.scene.hydraulics.records import GAP_NAMES
+from support_exudyn.scene.limits import ENDS, past_ends
+from support_exudyn.scene.setup import Model, model_of
 from user_forces.contact_state import Onset
 from user_forces.lawful import UNLAWFUL, LawError, look
 from user_forces.normal.law import LoadError

@@ -10,10 +10,10 @@ Source: Sommeijer, Shampine and Verwer, RKC: an explicit solver for parabolic PD
 
 import math
 
-from support_exudyn.formulations.compilation import compiled
-from support_exudyn.formulations.compiled.arrays import STAGES, Matrix, SceneArrays, Vector
-from support_exudyn.formulations.compiled.motion import SINGULAR
 from support_exudyn.formulations.compiled.step import close_joints, evaluate
+from support_exudyn.scene.arrays import STAGES, Matrix, SceneArrays, Vector
+from support_exudyn.scene.compilation import compiled
+from support_exudyn.scene.motion import SINGULAR
 
 DAMPING = 2.0 / 13.0
 STABLE = 1.54  # (s^2 - 1) that a product of step and fastest decay asks for, over it

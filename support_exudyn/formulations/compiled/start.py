@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 
-from support_exudyn.formulations.compiled.arrays import LOSSES, Vector
-from support_exudyn.formulations.compiled.equilibrium import settle
-from support_exudyn.formulations.compiled.setup import Model
-from support_exudyn.formulations.hydraulics.fill import weigh_states
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.joint_slip import joint_slips
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.arrays import LOSSES, Vector
+from support_exudyn.scene.equilibrium import settle
+from support_exudyn.scene.hydraulics.fill import weigh_states
+from support_exudyn.scene.setup import Model
 
 PLAY = 1e-3  # [m], stands for that of a machine without any
 SLOWEST = 1e-3  # [m/s], of what journals may do in their bores, for scenes in which nothing falls

@@ -11,9 +11,9 @@ import math
 
 import numpy as np
 
-from support_exudyn.formulations.compilation import compiled
-from support_exudyn.formulations.compiled.arrays import LOSSES, STAGES, Matrix, SceneArrays, Vector
-from support_exudyn.formulations.compiled.forces import (
+from support_exudyn.scene.arrays import LOSSES, STAGES, Matrix, SceneArrays, Vector
+from support_exudyn.scene.compilation import compiled
+from support_exudyn.scene.forces import (
     observe,
     powers,
     press,
@@ -23,8 +23,8 @@ from support_exudyn.formulations.compiled.forces import (
     press_oil,
     push_contact,
 )
-from support_exudyn.formulations.compiled.hydraulics import press_legs
-from support_exudyn.formulations.compiled.motion import (
+from support_exudyn.scene.legs import press_legs
+from support_exudyn.scene.motion import (
     SINGULAR,
     divide,
     factor,
@@ -35,7 +35,7 @@ from support_exudyn.formulations.compiled.motion import (
     respond,
     solve,
 )
-from support_exudyn.formulations.compiled.rubbing import begin_rubbing, rub
+from support_exudyn.scene.rubbing import begin_rubbing, rub
 
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
 WEIGHTS = np.array(

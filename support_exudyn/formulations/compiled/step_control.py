@@ -1,6 +1,6 @@
 """How long steps are: by their error, and to end where something happens."""
 
-from support_exudyn.formulations.compilation import compiled
+from support_exudyn.scene.compilation import compiled
 
 SAFETY, SLOWEST, FASTEST = 0.9, 0.2, 8.0  # change of the step: margin, smallest and largest factor
 SHORTEN = 0.25  # factor for a step in which too much happens

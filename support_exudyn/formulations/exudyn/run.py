@@ -9,7 +9,6 @@ from typing import TypeVar
 
 import numpy as np
 
-from support_exudyn.formulations.contract import Progress
 from support_exudyn.formulations.exudyn.scene.cylinder_item import UNIT, CylinderItem
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
 from support_exudyn.formulations.exudyn.scene.record_forces import (
@@ -37,6 +36,7 @@ from support_exudyn.mechanics.oil_column import OilSeries, oil_series
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene.contract import Progress
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.values.value import InputError
 

@@ -9,7 +9,6 @@ import math
 
 import numpy as np
 
-from support_exudyn.formulations.compilation import compiled, entry
 from support_exudyn.mechanics.time_statistics import (
     FIRST,
     GREATEST,
@@ -21,6 +20,7 @@ from support_exudyn.mechanics.time_statistics import (
     VARIANCE,
     Series,
 )
+from support_exudyn.scene.compilation import compiled, entry
 
 OF_STEP = 4  # nodes
 INNER = 0.5 - math.sqrt(0.05)  # fraction of a step at its second node

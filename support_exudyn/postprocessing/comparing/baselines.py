@@ -13,7 +13,6 @@ from support_exudyn.files import ScenarioFile
 from support_exudyn.files.scenarios.scenario_file import OTHER_FILES, read_scenario_file
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import writing_alone
-from support_exudyn.formulations.contract import Progress, SimulationError
 from support_exudyn.postprocessing.comparing.changes import RunChange, changes, line, worst_first
 from support_exudyn.postprocessing.comparing.closeness import Closeness
 from support_exudyn.postprocessing.comparing.kept_run import (
@@ -23,6 +22,7 @@ from support_exudyn.postprocessing.comparing.kept_run import (
     read_baseline,
     write_baseline,
 )
+from support_exudyn.scene.contract import Progress, SimulationError
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate

@@ -15,10 +15,10 @@ import meshio
 from meshio.xdmf import TimeSeriesWriter
 
 from support_exudyn.files.whole_file import contents
-from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.postprocessing.export.meshes import MeshSeries, meshes_of, write_names
 from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.whole_set import whole_set
+from support_exudyn.scene.contract import Progress, silent
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 

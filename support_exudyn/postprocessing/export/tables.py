@@ -12,10 +12,10 @@ import numpy as np
 
 from support_exudyn.files.series.own_runs import EXPORTED
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.whole_set import check_is_no_run
+from support_exudyn.scene.contract import Progress, silent
 from support_exudyn.simulation.result import Result
 from user_forces.contact_state import Onset
 

@@ -11,11 +11,11 @@ import numpy.typing as npt
 from PIL import Image
 from PIL.ImageColor import getrgb
 
-from support_exudyn.formulations.contract import Progress
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render.sheet import INK
+from support_exudyn.scene.contract import Progress
 from user_forces.values.value import InputError
 
 MOST_FRAMES = 20_000

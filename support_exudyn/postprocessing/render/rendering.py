@@ -12,7 +12,6 @@ from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.formulations.contract import Progress, silent
 from support_exudyn.postprocessing.export.whole_set import whole_set
 from support_exudyn.postprocessing.render import movie as movies
 from support_exudyn.postprocessing.render.frame import Layout, Painter
@@ -21,6 +20,7 @@ from support_exudyn.postprocessing.render.panels import pin_views
 from support_exudyn.postprocessing.render.scene import RenderedScene
 from support_exudyn.postprocessing.render.sheet import Image as Picture
 from support_exudyn.postprocessing.render.stage import Stage
+from support_exudyn.scene.contract import Progress, silent
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 

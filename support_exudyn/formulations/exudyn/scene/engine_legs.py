@@ -12,10 +12,10 @@ import numpy as np
 
 from support_exudyn.formulations.exudyn.scene.leg_circuit import LegCircuit, LegItem
 from support_exudyn.formulations.exudyn.scene.leg_events import LegEvents
-from support_exudyn.formulations.hydraulics.fill import Legs, empty_legs, fill_legs
-from support_exudyn.formulations.hydraulics.series import leg_series
 from support_exudyn.mechanics.trajectory import LegSeries, OilEvent, Series
 from support_exudyn.model.hydraulics.lines import PumpStation
+from support_exudyn.scene.hydraulics.fill import Legs, empty_legs, fill_legs
+from support_exudyn.scene.hydraulics.series import leg_series
 
 INITIAL = exudyn.ConfigurationType.Initial
 

@@ -18,12 +18,6 @@ from typing import Any
 import exudyn
 import numpy as np
 
-from support_exudyn.formulations.hydraulics.fill import fill_legs, weigh_states
-from support_exudyn.formulations.hydraulics.implicit import advance_legs
-from support_exudyn.formulations.hydraulics.leg import evaluate_legs
-from support_exudyn.formulations.hydraulics.records import BOOKED, RELIEF, YIELD, Matrix, Records
-from support_exudyn.formulations.hydraulics.rest import rest_legs
-from support_exudyn.formulations.hydraulics.series import TOLD
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
 from support_exudyn.mechanics.oil_column import LENGTHS
 from support_exudyn.mechanics.trajectory import Series
@@ -31,6 +25,12 @@ from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder, Inlet
 from support_exudyn.model.hydraulics.lines import PumpStation
+from support_exudyn.scene.hydraulics.fill import fill_legs, weigh_states
+from support_exudyn.scene.hydraulics.implicit import advance_legs
+from support_exudyn.scene.hydraulics.leg import evaluate_legs
+from support_exudyn.scene.hydraulics.records import BOOKED, RELIEF, YIELD, Matrix, Records
+from support_exudyn.scene.hydraulics.rest import rest_legs
+from support_exudyn.scene.hydraulics.series import TOLD
 from user_forces.lawful import LawError
 
 CURRENT = exudyn.ConfigurationType.Current

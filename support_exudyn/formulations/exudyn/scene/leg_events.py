@@ -12,10 +12,10 @@ import math
 import numpy as np
 
 from support_exudyn.formulations.exudyn.scene.leg_circuit import LegCircuit
-from support_exudyn.formulations.hydraulics.gaps import begin_sides
-from support_exudyn.formulations.hydraulics.leg import OPEN
-from support_exudyn.formulations.hydraulics.records import GAP_NAMES, HIGH_2, LOW
 from support_exudyn.mechanics.trajectory import OilEvent
+from support_exudyn.scene.hydraulics.gaps import begin_sides
+from support_exudyn.scene.hydraulics.leg import OPEN
+from support_exudyn.scene.hydraulics.records import GAP_NAMES, HIGH_2, LOW
 from user_forces.contact_events import BEYOND, SHARE, DepthPath, first_rise
 
 NEAR_PRESSURE, NEAR_LENGTH = 0.1, 1e-12  # [Pa], [m] beyond zero that rounding may be

@@ -7,15 +7,15 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn.formulations.contract import Failure, SimulationError
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.exudyn.scene.engine_scene import INITIAL, EngineScene
 from support_exudyn.formulations.exudyn.scene.scene import Scene
 from support_exudyn.formulations.exudyn.scene.settling import settling
-from support_exudyn.formulations.limits import CENTRING
 from support_exudyn.mechanics.acting_loads import forces_at_rest
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.mechanics.resting import resting
+from support_exudyn.scene.contract import Failure, SimulationError
+from support_exudyn.scene.limits import CENTRING
 from user_forces.normal.law import LoadError
 
 # The engine solves at the end of its only step of loads, 1 s by default: drives and loads, which are told the

@@ -3,9 +3,9 @@
 import numpy as np
 
 from support_exudyn.formulations import change_points
-from support_exudyn.formulations.contract import ENGINE_ADVICE, explained, first_line
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
-from support_exudyn.formulations.limits import ENDS, past_ends
+from support_exudyn.scene.contract import ENGINE_ADVICE, explained, first_line
+from support_exudyn.scene.limits import ENDS, past_ends
 from user_forces.lawful import UNLAWFUL, LawError
 from user_forces.normal.law import LoadError
 

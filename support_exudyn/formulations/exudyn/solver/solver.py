@@ -14,7 +14,6 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn.formulations.contract import Failure, Progress, SimulationError
 from support_exudyn.formulations.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene, slide
 from support_exudyn.formulations.exudyn.solver.newton_method import NewtonMethod
@@ -29,10 +28,11 @@ from support_exudyn.formulations.exudyn.solver.refusals import (
     why,
 )
 from support_exudyn.formulations.exudyn.solver.step_growth import StepGrowth, step_growth
-from support_exudyn.formulations.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
-from support_exudyn.formulations.time_grid import StepPlan
 from support_exudyn.mechanics.oil_column import force_rounding
 from support_exudyn.mechanics.trajectory import Counts, Impulse
+from support_exudyn.scene.contract import Failure, Progress, SimulationError
+from support_exudyn.scene.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
+from support_exudyn.scene.time_grid import StepPlan
 from user_forces import Frictionless
 from user_forces.contact_events import SHARE
 from user_forces.lawful import LawError

@@ -8,8 +8,9 @@ Q (p_s - p), and the source gives what is left.
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, entry, inlined
-from support_exudyn.formulations.hydraulics.oil import (
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.scene.compilation import compiled, entry, inlined
+from support_exudyn.scene.hydraulics.oil import (
     air_volume,
     enthalpy,
     liquid_volume,
@@ -17,7 +18,7 @@ from support_exudyn.formulations.hydraulics.oil import (
     stored_in,
     weight,
 )
-from support_exudyn.formulations.hydraulics.records import (
+from support_exudyn.scene.hydraulics.records import (
     CAVITY,
     CAVITY_2,
     CHECK,
@@ -42,7 +43,6 @@ from support_exudyn.formulations.hydraulics.records import (
     Matrix,
     Records,
 )
-from support_exudyn.mechanics.trajectory import Series
 
 SEAT = 100.0  # a poppet's seat is so many times as stiff as its spring, and critically damped
 DRAINED = 0.1  # of the opening pressure, below which an open poppet passes less, and nothing without pressure

@@ -6,10 +6,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from support_exudyn.formulations.hydraulics.fill import Legs
-from support_exudyn.formulations.hydraulics.gaps import MET_PRESSURE
-from support_exudyn.formulations.hydraulics.leg import evaluate_legs
-from support_exudyn.formulations.hydraulics.records import (
+from support_exudyn.mechanics.leg_channels import PUMP
+from support_exudyn.mechanics.trajectory import LegSeries, OilEvent, Series
+from support_exudyn.scene.hydraulics.fill import Legs
+from support_exudyn.scene.hydraulics.gaps import MET_PRESSURE
+from support_exudyn.scene.hydraulics.leg import evaluate_legs
+from support_exudyn.scene.hydraulics.records import (
     GAP_NAMES,
     LET_IN,
     LINE_LOSS,
@@ -26,8 +28,6 @@ from support_exudyn.formulations.hydraulics.records import (
     Matrix,
     Records,
 )
-from support_exudyn.mechanics.leg_channels import PUMP
-from support_exudyn.mechanics.trajectory import LegSeries, OilEvent, Series
 
 TOLD = ("length", "rate", "inflow", "inflow_rate", "opening")  # of records, at an instant
 FIELDS = {  # of records, by the name of the value

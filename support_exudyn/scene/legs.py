@@ -4,12 +4,12 @@ Functions that take `LegArrays | None` do nothing where there are no legs. Numba
 argument, before it compiles the rest.
 """
 
-from support_exudyn.formulations.compilation import compiled, once
-from support_exudyn.formulations.compiled.arrays import LegArrays, Records, SceneArrays, Vector
-from support_exudyn.formulations.compiled.forces import lengthening, push_apart
-from support_exudyn.formulations.hydraulics.gaps import begin_sides
-from support_exudyn.formulations.hydraulics.leg import press_all
-from support_exudyn.formulations.hydraulics.rest import rest_legs
+from support_exudyn.scene.arrays import LegArrays, Records, SceneArrays, Vector
+from support_exudyn.scene.compilation import compiled, once
+from support_exudyn.scene.forces import lengthening, push_apart
+from support_exudyn.scene.hydraulics.gaps import begin_sides
+from support_exudyn.scene.hydraulics.leg import press_all
+from support_exudyn.scene.hydraulics.rest import rest_legs
 
 
 @compiled

@@ -6,9 +6,9 @@ pressure p:     liquid volume + V_air (p_a/(p + p_a))^(1/n) = V
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, inlined
-from support_exudyn.formulations.hydraulics.records import LOG
 from support_exudyn.model.hydraulics.oil import ATMOSPHERE
+from support_exudyn.scene.compilation import compiled, inlined
+from support_exudyn.scene.hydraulics.records import LOG
 
 ROUNDS = 60  # of Newton's method, which has found the pressure after some six
 FOUND = 1e-14  # share of the pressure that it changes no more by

@@ -6,9 +6,9 @@ Source: Kuettler and Wall, Comput. Mech. 43 (2008) 61-72, for the relaxation.
 
 import math
 
-from support_exudyn.formulations.compilation import call_law, compiled, once
-from support_exudyn.formulations.compiled.arrays import BLOCK, BOLT, SceneArrays, Vector
-from support_exudyn.formulations.compiled.motion import SETTLED, push, push_point, solve, spin_of, turn_of
+from support_exudyn.scene.arrays import BLOCK, BOLT, SceneArrays, Vector
+from support_exudyn.scene.compilation import call_law, compiled, once
+from support_exudyn.scene.motion import SETTLED, push, push_point, solve, spin_of, turn_of
 
 RUBBINGS = 30  # rounds at most
 JAMMED = 1e-6  # share that is still open after all rounds, from which on friction and force have no solution

@@ -2,8 +2,7 @@
 
 import math
 
-from support_exudyn.formulations.compilation import FIRST_COURSE, call_law, compiled, inlined, once
-from support_exudyn.formulations.compiled.arrays import (
+from support_exudyn.scene.arrays import (
     DAMPING_LOSS,
     FRICTION_LOSS,
     MOMENT,
@@ -14,7 +13,8 @@ from support_exudyn.formulations.compiled.arrays import (
     SceneArrays,
     Vector,
 )
-from support_exudyn.formulations.compiled.motion import push, push_point, spin_of
+from support_exudyn.scene.compilation import FIRST_COURSE, call_law, compiled, inlined, once
+from support_exudyn.scene.motion import push, push_point, spin_of
 from user_forces.contact import SHALLOWEST
 from user_forces.face import point_on_face
 from user_forces.journal import journal_in_bore

@@ -1,10 +1,10 @@
 """Legs at rest, for a static equilibrium: oil stays inside, and tubes, lines and poppets come to rest."""
 
-from support_exudyn.formulations.compilation import compiled, entry
-from support_exudyn.formulations.hydraulics.gaps import MET_PRESSURE
-from support_exudyn.formulations.hydraulics.leg import SEAT, press_all
-from support_exudyn.formulations.hydraulics.records import Matrix, Records
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.scene.compilation import compiled, entry
+from support_exudyn.scene.hydraulics.gaps import MET_PRESSURE
+from support_exudyn.scene.hydraulics.leg import SEAT, press_all
+from support_exudyn.scene.hydraulics.records import Matrix, Records
 
 ROUNDS = 40  # of Newton's method
 SHIFT = 1e-9  # [m] over which it is looked how the force on a tube changes

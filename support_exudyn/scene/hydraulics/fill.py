@@ -9,9 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.formulations.hydraulics.gaps import ABSENT, MET_PRESSURE
-from support_exudyn.formulations.hydraulics.leg import SEAT
-from support_exudyn.formulations.hydraulics.records import BOOKED, GAPS, LEG, LINEAR, LOG, PUMP, Records
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.actuators import OilColumn
@@ -20,6 +17,9 @@ from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.hydraulics.lines import PumpStation
 from support_exudyn.model.hydraulics.motion import EndStops
 from support_exudyn.model.hydraulics.oil import TrappedAir
+from support_exudyn.scene.hydraulics.gaps import ABSENT, MET_PRESSURE
+from support_exudyn.scene.hydraulics.leg import SEAT
+from support_exudyn.scene.hydraulics.records import BOOKED, GAPS, LEG, LINEAR, LOG, PUMP, Records
 
 SMOOTH = 1e-3  # share of the nominal drop below which flow is laminar
 SMALLEST_STRAIN = 1e-5  # of the oil, by which errors of legs are weighed that nothing presses

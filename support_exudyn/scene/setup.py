@@ -10,24 +10,6 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from support_exudyn.formulations.compilation import (
-    FIRST_COURSE,
-    address_of,
-    contact_law,
-    joint_friction,
-    load_law,
-)
-from support_exudyn.formulations.compiled import arrays
-from support_exudyn.formulations.compiled.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
-from support_exudyn.formulations.compiled.courses import (
-    Courses,
-    courses,
-    extension_of,
-    segment_edges,
-)
-from support_exudyn.formulations.compiled.motion import rounds_of
-from support_exudyn.formulations.hydraulics.fill import Legs, fill_legs
-from support_exudyn.formulations.time_grid import record_times
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
@@ -38,6 +20,24 @@ from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import Load, TimeFunction
 from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scene import arrays
+from support_exudyn.scene.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
+from support_exudyn.scene.compilation import (
+    FIRST_COURSE,
+    address_of,
+    contact_law,
+    joint_friction,
+    load_law,
+)
+from support_exudyn.scene.courses import (
+    Courses,
+    courses,
+    extension_of,
+    segment_edges,
+)
+from support_exudyn.scene.hydraulics.fill import Legs, fill_legs
+from support_exudyn.scene.motion import rounds_of
+from support_exudyn.scene.time_grid import record_times
 from user_forces.friction.law import FrictionLaw
 from user_forces.values.value import Vector2
 

@@ -9,9 +9,9 @@ by factors L D L^T of the square matrix, within the envelope that the order of t
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, inlined, often
-from support_exudyn.formulations.compiled.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
 from support_exudyn.mechanics.closing import Conditions
+from support_exudyn.scene.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
+from support_exudyn.scene.compilation import compiled, inlined, often
 
 SETTLED = 1e-13  # share by which moments that depend on accelerations may still change
 # Factors lose as many digits as the lightest body is lighter than the heaviest. So little may be left of that.

@@ -16,9 +16,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from support_exudyn.formulations.compilation import call_law, compiled, entry
-from support_exudyn.formulations.compiled.arrays import Matrix, SceneArrays, Vector
-from support_exudyn.formulations.compiled.forces import (
+from support_exudyn.mechanics.acting_loads import forces_at_rest
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.resting import resting
+from support_exudyn.scene.arrays import Matrix, SceneArrays, Vector
+from support_exudyn.scene.compilation import call_law, compiled, entry
+from support_exudyn.scene.contract import Failure, SimulationError
+from support_exudyn.scene.forces import (
     observe,
     press_bushings,
     press_cylinders,
@@ -26,14 +30,10 @@ from support_exudyn.formulations.compiled.forces import (
     press_oil,
     push_contact,
 )
-from support_exudyn.formulations.compiled.hydraulics import press_resting_legs
-from support_exudyn.formulations.compiled.motion import hold, place
-from support_exudyn.formulations.compiled.setup import Model
-from support_exudyn.formulations.contract import Failure, SimulationError
-from support_exudyn.formulations.limits import CENTRING
-from support_exudyn.mechanics.acting_loads import forces_at_rest
-from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.resting import resting
+from support_exudyn.scene.legs import press_resting_legs
+from support_exudyn.scene.limits import CENTRING
+from support_exudyn.scene.motion import hold, place
+from support_exudyn.scene.setup import Model
 from user_forces.normal.law import LoadError, NormalLaw
 
 ITERATIONS = 60

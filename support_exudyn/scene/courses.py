@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from support_exudyn.formulations.compiled.arrays import COURSE, PIECE, Matrix, Records, Vector
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.loads.load import TimeFunction
+from support_exudyn.scene.arrays import COURSE, PIECE, Matrix, Records, Vector
 from user_forces.lawful import LawError
 
 DEGREE = 8  # of a piece: powers of the place, from -1 to 1, lose two digits by it

@@ -9,10 +9,10 @@ is, and keeps sums that the rates keep, such as that of all oil. What is only bo
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.formulations.compilation import compiled, entry
-from support_exudyn.formulations.hydraulics.leg import press_all
-from support_exudyn.formulations.hydraulics.records import Matrix, Records
 from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.scene.compilation import compiled, entry
+from support_exudyn.scene.hydraulics.leg import press_all
+from support_exudyn.scene.hydraulics.records import Matrix, Records
 
 Places = npt.NDArray[np.int64]
 ROUNDS, HALVINGS = 60, 12  # of Newton's method; of a step of it that makes nothing better

@@ -2,8 +2,8 @@
 
 import math
 
-from support_exudyn.formulations.compilation import compiled, entry
-from support_exudyn.formulations.hydraulics.records import HIGH_2, LOW, RELIEF, YIELD, Matrix, Records
+from support_exudyn.scene.compilation import compiled, entry
+from support_exudyn.scene.hydraulics.records import HIGH_2, LOW, RELIEF, YIELD, Matrix, Records
 
 MET_PRESSURE, MET_LENGTH = 0.01, 1e-13  # [Pa], [m] from zero at which a gap is met
 ABSENT = math.nan  # a gap that a leg does not have

@@ -1,0 +1,1 @@
+"""A scenario as arrays: bodies, points, joints, elements; their kernels; static equilibrium."""
