@@ -28,7 +28,7 @@ except ImportError:  # Windows
 
 fcntl: Any = _fcntl
 SECONDS = {"compiled": 10}  # that compiling takes on a quiet machine of 2020
-COMPILED = ("compiled", "hydraulics", "statistics")  # folders with compiled functions
+COMPILED = ("scene", "formulations/compiled", "formulations/statistics")  # folders with compiled functions
 CONSTANTS_OF = (oil,)  # modules of which compiled functions use constants
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
 prepare()  # kernels are known to numba from now on
@@ -157,10 +157,10 @@ def _kept(function: Function) -> Function:
 
 def source_files() -> list[Path]:
     """The files that compiled code comes from."""
-    here = Path(__file__).parent
-    files = sorted(file for folder in COMPILED for file in (here / folder).rglob("*.py"))
+    package = Path(__file__).parents[1]
+    files = sorted(file for folder in COMPILED for file in (package / folder).rglob("*.py"))
     kernels = sorted(Path(str(contact.__file__)).parent.glob("*.py"))
-    return [*files, *kernels, Path(__file__), *(Path(str(module.__file__)) for module in CONSTANTS_OF)]
+    return [*files, *kernels, *(Path(str(module.__file__)) for module in CONSTANTS_OF)]
 
 
 def _source_stamp() -> tuple[str, int]:

@@ -13,8 +13,8 @@ from typing import Any
 import numba
 import pytest
 
-from support_exudyn.scene import compilation
 from support_exudyn.formulations.compiled.integrate import integrate
+from support_exudyn.scene import compilation
 from support_exudyn.scene.hydraulics.leg import evaluate_legs
 
 
