@@ -59,7 +59,7 @@ def _reason(said: str, text: str, named: bool) -> str:
 
     named: the line by its number only.
     """
-    lines = text.replace("\r\n", "\n").split("\n")
+    lines = text.replace("\r\n", "\n").removesuffix("\n").split("\n")
     place = PLACE.search(said)
     number = int(place[1]) if place else len(lines)
     if named:
