@@ -1,24 +1,24 @@
-"""Static equilibrium with clearance joints, so that a run can start settled.
+"""Static equilibrium, so that a run can start settled: one Newton's method for both formulations.
 
-Places q and multipliers L at which elastic contacts without friction, oil, loads and the weight, f, balance:
+Coordinates q and multipliers L at which elastic contacts without friction, oil, loads and the weight, f,
+balance:
 
     f(q) - C(q)^T L = 0,    g(q) = 0
 
-by Newton's method. A journal in the middle of its bore has no stiffness: springs centre all of them at first,
-stiff enough to hold the weight of the machine within the clearance, and are then taken away; contacts give way
-meanwhile. That is how the Exudyn formulation settles, too.
+A `Balance` computes what is left of both: `ArrayBalance` from the arrays of a scene, `EngineBalance` of the
+Exudyn formulation from the engine's model. A journal in the middle of its bore has no stiffness: springs centre
+all journals at first, stiff enough to hold the weight of the machine within the clearance, and are then taken
+away; contacts give way meanwhile.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from support_exudyn.mechanics.acting_loads import forces_at_rest
-from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.resting import resting
+from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.arrays import Matrix, SceneArrays, Vector
 from support_exudyn.scene.compilation import call_law, compiled, entry
 from support_exudyn.scene.contract import Failure, SimulationError
@@ -31,16 +31,22 @@ from support_exudyn.scene.forces import (
     push_contact,
 )
 from support_exudyn.scene.legs import press_resting_legs
-from support_exudyn.scene.limits import CENTRING
 from support_exudyn.scene.motion import hold, place
 from support_exudyn.scene.setup import Model
-from user_forces.normal.law import LoadError, NormalLaw
+from user_forces.contact import Contact
+from user_forces.normal.law import LoadError
 
-ITERATIONS = 60
-SHIFT = 1e-9  # [m] over which it is looked how forces change, and [rad] of a body of a metre
+# Shares of the weight that a centring spring holds at the wall, and of the clearance by which the weight may
+# press a contact, one after the other.
+CENTRING = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 0.0)
+ITERATIONS = 80
 CLOSE = 1e-12  # [m], [rad] of the last change; rounding of coordinates on top:
 ROUNDINGS = 64.0
 LONGEST = 0.2  # [m], [rad] of a change
+SHIFT = 1e-9  # [m] over which a change of forces is measured, and [rad] of a body of a metre
+SMOOTH_SHIFT = 1e-6  # the same of rows of constraints, and of forces where nothing makes contact
+WEAK = 1e-9  # share of the largest stiffness below which nothing restores, where nothing makes contact
+HELD = 1e-9  # share of the largest singular value of constraints below which a direction is free
 HANGS_BY = 0.01  # [m] that the spring by which a block hangs would give under the weight of all bodies
 LEAST = 1.0  # [N], stands for that weight where there is none
 VALID = 1.0 - 1e-9  # share of the depth up to which a law is valid, beyond which it goes on in proportion
@@ -50,23 +56,134 @@ UNSETTLED = (
 )
 
 
-class Centring(NamedTuple):
-    """How contacts are held while an equilibrium is looked for, shape (contacts,) each.
+class Balance(Protocol):
+    """Forces and joints of a scene as functions of its coordinates q (n,) and of multipliers (joints,).
 
-    pull: of the springs [N/m]; slack: depth at which they carry nothing [m]. soft: share of the law's force.
-    deepest: depth up to which it is valid [m].
+    joints: number of the rows of constraints.
     """
 
-    pull: Vector
-    slack: Vector
-    soft: Vector
-    deepest: Vector
+    joints: int
+
+    def centre(self, share: float) -> None:
+        """Let centring springs hold a share of the weight, and contacts give way by it; see `CENTRING`."""
+        ...
+
+    def linear(self, q: Vector, multipliers: Vector) -> tuple[Vector, Matrix]:
+        """What is left of forces, f - C^T L [N], [N m], and of joints, g [m], [rad]; (n + joints,).
+
+        Second its derivatives with respect to q (n + joints, n).
+        """
+        ...
+
+
+def find_equilibrium(balance: Balance, q: Vector, scenario: Scenario) -> Vector:
+    """Coordinates (n,) of the stable equilibrium to which springs that are taken away lead from a start q (n,).
+
+    Raises SimulationError if there is no equilibrium or it is not found.
+    """
+    contacts = len(scenario.contact_places) > 0
+    close = max(CLOSE, ROUNDINGS * math.ulp(scenario.linkage.farthest))
+    try:
+        for share in CENTRING if contacts else (0.0,):
+            balance.centre(share)
+            q = _newton(balance, q, close, 0.0 if contacts else WEAK)
+    except (LoadError, ArithmeticError, np.linalg.LinAlgError):
+        raise SimulationError(Failure("no static equilibrium was found", UNSETTLED, 0.0)) from None
+    return q
+
+
+def _newton(balance: Balance, q: Vector, close: float, weak: float) -> Vector:
+    """Coordinates (n,) at which forces balance, by Newton's method from q (n,), in the directions left free.
+
+    Of multipliers whose rows repeat others the least are taken.
+
+    Arguments:
+        close: largest last change of a coordinate [m], [rad].
+        weak: see `_downhill`.
+
+    Raises LinAlgError if no stable equilibrium is found.
+    """
+    size = q.size
+    multipliers: Vector = np.zeros(balance.joints)
+    left, slope = balance.linear(q, multipliers)
+    multipliers = np.asarray(np.linalg.lstsq(slope[size:].T, left[:size], rcond=HELD)[0])
+    for _ in range(ITERATIONS):
+        left, slope = balance.linear(q, multipliers)
+        rows, forces = slope[size:], slope[:size]
+        base, values, directions = np.linalg.svd(rows)
+        rank = int((values > HELD * values.max(initial=0.0)).sum())
+        change = -directions[:rank].T @ (base[:, :rank].T @ left[size:] / values[:rank])
+        free = directions[rank:].T
+        step, stable = _downhill(-free.T @ forces @ free, free.T @ (left[:size] + forces @ change), weak)
+        change += free @ step
+        largest = float(np.abs(change).max(initial=0.0))
+        if not largest < math.inf:
+            break
+        change *= min(1.0, LONGEST / max(largest, LONGEST))
+        more = np.linalg.lstsq(rows.T, left[:size] + forces @ change, rcond=HELD)[0]
+        multipliers = np.asarray(multipliers + more)
+        q = np.asarray(q + change)
+        if largest <= close:
+            if stable:
+                return q
+            break
+    raise np.linalg.LinAlgError
+
+
+def _downhill(stiffness: Matrix, pull: Vector, weak: float) -> tuple[Vector, bool]:
+    """The step (k,) of Newton's method under a pull (k,), and whether the stiffness (k, k) restores everywhere.
+
+    Against a stiffness that pushes away the step goes along the pull.
+
+    weak: share of the largest stiffness below which a direction has none; LinAlgError is raised then.
+    """
+    if not pull.size:
+        return pull, True
+    sizes, ways = np.linalg.eigh(0.5 * (stiffness + stiffness.T))
+    if not np.abs(sizes).min() > weak * np.abs(sizes).max():
+        raise np.linalg.LinAlgError
+    if sizes[0] > 0.0:
+        return np.asarray(np.linalg.solve(stiffness, pull)), True
+    return np.asarray(ways @ (ways.T @ pull / np.abs(sizes))), False
+
+
+class CentringSpring(NamedTuple):
+    """How a contact is held while an equilibrium is sought.
+
+    pull: of the spring to its middle [N/m]. slack: depth at which that carries nothing [m]. soft: share of the
+    law's elastic force that acts. deepest: depth up to which the law is valid [m].
+    """
+
+    pull: float
+    slack: float
+    soft: float
+    deepest: float
+
+    def force(self, depth: float, elastic: float) -> float:
+        """Force out of the wall [N] at a depth [m], with the law's elastic force [N] at `valid_depth`."""
+        force = self.pull * (depth - self.slack)
+        if depth > 0.0:
+            force += self.soft * elastic * depth / min(depth, self.deepest)
+        return force
+
+
+def centring_spring(scenario: Scenario, name: str, contact: Contact, share: float) -> CentringSpring:
+    """How a contact of this name is held with a share of `CENTRING`; blocks hang, whatever the share."""
+    weight = sum(body.mass for body in scenario.linkage.bodies.values()) * math.hypot(*scenario.gravity)
+    law, clearance = contact.normal, contact.bearing.clearance
+    pull, slack = share * weight / clearance if clearance else 0.0, -clearance
+    if name in scenario.blocks:
+        pull, slack = max(weight, LEAST) / HANGS_BY, scenario.blocks[name].start_depth
+    deepest, allowed = VALID * law.largest_depth, share * clearance
+    soft = 1.0
+    if allowed > 0.0:
+        valid = min(allowed, deepest)
+        soft = min(1.0, weight * valid / (law.elastic_force(valid) * allowed))
+    return CentringSpring(pull, slack, soft, deepest)
 
 
 @compiled
-def balance(
-    scene: SceneArrays, centring: Centring, volumes: Matrix, y: Vector, x: Vector, left: Vector
-) -> None:
+def balance(scene: SceneArrays, springs: Matrix, volumes: Matrix, y: Vector, x: Vector, left: Vector) -> None:
     """Write what is left of forces and joints at places and multipliers x; pressures in y follow from them."""
     count = 3 * scene.bodies.size
     for i in range(count):
@@ -77,7 +194,7 @@ def balance(
         body = scene.bodies[n]
         body.fx, body.fy, body.m = body.weight_x, body.weight_y, 0.0
     for n in range(scene.contacts.size):
-        centre(scene, centring, n, y)
+        hold_contact(scene, springs[n], n, y)
     for n in range(scene.cylinders.size):
         one = scene.cylinders[n]
         foot, head = scene.points[one.foot], scene.points[one.head]
@@ -108,20 +225,22 @@ def balance(
             left[i + 2] -= row.ot * size
         if row.carrier >= 0:
             left[3 * row.carrier + 2] -= row.carrier_t * size
-        left[count + n] = -row.off
+        left[count + n] = row.off
+
+
+force_of_spring = compiled(CentringSpring.force)
 
 
 @compiled
-def centre(scene: SceneArrays, centring: Centring, n: int, y: Vector) -> None:
-    """Let the elastic force of a contact act, and that of a spring to its middle."""
-    contact = scene.contacts[n]
+def hold_contact(scene: SceneArrays, spring: Vector, n: int, y: Vector) -> None:
+    """Let the elastic force of a contact act, and that of a spring to its middle, see `CentringSpring`."""
+    contact, elastic = scene.contacts[n], 0.0
     observe(scene, n, y)
-    force = centring.pull[n] * (contact.depth - centring.slack[n])
     if contact.depth > 0.0:
-        depth = min(contact.depth, centring.deepest[n])
         constants = scene.constants[contact.constants :]
-        call_law(contact.law, depth, 0.0, 0.0, 1.0, 0.0, constants, scene.out)
-        force += centring.soft[n] * scene.out[1] * contact.depth / depth
+        call_law(contact.law, min(contact.depth, spring[3]), 0.0, 0.0, 1.0, 0.0, constants, scene.out)
+        elastic = scene.out[1]
+    force = force_of_spring(CentringSpring(spring[0], spring[1], spring[2], spring[3]), contact.depth, elastic)
     contact.fx, contact.fy = -force * contact.nx, -force * contact.ny
     contact.closed = 1.0
     push_contact(scene, n)
@@ -129,106 +248,58 @@ def centre(scene: SceneArrays, centring: Centring, n: int, y: Vector) -> None:
 
 
 @entry
-def linearised(
+def linearise(
     scene: SceneArrays,
-    centring: Centring,
+    springs: Matrix,
     volumes: Matrix,
     y: Vector,
     x: Vector,
+    shift: float,
     left: Vector,
     other: Vector,
     slope: Matrix,
 ) -> None:
-    """Write what is left of the balance, and how it changes with x, by differences; `other` is scratch."""
-    count = 3 * scene.bodies.size
-    for i in range(count):
+    """Write what is left of the balance, and how it changes with places, by differences; `other` is scratch."""
+    for i in range(slope.shape[1]):
         before = x[i]
-        x[i] = before + SHIFT
-        balance(scene, centring, volumes, y, x, left)
-        x[i] = before - SHIFT
-        balance(scene, centring, volumes, y, x, other)
+        x[i] = before + shift
+        balance(scene, springs, volumes, y, x, left)
+        x[i] = before - shift
+        balance(scene, springs, volumes, y, x, other)
         x[i] = before
         for k in range(x.size):
-            slope[k, i] = (left[k] - other[k]) / (2.0 * SHIFT)
-    balance(scene, centring, volumes, y, x, left)
-    for n in range(scene.rows.size):
-        row = scene.rows[n]
-        for i in range(count):
-            slope[i, count + n] = 0.0
-        for i in range(scene.rows.size):
-            slope[count + i, count + n] = 0.0
-        if row.body >= 0:
-            i = 3 * row.body
-            slope[i, count + n], slope[i + 1, count + n], slope[i + 2, count + n] = -row.x, -row.y, -row.t
-        if row.other >= 0:
-            i = 3 * row.other
-            slope[i, count + n], slope[i + 1, count + n], slope[i + 2, count + n] = -row.ox, -row.oy, -row.ot
-        if row.carrier >= 0:
-            slope[3 * row.carrier + 2, count + n] = -row.carrier_t
+            slope[k, i] = (left[k] - other[k]) / (2.0 * shift)
+    balance(scene, springs, volumes, y, x, left)
 
 
-class _Search:
-    """The search for the equilibrium of a model."""
+class ArrayBalance:
+    """The balance of a model's arrays, see `Balance`; y: its state, whose pressures follow from the places."""
 
     def __init__(self, model: Model, y: Vector) -> None:
-        self.model, self.scene, self.y = model, model.scene, y
-        scenario = model.scenario
-        self.count = 3 * len(scenario.linkage.bodies)
-        size = self.count + self.scene.rows.size
+        self.scenario, self.scene, self.y = model.scenario, model.scene, y
+        self.joints, self._count = self.scene.rows.size, 3 * self.scene.bodies.size
+        size = self._count + self.joints
         room = max(size, y.size)  # rates of pressures are written at their places in the state
-        self.x, self.left, self.other = np.zeros(size), np.zeros(room), np.zeros(room)
-        self.slope = np.zeros((size, size))
-        self.weight = sum(body.mass for body in scenario.linkage.bodies.values()) * math.hypot(
-            *scenario.gravity
-        )
-        self.volumes = np.array(
+        self._left, self._other = np.zeros(room), np.zeros(room)
+        self._slope = np.zeros((size, self._count))
+        self._volumes = np.array(
             [[*one.start_pressures, *one.model.volumes(0.0)] for one in model.cylinders.values()]
         ).reshape(-1, 4)
-        self.close = max(CLOSE, ROUNDINGS * math.ulp(scenario.linkage.farthest))
 
-    def centring(self, share: float) -> Centring:
-        """Springs that hold so much of the weight at the wall, and contacts that give way by so much of it."""
-        found = []
-        blocks = self.model.scenario.blocks
-        for name, where in self.model.scenario.contact_places.items():
-            law, clearance = where.contact.normal, where.contact.bearing.clearance
-            pull, slack = share * self.weight / clearance, -clearance
-            if name in blocks:  # it hangs, whatever the share
-                pull, slack = max(self.weight, LEAST) / HANGS_BY, blocks[name].start_depth
-            found.append((pull, slack, self._softness(law, share * clearance), VALID * law.largest_depth))
-        return Centring(*np.array(found).reshape(-1, 4).T.copy())
+    def centre(self, share: float) -> None:
+        """See `Balance`."""
+        places = self.scenario.contact_places.items()
+        springs = [centring_spring(self.scenario, name, place.contact, share) for name, place in places]
+        self._springs = np.array(springs).reshape(-1, 4)
 
-    def _softness(self, law: NormalLaw, allowed: float) -> float:
-        return min(1.0, self.weight / law.force_in_search(allowed)) if allowed > 0.0 else 1.0
-
-    def newton(self, centring: Centring) -> bool:
-        """Find the balance from where the search is; whether it has been found."""
-        for _ in range(ITERATIONS):
-            left, x = self.left[: self.x.size], self.x
-            linearised(self.scene, centring, self.volumes, self.y, x, self.left, self.other, self.slope)
-            try:
-                change = self._change(left)
-            except np.linalg.LinAlgError:
-                return False
-            largest = float(np.abs(change[: self.count]).max(initial=0.0))
-            if not largest < math.inf:
-                return False
-            self.x = x + change * min(1.0, LONGEST / max(largest, LONGEST))
-            if largest <= self.close:
-                return True
-        return False
-
-    def _change(self, left: Vector) -> Vector:
-        """The step of Newton's method; of multipliers whose rows repeat others the least."""
-        repeats = len(self.scene.repeats)
-        if not repeats:
-            return np.asarray(np.linalg.solve(self.slope, -left))
-        size, count = self.x.size, self.count
-        again = np.linalg.svd(self.slope[count:size, :count])[0][:, -repeats:]
-        bordered = np.zeros((size + repeats, size + repeats))
-        bordered[:size, :size] = self.slope
-        bordered[count:size, size:], bordered[size:, count:size] = again, again.T
-        return np.asarray(np.linalg.solve(bordered, -np.concatenate([left, again.T @ self.x[count:]]))[:size])
+    def linear(self, q: Vector, multipliers: Vector) -> tuple[Vector, Matrix]:
+        """See `Balance`."""
+        x = np.concatenate([q, multipliers])
+        shift = SHIFT if self.scene.contacts.size else SMOOTH_SHIFT
+        linearise(
+            self.scene, self._springs, self._volumes, self.y, x, shift, self._left, self._other, self._slope
+        )
+        return self._left[: x.size], self._slope
 
 
 def settle(model: Model, y: Vector) -> None:
@@ -243,43 +314,15 @@ def settle(model: Model, y: Vector) -> None:
     of_loads = [course(0.0) for load in scenario.acting_loads.values() for course in load.courses]
     scene.courses["value"][len(scene.courses) - len(of_loads) :] = of_loads  # which come last
     weights = {what: scene.bodies[what].copy() for what in ("weight_x", "weight_y")}
-    search = _Search(model, y)
     falling = [list(scenario.linkage.bodies).index(name) for name in scenario.blocks]
+    count = 3 * scene.bodies.size
     for what in weights:
         scene.bodies[what][falling] = 0.0
     try:
-        held = _held_by_loads(model)
-        if held is not None:
-            search.x[: search.count] = held
-        elif not all(search.newton(search.centring(share)) for share in _shares(model)):
-            raise SimulationError(Failure("no static equilibrium was found", UNSETTLED, 0.0))
-    except LoadError:
-        raise SimulationError(Failure("no static equilibrium was found", UNSETTLED, 0.0)) from None
+        y[:count] = find_equilibrium(ArrayBalance(model, y), np.zeros(count), scenario)
     finally:
         for what, pull in weights.items():
             scene.bodies[what] = pull
-    y[: search.count] = search.x[: search.count]
-    for n, name in enumerate(scenario.linkage.bodies):
-        if name in scenario.blocks:
-            moving, i = scenario.linkage.bodies[name], search.count + 3 * n
-            y[i : i + 3] = *moving.velocity, moving.spin
-
-
-def _shares(model: Model) -> tuple[float, ...]:
-    """How springs are taken away, one share of the weight after another; with no contact there are none."""
-    return CENTRING if model.contacts else (0.0,)
-
-
-def _held_by_loads(model: Model) -> Vector | None:
-    """Places at which a linkage rests that nothing but loads holds, such as springs; None if it is none."""
-    scenario = model.scenario
-    compliant = model.oil or model.cylinders or model.legs.names or model.scene.bushings.size
-    if not scenario.acting_loads or model.contacts or compliant:
-        return None
-    closed, acting = kinetics_of(scenario.linkage), scenario.acting_loads
-    weight = closed.weight(scenario.gravity)
-
-    def forces(position: Matrix) -> Matrix:
-        return weight + forces_at_rest(closed, acting, position, 0.0)
-
-    return resting(closed, forces, np.zeros(weight.size))
+    for n, name in zip(falling, scenario.blocks, strict=True):
+        moving, i = scenario.linkage.bodies[name], count + 3 * n
+        y[i : i + 3] = *moving.velocity, moving.spin

@@ -11,10 +11,6 @@ from user_forces.journal import ContactGeometry
 # small depths; the reference support meets 1 % of it.
 DEEPEST = 0.2
 
-# While a static equilibrium is looked for, springs centre free journals, and contacts give way: these are
-# shares of the weight that a spring holds at the wall, and of the clearance by which it may press a contact.
-CENTRING = (1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 0.0)
-
 SOFT = (
     "The contact is too soft for the load that it meets: take a larger stiffness, or a smaller load. If both "
     "are as they should be, shorter steps."

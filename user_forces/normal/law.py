@@ -97,17 +97,6 @@ class NormalLaw(Value, ABC):
         """What the message about a depth outside the range adds."""
         return ""
 
-    def force_in_search(self, depth: float, load: float = 0.0, allowed: float = 0.0) -> float:
-        """Elastic force [N] at a depth [m] > 0, for the search of an equilibrium.
-
-        Beyond the largest depth it is continued in proportion to the depth, for trials may lie there. The
-        search of a stiff law converges only near its equilibrium: if a depth is allowed [m], the law is
-        softened until it holds the load [N] there, unless it is as soft by itself.
-        """
-        valid = min(depth, (1.0 - 1e-9) * self.largest_depth)
-        force = self.elastic_force(valid) * (depth / valid)
-        return force * min(1.0, load / self.force_in_search(allowed)) if allowed > 0.0 else force
-
     def resting_depth(self, force: float) -> float:
         """Depth [m] at which a constant force [N] >= 0 is held at rest.
 

@@ -1,35 +1,21 @@
-"""Static equilibrium with clearance pins, so that a run can start settled."""
+"""Static equilibrium of the engine's model, so that a run can start settled."""
 
-import math
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import ExitStack
 from typing import Any
 
 import exudyn
+import numpy as np
 
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.exudyn.scene.engine_scene import INITIAL, EngineScene
-from support_exudyn.formulations.exudyn.scene.scene import Scene
-from support_exudyn.formulations.exudyn.scene.settling import settling
-from support_exudyn.mechanics.acting_loads import forces_at_rest
 from support_exudyn.mechanics.kinetics import Matrix
-from support_exudyn.mechanics.resting import resting
-from support_exudyn.scene.contract import Failure, SimulationError
-from support_exudyn.scene.limits import CENTRING
+from support_exudyn.scene.equilibrium import SMOOTH_SHIFT, CentringSpring, centring_spring, find_equilibrium
+from user_forces.connector.attachment import connector_kernel
+from user_forces.connector.contact_connector import ContactConnector
 from user_forces.normal.law import LoadError
-
-# The engine solves at the end of its only step of loads, 1 s by default: drives and loads, which are told the
-# time, would be settled as they are then.
-AT_THE_START = 1e-30  # [s]
-# A journal in the middle of its bore has no stiffness. A centring spring in every clearance pin is there at
-# first, stiff enough to hold the weight of the machine within the clearance, and is then taken away.
-# What Newton's method still changes tells whether it is done. What is left of the forces does not: contacts are
-# so stiff that the rounding of coordinates of 300 m is thousands of times what is left of them near the origin.
-BY_CHANGES = 1  # the engine's number for that
-CLOSE = 1e-11  # [m]
-ROUNDINGS = 64.0  # of the coordinates
-HANGS_BY = 0.01  # [m] that the spring by which a block hangs would give under the weight of all bodies
-LEAST = 1.0  # [N], stands for that weight where there is none
 
 
 def find_static_equilibrium(scene: EngineScene) -> None:
@@ -41,26 +27,14 @@ def find_static_equilibrium(scene: EngineScene) -> None:
     Raises SimulationError if there is no equilibrium or it is not found.
     """
     data = scene.mbs.systemData
-    weight = sum(item.body.mass for item in scene.bodies.values()) * _norm(scene.scenario.gravity)
-    share = CENTRING[0]
-
-    if (held := _held_by_loads(scene)) is not None:
-        data.SetODE2Coordinates(held, INITIAL)
-    with ExitStack() as for_a_while:
-        for_a_while.enter_context(_weightless(scene))
-        for name, pin in scene.clearance_joints.items():
-            block = scene.scenario.blocks.get(name)
-            hangs = (max(weight, LEAST) / HANGS_BY, block.start_depth) if block is not None else None
-            for_a_while.enter_context(settling(pin, weight, lambda: share, hangs))
+    with ExitStack() as for_a_while, quiet_engine():
         for cylinder in scene.cylinders.values():
             for_a_while.enter_context(cylinder.settling())
         for_a_while.enter_context(scene.legs.settling())
-        for share in CENTRING if held is None else ():  # noqa: B007
-            _solve(scene)
-            data.SetODE2Coordinates(data.GetODE2Coordinates(), INITIAL)
-            for cylinder in scene.cylinders.values():
-                cylinder.follow()
-            scene.reset_memory()  # of where journals have shifted to along their bores
+        balance = EngineBalance(scene)
+        for_a_while.callback(balance.finish)
+        found = find_equilibrium(balance, data.GetODE2Coordinates(INITIAL), scene.scenario)
+        data.SetODE2Coordinates(found, INITIAL)
     velocity = 0.0 * data.GetODE2Coordinates_t(INITIAL)
     for name in scene.scenario.blocks:
         item = scene.bodies[name]
@@ -70,76 +44,107 @@ def find_static_equilibrium(scene: EngineScene) -> None:
     scene.reset_memory()
 
 
-def _held_by_loads(scene: EngineScene) -> Matrix | None:
-    """Coordinates at which a linkage rests that nothing but loads holds, such as springs; None if it is none.
+class EngineBalance:
+    """The balance of forces and constraints that the engine computes, see `scene.equilibrium.Balance`.
 
-    The engine's Newton method knows no stiffness of constraints that turn, and would not find there.
+    Until `finish`, other user functions give the forces of contacts. The engine's own static solver would do
+    without the stiffness of constraints that turn.
     """
-    if not isinstance(scene, Scene) or not scene.loads:
-        return None
-    compliant = (
-        scene.clearance_joints,
-        scene.compliant_pins,
-        scene.oil_columns,
-        scene.cylinders,
-        scene.legs.names,
-    )
-    if any(compliant):
-        return None
-    closed, acting = scene.closed_kinetics, scene.scenario.acting_loads
-    weight = closed.weight(scene.scenario.gravity)
 
-    def forces(position: Matrix) -> Matrix:
-        return weight + forces_at_rest(closed, acting, position, AT_THE_START)
+    def __init__(self, scene: EngineScene) -> None:
+        self.scene, self.mbs = scene, scene.mbs
+        self._springs: dict[str, CentringSpring] = {}
+        self.centre(1.0)
+        for name, pin in scene.clearance_joints.items():
+            pin.item.set_force(self._held(name, pin))
+        engine: Any = exudyn  # the stubs of its solvers lack self
+        self._solver, self._settings = engine.MainSolverStatic(), engine.SimulationSettings()
+        self._settings.solution.file.write = False
+        self._settings.staticSolver.verboseMode = 0
+        self._solver.InitializeSolver(self.mbs, self._settings)
+        self._size, self.joints = self._solver.GetODE2size(), self._solver.GetAEsize()
+        self._first = self._size + self._solver.GetODE1size()  # of the constraints among all equations
+        self._zeros = np.zeros((self._first + self.joints, self._first + self.joints))
+        self._lift = np.zeros(self._size)  # forces that make blocks weightless
+        for name in scene.scenario.blocks:
+            item = scene.bodies[name]
+            self._lift[item.first : item.first + 2] = -item.body.mass * np.array(scene.scenario.gravity)
 
-    return resting(closed, forces, scene.mbs.systemData.GetODE2Coordinates(INITIAL))
+    def finish(self) -> None:
+        """Let contacts give their own forces again."""
+        self._solver.FinalizeSolver(self.mbs, self._settings)
+        for pin in self.scene.clearance_joints.values():
+            pin.item.set_force(pin.user_function)
 
+    def centre(self, share: float) -> None:
+        """See `Balance`; journals stay where they have shifted to along their bores."""
+        for name, pin in self.scene.clearance_joints.items():
+            self._springs[name] = centring_spring(self.scene.scenario, name, pin.contact, share)
+        self.scene.reset_memory()
 
-@contextmanager
-def _weightless(scene: EngineScene) -> Iterator[None]:
-    """Blocks that fall on the machine have no weight for as long as this lasts."""
-    mbs = scene.mbs
-    weights = [scene.weights[name] for name in scene.scenario.blocks if name in scene.weights]
-    pulls = [mbs.GetLoadParameter(weight, "loadVector") for weight in weights]
-    for weight in weights:
-        mbs.SetLoadParameter(weight, "loadVector", [0.0, 0.0, 0.0])
-    try:
-        yield
-    finally:
-        for weight, pull in zip(weights, pulls, strict=True):
-            mbs.SetLoadParameter(weight, "loadVector", pull)
+    def linear(self, q: Matrix, multipliers: Matrix) -> tuple[Matrix, Matrix]:
+        """See `Balance`."""
+        size, mbs, solver = self._size, self.mbs, self._solver
+        turned = [
+            (self._rows(q - step).T - self._rows(q + step).T) @ multipliers / (2.0 * SMOOTH_SHIFT)
+            for step in SMOOTH_SHIFT * np.eye(size)
+        ]
+        mbs.systemData.SetODE2Coordinates(q, INITIAL)
+        rows = self._rows(q)
+        solver.ComputeAlgebraicEquations(mbs, False)
+        gaps = solver.GetSystemResidual()[self._first :]
+        for cylinder in self.scene.cylinders.values():
+            cylinder.follow()
+        try:
+            solver.ComputeJacobianODE2RHS(mbs, 1.0, 0.0, 1.0, 1)
+            solver.ComputeODE2RHS(mbs)  # last, for legs keep how they rest where they are asked
+        except exudyn.ExudynError as error:
+            if error.__cause__ is not None:  # a function of ours raised
+                raise error.__cause__ from None
+            raise LoadError(str(error)) from None
+        forces = solver.GetSystemResidual()[:size] + self._lift - rows.T @ multipliers
+        slope = solver.GetSystemJacobian()[:size, :size] + np.transpose(turned)
+        return np.concatenate([forces, gaps]), np.vstack([slope, rows])
 
+    def _rows(self, q: Matrix) -> Matrix:
+        """Jacobian of the constraints (joints, n) at coordinates q (n,), which the engine has from then on."""
+        self.mbs.systemData.SetODE2Coordinates(q)
+        self._solver.SetSystemJacobian(self._zeros)
+        self._solver.ComputeJacobianAE(self.mbs)
+        return np.asarray(self._solver.GetSystemJacobian()[self._first :, : self._size])
 
-def _solve(scene: EngineScene) -> None:
-    solver: Any = exudyn.MainSolverStatic()
-    settings: Any = exudyn.SimulationSettings()
-    settings.solution.file.write = False
-    settings.staticSolver.verboseMode = 0
-    settings.staticSolver.loadStepDuration = AT_THE_START
-    if scene.repeats:
-        settings.linearSolver.solverType = exudyn.LinearSolverType.EigenDense
-        settings.linearSolver.ignoreSingularJacobian = True
-    newton = settings.staticSolver.newton
-    newton.residualMode, newton.relativeTolerance = BY_CHANGES, 1e-10
-    newton.absoluteTolerance = max(CLOSE, ROUNDINGS * math.ulp(scene.scenario.linkage.farthest))
-    try:
-        with quiet_engine():
-            found = solver.SolveSystem(scene.mbs, settings)
-    except exudyn.ExudynError as error:
-        cause = error.__cause__  # set if a function of ours raised
-        if cause is not None and not isinstance(cause, (ArithmeticError, LoadError)):
-            raise cause from None
-        found = False
-    if not found:
-        raise SimulationError(
-            Failure(
-                "no static equilibrium was found",
-                "Is every body held by pins and actuators, and does gravity press the clearance pins? "
-                "Otherwise start concentric.",
-                0.0,
-            )
-        )
+    def _held(self, name: str, pin: ContactConnector) -> Callable[..., Any]:
+        """The user function of a contact that its spring holds."""
+        kinematics, known = pin.contact.bearing.kinematics, pin.contact.bearing.constants
+        law = pin.contact.normal
 
+        def pull(depth: float) -> float:
+            spring = self._springs[name]
+            elastic = law.elastic_force(min(depth, spring.deepest)) if depth > 0.0 else 0.0
+            return spring.force(depth, elastic)
 
-def _norm(vector: tuple[float, float]) -> float:
-    return float((vector[0] ** 2 + vector[1] ** 2) ** 0.5)
+        def tension(mbs: Any, t: float, item: int, depth: float, *motion: Any) -> float:
+            return pull(depth)
+
+        def force(x: float, y: float, vx: float, vy: float, *spins: Any) -> tuple[float, ...]:
+            depth, rate, slip, nx, ny, arm = kinematics(x, y, vx, vy, spins[0], spins[1], *known)
+            normal = pull(depth)
+            return depth, rate, slip, normal, 0.0, -normal * nx, -normal * ny, arm, False, 0.0
+
+        in_axes = connector_kernel(force, pin.item.at, pin.contact.bearing.is_slot)
+
+        def user_function(
+            mbs: Any,
+            t: float,
+            item: int,
+            displacement: Any,
+            rotation: Any,
+            velocity: Any,
+            spin: Any,
+            *settings: Any,
+        ) -> list[float]:
+            motion = *displacement, *velocity, rotation[2], spin[2], 0.0
+            fx, fy, fz, moment, *_ = in_axes(*motion, True, 0.0, 0.0, 0.0, 0.0, ())
+            return [fx, fy, fz, 0.0, 0.0, moment]
+
+        return tension if pin.item.on_line else user_function
