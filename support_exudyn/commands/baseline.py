@@ -1,8 +1,7 @@
-"""`baseline make|check|update DIR [NAME...]`: what scenarios came out at, kept, and what has changed since."""
+"""`baseline make|check|update DIR [NAME...]`: the results of scenarios, kept, and what has changed since."""
 
 import argparse
 import math
-import sys
 from collections import Counter
 from collections.abc import Sequence
 from typing import Any
@@ -11,15 +10,13 @@ from support_exudyn.commands.command_line import add_json, answer, folder, refus
 from support_exudyn.commands.tables import printed, show_table
 from support_exudyn.postprocessing.comparing.baselines import BaselineFolder, Looked
 from support_exudyn.postprocessing.comparing.changes import HEADER, rows
-from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError
 
 EPILOG = """
-make runs the scenarios of DIR that have no baseline yet and writes DIR/baseline/NAME.json: numbers, impacts and
-thinned curves with their numerical errors. check runs all again and tells what has changed by more than both
-errors, what is new, and what is gone. update shows the same, and writes those that are named; without a name it
-asks for each. Exit codes of all three: 0 nothing changed, 1 something did, or a run cannot be finished, 2 an
-input is wrong.
+make runs the scenarios of DIR that have no baseline yet and writes DIR/baseline/NAME.json: numbers and thinned
+curves with their numerical errors. check runs all again and reports what has changed by more than both
+errors, what is new, and what is gone. update reports the same, and writes the scenarios that are named. Exit
+codes of all three: 0 nothing changed, 1 something did, or a run cannot be finished, 2 an input is wrong.
 """
 CHANGED, WRONG = 1, 2  # exit codes
 MAKE, CHECK, UPDATE = "make", "check", "update"
@@ -31,50 +28,40 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.epilog = EPILOG
     add("action", choices=(MAKE, CHECK, UPDATE), metavar="ACTION", help=f"{MAKE}, {CHECK} or {UPDATE}")
     add("folder", type=folder, metavar="DIR", help="a folder of scenarios, *.toml")
-    add(
-        "names",
-        nargs="*",
-        default=[],
-        metavar="NAME",
-        help="of update: scenarios that are written, no question asked",
-    )
-    add("--reason", default="", metavar="TEXT", help="of update: why, kept in the files that are written")
+    add("names", nargs="*", default=[], metavar="NAME", help="of update: scenarios that are written")
     add_json(parser)
 
 
 def run(given: argparse.Namespace) -> None:
     """Do it; ends with exit code 1 if something has changed, and 2 if an input is wrong."""
     with refusing(WRONG):
-        if given.action != UPDATE and (given.names or given.reason):
-            raise InputError(f"{given.action} takes DIR alone; allowed: names and a reason with {UPDATE}")
+        if given.action != UPDATE and given.names:
+            raise InputError(f"{given.action} takes DIR alone; allowed: names with {UPDATE}")
         kept = BaselineFolder(given.folder)
         kept.check_names(given.names)
         if given.action == MAKE:
             _make(kept, given)
             return
-        names = list(dict.fromkeys(given.names)) or kept.names
         found: list[Looked] = []
         with shown_progress(given.action) as progress:
-            found += kept.looked_at(names, progress)
+            found += kept.looked_at(list(dict.fromkeys(given.names)) or kept.names, progress)
     if given.json:
         answer({one.name: _object(one) for one in found})
     else:
-        _tell(found)
-    if given.action == CHECK:
-        if any(one.state != "same" for one in found):
-            raise SystemExit(CHANGED)
-        return
-    _update(kept, found, given)
+        _report(found)
+    left = [one for one in found if one.state != "same"]
+    if given.action == UPDATE:
+        left = _update(kept, left, given)
+    if left:
+        raise SystemExit(CHANGED)
 
 
 def _make(kept: BaselineFolder, given: argparse.Namespace) -> None:
     """Write what has no baseline yet; each as soon as it is run."""
     missing = [name for name in kept.scenarios if name not in kept.baselines]
-    failed = 0
     written: dict[str, Any] = {}
     with shown_progress(MAKE) as progress:
         for one in kept.looked_at(missing, progress):
-            failed += bool(one.failed)
             written[one.name] = None if one.failed else kept.write(one)
             if one.failed:
                 warn(f"{one.name}: not made, its run cannot be finished: {one.failed}")
@@ -85,41 +72,36 @@ def _make(kept: BaselineFolder, given: argparse.Namespace) -> None:
         answer({"made": written, "there": there})
     elif there:
         say(f"left as they are: {', '.join(there)}; `check` compares them, `{UPDATE}` changes them")
-    if failed:
+    if None in written.values():
         raise SystemExit(CHANGED)
 
 
 def _kept_of(one: Looked) -> str:
     assert one.now is not None
-    impacts = sum(map(len, one.now.impacts.values()))
-    said = f"{len(one.now.numbers)} numbers, {len(one.now.curves)} channels, {impacts} impacts"
+    words = f"{len(one.now.numbers)} numbers, {len(one.now.curves)} channels"
     if math.isfinite(one.now.horizon):
-        said += f"; determined up to {one.now.horizon:.4g} s, nothing is kept beyond"
-    return said
+        words += f"; determined up to {one.now.horizon:.4g} s, nothing is kept beyond"
+    return words
 
 
-def _tell(found: Sequence[Looked]) -> None:
-    """What has become of each scenario, and a table of what has changed."""
+def _report(found: Sequence[Looked]) -> None:
+    """The state of each scenario, and a table of what has changed."""
     for one in found:
-        if one.state == "same":
-            say(f"{one.name}: nothing changed ({_kept_of(one)})")
-        elif one.state == "failed":
-            say(f"{one.name}: its run cannot be finished: {one.failed}")
-        elif one.state == "new":
-            say(f"{one.name}: new, it has no baseline")
-        elif one.state == "gone":
-            say(f"{one.name}: gone, there is a baseline and no such scenario")
-        else:
-            _show_changes(one)
-            if said := _versions(one):
-                say(f"made with {said}\n")
+        if one.state == "changed":
+            title = f"{one.name}: {len(one.changes)} changed by more than both errors, new, or gone"
+            table = title, HEADER, rows(one.changes)
+            printed(lambda console, table=table: show_table(console, *table))  # type: ignore[misc]
+            if words := _versions(one):
+                say(f"made with {words}\n")
+            continue
+        states = {
+            "failed": f"its run cannot be finished: {one.failed}",
+            "new": "new, it has no baseline",
+            "gone": "gone, there is a baseline and no such scenario",
+        }
+        say(f"{one.name}: {states.get(one.state) or f'nothing changed ({_kept_of(one)})'}")
     counts = Counter(one.state for one in found)
     say(", ".join(f"{number} {state}" for state, number in counts.items()))
-
-
-def _show_changes(one: Looked) -> None:
-    title = f"{one.name}: {len(one.changes)} changed by more than both errors, new, or gone"
-    printed(lambda console: show_table(console, title, HEADER, rows(one.changes)))
 
 
 def _versions(one: Looked) -> str:
@@ -131,41 +113,21 @@ def _versions(one: Looked) -> str:
     return ", ".join(f"{key} {was[key][:40]} (now {now.get(key, 'none')[:40]})" for key in others)
 
 
-def _update(kept: BaselineFolder, found: Sequence[Looked], given: argparse.Namespace) -> None:
-    """Write what is named or confirmed; a run that failed is never written."""
-    left = 0
-    for one in found:
-        if one.state == "same":
-            continue
-        if one.state == "failed" or not (one.name in given.names or _is_confirmed(one, given)):
-            left += 1
-            continue
-        with refusing(WRONG):
-            path = kept.write(one, given.reason)
-        if not given.json:
-            say(f"{path}: {'removed' if one.now is None else 'written'}")
+def _update(kept: BaselineFolder, changed: Sequence[Looked], given: argparse.Namespace) -> list[Looked]:
+    """Write the scenarios that are named; returns those that are left. A run that failed is never written."""
+    left = [one for one in changed if one.state == "failed" or one.name not in given.names]
+    for one in changed:
+        if one not in left:
+            with refusing(WRONG):
+                path = kept.write(one)
+            if not given.json:
+                say(f"{path}: {'removed' if one.now is None else 'written'}")
     if left:
-        warn(f"{left} not written; to write one, name it: {UPDATE} {given.folder} NAME")
-        raise SystemExit(CHANGED)
-
-
-def _is_confirmed(one: Looked, given: argparse.Namespace) -> bool:
-    """Whether the user says so; nobody is asked where nobody can answer."""
-    if given.json or given.names or not (sys.stdin and sys.stdin.isatty()):
-        return False
-    try:
-        return input(f"{one.name}: {one.state}; write it? [y/N] ").strip().lower() in ("y", "yes")
-    except EOFError:
-        return False
+        warn(f"{len(left)} not written; to write one, name it: {UPDATE} {given.folder} NAME")
+    return left
 
 
 def _object(one: Looked) -> dict[str, Any]:
     """A scenario for scripts."""
-
-    def number(item: Estimate | None) -> dict[str, Any] | None:
-        return None if item is None else item._asdict()
-
-    changed = [
-        change._asdict() | {"was": number(change.was), "now": number(change.now)} for change in one.changes
-    ]
+    changed = [change._asdict() for change in one.changes]
     return {"state": one.state, "failed": one.failed or None, "changes": changed}

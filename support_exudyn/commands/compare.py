@@ -145,44 +145,39 @@ def files_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:
 
 def _check_outputs(given: argparse.Namespace) -> None:
     """Raise InputError, before anything is read, for a file that cannot be written as what it is called."""
-    if given.figure is not None:
-        from support_exudyn.postprocessing.comparing.compare_figure import check_format
+    from support_exudyn.postprocessing.comparing.compare_figure import check_format
+    from support_exudyn.postprocessing.comparing.compare_page import check_page
 
-        check_format(given.figure)
-    if given.page is not None:
-        from support_exudyn.postprocessing.comparing.compare_page import check_page
-
-        check_page(given.page)
+    for path, check in ((given.figure, check_format), (given.page, check_page)):
+        if path is not None:
+            check(path)
 
 
 def _write(given: argparse.Namespace, compared: FilesCompared) -> list[Path]:
     """Write what is asked for; returns the paths."""
-    if given.junit is not None:
-        from support_exudyn.postprocessing.comparing.for_programs import write_junit
+    from support_exudyn.postprocessing.comparing.compare_figure import write_figure
+    from support_exudyn.postprocessing.comparing.compare_page import write_page
+    from support_exudyn.postprocessing.comparing.for_programs import write_junit
 
-        write_junit(compared, given.junit)
-    if given.figure is not None:
-        from support_exudyn.postprocessing.comparing.compare_figure import write_figure
-
-        write_figure(compared, given.figure)
-    if given.page is not None:
-        from support_exudyn.postprocessing.comparing.compare_page import write_page
-
-        write_page(compared, given.page)
-    return [path for path in (given.junit, given.figure, given.page) if path is not None]
+    written = []
+    for path, write in ((given.junit, write_junit), (given.figure, write_figure), (given.page, write_page)):
+        if path is not None:
+            write(compared, path)
+            written.append(path)
+    return written
 
 
 def _print(compared: FilesCompared) -> None:
     """Print the tables and the notes on them."""
     from support_exudyn.postprocessing.comparing import tables
-    from support_exudyn.postprocessing.comparing.notes import notes
 
     def shown(console: Console) -> None:
         for pair in compared.pairs:
-            for table in tables.tables(pair, brief=True):
-                show_table(console, table.title, table.header, table.rows)
+            sheet = tables.table(pair)
+            header = [head if n < sheet.left else f">{head}" for n, head in enumerate(sheet.header)]
+            show_table(console, sheet.title, header, sheet.rows)
             faults = [text for one in pair.channels.values() for text in tables.faults(one)]
-            for line in (*notes(pair), *faults):
+            for line in (*tables.notes(pair), *faults):
                 console.print(line, markup=False, soft_wrap=True)
         console.print(tables.VERDICTS[compared.verdict], markup=False, soft_wrap=True)
 

@@ -151,12 +151,12 @@ def assert_close() -> AssertClose:
         until: float = float("inf"),
     ) -> None:
         __tracebackhide__ = True
-        from support_exudyn.postprocessing.comparing.baselines import said_apart
         from support_exudyn.postprocessing.comparing.closeness import closeness
+        from support_exudyn.postprocessing.comparing.tables import faults
 
         found = closeness(result, reference, tolerance, channels=channels, after=after, until=until)
-        if any(not one.is_close for one in found):
-            raise AssertionError(said_apart(found))
+        if lines := [line for one in found for line in faults(one)]:
+            raise AssertionError("\n".join(lines))
 
     return check
 

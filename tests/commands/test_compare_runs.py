@@ -40,9 +40,7 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     simulate(replace(ideal, record_period=4e-3)).save(folder / "rare.h5")
     simulate(replace(ideal, record_period=3e-3)).save(folder / "other.h5")
     simulate(loose_slider_crank(0.05, formulation="compiled", record_period=5e-5)).save(folder / "crank.h5")
-    nudged, changed = Result.load(folder / "plain.h5"), Result.load(folder / "plain.h5")
-    nudged["tip.x"][-1] = np.nextafter(nudged["tip.x"][-1], np.inf)
-    nudged.save(folder / "nudged.h5")
+    changed = Result.load(folder / "plain.h5")
     changed[FORCE][:] *= 1.001
     changed.save(folder / "changed.h5")
     return folder
@@ -65,47 +63,30 @@ def one(runs: Path, first: str, second: str, channel: str, **more: Any) -> Compa
 @pytest.mark.parametrize(
     ("files", "words", "code", "said"),
     [
-        ("ideal with_clearance", "--from 0.1", 0, ["0.1 to 0.2 s (± numerical errors of both runs)", "at [s]"]),
-        ("plain plain", "tip.x", 0, ["the same to the bit: all records of "]),
-        (
-            "rare other",
-            "tip.x",
-            0,
-            ["times lie between records of one file; straight lines there may be wrong"],
-        ),
-        ("plain changed", f"--tolerance tip.*=1um,{FORCE}=5%", 0, ["All channels are within"]),
-        (
-            "plain changed",
-            f"{FORCE} --tolerance pin.*=10N",
-            1,
-            ["Not all channels are within their tolerances."],
-        ),
-        (
-            "with_clearance fine",
-            f"{FORCE} --tolerance pin.*=1e-9N",
-            1,
-            ["is larger than what is allowed, 1e-06 mN: not decided", "cannot be told"],
-        ),
-        ("ideal crank", "", 2, ["have no channel in common; ideal.h5 has"]),
-        ("ideal crank", "tip.x", 2, ["tip.x: crank.h5 has no such channel"]),
-        ("ideal with_clearance", "tap.x", 2, ["'tap.x': no such channel"]),
-        ("ideal with_clearance", "--from 7", 2, ["none lies between 7 and inf s"]),
-        ("ideal no", "", 2, ["no.h5: no such file"]),
-        ("ideal", "tip.x", 2, ["is the only file; tip.x is no file that is there"]),
-        ("ideal with_clearance", "--tolerance tip.x=1", 2, ["allowed: a share"]),
-        ("ideal with_clearance", "--tolerance tip.x=1kN", 2, ["tolerance of tip.x"]),
-        ("ideal with_clearance", "--figure figure.bmp", 2, ["ends in .png, .pdf, .svg"]),
-        ("ideal with_clearance", "--page page.pdf", 2, ["ends in .html"]),
-        ("ideal with_clearance", "--map no.toml", 2, ["no.toml: no such file"]),
+        ("ideal with_clearance", "--from 0.1", 0, "0.1 to 0.2 s (± numerical errors of ideal.h5 and with"),
+        ("rare other", "tip.x", 0, "times lie between records of one file"),
+        ("plain changed", f"--tolerance tip.*=1um,{FORCE}=5%", 0, "All channels are within"),
+        ("plain changed", f"{FORCE} --tolerance pin.*=10N", 1, "Not all channels are within their tolerances."),
+        ("with_clearance fine", f"{FORCE} --tolerance pin.*=1e-9N", 1, "not decided"),
+        ("ideal crank", "", 2, "have no channel in common; ideal.h5 has"),
+        ("ideal crank", "tip.x", 2, "tip.x: crank.h5 has no such channel"),
+        ("ideal with_clearance", "tap.x", 2, "'tap.x': no such channel"),
+        ("ideal with_clearance", "--from 7", 2, "none lies between 7 and inf s"),
+        ("ideal no", "", 2, "no.h5: no such file"),
+        ("ideal", "tip.x", 2, "is the only file; tip.x is no file that is there"),
+        ("ideal with_clearance", "--tolerance tip.x=1", 2, "allowed: a share"),
+        ("ideal with_clearance", "--tolerance tip.x=1kN", 2, "tolerance of tip.x"),
+        ("ideal with_clearance", "--figure figure.bmp", 2, "ends in .png, .pdf, .svg"),
+        ("ideal with_clearance", "--page page.pdf", 2, "ends in .html"),
+        ("ideal with_clearance", "--map no.toml", 2, "no.toml: no such file"),
     ],
 )
 def test_what_is_said_of_runs(
-    files: str, words: str, code: int, said: list[str], runs: Path, capsys: pytest.CaptureFixture[str]
+    files: str, words: str, code: int, said: str, runs: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert ended(["compare", *(str(runs / f"{name}.h5") for name in files.split()), *words.split()]) == code
     told = capsys.readouterr()
-    text = told.err if code == 2 else told.out
-    assert [part for part in said if part not in text] == []
+    assert said in (told.err if code == 2 else told.out)
     assert bool(told.out) == (code != 2)
 
 
@@ -136,7 +117,6 @@ def test_errors_cover_what_a_finer_run_finds(runs: Path, accuracy: str) -> None:
             assert 0.0 < mine.error < math.inf
             assert abs(mine.value - its.value) <= mine.error + its.error, (name, number)
     two_accuracies = compare_files(runs / "with_clearance.h5", runs / "fine.h5").pairs[0]
-    assert two_accuracies.same == 0
     assert not any(channel.beside_errors.ratio > 10.0 for channel in two_accuracies.channels.values())
 
 
@@ -145,7 +125,6 @@ def test_the_same_run_other_records_and_a_bit(runs: Path) -> None:
     same = one(runs, "with_clearance", "with_clearance", FORCE, tolerance="pin.*=1e-9N")
     assert (same.mean.value, same.largest.value, same.verdict) == (0.0, 0.0, "within")
     assert same.largest.error > 1e-9
-    assert compare_files(runs / "plain.h5", runs / "nudged.h5").pairs[0].same == 0
     # both follow the same columns on the same steps; the difference is rounding
     common = one(runs, "plain", "rare", "tip.x")
     assert common.largest.value < 1e-9
@@ -189,7 +168,7 @@ def test_an_adams_file_is_three_quarters_of_a_percent_off_free_fall_at_its_first
     assert ended([*words, "--until", "0.015", "--tolerance", "height=1um"]) == 1
     told = capsys.readouterr().out
     # (0.0194492123535125 - 0.019304429135) inch; the first is the file's, the second g t^2 / 2
-    assert "height: largest difference 3.677 µm at 0.01 s (0.75 % of the reference there)" in told
+    assert "differs by 3.677 µm" in told
     assert ended([*words, "--json"]) == 0
     height = json.loads(capsys.readouterr().out)["files"]["free_fall.res"]["channels"]["height"]
     assert height["largest"]["value"] == pytest.approx(0.0254 * 0.0001447832185125, rel=1e-9)
@@ -251,16 +230,13 @@ def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it
     found = re.search(r"point by point up to ([\d.]+) s, the horizon of (draft|reference)\.h5", told)
     assert found is not None
     assert float(found[1]) <= horizon * (1.0 + 1e-5)
-    assert re.search(r"after it \d+ statistics are equal within the intervals", told)
-    assert told.count("within both errors") >= 7
-    text = page.read_text(encoding="utf-8")
-    for part in ("Point by point up to", "Statistics after"):
-        assert part in text, part
+    assert re.search(r"after it 0 of \d+ statistics differ", told)
+    assert "Point by point up to" in page.read_text(encoding="utf-8")
     assert ended([*words, "--json"]) == 0
     pair = json.loads(capsys.readouterr().out)["files"]["reference.h5"]
     for name, channel in pair["channels"].items():
         assert channel["beside_errors"]["within"], name
-        assert {"mean", "rms", "spread", "quantile_95"} <= set(channel["statistics"]), name
+        assert set(channel["statistics"]) == {"mean", "rms"}, name
         assert all(what["equal"] is not False for what in channel["statistics"].values()), name
     compared = compare_files(draft, fine, channels=["tip.x"])
     difference = compare_figure(compared).axes[1]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from datetime import datetime, timezone
 from fnmatch import fnmatchcase
 from pathlib import Path
 
@@ -13,8 +12,7 @@ from support_exudyn.files import ScenarioFile
 from support_exudyn.files.scenarios.scenario_file import OTHER_FILES, read_scenario_file
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import writing_alone
-from support_exudyn.postprocessing.comparing.changes import RunChange, changes, line, worst_first
-from support_exudyn.postprocessing.comparing.closeness import Closeness
+from support_exudyn.postprocessing.comparing.changes import RunChange, changes, rows
 from support_exudyn.postprocessing.comparing.kept_run import (
     KeptRun,
     kept_numbers,
@@ -26,11 +24,10 @@ from support_exudyn.scene.contract import Progress, SimulationError
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
-from user_forces.values.value import InputError, cleaned, short
+from user_forces.values.value import InputError, short
 
 FOLDER = "baseline"  # in a folder of scenarios or tests
 ENDING = ".json"
-MOST_REASON = 200  # letters that are kept of a reason
 NO_NAME = re.compile(r"[^\w.-]+")  # is left out of a file's name
 LONGEST = 150  # letters of a file's name
 TOLD = 5  # changes in the message of a failure
@@ -119,8 +116,8 @@ class BaselineFolder:
             yield Looked(name, was, now, tuple(changes(was, now)) if was is not None else ())
         progress(1.0)
 
-    def write(self, looked: Looked, reason: str = "") -> Path:
-        """Write the results of a scenario, with a note of the change; of a scenario that is gone remove them.
+    def write(self, looked: Looked) -> Path:
+        """Write the results of a scenario; of a scenario that is gone remove them.
 
         Raises OSError if the file cannot be written, or if another process writes to the folder.
         """
@@ -130,7 +127,7 @@ class BaselineFolder:
             if looked.now is None:
                 path.unlink(missing_ok=True)
             else:
-                _write(looked, looked.now, path, reason)
+                write_baseline(looked.now, path)
         return path
 
 
@@ -140,40 +137,7 @@ def _is_scenario(path: Path) -> bool:
     return "machine" in table or not OTHER_FILES.keys() & table.keys()
 
 
-def _write(looked: Looked, now: KeptRun, path: Path, reason: str = "") -> None:
-    note = {"date": datetime.now(timezone.utc).isoformat(timespec="seconds")}
-    note["changes"] = "first" if looked.was is None else str(len(looked.changes))
-    if reason:
-        note["reason"] = cleaned(reason)[:MOST_REASON]
-    before = looked.was.history if looked.was is not None else ()
-    write_baseline(replace(now, history=(*before, note)), path)
-
-
 # --- in tests ---
-
-
-def said_apart(compared: Sequence[Closeness]) -> str:
-    """The message of a failed comparison; empty if all is close."""
-    apart = [one for one in compared if not one.is_close]
-    if not apart or len(compared) == 1:
-        return "".join(map(str, apart))
-    others = ", ".join(one.name for one in apart[1:TOLD])
-    more = f"; further: {others}" if others else ""
-    return f"{apart[0]}\n{len(apart)} of {len(compared)} are not close{more}"
-
-
-def said_changed(name: str, found: Sequence[RunChange]) -> str:
-    """The message of a changed baseline; empty if nothing has changed."""
-    if not found:
-        return ""
-    lines = [f"{name}: {len(found)} changed by more than both errors, new, or gone"]
-    lines += map(line, worst_first(found)[:TOLD])
-    return "\n".join(lines + [f"and {len(found) - TOLD} more"] * (len(found) > TOLD))
-
-
-def file_name(text: str) -> str:
-    """A text as the name of a file."""
-    return NO_NAME.sub("_", text).strip("_.")[:LONGEST] or "it"
 
 
 class SessionBaselines:
@@ -203,24 +167,24 @@ class SessionBaselines:
 
         Raises InputError if it is damaged, or if its name was used before.
         """
-        path = beside.parent / FOLDER / f"{file_name(name)}{ENDING}"
+        stem = NO_NAME.sub("_", name).strip("_.")[:LONGEST] or "it"
+        path = beside.parent / FOLDER / f"{stem}{ENDING}"
         if path in self._used:
-            raise InputError(
-                f"{path.stem}: is compared already; allowed: a name of its own, baseline(it, 'NAME')"
-            )
+            raise InputError(f"{stem}: is compared already; allowed: a name of its own, baseline(it, 'NAME')")
         self._used.add(path)
         now = _kept(item)
-        was = read_baseline(path) if path.exists() else None
-        found = tuple(changes(was, now)) if was is not None else ()
-        said = said_changed(path.stem, found) if was is not None else f"{path.stem}: first"
-        if not said:
-            return "", False
-        if any(fnmatchcase(path.stem, pattern) for pattern in self.updated):
-            _write(Looked(path.stem, was, now, found), now, path)
-            return f"{path}: written\n{said}", True
-        if was is None:
-            said = f"{path}: there is no such baseline"
-        return f"{said}\nto write it: pytest --baseline-update {path.stem}", False
+        if path.exists():
+            found = changes(read_baseline(path), now)
+            if not found:
+                return "", False
+            lines = [f"{stem}: {len(found)} changed by more than both errors, new, or gone"]
+            lines += ["  ".join(filter(None, cells)) for cells in rows(found, TOLD)]
+        else:
+            lines = [f"{path}: there is no such baseline"]
+        if any(fnmatchcase(stem, pattern) for pattern in self.updated):
+            write_baseline(now, path)
+            return "\n".join([f"{path}: written", *lines]), True
+        return "\n".join([*lines, f"to write it: pytest --baseline-update {stem}"]), False
 
 
 def _kept(item: Result | Estimate | Mapping[str, Estimate]) -> KeptRun:

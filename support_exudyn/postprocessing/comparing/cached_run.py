@@ -6,8 +6,7 @@ import hashlib
 import json
 import shutil
 import time
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 
 from support_exudyn.files.whole_file import writing_alone
@@ -38,7 +37,10 @@ class RunCache:
         self.folder = folder / hashlib.sha256(text.encode()).hexdigest()[:16]
         if not self.folder.is_dir():
             self.folder.mkdir(parents=True, exist_ok=True)
-            _remove_old(folder)
+            for other in folder.iterdir():
+                with suppress(OSError):  # another process may remove it at the same time
+                    if time.time() - other.stat().st_mtime > OLD:
+                        shutil.rmtree(other, ignore_errors=True)
 
     def run(self, scenario: Scenario, errors: bool = False) -> Result:
         """The run of a scenario, made if it is not there or damaged; always as it is read from its file.
@@ -49,39 +51,22 @@ class RunCache:
         """
         folder = self.folder / key(scenario, errors)
         path = folder / FILE
-        if (found := _loaded(path)) is not None:
-            return found
-        folder.mkdir(exist_ok=True)
-        with _alone(folder):
-            if (found := _loaded(path)) is not None:  # another process has made it meanwhile
-                return found
-            simulate(scenario, errors=errors).save(path)
-            return Result.load(path)
-
-
-def _loaded(path: Path) -> Result | None:
-    """A run that is there and whole; a damaged file, or a file that is removed while it is read, is none."""
-    try:
-        return Result.load(path) if path.is_file() else None
-    except (InputError, OSError):
-        return None
-
-
-@contextmanager
-def _alone(folder: Path) -> Iterator[None]:
-    """Wait until no other process works in a folder, and keep others from it."""
-    with ExitStack() as held:
         while True:
-            with suppress(BlockingIOError):
-                held.enter_context(writing_alone(folder))
-                break
-            time.sleep(WAIT)
-        yield
+            with suppress(InputError, OSError):  # it is not there, damaged, or removed while it is read
+                return Result.load(path)
+            folder.mkdir(exist_ok=True)
+            try:
+                with writing_alone(folder):
+                    if not _is_whole(path):  # another process may have made it meanwhile
+                        simulate(scenario, errors=errors).save(path)
+                    return Result.load(path)
+            except BlockingIOError:
+                time.sleep(WAIT)
 
 
-def _remove_old(folder: Path) -> None:
-    """Remove runs of other programs that are old; another process may do so at the same time."""
-    for other in folder.iterdir():
-        with suppress(OSError):
-            if time.time() - other.stat().st_mtime > OLD:
-                shutil.rmtree(other, ignore_errors=True)
+def _is_whole(path: Path) -> bool:
+    try:
+        Result.load(path)
+    except (InputError, OSError):
+        return False
+    return True

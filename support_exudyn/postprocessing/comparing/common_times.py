@@ -1,4 +1,4 @@
-"""Two curves at common times, and a curve at equally spaced times.
+"""Curves with errors, and two of them at common times.
 
 Common times are those of the coarser curve inside the overlap. The finer curve is interpolated there by
 straight lines, and the error of that is estimated. At a time that both have, both values are taken as they are.
@@ -15,8 +15,18 @@ from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
 SAME = 1e-3  # share of the shortest time between two records by which equal times may differ, at most
-EVEN = 1e-6  # share of the spacing by which evenly spaced times may be off
-MOST = 2**22  # samples
+
+
+class Column(NamedTuple):
+    """A curve at times [s] (n,), with values and errors (n,); a number has no times and a single value.
+
+    unit: of all but the times; None: not known. An error that is NaN is not known.
+    """
+
+    unit: str | None
+    time: Values
+    values: Values
+    errors: Values
 
 
 class CommonCurves(NamedTuple):
@@ -37,14 +47,6 @@ class CommonCurves(NamedTuple):
     def part(self, chosen: npt.NDArray[np.bool_]) -> tuple[Values, Values, Values]:
         """Times, reference and other at the chosen times, (n,) as a mask."""
         return self.time[chosen], self.reference[chosen], self.other[chosen]
-
-
-class EvenSamples(NamedTuple):
-    """A curve at equally spaced times: their start and spacing [s], and the values (n,)."""
-
-    start: float
-    spacing: float
-    values: Values
 
 
 def on_common_times(
@@ -120,26 +122,17 @@ def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Valu
     return result, np.where(own, 0.0, error), int(np.count_nonzero(~own))
 
 
-def even_samples(time: Values, values: Values, spacing: float | None = None) -> EvenSamples:
-    """The known values of a curve, at equally spaced times.
+def errors_at(at: Values, column: Column) -> Values:
+    """Errors of a curve at other times [s], (m,): those of the next record, as errors grow with time."""
+    return column.errors[np.minimum(np.searchsorted(column.time, at - CLEARANCE), column.time.size - 1)]
 
-    Arguments:
-        time: [s], (n,), increasing. values: (n,); an unknown value is bridged by a straight line.
-        spacing: of the samples [s]; None: that of the times, the median.
 
-    Raises InputError if fewer than two values are known, or if the samples would be more than `MOST`.
-    """
-    known = np.isfinite(values)
-    time, values = time[known], values[known]
-    if time.size < 2:
-        raise InputError(f"{time.size} known values; allowed: a curve with at least 2")
-    wanted = float(np.median(np.diff(time))) if spacing is None else spacing
-    count = int((time[-1] - time[0]) / wanted * (1.0 + EVEN) + EVEN) + 1
-    if count > MOST:
-        raise InputError(
-            f"{count} samples of {wanted:g} s would be needed; allowed: at most {MOST}, so a shorter piece"
-        )
-    at = time[0] + wanted * np.arange(count)
-    if count == time.size and float(np.abs(at - time).max()) <= EVEN * wanted:
-        return EvenSamples(float(time[0]), wanted, values)
-    return EvenSamples(float(time[0]), wanted, interpolated(time, values, np.minimum(at, time[-1]))[0])
+def summed(first: Values, second: Values) -> Values:
+    """The errors of a difference, (n,): the sum of both sides; an unknown error, NaN, is left out."""
+    return np.where(np.isnan(first), second, np.where(np.isnan(second), first, first + second))
+
+
+def extent(values: Values) -> float:
+    """The largest less the least value; 0 if none is known."""
+    known = values[np.isfinite(values)]
+    return float(np.ptp(known)) if known.size else 0.0

@@ -18,7 +18,7 @@ from support_exudyn.postprocessing.comparing.files_compared import ComparedPair,
 from support_exudyn.postprocessing.comparing.tables import verdict_words
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.channels import label_values
-from support_exudyn.postprocessing.figures.units import DisplayUnit, readable, said
+from support_exudyn.postprocessing.figures.units import readable, said
 from user_forces.values.value import InputError
 
 FORMATS = (".png", ".pdf", ".svg")
@@ -28,6 +28,11 @@ FEW = 60  # points of a curve that are drawn as markers
 CURVES_MM, DIFFERENCE_MM, REST_MM, LINE_MM = 38.0, 30.0, 30.0, 4.5
 ALLOWED, AFTER = "#009E73", "#f0f0f0"  # colours of what is allowed, and of what lies after the horizon
 BY_STATISTICS = "compared by statistics"  # after the horizon
+CAPTION = (
+    "Curves as their files have them (few points of a file: markers); below each, the difference from the "
+    "reference, shaded by its numerical error where that is known. Green: what is allowed. Grey: after the "
+    "first horizon, from which on curves are compared by their statistics only."
+)
 Compared = Sequence[tuple[str, ComparedPair, ComparedChannel]]  # a channel of each file, with its colour
 
 
@@ -59,69 +64,68 @@ def compare_figure(compared: FilesCompared, most: int | None = None) -> Figure:
     if len(compared.pairs) > len(OTHERS):
         raise InputError(f"{len(compared.pairs) + 1} files: allowed in a figure: {len(OTHERS) + 1}")
     names = names[:most]
+    times = [one.common.time for pair in compared.pairs for one in pair.channels.values()]
+    ends = min(float(time[0]) for time in times), max(float(time[-1]) for time in times)
+    horizon = min(pair.window.horizon for pair in compared.pairs)
+    others = ", ".join(pair.other.name for pair in compared.pairs)
     with style.look():
-        *before, last = [pair.other.name for pair in compared.pairs]
-        others = f"{', '.join(before)} and {last}" if before else last
         height = REST_MM + (CURVES_MM + DIFFERENCE_MM) * len(names) + LINE_MM * (1 + len(compared.pairs))
         drawing = style.begin(170, height, f"{others} compared with {compared.reference.name}")
         ratios = [CURVES_MM, DIFFERENCE_MM] * len(names)
         panels = drawing.subplots(2 * len(names), 1, sharex=True, squeeze=False, height_ratios=ratios)[:, 0]
-        times = [one.common.time for pair in compared.pairs for one in pair.channels.values()]
-        first, last_time = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
-        seconds = readable("s", max(abs(first), abs(last_time)))
-        horizon = min(pair.window.horizon for pair in compared.pairs)
         for n, name in enumerate(names):
             there = [
                 (OTHERS[k][0], pair, pair.channels[name])
                 for k, pair in enumerate(compared.pairs)
                 if name in pair.channels
             ]
-            _curves(panels[2 * n], compared.reference, there, seconds, (first, last_time))
-            _differences(panels[2 * n + 1], there, seconds)
-            for axes in panels[2 * n : 2 * n + 2]:
-                if horizon < last_time:
-                    span = seconds.scale * horizon, seconds.scale * last_time
-                    axes.axvspan(*span, color=AFTER, lw=0.0, zorder=0)
-                    axes.axvline(span[0], color="#888888", lw=0.8, ls=":")
+            _curves(panels[2 * n], compared.reference, there, ends)
+            _differences(panels[2 * n + 1], there)
+        if horizon < ends[1]:
+            for axes in panels:
+                axes.axvspan(horizon, ends[1], color=AFTER, lw=0.0, zorder=0)
         panels[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.2), fontsize=7, borderaxespad=0.0)
         drawing.align_ylabels(list(panels))
-        panels[-1].set_xlabel(f"time [{seconds.name}]")
-        if last_time > first:
-            panels[-1].set_xlim(seconds.scale * first, seconds.scale * last_time)
-        style.caption(drawing, _caption(compared))
+        panels[-1].set_xlabel("time [s]")
+        if ends[1] > ends[0]:
+            panels[-1].set_xlim(*ends)
+        style.caption(drawing, CAPTION)
     return drawing
 
 
-def _curves(
-    axes: Axes, reference: ComparedFile, there: Compared, seconds: DisplayUnit, ends: tuple[float, float]
-) -> None:
+def _curves(axes: Axes, reference: ComparedFile, there: Compared, ends: tuple[float, float]) -> None:
     """The curves of a channel as their files have them."""
     one = there[0][2]
     drawn = []
     for file, colour in ((reference, style.IDEAL), *((pair.other, colour) for colour, pair, _ in there)):
-        time, values = file.time(one.name), file.values(one.name, one.unit)
-        chosen = (time >= ends[0]) & (time <= ends[1])
-        drawn.append((file, colour, time[chosen], values[chosen]))
+        column = file.column(one.name, one.unit)
+        chosen = (column.time >= ends[0]) & (column.time <= ends[1])
+        drawn.append((file, colour, column.time[chosen], column.values[chosen]))
     shown = readable(one.unit, max(float(np.nanmax(np.abs(curve[3]), initial=0.0)) for curve in drawn))
-    dashes = dict(OTHERS)
     for file, colour, time, values in drawn:
-        look: dict[str, Any] = {"ls": dashes.get(colour, "-"), "lw": 1.3 if file is reference else 1.0}
+        look: dict[str, Any] = {"ls": dict(OTHERS).get(colour, "-"), "lw": 1.3 if file is reference else 1.0}
         if file.run is None and time.size <= FEW:  # points are seen as such
             look = {"ls": "", "marker": "o", "ms": 3.5, "mfc": "none", "mew": 1.0, "zorder": 3}
-        axes.plot(seconds.scale * time, shown.scale * values, color=colour, label=file.name, **look)
+        axes.plot(time, shown.scale * values, color=colour, label=file.name, **look)
     label_values(axes, units.QUANTITIES.get(one.unit, "value"), shown.name)
     axes.set_title(one.name, fontsize=8)
 
 
-def _differences(axes: Axes, there: Compared, seconds: DisplayUnit) -> None:
+def _differences(axes: Axes, there: Compared) -> None:
     """The differences from the reference before the horizon, with numerical errors, inside what is allowed."""
     allowed, unit, titles = there[0][2].allowed, there[0][2].unit, []
     sizes = [one.largest.value for _, _, one in there if math.isfinite(one.largest.value)]
     shown = readable(unit, max(sizes, default=0.0))
     for colour, pair, one in there:
-        _difference(axes, one, colour, seconds.scale, shown.scale)
+        before = slice(0, one.before)
+        time, errors = one.common.time[before], shown.scale * one.errors[before]
+        difference = shown.scale * (one.common.other - one.common.reference)[before]
+        axes.plot(
+            time, difference, color=colour, lw=0.9, marker="." if time.size <= FEW else "", label="difference"
+        )
+        axes.fill_between(time, difference - errors, difference + errors, color=colour, alpha=0.25, lw=0.0)
         name = f"{pair.other.name}: " if len(there) > 1 else "less reference: "
-        if math.isnan(one.largest.value):
+        if math.isnan(one.measures.largest):
             titles.append(f"{name}nothing lies before the horizon")
             continue
         verdict = f", {verdict_words(one)}" if one.tolerance is not None else ""
@@ -136,32 +140,3 @@ def _differences(axes: Axes, there: Compared, seconds: DisplayUnit) -> None:
             axes.axhline(end, color=ALLOWED, lw=0.8, ls="--", label="allowed")
     label_values(axes, "difference", shown.name)
     axes.set_title("; ".join(titles), fontsize=7)
-
-
-def _difference(axes: Axes, one: ComparedChannel, colour: str, seconds: float, scale: float) -> None:
-    """The line of a difference up to the horizon, with its numerical errors and its largest value."""
-    before = slice(0, one.before)
-    time = seconds * one.common.time[before]
-    difference = scale * (one.common.other - one.common.reference)[before]
-    marks: dict[str, Any] = {"marker": "o", "ms": 2.5} if one.common.time.size <= FEW else {}
-    axes.plot(time, difference, color=colour, lw=0.9, label="difference", **marks)
-    errors = scale * one.errors[before]
-    if np.isfinite(errors).any() and np.nanmax(errors) > 0.0:
-        axes.fill_between(time, difference - errors, difference + errors, color=colour, alpha=0.25, lw=0.0)
-    if math.isfinite(one.measures.largest) and one.largest.value > 0.0:
-        at = seconds * one.measures.largest_time, scale * one.measures.largest
-        marker = "v" if one.measures.largest > 0.0 else "^"
-        axes.plot(*at, marker, color=colour, ms=5, mfc="white", zorder=4)
-
-
-def _caption(compared: FilesCompared) -> str:
-    """What is drawn, in sentences."""
-    known = any(file.has_errors for pair in compared.pairs for file in (pair.reference, pair.other))
-    errors = "Shaded: numerical errors that are known." if known else "Numerical errors are not known."
-    allowed = "" if compared.verdict == "told" else " Green: what is allowed."
-    beyond = any(math.isfinite(pair.window.horizon) for pair in compared.pairs)
-    grey = " Grey: after the first horizon, from which on curves are compared by their statistics only."
-    return (
-        "Curves as their files have them (few points of a file: markers); below each, the difference from the "
-        f"reference. {errors}{allowed}{grey if beyond else ''}"
-    )

@@ -1,88 +1,40 @@
-"""A channel of a file against the same of the reference: differences, errors, statistics and a verdict."""
+"""A column against its reference at common times: differences, errors, statistics and a verdict."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.postprocessing.comparing.common_times import CommonCurves, on_common_times
-from support_exudyn.postprocessing.comparing.compared_file import ComparedFile
-from support_exudyn.postprocessing.comparing.mapping import Tolerance
+from support_exudyn.files.series.named_series import NamedSeries
+from support_exudyn.files.series.units import converted
+from support_exudyn.postprocessing.comparing.common_times import (
+    Column,
+    CommonCurves,
+    errors_at,
+    extent,
+    on_common_times,
+    summed,
+)
 from support_exudyn.postprocessing.comparing.measures import CurveMeasures, curve_measures
 from support_exudyn.postprocessing.comparing.statistics import StatisticDifference, compared_statistics
-from support_exudyn.postprocessing.comparing.with_errors import errors_at
+from support_exudyn.postprocessing.comparing.tolerance import (
+    JudgedDifference,
+    Tolerance,
+    ToleranceVerdict,
+    worst,
+)
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
-ToleranceVerdict = Literal["within", "not within", "not decided", "told"]
-WORST_FIRST: tuple[ToleranceVerdict, ...] = ("not within", "not decided", "within", "told")
-ROUNDING = 1e-9  # share of what is allowed: 1.1 - 1.0 is 0.1, in whatever digits
 LARGEST = "largest difference"
 GAPS = "values that are missing"
-
-
-class JudgedDifference(NamedTuple):
-    """A difference against what is allowed.
-
-    what: of which number, such as "largest difference". value: magnitude of the difference. error: by how much
-    it may be wrong, 0 if nothing is known. allowed: magnitude; NaN: no tolerance is given. All in SI.
-    """
-
-    what: str
-    value: float
-    error: float
-    allowed: float
-
-    @property
-    def verdict(self) -> ToleranceVerdict:
-        """Whether it is allowed, see `verdict_ranks`."""
-        return WORST_FIRST[int(verdict_ranks(self.value, self.error, self.allowed))]
-
-    @property
-    def ratio(self) -> float:
-        """The difference over what is allowed; infinite if nothing is allowed, NaN if one is not known."""
-        if self.allowed > 0.0 or math.isnan(self.allowed):
-            return self.value / self.allowed
-        return math.inf if self.value > 0.0 else 0.0
-
-
-def beside_errors(difference: float, error: float) -> JudgedDifference:
-    """A difference against the error that it may have, the sum of those of both sides; "told" if not known."""
-    is_known = math.isfinite(difference) and math.isfinite(error)
-    return JudgedDifference(LARGEST, abs(difference), 0.0, error if is_known else math.nan)
-
-
-def verdict_ranks(
-    value: float | Values, error: float | Values, allowed: float | Values
-) -> npt.NDArray[np.intp]:
-    """Verdicts on differences as places in `WORST_FIRST`, in the shape of the arguments.
-
-    Within, or not; not decided if the error is larger than what is allowed and could turn the answer, or if it
-    has no end. A difference that is no number is not decided: it could not be computed. Without a tolerance,
-    NaN, it is told.
-
-    Arguments:
-        value: magnitudes of differences. error: by how much they may be wrong. allowed: magnitudes.
-    """
-    value, error, allowed = (np.asarray(item) for item in (value, error, allowed))
-    unsure = (error > allowed) & (value - error <= allowed)
-    return np.select(
-        [np.isnan(allowed), np.isnan(value) | np.isinf(error) | unsure, value <= allowed * (1.0 + ROUNDING)],
-        [WORST_FIRST.index("told"), WORST_FIRST.index("not decided"), WORST_FIRST.index("within")],
-        WORST_FIRST.index("not within"),
-    )
-
-
-def worst(verdicts: Iterable[ToleranceVerdict]) -> ToleranceVerdict:
-    """The verdict on all: the worst of those on each."""
-    given = set(verdicts)
-    return next((verdict for verdict in WORST_FIRST if verdict in given), "told")
+ANGLE, TURN = "rad", 2.0 * math.pi
 
 
 @dataclass(frozen=True)
@@ -99,51 +51,73 @@ class ComparedWindow:
     among: int = 1
 
 
+EVERYTHING = ComparedWindow()
+
+
 @dataclass(frozen=True)
 class ComparedChannel:
-    """A channel of a file against that of the reference; all in SI.
+    """A curve or number against its reference.
 
-    name, unit: of the channel. common: both curves at common times.
-    errors: numerical errors of the difference at these times, (n,), of the files `with_errors`; NaN if of none.
+    name, unit: of it. common: both curves at common times; a number is a curve at a single time, 0.
+    errors: numerical errors of the difference at these times, with that of interpolation, (n,); NaN: not known.
     before: number of the times that lie before the horizon. measures: of these.
-    reference, other, mean: means over the whole window, and that of the difference. largest: magnitude of the
-    largest difference before the horizon, with its numerical error; NaN if nothing lies before.
+    means: over the whole window, of the reference, of the other curve and of the difference.
     statistics: from the horizon on, by their names; empty if there is none, or if nothing lies behind it.
-    tolerance, allowed: the tolerance, and its amount; None and NaN without a tolerance.
+    tolerance, allowed: the tolerance, and its amount; None and NaN without one.
     """
 
     name: str
     unit: str
     common: CommonCurves
     errors: Values
-    with_errors: tuple[str, ...]
     before: int
     measures: CurveMeasures
-    reference: Estimate
-    other: Estimate
-    mean: Estimate
-    largest: Estimate
+    means: tuple[Estimate, Estimate, Estimate]
     statistics: Mapping[str, StatisticDifference]
     tolerance: Tolerance | None
     allowed: float
 
     @property
-    def beside_errors(self) -> JudgedDifference:
-        """The largest difference against the numerical errors that are known."""
-        return beside_errors(self.largest.value, self.largest.error)
+    def mean(self) -> Estimate:
+        """The mean of the difference."""
+        return self.means[2]
 
     @property
-    def where(self) -> int:
-        """Index of the time of the largest difference."""
+    def largest(self) -> Estimate:
+        """Magnitude of the largest difference before the horizon with its error; NaN if nothing lies before."""
+        if math.isnan(self.measures.largest):
+            return Estimate(math.nan, math.nan, self.unit)
+        return Estimate(abs(self.measures.largest), float(self.errors[self._largest_at]), self.unit)
+
+    @property
+    def beside_errors(self) -> JudgedDifference:
+        """The difference at the record with the largest multiple of its error; "told" without errors."""
+        where = self._farthest
+        if where is None:
+            return JudgedDifference(LARGEST, math.nan, 0.0, math.nan)
+        return JudgedDifference(LARGEST, float(self._apart[where]), 0.0, float(self.errors[where]))
+
+    @property
+    def record(self) -> int:
+        """Index of the record that decides: the farthest beyond its error, or the largest difference."""
+        by_errors = self.tolerance is not None and self.tolerance.is_errors
+        return self._farthest if by_errors and self._farthest is not None else self._largest_at
+
+    @cached_property
+    def _farthest(self) -> int | None:
+        """Index of the record with the largest multiple of its error; None: no error is known."""
+        apart, errors = self._apart[: self.before], self.errors[: self.before]
+        known = np.isfinite(errors) & np.isfinite(apart)
+        ratios = np.divide(apart, errors, out=np.where(apart > 0.0, math.inf, 0.0), where=errors > 0.0)
+        return int(np.where(known, ratios, -1.0).argmax()) if known.any() else None
+
+    @property
+    def _largest_at(self) -> int:
         return int(np.searchsorted(self.common.time, self.measures.largest_time))
 
     @property
-    def largest_of_reference(self) -> float:
-        """The largest difference over the reference at its time; NaN if that is zero."""
-        if math.isnan(self.measures.largest):
-            return math.nan
-        there = abs(float(self.common.reference[self.where]))
-        return self.largest.value / there if there > 0.0 else math.nan
+    def _apart(self) -> Values:
+        return np.abs(self.common.other - self.common.reference)
 
     @property
     def gaps(self) -> int:
@@ -155,23 +129,26 @@ class ComparedChannel:
         """The differences that are judged: the largest before the horizon, and statistics after it.
 
         Curves that are the same to the bit have the same errors, whatever these are. Values of the reference
-        that the other curve lacks cannot be judged. Of files without runs the error of interpolation counts.
+        that the other curve lacks cannot be judged. Without numerical errors that of interpolation counts.
         """
-        if np.array_equal(self.common.reference, self.common.other, equal_nan=True):
-            return (JudgedDifference(LARGEST, 0.0, 0.0, self.allowed),)
         if self.gaps:
-            return (JudgedDifference(GAPS, math.nan, 0.0, self.allowed),)
-        judged = []
+            return (JudgedDifference(GAPS, math.nan, 0.0, 0.0),)
+        if np.array_equal(self.common.reference, self.common.other, equal_nan=True):
+            return (JudgedDifference(LARGEST, 0.0, 0.0, 0.0),)
+        if self.tolerance is not None and self.tolerance.is_errors:
+            judged = self.beside_errors
+            known = not math.isnan(judged.allowed)
+            return (judged if known else JudgedDifference(LARGEST, self.largest.value, math.inf, 0.0),)
+        found = []
         if self.before:
-            error = self.largest.error
-            if math.isnan(error) and math.isfinite(self.measures.largest):
-                error = float(self.common.interpolation_error[self.where])
-            error = error if math.isfinite(error) else math.inf
-            judged.append(JudgedDifference(LARGEST, abs(self.largest.value), error, self.allowed))
+            value, error, _ = self.largest
+            if math.isnan(error) and math.isfinite(value):
+                error = float(self.common.interpolation_error[self._largest_at])
+            found.append(JudgedDifference(LARGEST, value, _or_infinite(error), self.allowed))
         for name, statistic in self.statistics.items():
-            known = statistic.tellable if math.isfinite(statistic.tellable) else math.inf
-            judged.append(JudgedDifference(name, abs(statistic.difference), known, self.allowed))
-        return tuple(judged)
+            half = _or_infinite(statistic.half)
+            found.append(JudgedDifference(name, abs(statistic.difference), half, self.allowed))
+        return tuple(found)
 
     @property
     def verdict(self) -> ToleranceVerdict:
@@ -181,137 +158,80 @@ class ComparedChannel:
         return worst(judged.verdict for judged in self.judged) if self.judged else "not decided"
 
 
-def compared_channel(
-    reference: ComparedFile,
-    other: ComparedFile,
-    channel: str,
-    unit: str,
-    window: ComparedWindow,
+def _or_infinite(error: float) -> float:
+    return error if math.isfinite(error) else math.inf
+
+
+def compared(
+    name: str,
+    reference: Column,
+    other: Column,
     tolerance: Tolerance | None = None,
+    window: ComparedWindow = EVERYTHING,
 ) -> ComparedChannel:
-    """Compare a channel.
+    """Compare a column with its reference, in the unit of the other one.
+
+    Angles are compared modulo the full turns by which both begin apart.
 
     Arguments:
-        reference, other: the files.
-        channel, unit: its name, and the unit in SI in which it is compared.
-        window: what is compared.
-        tolerance: by how much it may differ; None: there is no verdict.
+        name: of the channel.
+        reference, other: curves, or numbers; the unit of a number may be None, which is then that of the other.
+        tolerance: by how much they may differ; None: there is no verdict.
+        window: what is compared of curves.
 
-    Raises InputError if units are not known or of two kinds, or if the curves do not overlap.
+    Raises InputError if a curve stands against a number, if the curves do not overlap, or if units do not fit.
     """
-    laid = _Laid(reference, other, channel, unit, window)
-    common = laid.common(reference, other)
-    errors, before = laid.errors(common), common.time < window.horizon
-    measures = curve_measures(*common.part(before))
-    means = _means(laid, common)
+    if bool(other.time.size) != bool(reference.time.size):
+        raise InputError(f"{name}: is a curve beside a number; allowed: curves with curves")
+    unit = other.unit if other.unit is not None else reference.unit or ""
+    reference = _in_unit(name, reference, unit)
+    if other.time.size:
+        curves = reference.time, reference.values, other.time, other.values
+        common = on_common_times(*curves, window.after, window.until)
+        errors = summed(errors_at(common.time, reference), errors_at(common.time, other))
+    else:
+        common = CommonCurves(np.zeros(1), reference.values, other.values, np.zeros(1), 0)
+        errors = summed(reference.errors, other.errors)
+    if unit == ANGLE and other.time.size:
+        common = common._replace(other=common.other - _turns_apart(common))
+    errors = errors + common.interpolation_error
+    before = common.time < window.horizon
     _, mine, its = common.part(~before)
+    size = extent(common.reference) if other.time.size else abs(float(reference.values[0]))
     return ComparedChannel(
-        name=channel,
-        unit=unit,
-        common=common,
-        errors=errors,
-        with_errors=tuple(file.name for file in (reference, other) if file.has_errors),
-        before=int(before.sum()),
-        measures=measures,
-        reference=means[0],
-        other=means[1],
-        mean=means[2],
-        largest=_largest(laid, common, errors, measures),
-        statistics=compared_statistics(mine, its, window.among),
-        tolerance=tolerance,
-        allowed=math.nan if tolerance is None else tolerance.in_si(channel, unit, extent(common.reference)),
+        name,
+        unit,
+        common,
+        errors,
+        int(before.sum()),
+        curve_measures(*common.part(before)),
+        _means(common, errors, unit),
+        compared_statistics(mine, its, window.among),
+        tolerance,
+        math.nan if tolerance is None else tolerance.in_si(name, unit, size),
     )
 
 
-def common_curves(
-    reference: ComparedFile, other: ComparedFile, channel: str, unit: str, after: float, until: float
-) -> CommonCurves:
-    """A channel of two files in a unit at common times between two times [s].
-
-    Raises InputError if the curves do not overlap there, or if a unit is not known or does not fit.
-    """
-    try:
-        curves = reference.curve(channel, unit), other.curve(channel, unit)
-        return on_common_times(*curves[0], *curves[1], after, until)
-    except InputError as error:
-        raise InputError(f"{channel} of {reference.name} and {other.name}: {error}") from None
+def _in_unit(name: str, column: Column, unit: str) -> Column:
+    """A column in another unit; a number without a unit is in that unit."""
+    if column.unit == unit or (column.unit is None and not column.time.size):
+        return column
+    zero, one = converted(NamedSeries(name, column.unit, np.zeros(2), np.array([0.0, 1.0])), unit)
+    return Column(unit, column.time, zero + (one - zero) * column.values, abs(one - zero) * column.errors)
 
 
-def extent(values: Values) -> float:
-    """The largest less the least value; 0 if none is known."""
-    known = values[np.isfinite(values)]
-    return float(np.ptp(known)) if known.size else 0.0
+def _turns_apart(common: CommonCurves) -> float:
+    """The full turns [rad] by which an angle begins apart from its reference; 0 without overlap."""
+    apart = common.other - common.reference
+    known = apart[np.isfinite(apart)]
+    return TURN * round(float(known[0]) / TURN) if known.size else 0.0
 
 
-class _Laid(NamedTuple):
-    """A channel of two files in a unit, and the window in which it is compared."""
-
-    reference: ComparedFile
-    other: ComparedFile
-    channel: str
-    unit: str
-    window: ComparedWindow
-
-    def common(self, reference: ComparedFile, other: ComparedFile) -> CommonCurves:
-        """Both curves at common times, see `common_curves`."""
-        return common_curves(reference, other, self.channel, self.unit, self.window.after, self.window.until)
-
-    def estimate(self, measure: Callable[[CommonCurves], float]) -> Estimate:
-        """A number of both curves with its numerical error: the sum of those that the runs are known to have.
-
-        The error is NaN if neither run has a known error.
-        """
-        first, second, errors = self.reference, self.other, []
-        if first.run is not None and first.has_errors:
-            errors.append(first.run.estimate(lambda run: measure(self.common(first.of(run), second))).error)
-        if second.run is not None and second.has_errors:
-            errors.append(second.run.estimate(lambda run: measure(self.common(first, second.of(run)))).error)
-        return Estimate(measure(self.common(first, second)), sum(errors) if errors else math.nan, self.unit)
-
-    def errors(self, common: CommonCurves) -> Values:
-        """Numerical errors of the difference at the common times, (n,): the sum of those known; NaN of none.
-
-        The error of interpolation of the curves is part of it.
-        """
-        sides = [file for file in (self.reference, self.other) if file.has_errors]
-        total = common.interpolation_error if sides else np.full(common.time.size, math.nan)
-        for file in sides:
-            total = total + errors_at(common.time, file.time(self.channel), file.errors(self.channel))
-        return total
-
-
-def _means(laid: _Laid, common: CommonCurves) -> tuple[Estimate, Estimate, Estimate]:
-    """Means over time of the reference, of the other curve and of the difference, with their numerical errors.
-
-    Of two runs from all of their steps; else of both by straight lines between the common times.
-    """
-    ends = float(common.time[0]), float(common.time[-1])
-    first, second = (file.mean(laid.channel, laid.unit, *ends) for file in (laid.reference, laid.other))
-    if first is not None and second is not None:
-        known = [mean.error for mean in (first, second) if not math.isnan(mean.error)]
-        error = sum(known) if known else math.nan
-        return first, second, Estimate(second.value - first.value, error, laid.unit)
-
-    def mean(name: str) -> Estimate:
-        return laid.estimate(lambda common: float(getattr(curve_measures(*common[:3]), name)))
-
-    return mean("mean_reference"), mean("mean_other"), mean("mean_difference")
-
-
-def _largest(laid: _Laid, common: CommonCurves, errors: Values, measures: CurveMeasures) -> Estimate:
-    """The magnitude of the largest difference before the horizon, and its error.
-
-    Of the error of this number and that of the difference at its time the larger counts: where two curves
-    cross as steps become shorter, either alone can be too small.
-    """
-
-    def magnitude(common: CommonCurves) -> float:
-        before = common.time < laid.window.horizon
-        differences = np.abs(common.other[before] - common.reference[before])
-        return float(np.nanmax(differences)) if np.isfinite(differences).any() else math.nan
-
-    if math.isnan(measures.largest):
-        return Estimate(math.nan, math.nan, laid.unit)
-    largest = laid.estimate(magnitude)
-    where = int(np.searchsorted(common.time, measures.largest_time))
-    return largest._replace(error=max(largest.error, float(errors[where])))
+def _means(common: CommonCurves, errors: Values, unit: str) -> tuple[Estimate, Estimate, Estimate]:
+    """Means over time by straight lines between the common times, with the mean of the errors."""
+    measures = curve_measures(common.time, common.reference, common.other)
+    error = curve_measures(common.time, np.zeros(errors.size), errors).mean_other
+    error = math.inf if np.isinf(errors).any() else error
+    means = measures.mean_reference, measures.mean_other, measures.mean_difference
+    first, second, apart = (Estimate(mean, error, unit) for mean in means)
+    return first, second, apart

@@ -19,6 +19,8 @@ from support_exudyn.files.series.own_runs import is_run
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted, scaled, unit_checked
 from support_exudyn.files.toml.faults import nearest
+from support_exudyn.postprocessing.comparing.common_times import Column
+from support_exudyn.postprocessing.comparing.compared_channel import ANGLE, TURN
 from support_exudyn.postprocessing.comparing.mapping import MappedColumn, MappedFile
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from support_exudyn.postprocessing.figures.units import QUANTITIES
@@ -29,7 +31,6 @@ from user_forces.values.value import InputError
 Values = npt.NDArray[np.float64]
 ENDING = ".h5"  # of runs
 HEAD = 64  # bytes by which a run is recognised
-ANGLE, TURN = "rad", 2.0 * math.pi
 ROUNDING = 1e-6  # of a turn, by which a file's digits may leave the range of a wrapped angle
 WORK = re.compile(r"joule|J|Wh")  # of a work and a moment, which have one unit, the words decide
 
@@ -41,8 +42,7 @@ class ComparedFile:
     name: by which tables and figures call it. path: of it. kind: of file, in words.
     run: with its errors, if it is a run of this program. series: of it, by the names of the file.
     mapped: what a mapping states of its columns; `shift` is added to its times [s].
-    notes: what a reader of the numbers has to know. turns: full turns that are taken off angles [rad], by
-        channel.
+    notes: what a reader of the numbers has to know.
     """
 
     name: str
@@ -52,7 +52,6 @@ class ComparedFile:
     series: Mapping[str, NamedSeries]
     mapped: MappedFile = field(default_factory=MappedFile)
     notes: tuple[str, ...] = ()
-    turns: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def has_errors(self) -> bool:
@@ -69,7 +68,7 @@ class ComparedFile:
         """The time from which on shorter steps change its impacts [s]; infinite if none is known."""
         return self.run.horizon + self.mapped.shift if self.run is not None and self.has_errors else math.inf
 
-    def column(self, channel: str) -> MappedColumn:
+    def mapped_column(self, channel: str) -> MappedColumn:
         """The column that is a channel. Raises InputError if there is none."""
         if column := self.mapped.columns.get(channel):
             return column
@@ -81,40 +80,32 @@ class ComparedFile:
 
     def unit(self, channel: str) -> str | None:
         """Unit of a channel in the file; None if it names none."""
-        return self.series[self.column(channel).column].unit
+        return self.series[self.mapped_column(channel).column].unit
 
-    def time(self, channel: str) -> Values:
-        """Times of a channel, shifted [s], (n,)."""
-        time = self.series[self.column(channel).column].time
-        return time + self.mapped.shift if self.mapped.shift else time
+    def column(self, channel: str, unit: str) -> Column:
+        """A channel in a unit, at its shifted times, with its numerical errors; wrapped angles are unwrapped.
 
-    def curve(self, channel: str, unit: str) -> tuple[Values, Values]:
-        """Times [s] and values of a channel in a unit, (n,) each. Raises InputError as `values`."""
-        return self.time(channel), self.values(channel, unit)
-
-    def values(self, channel: str, unit: str) -> Values:
-        """Values of a channel in a unit, (n,); an angle that the file wraps is unwrapped.
-
-        Raises InputError if its own unit is not known or of another kind.
+        Raises InputError if the file's own unit is not known or of another kind.
         """
-        column = self.column(channel)
-        series = self.series[column.column]
-        if column.sign != 1 or column.offset:
-            series = replace(series, values=column.sign * series.values + column.offset)
+        mapped = self.mapped_column(channel)
+        series = self.series[mapped.column]
+        if mapped.sign != 1 or mapped.offset:
+            series = replace(series, values=mapped.sign * series.values + mapped.offset)
         try:
             values = series.values if series.unit == unit else converted(series, unit)
         except InputError as error:
             raise InputError(f"{self.path}: {error}") from None
         if unit == ANGLE and self.run is None:
             values = unwrapped(values)
-        return values - self.turns[channel] if self.turns.get(channel) else values
+        errors = self._errors.get(mapped.column, np.full(values.size, math.nan))
+        return Column(unit, series.time + self.mapped.shift, values, errors)
 
     def mean(self, channel: str, unit: str, after: float, until: float) -> Estimate | None:
         """The mean of a channel over time with its error, from every step of a run between two times [s].
 
         None if this is no run, or has the channel in another unit.
         """
-        column, run, shift = self.column(channel), self.run, self.mapped.shift
+        column, run, shift = self.mapped_column(channel), self.run, self.mapped.shift
         if run is None or self.series[column.column].unit != unit:
             return None
         ends = column.column, after - shift, until - shift
@@ -122,19 +113,10 @@ class ComparedFile:
         error = run.estimate(lambda run: run.window(*ends).mean).error if self.has_errors else math.nan
         return Estimate(column.sign * window.mean + column.offset, error + window.mean_doubt, unit)
 
-    def errors(self, channel: str) -> Values:
-        """Numerical errors of a channel in SI, (n,); NaN: not known, infinite from the horizon on."""
-        errors = self._errors.get(self.column(channel).column)
-        return np.full(self.time(channel).size, np.nan) if errors is None else errors
-
     @cached_property
     def _errors(self) -> Mapping[str, Values]:
         """Numerical errors of all channels of a run at once, as they share most of the work."""
         return {} if self.run is None else curve_errors(self.run, self.series)
-
-    def of(self, run: Result) -> ComparedFile:
-        """The file with another run of the scene in it, such as a run with longer steps."""
-        return replace(self, run=run, series=_series(run))
 
     def shifted(self, seconds: float) -> ComparedFile:
         """The file with a time [s] added to all of its times."""
@@ -194,18 +176,12 @@ def compared_file(
 
 def of_run(run: Result, path: Path, name: str) -> ComparedFile:
     """A run as a file that is compared."""
-    return ComparedFile(name, path, "run of this program", run, _series(run))
-
-
-def _series(run: Result) -> Mapping[str, NamedSeries]:
-    return {
-        name: NamedSeries(name, channel.unit, run.time, channel.values)
-        for name, channel in run.channels.items()
-        if name != "time"
+    series = {
+        channel: NamedSeries(channel, recorded.unit, run.time, recorded.values)
+        for channel, recorded in run.channels.items()
+        if channel != "time"
     }
-
-
-# --- angles: those that differ by full turns are equal ---
+    return ComparedFile(name, path, "run of this program", run, series)
 
 
 def unwrapped(angle: Values) -> Values:
@@ -221,12 +197,6 @@ def unwrapped(angle: Values) -> Values:
     continuous = angle.copy()
     continuous[known] = np.unwrap(values)
     return continuous
-
-
-def turns_apart(reference: Values, other: Values) -> float:
-    """The full turns [rad] by which another angle begins apart from a reference; 0 without overlap."""
-    known = np.flatnonzero(np.isfinite(reference) & np.isfinite(other))
-    return TURN * round((other[known[0]] - reference[known[0]]) / TURN) if known.size else 0.0
 
 
 # --- the unit in SI in which a quantity is compared ---
@@ -258,18 +228,15 @@ def channel_unit(reference: ComparedFile, other: ComparedFile, channel: str) -> 
 
     Raises InputError if a file names none, or if both are of two kinds.
     """
-    files = (reference, other)
-    units = [unit for file in files if (unit := file.unit(channel)) is not None]
-    if len(units) < len(files):
-        file = next(file for file in files if file.unit(channel) is None)
-        column = file.column(channel).column
-        which = (
-            f"{file.path}: {column}: its file gives no unit" if units else f"{channel}: has a unit in neither"
-        )
-        raise InputError(
-            f"{which}; allowed: one in the column's title, such as '{column} [mm]', or in compare.toml, "
-            f'[files."{file.path.name}".units] "{column}" = "mm"'
-        )
+    files, units = (reference, other), []
+    for file in files:
+        if (unit := file.unit(channel)) is None:
+            column = file.mapped_column(channel).column
+            raise InputError(
+                f"{file.path}: {column}: its file gives no unit; allowed: one in the column's title, such as "
+                f'\'{column} [mm]\', or in compare.toml, [files."{file.path.name}".units] "{column}" = "mm"'
+            )
+        units.append(unit)
     runs = [unit for file, unit in zip(files, units, strict=True) if file.run is not None]
     for unit in runs[:1] or [si_unit(unit) for unit in units]:  # g may be of an acceleration, not where kg are
         if all(of_a_kind(each, unit) for each in units):

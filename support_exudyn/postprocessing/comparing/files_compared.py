@@ -13,30 +13,30 @@ from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.comparing.compared_channel import (
     ComparedChannel,
     ComparedWindow,
-    ToleranceVerdict,
-    common_curves,
-    compared_channel,
-    worst,
+    compared,
 )
 from support_exudyn.postprocessing.comparing.compared_file import (
-    ANGLE,
     ComparedFile,
     channel_unit,
     compared_file,
     of_run,
-    turns_apart,
 )
 from support_exudyn.postprocessing.comparing.mapping import (
     CompareFile,
-    Tolerance,
-    of_channel,
     read_compare_file,
-    read_tolerances,
     tolerances_of,
 )
 from support_exudyn.postprocessing.comparing.shift import FoundShift, found_shift
 from support_exudyn.postprocessing.comparing.statistics import STATISTICS
+from support_exudyn.postprocessing.comparing.tolerance import (
+    Tolerance,
+    ToleranceVerdict,
+    of_channel,
+    read_tolerances,
+    worst,
+)
 from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
 
@@ -65,7 +65,6 @@ class ComparedPair:
     channels: by their names. window: the part that is compared, and the earlier horizon of both; beyond it
     single impacts are no result of a run.
     shift: the shift in time that was determined, and applied to `other`; None: none was asked for.
-    same: number of channels, if both are runs and all records are the same to the bit; else 0.
     common: which channels are compared, and which are not.
     """
 
@@ -74,7 +73,6 @@ class ComparedPair:
     channels: Mapping[str, ComparedChannel]
     window: ComparedWindow
     shift: FoundShift | None
-    same: int
     common: CommonChannels
 
     @property
@@ -179,35 +177,34 @@ def _pair(
     shift = found_shift(reference, other, units) if find_shift else None
     if shift is not None:
         other = other.shifted(-shift.found.shift)
-    other = replace(other, turns=_turns(reference, other, units, ends))
-    same = same_to_the_bit(reference, other)
-    horizon = math.inf if same else min(reference.horizon, other.horizon)
-    window = ComparedWindow(*ends, horizon, len(units) * len(STATISTICS))
+    window = ComparedWindow(*ends, min(reference.horizon, other.horizon), len(units) * len(STATISTICS))
     channels = {
-        name: compared_channel(reference, other, name, unit, window, of_channel(tolerances, name))
+        name: _channel(reference, other, name, unit, window, of_channel(tolerances, name))
         for name, unit in units.items()
     }
-    return ComparedPair(reference, other, channels, window, shift, same, common)
+    return ComparedPair(reference, other, channels, window, shift, common)
 
 
-def _turns(
-    reference: ComparedFile, other: ComparedFile, units: Mapping[str, str], ends: tuple[float, float]
-) -> Mapping[str, float]:
-    """The full turns by which angles of both files begin apart, by channel [rad]."""
-    angles = [name for name, unit in units.items() if unit == ANGLE]
-    laid = {name: common_curves(reference, other, name, ANGLE, *ends) for name in angles}
-    return {name: turns_apart(common.reference, common.other) for name, common in laid.items()}
-
-
-def same_to_the_bit(reference: ComparedFile, other: ComparedFile) -> int:
-    """The number of channels of two runs with one mapping, if all records are the same bits; else 0."""
-    first, second = reference.run, other.run
-    if first is None or second is None or other.mapped != reference.mapped:
-        return 0
-    names = list(first.channels)
-    if set(names) != set(second.channels) or first.time.tobytes() != second.time.tobytes():
-        return 0
-    return len(names) if all(first[name].tobytes() == second[name].tobytes() for name in names) else 0
+def _channel(
+    reference: ComparedFile,
+    other: ComparedFile,
+    name: str,
+    unit: str,
+    window: ComparedWindow,
+    tolerance: Tolerance | None,
+) -> ComparedChannel:
+    """Compare a channel; the means of two runs are taken from all of their steps."""
+    try:
+        one = compared(name, reference.column(name, unit), other.column(name, unit), tolerance, window)
+    except InputError as error:
+        raise InputError(f"{name} of {reference.name} and {other.name}: {error}") from None
+    times = one.common.time
+    first, second = (file.mean(name, unit, float(times[0]), float(times[-1])) for file in (reference, other))
+    if first is None or second is None:
+        return one
+    known = [mean.error for mean in (first, second) if not math.isnan(mean.error)]
+    apart = Estimate(second.value - first.value, sum(known) if known else math.nan, unit)
+    return replace(one, means=(first, second, apart))
 
 
 # --- the channels that two files have in common ---
@@ -232,23 +229,19 @@ def common_channels(
         raise InputError(
             f"{reference.path}, {other.path}: have no channel in common; {_way_out(reference, other)}"
         )
-    known = {name: _unit_or_why(reference, other, name) for name in asked if name in its}
-    units = {name: unit for name, (unit, why) in known.items() if not why}
-    not_alike = {name: why for name, (_, why) in known.items() if why}
+    units, not_alike = {}, {}
+    for name in asked:
+        if name in its:
+            try:
+                units[name] = channel_unit(reference, other, name)
+            except InputError as error:
+                not_alike[name] = str(error)
     wanted = {*named, *reference.mapped.columns, *other.mapped.columns}
     if refused := [why for name, why in not_alike.items() if name in wanted]:
         raise InputError(refused[0])
     if not units:
         raise InputError("\n".join(list(not_alike.values())[:SHOWN]))
     return CommonChannels(units, tuple(name for name in asked if name not in its), not_alike)
-
-
-def _unit_or_why(reference: ComparedFile, other: ComparedFile, name: str) -> tuple[str, str]:
-    """The unit in which a channel is compared, or why there is none; the other is empty."""
-    try:
-        return channel_unit(reference, other, name), ""
-    except InputError as error:
-        return "", str(error)
 
 
 def _usual(reference: ComparedFile, other: ComparedFile) -> list[str]:

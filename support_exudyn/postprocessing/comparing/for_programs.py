@@ -10,8 +10,7 @@ from typing import Any
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
-from support_exudyn.postprocessing.comparing.notes import notes
-from support_exudyn.postprocessing.comparing.tables import faults
+from support_exudyn.postprocessing.comparing.tables import faults, notes
 from user_forces.values.value import cleaned
 
 NAME = "support-exudyn compare"
@@ -49,10 +48,10 @@ def _channel(one: ComparedChannel) -> dict[str, Any]:
         "tolerance": None if one.tolerance is None else one.tolerance.text,
         "allowed": one.allowed,
         "faults": faults(one),
-        "reference": one.reference,
-        "other": one.other,
+        "reference": one.means[0],
+        "other": one.means[1],
         "mean": one.mean,
-        "largest": one.largest._asdict() | {"of_reference_there": one.largest_of_reference},
+        "largest": one.largest,
         "beside_errors": {"within": within.get(one.beside_errors.verdict), "times": one.beside_errors.ratio},
         "measures": one.measures,
         "statistics": {name: {**what._asdict(), "equal": what.equal} for name, what in one.statistics.items()},

@@ -1,6 +1,6 @@
-"""What a baseline keeps of a run: numbers, impacts and thinned curves, each with its error; and its file.
+"""What a baseline keeps of a run: numbers and thinned curves, each with its error; and its file.
 
-The file is JSON with a line for each number, impact and curve, so that its versions can be compared. A number
+The file is JSON with a line for each number and curve, so that its versions can be compared. A number
 is a text of its value, its error and its unit; a curve is a text of its values.
 """
 
@@ -11,26 +11,23 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.comparing.with_errors import SINGLE, curve_errors
-from support_exudyn.simulation.estimate import Estimate, errors
+from support_exudyn.postprocessing.comparing.common_times import Column
+from support_exudyn.postprocessing.comparing.with_errors import curve_errors
+from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.horizon import horizon
 from support_exudyn.simulation.provenance import provenance
-from support_exudyn.simulation.reported_numbers import impact_numbers, measures
 from support_exudyn.simulation.result import Result
 from support_exudyn.sweeps.key import program
 from support_exudyn.sweeps.own_sources import own_sources
 from user_forces.values.value import InputError, cleaned
 
 RECORDS = 100  # of every curve that are kept
-MOST_IMPACTS = 100  # of every clearance pin that are kept
-DOUBTFUL = 0.01  # share by which an impact may be uncertain; soon behind it nothing is known
-ONSET = ".onset_"  # in names of numbers: impacts are kept by themselves
 FORMAT = "support_exudyn baseline 2"
 MOST = 100_000_000  # bytes
 DIGITS, OF_ERRORS = 13, 3  # of values and errors that are written; errors count rounding from 1e-10 on
@@ -40,50 +37,27 @@ MEND = (
 )
 
 
-class KeptColumn(NamedTuple):
-    """A curve at times [s] (n,), with values and errors (n,); a number has no times and a single value.
-
-    unit: of all but the times; None: not known. An error that is NaN is not known.
-    """
-
-    unit: str | None
-    time: Series
-    values: Series
-    errors: Series
-
-
-def kept_number(number: Estimate) -> KeptColumn:
+def kept_number(number: Estimate) -> Column:
     """A number as a column of a single value."""
-    return KeptColumn(number.unit, np.zeros(0), np.array([number.value]), np.array([number.error]))
-
-
-class KeptImpact(NamedTuple):
-    """An impact of a clearance pin: onset [s] and initial impact velocity [m/s], with their errors."""
-
-    time: Estimate
-    speed: Estimate
+    return Column(number.unit, np.zeros(0), np.array([number.value]), np.array([number.error]))
 
 
 @dataclass(frozen=True)
 class KeptRun:
     """What is kept of a run, so that a change can be recognised later.
 
-    numbers: by name, those of single impacts left out.
+    numbers: by name.
     provenance: versions, platform, time, digests of our own sources and of the user's modules.
     scenario: of the run, as plain data; empty where it is not compared.
     curves: thinned, at common times, by channel, in SI.
-    impacts: the first of every clearance pin.
-    horizon: up to when single impacts and curves are determined [s], see `kept_impacts`.
-    history: date and reason of each change of the baseline.
+    horizon: up to when curves are determined [s], see `determined_until`.
     """
 
     numbers: Mapping[str, Estimate]
     provenance: Mapping[str, str]
     scenario: Mapping[str, Any] = field(default_factory=dict)
-    curves: Mapping[str, KeptColumn] = field(default_factory=dict)
-    impacts: Mapping[str, tuple[KeptImpact, ...]] = field(default_factory=dict)
+    curves: Mapping[str, Column] = field(default_factory=dict)
     horizon: float = math.inf
-    history: tuple[Mapping[str, str], ...] = ()
 
 
 def kept_run(result: Result) -> KeptRun:
@@ -99,20 +73,18 @@ def kept_run(result: Result) -> KeptRun:
             "the run has no numerical errors, so that no change can be told from them; allowed: a run with an "
             "accuracy, or made with errors=True"
         )
-    impacts, end = kept_impacts(result)
+    end = determined_until(result)
     rows = np.unique(np.linspace(0, result.time.size - 1, RECORDS).round().astype(np.intp))
     names = [name for name, channel in result.channels.items() if name != "time" and channel.is_determined]
     known = curve_errors(result, names)
     own = {f"module {name}": digest for name, digest in own_sources(result.scenario.plain).items()}
-    numbers = result.numbers() if math.isinf(end) else {}
     return KeptRun(
-        numbers={name: number for name, number in numbers.items() if ONSET not in name},
+        numbers=result.numbers() if math.isinf(end) else {},
         provenance={**result.provenance, "sources": program()["sources"], **own},
         curves={
-            name: KeptColumn(result.unit(name), result.time[rows], result[name][rows], known[name][rows])
+            name: Column(result.unit(name), result.time[rows], result[name][rows], known[name][rows])
             for name in names
         },
-        impacts=impacts,
         horizon=end,
     )
 
@@ -122,38 +94,10 @@ def kept_numbers(numbers: Mapping[str, Estimate]) -> KeptRun:
     return KeptRun(numbers=dict(numbers), provenance={**provenance(), "sources": program()["sources"]})
 
 
-def kept_impacts(result: Result) -> tuple[Mapping[str, tuple[KeptImpact, ...]], float]:
-    """The first impacts of every clearance pin; up to when the run is determined [s], infinite: to its end.
-
-    Each impact multiplies the errors of all before it, of whatever pin. The distances of three runs can be
-    small by chance at one of them; so the error of an impact is at least, as a share, the largest of those
-    before. The run is determined up to its horizon, to that of the next coarser run, and to the first impact
-    that may be wrong by more than `DOUBTFUL`: its time, of the time since the impact before, or its speed.
-    """
-    end = horizon(result)
-    if result.coarser is not None and result.coarser.coarser is not None:
-        end = min(end, horizon(result.coarser))
-    every = max(map(len, result.onsets.values()), default=0)
-    kinds = {pin: impact_numbers(result, pin, every) for pin in result.onsets}
-    whole = {name: kind for of_pin in kinds.values() for name, kind in of_pin.items()}
-    known = errors(whole, result, result.fall, {**measures(result, 0.0, math.inf), **whole})
-    impacts: list[tuple[str, KeptImpact]] = []
-    for pin, of_pin in kinds.items():
-        numbers = [Estimate(kind.measure(result), known[name], kind.unit) for name, kind in of_pin.items()]
-        impacts += [(pin, KeptImpact(*pair)) for pair in zip(numbers[::2], numbers[1::2], strict=True)]
-    kept: dict[str, list[KeptImpact]] = {pin: [] for pin in result.onsets}
-    late = slow = 0.0  # shares
-    for pin, (time, speed) in sorted(impacts, key=lambda impact: impact[1].time.value):
-        since = time.value - (kept[pin][-1].time.value if kept[pin] else 0.0)
-        late = max(late, time.error / since if since > 0.0 else 0.0)
-        slow = max(slow, speed.error / speed.value if speed.value > 0.0 else 0.0)
-        if max(late, slow) > DOUBTFUL:
-            end = min(end, time.value)
-        if time.value >= end:
-            break
-        off, wrong = max(time.error, late * since), max(speed.error, slow * speed.value)
-        kept[pin].append(KeptImpact(time._replace(error=SINGLE * off), speed._replace(error=SINGLE * wrong)))
-    return {pin: tuple(of_pin[:MOST_IMPACTS]) for pin, of_pin in kept.items()}, end
+def determined_until(result: Result) -> float:
+    """Until when a run is determined [s]: the earlier horizon of it and of the next coarser run."""
+    runs = [run for run in (result, result.coarser) if run is not None and run.coarser is not None]
+    return min(map(horizon, runs), default=math.inf)
 
 
 # --- the file ---
@@ -165,13 +109,8 @@ def write_baseline(kept: KeptRun, path: Path) -> None:
     data = {
         "format": FORMAT,
         "provenance": dict(kept.provenance),
-        "history": [dict(entry) for entry in kept.history],
         "horizon_s": kept.horizon if math.isfinite(kept.horizon) else None,
         "numbers": {name: f"{_words(number)} {number.unit}" for name, number in kept.numbers.items()},
-        "impacts": {
-            pin: [f"{_words(impact.time)} {_words(impact.speed)}" for impact in impacts]
-            for pin, impacts in kept.impacts.items()
-        },
         "time_s": _rounded(time.tolist(), DIGITS),
         "curves": {
             name: {
@@ -215,9 +154,7 @@ def read_baseline(path: Path) -> KeptRun:
             provenance=data["provenance"],
             scenario=data["scenario"],
             curves={name: _curve(time, **curve) for name, curve in data["curves"].items()},
-            impacts={pin: tuple(map(_impact, rows)) for pin, rows in data["impacts"].items()},
             horizon=math.inf if data["horizon_s"] is None else data["horizon_s"],
-            history=tuple(data["history"]),
         )
     except DAMAGES as error:
         why = cleaned(" ".join(str(error).split()))[:200]
@@ -230,17 +167,12 @@ def _estimate(value: str, error: str, unit: str) -> Estimate:
     return Estimate(float(value), math.inf if math.isnan(known) else known, unit)
 
 
-def _impact(text: str) -> KeptImpact:
-    time, of_time, speed, of_speed = text.split()
-    return KeptImpact(_estimate(time, of_time, "s"), _estimate(speed, of_speed, "m/s"))
-
-
-def _curve(time: Series, unit: str | None, values: str, errors: str) -> KeptColumn:
+def _curve(time: Series, unit: str | None, values: str, errors: str) -> Column:
     """A curve; errors that are not known are infinite. Raises ValueError if it has not as many as times."""
     of_values, of_errors = _series(values), _series(errors)
     if not of_values.size == of_errors.size == time.size:
         raise ValueError("a curve has more or fewer values than there are times")
-    return KeptColumn(unit, time, of_values, np.where(np.isnan(of_errors), math.inf, of_errors))
+    return Column(unit, time, of_values, np.where(np.isnan(of_errors), math.inf, of_errors))
 
 
 def _series(text: str) -> Series:

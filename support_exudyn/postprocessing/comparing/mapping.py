@@ -1,99 +1,22 @@
-"""What a user states of a comparison: which column of which file is which channel, and what is allowed.
-
-The file of a comparison, compare.toml, names columns, units, shifts and tolerances; a command line names
-tolerances alone.
-"""
+"""The file of a comparison, compare.toml: which column of which file is which channel, and what is allowed."""
 
 from __future__ import annotations
 
-import math
-import re
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import field
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-
-from support_exudyn.files.series.named_series import NamedSeries
-from support_exudyn.files.series.units import converted, is_unit
+from support_exudyn.files.series.units import is_unit
 from support_exudyn.files.toml.faults import Faults, Place, nearest
 from support_exudyn.files.toml.reading import Reader
 from support_exudyn.files.toml.shapes import GroupShape
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import missing_file
-from support_exudyn.postprocessing.figures.selection import is_called
+from support_exudyn.postprocessing.comparing.tolerance import Tolerance, tolerance
 from user_forces.values.units import Seconds
-from user_forces.values.value import InputError, Real, Value, short, value
-
-WRITTEN = re.compile(r"\s*([+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
-PERCENT = "%"
-ALLOWED = "allowed: a share of the reference's range, '2 %', or an amount with its unit, '0.1 mm'"
-
-
-@dataclass(frozen=True)
-class Tolerance:
-    """A tolerance bounds how much the channels that a pattern matches may differ.
-
-    pattern: name of a channel, or a pattern as in a shell. text: as it was written. amount: number of `unit`,
-    which is "%" of the reference's range or a unit of the channel.
-    """
-
-    pattern: str
-    text: str
-    amount: float
-    unit: str
-
-    @property
-    def is_relative(self) -> bool:
-        """Whether it is a share of the reference's range."""
-        return self.unit == PERCENT
-
-    def in_si(self, channel: str, unit: str, extent: float) -> float:
-        """The amount that is allowed of a channel.
-
-        Arguments:
-            channel: its name.
-            unit: of it, in SI.
-            extent: the range of the reference: its largest less its least value, in SI.
-
-        Raises InputError if it is an amount of another kind.
-        """
-        if not self.is_relative:
-            amount = NamedSeries(f"tolerance of {channel}", self.unit, np.zeros(1), np.array([self.amount]))
-            return float(converted(amount, unit)[0])
-        return self.amount / 100.0 * extent
-
-
-def tolerance(pattern: str, text: str) -> Tolerance:
-    """A tolerance as people write it. Raises InputError if the text is none."""
-    parts = WRITTEN.fullmatch(text)
-    amount = float(parts[1]) if parts else math.nan
-    if not pattern.strip() or parts is None or not parts[2] or not math.isfinite(amount):
-        raise InputError(f"{short(pattern)} = {short(text)}: {ALLOWED}")
-    return Tolerance(pattern.strip(), text.strip(), amount, parts[2])
-
-
-def read_tolerances(text: str) -> list[Tolerance]:
-    """The tolerances of a command line, 'pin.*.force=2%,tip.*=0.1mm'. Raises InputError if it holds none."""
-    tolerances = []
-    for part in filter(str.strip, text.split(",")):
-        pattern, sign, amount = part.rpartition("=")
-        if not sign:
-            raise InputError(f"{short(part.strip())}: allowed: CHANNEL=AMOUNT, such as 'tip.*=0.1mm'")
-        tolerances.append(tolerance(pattern, amount))
-    if not tolerances:
-        raise InputError(f"{short(text)}: allowed: CHANNEL=AMOUNT, such as 'pin.*.force=2%,tip.*=0.1mm'")
-    return tolerances
-
-
-def of_channel(tolerances: Sequence[Tolerance], channel: str) -> Tolerance | None:
-    """The first tolerance whose pattern matches a channel; None if none does."""
-    return next((each for each in tolerances if is_called(channel, each.pattern)), None)
-
-
-# --- the file ---
+from user_forces.values.value import InputError, Real, Value, value
 
 
 @value

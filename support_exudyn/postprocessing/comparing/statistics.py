@@ -1,17 +1,12 @@
-"""Statistics of two curves, with confidence intervals of their difference by a jackknife over blocks.
+"""Means of two curves after the horizon, with the confidence interval of their difference.
 
-Beyond the horizon of a run, two curves are compared as pieces of steady processes: do their means, spreads and
-so on differ by more than chance explains for pieces of such a length?
+Beyond the horizon of a run, two curves are compared as pieces of steady processes: do their means and root mean
+squares differ by more than chance explains for pieces of such a length? Both curves are cut into the same
+`BLOCKS` blocks, so that a course that both follow, such as a stroke, drops out. Student's t gives the interval
+of the mean of the blocks' differences (batch means). Neighbouring samples may be correlated as long as blocks
+are longer than the correlation lasts.
 
-Both curves are cut into the same `BLOCKS` blocks, so that a course that both follow, such as a stroke, drops
-out. Let D be the difference of a statistic, and D_k the same difference without block k of m. Its interval is
-
-    D -+ t(m - 1) e,   e^2 = (m - 1) / m * sum (D_k - <D_k>)^2
-
-by Student's t. Neighbouring samples may be correlated as long as blocks are longer than the correlation lasts.
-
-Source: H. R. Kuensch, "The jackknife and the bootstrap for general stationary observations", Ann. Stat. 17
-(1989) 1217-1241.
+Source: C. Alexopoulos, A. F. Seila, "Output data analysis", in J. Banks (ed.), Handbook of Simulation (1998).
 """
 
 import math
@@ -23,42 +18,36 @@ import numpy.typing as npt
 from scipy import stats
 
 Values = npt.NDArray[np.float64]
-Statistic = Callable[[Values], float]
-QUANTILE = 0.95
 BLOCKS = 10
 FEWEST = 5  # samples of a block
 CONFIDENCE = 0.95  # of all intervals of two files together
 EXACT = 1e-12  # of the largest value: rounding of a difference of curves that do not vary
 
-STATISTICS: Mapping[str, Statistic] = {
+STATISTICS: Mapping[str, Callable[[Values], float]] = {
     "mean": lambda values: float(values.mean()),
     "rms": lambda values: float(np.sqrt(np.mean(values**2))),
-    "spread": lambda values: float(values.std()),
-    "quantile_95": lambda values: float(np.quantile(values, QUANTILE)),
 }
 
 
 class StatisticDifference(NamedTuple):
-    """A statistic of two curves.
+    """A statistic of two curves: of each, second less first, and half of the confidence interval of that.
 
-    first, second, difference: of each curve, and second less first.
-    tellable: half of the confidence interval of the difference, which is the smallest difference that would
-        have shown; NaN if the curves are too short.
+    half: the smallest difference that would have shown; NaN if the curves are too short.
     """
 
     first: float
     second: float
     difference: float
-    tellable: float
+    half: float
 
     @property
     def equal(self) -> bool | None:
         """Whether the interval of the difference contains 0; None if there is no interval."""
-        return None if math.isnan(self.tellable) else abs(self.difference) <= self.tellable
+        return None if math.isnan(self.half) else abs(self.difference) <= self.half
 
 
 def compared_statistics(first: Values, second: Values, among: int = 1) -> dict[str, StatisticDifference]:
-    """The statistics "mean", "rms", "spread" (standard deviation) and "quantile_95" of two curves, by name.
+    """The mean and the root mean square of two curves, by name.
 
     Arguments:
         first, second: values of one unit at the same, evenly spaced times, (n,); NaN where one is not known.
@@ -72,20 +61,14 @@ def compared_statistics(first: Values, second: Values, among: int = 1) -> dict[s
     first, second = first[known], second[known]
     if first.size < 2:
         return {}
+    blocks = [np.array_split(values, BLOCKS) for values in (first, second)]
     quantile = float(stats.t.ppf(0.5 + 0.5 * CONFIDENCE ** (1.0 / among), BLOCKS - 1))
     rounding = EXACT * float(np.abs((first, second)).max())
     result = {}
     for name, statistic in STATISTICS.items():
         values, half = (statistic(first), statistic(second)), math.nan
         if first.size >= FEWEST * BLOCKS:
-            half = quantile * _standard_error(statistic, first, second) + rounding
+            apart = [statistic(its) - statistic(mine) for mine, its in zip(*blocks, strict=True)]
+            half = quantile * float(stats.sem(apart)) + rounding
         result[name] = StatisticDifference(*values, values[1] - values[0], half)
     return result
-
-
-def _standard_error(statistic: Statistic, first: Values, second: Values) -> float:
-    """The standard error of the difference of a statistic, from the differences without a block each."""
-    blocks = np.array_split(np.arange(first.size), BLOCKS)
-    rests = [(np.delete(first, block), np.delete(second, block)) for block in blocks]
-    differences = [statistic(its) - statistic(mine) for mine, its in rests]
-    return math.sqrt(BLOCKS - 1) * float(np.std(differences))

@@ -14,7 +14,6 @@ import numpy.typing as npt
 from scipy import ndimage
 
 from support_exudyn.postprocessing.figures.channels import error_over_time
-from support_exudyn.postprocessing.figures.selection import CLEARANCE
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.recorded_run import RecordedRun
 from support_exudyn.simulation.reported_numbers import ROUNDING, left_by_newton
@@ -55,15 +54,6 @@ def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
         errors = np.where(beyond, math.inf, SINGLE * near)
         found[name] = np.maximum.accumulate(errors) + ROUNDED * largest[unit]
     return found
-
-
-def errors_at(at: Values, time: Values, errors: Values) -> Values:
-    """Errors of a curve at other times, (m,): those of the next record, which are no smaller.
-
-    Arguments:
-        at: times [s], (m,). time: of the records [s], (n,), increasing. errors: of the records, (n,).
-    """
-    return errors[np.minimum(np.searchsorted(time, at - CLEARANCE), time.size - 1)]
 
 
 def _largest_values(result: RecordedRun) -> Mapping[str, float]:

@@ -24,25 +24,18 @@ def compared(item: object, folder: Path, *updated: str, name: str = "test_it.tes
 
 def test_only_what_is_named_is_written(tmp_path: Path) -> None:
     path = tmp_path / "baseline" / "test_it.test_force.json"
-    said, written = compared(FORCE, tmp_path)
-    assert (said, written) == (
-        f"{path}: there is no such baseline\nto write it: pytest --baseline-update test_it.test_force",
-        False,
-    )
-    assert not path.exists()
+    assert compared(FORCE, tmp_path)[1] is False
     assert compared(FORCE, tmp_path, "another.*")[1] is False
-    assert compared(FORCE, tmp_path, "test_it.*") == (f"{path}: written\ntest_it.test_force: first", True)
+    assert not path.exists()
+    assert compared(FORCE, tmp_path, "test_it.*")[1] is True
     first = path.read_bytes()
     assert compared(FORCE, tmp_path) == ("", False)
     assert compared(Estimate(100.15, 0.1, "N"), tmp_path, "*") == ("", False)  # within both errors
     assert path.read_bytes() == first
-
     said, written = compared(LARGER, tmp_path)
     assert (path.read_bytes(), written) == (first, False)
-    assert "number it changed: 100.0 ± 0.1 N -> 100.3 ± 0.1 N, 1.5 times both errors" in said
-    said, written = compared(LARGER, tmp_path, "test_it.test_force")
-    assert written
-    assert "100.0 ± 0.1 N -> 100.3 ± 0.1 N" in said
+    assert "100 -> 100.3 N" in said
+    assert compared(LARGER, tmp_path, "test_it.test_force")[1]
     assert compared(LARGER, tmp_path) == ("", False)
 
 
@@ -51,9 +44,7 @@ def test_a_changed_run_is_told(simulate_cached: SimulateCached, tmp_path: Path) 
     assert compared(run, tmp_path, "*")[1]
     assert compared(run, tmp_path) == ("", False)
     said, _ = compared(simulate_cached(rocker(friction=0.1001)), tmp_path)
-    lines = said.splitlines()
-    assert "changed by more than both errors, new, or gone" in lines[0]
-    assert " times both errors" in lines[1]
+    assert "changed by more than both errors, new, or gone" in said
 
 
 def test_a_name_is_used_once_and_only_numbers_with_errors_are_kept(tmp_path: Path) -> None:

@@ -14,15 +14,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import compare_files
-from support_exudyn.postprocessing.comparing.compared_channel import JudgedDifference, worst
 from support_exudyn.postprocessing.comparing.mapping import (
     MappedColumn,
     MappedFile,
-    of_channel,
     read_compare_file,
+    tolerances_of,
+)
+from support_exudyn.postprocessing.comparing.tolerance import (
+    JudgedDifference,
+    of_channel,
     read_tolerances,
     tolerance,
-    tolerances_of,
 )
 from user_forces import InputError
 
@@ -225,12 +227,6 @@ def test_errors_larger_than_what_is_allowed_leave_it_open(
     value: float, error: float, allowed: float, verdict: str
 ) -> None:
     assert JudgedDifference("largest difference", value, error, allowed).verdict == verdict
-
-
-def test_the_worst_counts() -> None:
-    assert worst([]) == "told"
-    assert worst(["within", "not decided", "told"]) == "not decided"
-    assert worst(["not decided", "not within"]) == "not within"
 
 
 # --- angles ---

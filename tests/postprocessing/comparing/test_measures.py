@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import integrate
 
-from support_exudyn.postprocessing.comparing.common_times import even_samples, interpolated, on_common_times
+from support_exudyn.postprocessing.comparing.common_times import interpolated, on_common_times
 from support_exudyn.postprocessing.comparing.measures import CurveMeasures, curve_measures
 from user_forces import InputError
 
@@ -97,12 +97,6 @@ def test_what_has_no_value_is_nan(
         assert absent == missing(found)
 
 
-def test_what_is_not_known_is_left_out() -> None:
-    time = np.arange(5.0)
-    found = curve_measures(time, np.zeros(5), np.array([1.0, 1.0, NAN, 3.0, 3.0]))
-    assert (found.times, found.mean_other, found.rms) == (4, 2.0, math.sqrt(5.0))  # of 0 to 1 and 3 to 4
-
-
 @pytest.mark.parametrize(
     ("work", "said"),
     [
@@ -111,8 +105,6 @@ def test_what_is_not_known_is_left_out() -> None:
         (lambda: on_common_times(FINE, FINE, FINE + 5.0, FINE), "s: none lies where both"),
         (lambda: on_common_times(FINE, FINE, FINE, FINE, 2.0, 3.0), "none lies between 2 and 3 s"),
         (lambda: on_common_times(FINE, FINE, FINE[:0], FINE[:0]), r"\(none\)"),
-        (lambda: even_samples(np.arange(3.0), np.array([NAN, 1.0, NAN])), "1 known values"),
-        (lambda: even_samples(np.array([0.0, 1e-9, 1e9]), np.zeros(3), 1e-9), "at most"),
     ],
 )
 def test_what_cannot_be_compared_is_refused(work: object, said: str) -> None:
@@ -166,10 +158,3 @@ def test_of_a_coarse_curve_without_a_time_there_the_finer_ones_count() -> None:
     found = on_common_times(np.array([0.0, 1.0]), np.array([0.0, 2.0]), FINE[300:400], FINE[300:400])
     np.testing.assert_allclose(found.reference, 2.0 * found.other)
     assert found.interpolated == 100
-
-
-def test_even_samples() -> None:
-    even = even_samples(FINE, FINE**2)
-    np.testing.assert_array_equal(even.values, FINE**2)
-    uneven = even_samples(np.array([0.0, 1.0, 3.0, 4.0]), np.array([0.0, 1.0, 3.0, 4.0]))
-    np.testing.assert_allclose(uneven.values, np.arange(5.0))

@@ -12,9 +12,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
-from support_exudyn.postprocessing.comparing.compared_channel import JudgedDifference, beside_errors
 from support_exudyn.postprocessing.comparing.statistics import compared_statistics
-from support_exudyn.postprocessing.comparing.tables import in_multiples
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from tests.cases.run_cases import FORCE, loose_support
 
@@ -54,11 +52,11 @@ def point_by_point(first: Result, second: Result, end: float) -> Iterator[tuple[
         yield float(times.max()), name, float(first.time[times.argmax()])
 
 
-def numbers_beside_errors(first: Result, second: Result) -> dict[str, JudgedDifference]:
-    """Differences of the numbers that both runs report, with both errors, by name."""
+def of_numbers(first: Result, second: Result) -> dict[str, float]:
+    """By how many times both errors the numbers of two runs differ, by name."""
     mine, its = first.numbers(), second.numbers()
     return {
-        name: beside_errors(its[name].value - one.value, one.error + its[name].error)
+        name: abs(its[name].value - one.value) / (one.error + its[name].error or math.nan)
         for name, one in mine.items()
         if name in its
     }
@@ -66,8 +64,8 @@ def numbers_beside_errors(first: Result, second: Result) -> dict[str, JudgedDiff
 
 def told_equal(first: Result, second: Result) -> tuple[int, int]:
     """How many numbers and curves were compared; asserts that none is told different."""
-    numbers = numbers_beside_errors(first, second)
-    assert [(name, in_multiples(one)) for name, one in numbers.items() if one.ratio > DOUBT] == []
+    numbers = of_numbers(first, second)
+    assert [name for name, times in numbers.items() if times > DOUBT] == []
     curves = list(point_by_point(first, second, min(first.horizon, second.horizon)))
     assert [one for one in curves if one[0] > DOUBT] == []
     return len(numbers), len(curves)
@@ -104,7 +102,7 @@ def test_five_pins_are_equal_up_to_the_horizon_and_in_statistics_after_it() -> N
     apart = max(float(np.abs(second[name] - first[name])[after].max()) for name in forces)
     assert apart > 1e4
     for name in forces:
-        found = compared_statistics(first[name][after], second[name][after], among=4 * len(forces))
+        found = compared_statistics(first[name][after], second[name][after], among=2 * len(forces))
         assert [one for one in found.values() if one.equal is False] == [], name
 
 
@@ -129,7 +127,7 @@ def test_a_factor_on_a_force_is_told() -> None:
     told = {name: times for times, name, _ in point_by_point(run, changed, math.inf)}
     assert told.pop(FORCE) > DOUBT
     assert set(told.values()) == {0.0}
-    assert numbers_beside_errors(run, changed)[f"{FORCE}.mean"].ratio > DOUBT
+    assert of_numbers(run, changed)[f"{FORCE}.mean"] > DOUBT
 
 
 def test_errors_cover_what_lies_beyond_the_horizon() -> None:
@@ -139,21 +137,3 @@ def test_errors_cover_what_lies_beyond_the_horizon() -> None:
     assert (errors > 0.0).all()
     bare = replace(first, coarser=None, goal=None)
     assert np.isnan(curve_errors(bare, [FORCE])[FORCE]).all()
-
-
-@pytest.mark.parametrize(
-    ("difference", "error", "verdict", "said"),
-    [
-        (1.0, 2.0, "within", "within both errors"),
-        (-2.0, 2.0, "within", "within both errors"),
-        (-6.2, 2.0, "not within", "larger: 3.1 times"),
-        (25.0, 2.0, "not within", "larger: 12 times"),
-        (0.0, 0.0, "within", "within both errors"),
-        (1e-9, 0.0, "not within", "larger, and no errors"),
-        (1.0, math.nan, "told", "errors not known"),
-        (1.0, math.inf, "told", "errors not known"),
-    ],
-)
-def test_differences_in_words(difference: float, error: float, verdict: str, said: str) -> None:
-    found = beside_errors(difference, error)
-    assert (found.verdict, in_multiples(found)) == (verdict, said)

@@ -26,17 +26,16 @@ def test_the_same_process_is_equal_and_another_is_not() -> None:
     random = np.random.default_rng(0)
     first, second = process(4000, 0.6, random), process(4000, 0.6, random)
     found = compared_statistics(first, second)
-    assert set(found) == set(STATISTICS)
     assert all(one.equal for one in found.values())
-    by = 3.0 * found["mean"].tellable
+    by = 3.0 * found["mean"].half
     moved = compared_statistics(first, second + by)
-    assert (moved["mean"].equal, moved["spread"].equal) == (False, True)
+    assert moved["mean"].equal is False
     assert moved["mean"].difference == pytest.approx(found["mean"].difference + by)
-    assert compared_statistics(first, 1.5 * second)["spread"].equal is False
+    assert compared_statistics(first, 1.5 * second)["rms"].equal is False
     many = compared_statistics(first, second, among=20)["mean"]
     # of many statistics each interval is wider
     alone, together = stats.t.ppf(0.5 + 0.5 * 0.95 ** np.array([1.0, 1.0 / 20.0]), 9)
-    assert many.tellable / found["mean"].tellable == pytest.approx(together / alone)
+    assert many.half / found["mean"].half == pytest.approx(together / alone)
 
 
 def test_the_interval_of_a_mean_is_that_of_the_blocks() -> None:
@@ -44,18 +43,17 @@ def test_the_interval_of_a_mean_is_that_of_the_blocks() -> None:
     blocks = (second - first).reshape(10, 50).mean(axis=1)
     known = stats.ttest_1samp(blocks, 0.0).confidence_interval(0.95)
     found = compared_statistics(first, second)["mean"]
-    assert (found.difference - found.tellable, found.difference + found.tellable) == pytest.approx(known)
+    assert (found.difference - found.half, found.difference + found.half) == pytest.approx(known)
 
 
 def test_curves_that_do_not_vary_that_are_too_short_or_not_known() -> None:
     same = compared_statistics(np.full(100, 0.1), np.full(100, 0.1))
     assert all(one.equal for one in same.values())
-    other = compared_statistics(np.full(100, 0.1), np.full(100, 0.2))
-    assert (other["mean"].equal, other["spread"].equal) == (False, True)
+    assert compared_statistics(np.full(100, 0.1), np.full(100, 0.2))["mean"].equal is False
     short = np.arange(60.0)
     gaps = np.where(short < 11.0, math.nan, np.cos(short))
     found = compared_statistics(np.sin(short), gaps)["mean"]
-    assert (found.equal, math.isnan(found.tellable)) == (None, True)
+    assert found.equal is None
     assert found.difference == pytest.approx((np.cos(short) - np.sin(short))[11:].mean())
     assert compared_statistics(short[:1], short[:1]) == {}
 
@@ -68,7 +66,7 @@ def test_a_course_that_both_follow_does_not_hide_a_difference(apart: float, nois
     first, second = (500.0 * x * x * (3.0 - 2.0 * x) + noise * random.normal(size=time.size) for _ in range(2))
     found = compared_statistics(first, second + apart)["mean"]
     assert found.equal is equal
-    assert abs(found.difference - apart) <= found.tellable < 0.1
+    assert abs(found.difference - apart) <= found.half < 0.1
 
 
 @pytest.mark.slow
