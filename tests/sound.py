@@ -84,8 +84,6 @@ def sound_machine(item: Machine) -> None:
     assert item.jacks is not None
     if linkage is not None:
         taken_or_refused(lambda: item.in_space(linkage))
-    for reach in (0.0, 0.01, -0.3):
-        taken_or_refused(lambda reach=reach: item.check_extension(min(reach, 0.0), max(reach, 0.0)))  # type: ignore[misc]
 
 
 def sound_drive(item: Drive) -> None:

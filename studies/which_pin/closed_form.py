@@ -21,9 +21,10 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn import ClearancePin, Drive, Held, HydraulicSupport
-from support_exudyn.machines.check.shield_stroke import moved_by
+from support_exudyn.machines.four_column_support import Posture
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.plane_geometry import minus, moved
 from user_forces.values.value import Vector2
 
 Matrix = npt.NDArray[np.float64]
@@ -81,11 +82,27 @@ def stands(support: HydraulicSupport, drive: Drive, times: Sequence[float]) -> l
             if posture is None:
                 raise ArithmeticError(f"no posture of the support at {t} s of {drive}")
             near = posture
-            rows.append(moved_by(support, closed.linkage, posture))
+            rows.append(coordinates(support, posture))
         before, position, after = rows
         speed = (after - before) / (2.0 * BESIDE)
         found.append(Stand(closed, position, speed, (after - 2.0 * position + before) / BESIDE**2))
     return found
+
+
+def coordinates(support: HydraulicSupport, posture: Posture) -> Matrix:
+    """How far all bodies have come from the start posture (12,) [m], [rad]."""
+    start, linkage = support.start(), support.linkage()
+    pivots: dict[str, tuple[Vector2, Vector2]] = {
+        "rear_link": (support.rear_base, support.rear_base),
+        "front_link": (support.front_base, support.front_base),
+        "shield": (start.rear_shield, posture.rear_shield),
+        "canopy": (start.hinge, posture.hinge),
+    }
+    found = []
+    for name, body in linkage.bodies.items():
+        turned = getattr(posture, name) - getattr(start, name)
+        found += [*minus(moved(body.centre, *pivots[name], turned), body.centre), turned]
+    return np.array(found)
 
 
 def standing(support: HydraulicSupport) -> Stand:

@@ -54,7 +54,7 @@ def run(given: argparse.Namespace) -> None:
     from support_exudyn.machines.check import check_machine  # and numpy's linear algebra
     from support_exudyn.postprocessing.contact_description import contact_lines
     from support_exudyn.postprocessing.figures import style
-    from support_exudyn.postprocessing.figures.checks import check_figure
+    from support_exudyn.postprocessing.figures.linkage_check import check_figure
     from support_exudyn.scenario.pin_pressure import statically_pressed
     from support_exudyn.scenario.pin_stability import NOT_TOLD, pin_outlooks
     from support_exudyn.simulation.simulate import look_at_laws

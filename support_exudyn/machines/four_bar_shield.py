@@ -14,27 +14,24 @@ freedom and the canopy on its hinge another.
 """
 
 import math
-from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
-from functools import cached_property
-from typing import Any, Generic
+from abc import ABC
+from dataclasses import replace
+from typing import Generic
 
 import numpy as np
 
-from support_exudyn.machines.drive_path import check_path
 from support_exudyn.machines.shield_layout import PINS as PINS
 from support_exudyn.machines.shield_layout import P, ShieldLayout
-from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.linkage import GROUND, Crank, Linkage
 from support_exudyn.model.plane_geometry import minus
-from user_forces.values.value import InputError, Vector2
+from user_forces.values.value import Vector2
 
 PRECISE = 1e-11  # [m] to which lengths of columns are met
-MOST_CORRECTIONS = 20  # of Newton's method; four do
-LOCKED = 1e-12  # [m^2] determinant of the columns' rates at which they hold nothing any more
-MOST_REMEMBERED = 64
-REMEMBERED = ("_closing", "_followed", "_known", "_linkage")  # what machines remember beside their fields
+MOST_CORRECTIONS = 20  # of Newton's method; five do
+LOCKED = 1e-12  # [m^2], [m] determinant of the columns' rates at which they hold nothing any more
 LONGEST_STEP = 0.2  # [rad] from one posture to the next, so that it is not taken for one behind a dead centre
+USUAL_STROKE = 0.3  # of the shortest column
+FARTHEST_SEARCH = 2.0 * LONGEST_STEP  # [rad]
 
 
 class FourBarShield(ShieldLayout[P], ABC, Generic[P]):
@@ -76,112 +73,56 @@ class FourBarShield(ShieldLayout[P], ABC, Generic[P]):
                 rates[row, column] = along @ np.subtract(head, foot)
         return rates
 
-    def reached(self, lengths: Sequence[float], near: P) -> P | None:
-        """Posture with these lengths of its columns [m], searched for from one close to it; None if none."""
-        posture: P | None = near
-        for _ in range(MOST_CORRECTIONS):
-            if posture is None or float(np.abs(self._short(lengths, posture)).max()) < PRECISE:
-                return posture
-            posture = self.corrected(lengths, posture)
-        return None
-
-    def corrected(self, lengths: Sequence[float], near: P) -> P | None:
-        """Posture a step of Newton's method nearer to these lengths of its columns [m]; None if none."""
-        rates = self.column_rates(near)
-        if not np.isfinite(rates).all() or abs(np.linalg.det(rates)) < LOCKED:
-            return None
-        step = np.linalg.solve(rates, self._short(lengths, near))
-        if float(np.abs(step).max()) > LONGEST_STEP:
-            return None
-        return self.posture(near.rear_link + float(step[0]), near.canopy + float(step[1]))
-
-    def _short(self, lengths: Sequence[float], posture: P) -> np.ndarray:
-        """By how much the columns are shorter than these lengths [m]."""
-        return np.subtract(lengths, self.column_lengths(posture))
-
-    @abstractmethod
     def extended(self, extension: float, near: P | None = None) -> P | None:
         """Posture with the driven columns longer than at the start by `extension` [m]; None if there is none.
 
-        `near`: a posture to search from, the start by default; steps of some centimetres are safe.
+        Newton's method in the turns of rear link and canopy. A column that follows another is left out, and the
+        canopy keeps level.
+
+        near: a posture from which the search starts, the start by default; steps of some centimetres are safe.
         """
-
-    def check_extension(self, lowest: float, highest: float) -> None:
-        """Raise InputError unless the columns close the linkage from `lowest` to `highest` [m]."""
-        if (lowest, highest) in self._closing:
-            return
-        for goal in (lowest, highest):
-            reached, posture, step = 0.0, self.start(), math.copysign(0.02, goal)
-            while reached != goal:
-                target = reached + step
-                if abs(target) > abs(goal):
-                    target = goal
-                following = self.extended(target, posture)
-                if following is not None and abs(following.rear_link - posture.rear_link) < LONGEST_STEP:
-                    reached, posture = target, following
-                elif abs(step) > 1e-4:
-                    step /= 2.0
-                else:
-                    raise InputError(
-                        f"column extension = {goal} m: the columns cannot close the linkage there; "
-                        f"allowed: up to {reached:.3f} m from the start posture"
-                    )
-        self._closing.add((lowest, highest))
-
-    @cached_property
-    def _closing(self) -> set[tuple[float, float]]:
-        """Ranges of extension that have been found to close; scenarios ask again and again."""
-        return set()
-
-    def check_motion(self, drives: Mapping[str, Drive], duration: float) -> None:
-        """Raise InputError if the columns cannot follow their drives, by name; says which one, and when.
-
-        Where a column follows no drive, such as a cylinder with an inlet, the posture is not known beforehand.
-        """
-        if not self.STRUTS.keys() <= drives.keys():
-            return
-        if any(known == (drives, duration) for known in self._followed):
-            return
-        lead = drives[self.alike[0]]
-        if all(drives[name] == lead for name in self.alike) and self._follow(drives, duration):
-            self.check_extension(*lead.span(duration))
-        else:
-            start = self.start()
-            lengths = dict(zip(self.STRUTS, self.column_lengths(start), strict=True))
-            check_path(start, lengths, self.reached, drives, duration)
-        if len(self._followed) == MOST_REMEMBERED:
-            self._followed.clear()
-        self._followed.append((dict(drives), duration))
-
-    def _follow(self, drives: Mapping[str, Drive], duration: float) -> bool:
-        """Whether the columns that follow others are driven as they would follow."""
-        try:
-            return all(
-                drives[name] == self.coupled_drive(name, drives[leader], duration)
-                for name, leader in self.leaders.items()
-            )
-        except InputError:  # nothing can follow so far
-            return False
+        near, unknowns = near or self.start(), len(self.alike)
+        wanted = np.add(self.column_lengths(self.start()), extension)
+        posture, last = near, False
+        for _ in range(MOST_CORRECTIONS):
+            rates = self.column_rates(posture)[:unknowns, :unknowns]
+            if not np.isfinite(rates).all() or abs(np.linalg.det(rates)) < LOCKED:
+                return None
+            short = np.subtract(wanted, self.column_lengths(posture))[:unknowns]
+            step = np.zeros(2)
+            step[:unknowns] = np.linalg.solve(rates, short)
+            step *= min(1.0, LONGEST_STEP / max(float(np.abs(step).max()), LONGEST_STEP))
+            following = self.posture(posture.rear_link + float(step[0]), posture.canopy + float(step[1]))
+            if following is None or abs(following.rear_link - near.rear_link) > FARTHEST_SEARCH:
+                return None
+            posture = following
+            if last:
+                return posture
+            last = float(np.abs(short).max()) < PRECISE  # a further correction leaves rounding
+        return None
 
     @property
     def alike(self) -> tuple[str, ...]:
-        """Columns that `extended` extends alike."""
+        """Columns that extend alike in use; the others follow them."""
         return tuple(name for name in self.STRUTS if name not in self.leaders)
 
-    @cached_property
-    def _followed(self) -> list[tuple[dict[str, Drive], float]]:
-        """Drives that have been found to be followed, and for how long; scenarios ask again and again."""
-        return []
+    @property
+    def shortest_column(self) -> float:
+        """Length of the shortest column at the start [m]."""
+        return min(self.column_lengths(self.start()))
 
-    def __getstate__(self) -> dict[str, Any]:
-        """What is sent to another process: all but what is only remembered, which may be much.
+    @property
+    def usual_stroke(self) -> float:
+        """The stroke that is taken where none is known [m]."""
+        return USUAL_STROKE * self.shortest_column
 
-        A copy, for it may be sent while another thread goes on to remember.
-        """
-        state = dict(self.__dict__)
-        for name in REMEMBERED:
-            state.pop(name, None)
-        return state
+    def led_linkage(self) -> Linkage:
+        """The mechanism as columns move it that extend alike: a level canopy in place of those that follow."""
+        linkage = self.linkage()
+        if not self.leaders:
+            return linkage
+        actuators = {name: one for name, one in linkage.actuators.items() if name not in self.leaders}
+        return replace(linkage, actuators=actuators, cranks={"canopy": Crank(body="canopy")})
 
 
 def _turning(arm: Vector2) -> Vector2:

@@ -13,8 +13,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 
-from support_exudyn.machines.following import follow
-from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.machine import Machine
@@ -49,7 +47,3 @@ class PlanarLinkage(Machine):
     def widths(self) -> Width | None:
         """The lengths of its pins, which are all that is known across its plane; None if none is."""
         return Width(lengths=self.pin_lengths) if self.pin_lengths else None
-
-    def check_motion(self, drives: Mapping[str, Drive], duration: float) -> None:
-        """Raise InputError if the driven parts cannot follow their drives, by name, for so long [s]."""
-        follow(self.drawing, drives, duration)

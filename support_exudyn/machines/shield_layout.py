@@ -1,7 +1,7 @@
 """A four-bar shield support in its start posture: what its pivots must be, the closed four-bar, the linkage."""
 
 import math
-from abc import ABC, abstractmethod
+from abc import ABC
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -102,15 +102,23 @@ class ShieldLayout(Machine, ABC, Generic[P]):
     tail_jack_foot: Metres[Vector2] | None = None
     tail_jack_head: Metres[Vector2] | None = None
 
-    @abstractmethod
-    def extended(self, extension: float, near: P | None = None) -> P | None:
-        """Posture with the driven columns longer than at the start by `extension` [m], or None."""
-
     @classmethod
     def pivots(cls) -> tuple[str, ...]:
         """Names of all pivots of the support, those of the tail beam last, which may be missing."""
         feet = [place for strut in cls.STRUTS.values() for _, place in strut]
         return (*FRAME[:-1], *feet, FRAME[-1], *TAIL_PLACES)
+
+    def joints(self) -> dict[str, list[str]]:
+        """Names of the pivots on each body."""
+        joints = {
+            "rear_link": ["rear_base", "rear_shield"],
+            "front_link": ["front_base", "front_shield"],
+            "shield": ["rear_shield", "front_shield", "hinge"],
+            "canopy": ["hinge", "tip"],
+        }
+        for body, pivot in (end for strut in self.STRUTS.values() for end in strut if end[0] != GROUND):
+            joints[body].append(pivot)
+        return joints
 
     @model_validator(mode="after")
     def _can_be_built(self) -> Self:

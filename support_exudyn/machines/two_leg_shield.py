@@ -17,11 +17,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
-from support_exudyn.machines.four_bar_shield import LONGEST_STEP, MOST_REMEMBERED, PRECISE, FourBarShield
+from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.shield_layout import ShieldColumn, ShieldPosture
 from support_exudyn.model.drives.coupled_drive import following
 from support_exudyn.model.drives.drive import Drive, Held
@@ -29,7 +29,7 @@ from support_exudyn.model.linkage import GROUND
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, Vector2, value
 
-MOST_CORRECTIONS = 50  # of Newton's method; five do
+MOST_REMEMBERED = 64
 STRIDE = 0.02  # [m] from one level posture to the next
 
 
@@ -62,28 +62,6 @@ class TwoLegShield(FourBarShield[LegPosture]):
     ram_foot: Metres[Vector2]
     ram_head: Metres[Vector2]
 
-    def extended(self, extension: float, near: LegPosture | None = None) -> LegPosture | None:
-        """Posture with a level canopy and the leg longer than at the start by `extension` [m]; None if none.
-
-        `near`: a posture to search from, the start by default; steps of some centimetres are safe.
-        """
-        start = self.start()
-        wanted = self.column_lengths(start)[0] + extension
-        at = (near or start).rear_link
-        for _ in range(MOST_CORRECTIONS):
-            posture = self.posture(at, 0.0)
-            if posture is None:
-                return None
-            short = wanted - self.column_lengths(posture)[0]
-            rate = float(self.column_rates(posture)[0, 0])
-            if rate == 0.0 or not math.isfinite(rate) or abs(short / rate) > LONGEST_STEP:
-                return None  # it locks here
-            following_turn = at + short / rate
-            if following_turn == at or abs(short) < 4.0 * math.ulp(wanted):
-                return posture
-            at = following_turn
-        return posture if abs(short) < PRECISE else None
-
     @property
     def leaders(self) -> Mapping[str, str]:
         """The ram follows the leg."""
@@ -97,13 +75,16 @@ class TwoLegShield(FourBarShield[LegPosture]):
             if key == (lead, duration):
                 return found
         low, high = lead.span(duration)
-        self.check_extension(low, high)
         size = math.hypot(*self.hinge)
         drive: Drive = Held() if low == high == 0.0 else following(lead, duration, self.level_ram, size)
         if len(self._known) == MOST_REMEMBERED:
             self._known.clear()
         self._known.append(((lead, duration), drive))
         return drive
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What is sent to another process: all but the remembered drives."""
+        return {name: item for name, item in vars(self).items() if name != "_known"}
 
     @cached_property
     def _known(self) -> list[tuple[tuple[Drive, float], Drive]]:
@@ -126,7 +107,7 @@ class TwoLegShield(FourBarShield[LegPosture]):
                     following = self.extended(float(stop), posture)
                     if following is None:
                         raise InputError(
-                            f"column extension = {stop} m: the leg cannot close the linkage there; "
+                            f"leg extension = {float(leg[n]):.6g} m: the leg cannot close the linkage there; "
                             f"allowed: up to {reached:.3f} m from the start posture"
                         )
                     reached, posture = float(stop), following

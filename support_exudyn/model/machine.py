@@ -64,14 +64,6 @@ class Machine(Value, ABC):
         del actuators, parts
         return self.linkage()
 
-    def check_extension(self, lowest: float, highest: float) -> None:
-        """Raise InputError if the drive cannot be extended over this range from the start.
-
-        The range is in m for actuators and in rad for cranks; a machine that can follow any has nothing to
-        check.
-        """
-        del lowest, highest
-
     @property
     def leaders(self) -> Mapping[str, str]:
         """Driven parts that follow another unless a scenario says how they move, each with that; here none."""
@@ -84,12 +76,3 @@ class Machine(Value, ABC):
         """
         del name, duration
         return lead
-
-    def check_motion(self, drives: Mapping[str, Drive], duration: float) -> None:
-        """Raise InputError if the driven parts cannot follow their drives, by name, for so long [s].
-
-        By default each of them may be anywhere between the smallest and the largest extension of all.
-        """
-        spans = [drive.span(duration) for drive in drives.values()]
-        if spans:
-            self.check_extension(min(low for low, _ in spans), max(high for _, high in spans))

@@ -7,6 +7,7 @@ from collections.abc import Collection, Mapping
 import numpy as np
 
 from support_exudyn.mechanics.channels import ALL_CHANNELS, check_patterns
+from support_exudyn.mechanics.following import follow
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.hydraulics.lines import PumpStation
@@ -187,7 +188,7 @@ def _check_drives(scenario: ScenarioData, linkage: Linkage) -> None:
 
 def _check_motion(scenario: ScenarioData, drives: Mapping[str, Drive]) -> None:
     try:
-        scenario.machine.check_motion(drives, scenario.duration)
+        follow(scenario.machine.linkage(), drives, scenario.duration)
     except InputError as error:
         raise ValueError(scenario.of_drives(drives, error)) from None
 

@@ -93,7 +93,7 @@ floor_mm = -50
         ("floor_mm = -50", "floor_mm = 5000", "strength.base.floor_mm = 5000: the common centre of mass is 1"),
         ("length_mm = 900 }", "length_mm = 5000 }", "strength.cylinders.front_column.stages[0].length_mm"),
         ("length_mm = 2000 }", "length_mm = 200 }", "stages: together 1100 mm long"),
-        ("stroke_mm = 600", "stroke_mm = 3000", "ours.toml: stroke_mm = 3000: the columns cannot close"),
+        ("stroke_mm = 600", "stroke_mm = 3000", "ours.toml: stroke_mm = 3000: the linkage locks before"),
     ],
 )
 def test_refusals_speak_by_keys_and_units_of_the_file(

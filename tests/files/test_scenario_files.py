@@ -235,7 +235,10 @@ def test_files_are_written_whole(tmp_path: Path) -> None:
         (TOP + "[drive]\nmode = 3", "a.toml: drive.mode = 3: allowed: 1, 2"),
         (TOP + "[drive]\nmode = 1\nend_s = 1", "a.toml: drive: end = 1.0 s: allowed: > start = 3.0 s"),
         (TOP + "[drive]\nstroke_mm = 3", "a.toml: drive: says no mode, table or type; allowed: mode = 1 or 2"),
-        (TOP + "drive.mode = 2\ndrive.stroke_mm = 5000", "a.toml: drive: column extension = 5000 mm"),
+        (
+            TOP + "drive.mode = 2\ndrive.stroke_mm = 5000",
+            "a.toml: drives.rear_column: rear_column cannot",
+        ),
         (TOP + "drives.rear_column = {mode = 2, stroke_mm = 900}", "a.toml: drives.rear_column: "),
         (TOP + WITH_CLEARANCE.replace("1.5", '"1.5"'), "a.toml: pins.rear_base.clearance_mm = '1.5'"),
         (TOP + "drive.table = 'no.csv'", "a.toml: drive.table = 'no.csv': allowed: a file that can be read"),

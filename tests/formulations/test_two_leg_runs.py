@@ -11,7 +11,7 @@ import pytest
 from studies.common.paper_machine import clearance_joint
 from support_exudyn import CubicStep, Held, OilColumn, Result, Scenario, bore_area, simulate
 from support_exudyn.files.machines.read import read_machine
-from support_exudyn.machines.check.shield_stroke import stations
+from support_exudyn.machines.check import check_machine
 from support_exudyn.postprocessing.pytest_plugin import SimulateCached
 
 DATA = read_machine("two_leg_shield")
@@ -33,7 +33,7 @@ def test_the_canopy_keeps_level_while_the_leg_is_driven(rise: Result) -> None:
 
 @pytest.mark.parametrize("at", [0, -1])
 def test_at_rest_forces_are_those_of_the_check(rise: Result, at: int) -> None:
-    station = stations(MACHINE, 1.15, 2)[at]
+    station = check_machine(DATA, 1.15).ways[0].moved[at]
     for pin, force in station.forces.pins.items():
         got = np.array([rise[f"pin.{pin}.force_x"][at], rise[f"pin.{pin}.force_y"][at]])
         # the solver's tolerance, 1e-8 of 1e5 N, and what is left of the ramp's end

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
-from support_exudyn.machines.check.any_machine import MachineReport, check_any
+from support_exudyn.machines.check import CheckReport, check_machine
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.mechanics.kinetics import kinetics_of
@@ -22,7 +22,7 @@ from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.loads.spring_damper import SpringDamper
 from support_exudyn.model.loads.torsion_spring import TorsionSpring
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.checks import check_figure
+from support_exudyn.postprocessing.figures.linkage_check import check_figure
 from tests.drawn.drawn_linkages import bar_of, chain, towards
 from tests.linkages import four_bar
 from tests.often import often
@@ -36,8 +36,8 @@ def driven(linkage: Linkage, *cranks: str) -> Linkage:
     return replace(linkage, cranks={name: Crank(body=name) for name in cranks})
 
 
-def checked(linkage: Linkage, stroke: float | None = None) -> MachineReport:
-    return check_any(MachineData(PlanarLinkage(drawing=linkage), "tried", kind="linkage"), stroke)
+def checked(linkage: Linkage, stroke: float | None = None) -> CheckReport:
+    return check_machine(MachineData(PlanarLinkage(drawing=linkage), "tried", kind="linkage"), stroke)
 
 
 def corner(one: float, other: float, opposite: float) -> float:
@@ -45,7 +45,7 @@ def corner(one: float, other: float, opposite: float) -> float:
     return math.acos((one**2 + other**2 - opposite**2) / (2.0 * one * other))
 
 
-def told(report: MachineReport, drive: str, what: str) -> list[tuple[float, str, str]]:
+def told(report: CheckReport, drive: str, what: str) -> list[tuple[float, str, str]]:
     """Points of a way: angle [degrees] or length [mm], part and what lies in line."""
     (way,) = (one for one in report.ways if one.drive == drive)
     return [(way.shown(one.travel), one.part, one.why) for one in way.points if one.what == what]
@@ -150,11 +150,11 @@ def boom() -> Linkage:
 
 
 @pytest.fixture(scope="module")
-def excavator() -> MachineReport:
+def excavator() -> CheckReport:
     return checked(boom())
 
 
-def test_each_cylinder_of_several_has_its_way_with_the_others_held(excavator: MachineReport) -> None:
+def test_each_cylinder_of_several_has_its_way_with_the_others_held(excavator: CheckReport) -> None:
     report = excavator
     assert [way.drive for way in report.ways] == ["lift", "crowd", "curl"]
     shortest = math.hypot(1.4, 1.15) - math.hypot(0.4, 0.3)
@@ -192,7 +192,7 @@ def test_the_moment_on_a_crank_is_what_its_energy_grows_by() -> None:
     """Virtual work: energy of weight and springs, less the work of forces, along the way of the crank."""
     linkage = driven(four_bar(*CRANK_ROCKER), "crank")
     machine = PlanarLinkage(drawing=linkage, acting=LOADS)
-    report = check_any(MachineData(machine, "loaded", kind="linkage"), None)
+    report = check_machine(MachineData(machine, "loaded", kind="linkage"))
     assert "under weight and spring, between, twist, push and turn" in report.facts[-1]
     kinetics, moved = kinetics_of(linkage), report.ways[0].moved
 
@@ -310,7 +310,7 @@ def test_any_chain_is_checked_and_drawn(seed: int, pairs: int) -> None:
         check_figure(report).canvas.draw()
 
 
-def test_linkages_are_drawn(excavator: MachineReport) -> None:
+def test_linkages_are_drawn(excavator: CheckReport) -> None:
     with style.look():
         for report in (excavator, checked(four_bar(*CRANK_ROCKER))):
             figure = check_figure(report)

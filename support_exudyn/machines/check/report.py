@@ -1,8 +1,13 @@
-"""What a check came to: tables in mm, degrees and kN, warnings, and numbers in SI."""
+"""The result of a check: sentences, tables in mm, degrees and N, warnings, and numbers in SI."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
+
+from support_exudyn.machines.check.drive_way import DriveWay, Moved
+from support_exudyn.machines.check.transmission import TransmissionAngle
+from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.loads.load import ActingLoad
 
 
 @dataclass(frozen=True)
@@ -28,15 +33,21 @@ class CheckTable:
 
 @dataclass(frozen=True)
 class CheckReport:
-    """A check of a machine; its subclasses keep what a figure of it is drawn from.
+    """A check of a machine.
 
     Arguments:
         name, kind: of the machine.
         facts: sentences.
         sheets: tables.
-        warnings: what a colleague would point at, in sentences.
-        notes: what was assumed, what cannot be done for want of data, and where the data come from.
+        warnings: doubts, in sentences.
+        notes: assumptions, what cannot be done for want of data, and where the data come from.
         numbers: plain data, SI and radians, with the unit in the key.
+        linkage: the mechanism.
+        start: its start posture, with the forces there.
+        loads: that act on it besides its weight, by name.
+        ways: of its driven parts; none where driven parts do not determine the posture.
+        transmission: transmission angles of these ways, by `DriveWay.drive`.
+        blocks: length along and height across of what slides in a guide [m], by guide.
     """
 
     name: str
@@ -46,6 +57,12 @@ class CheckReport:
     warnings: Sequence[str]
     notes: Sequence[str]
     numbers: dict[str, Any] = field(repr=False)
+    linkage: Linkage = field(repr=False)
+    start: Moved = field(repr=False)
+    loads: Mapping[str, ActingLoad] = field(repr=False)
+    ways: Sequence[DriveWay] = field(repr=False)
+    transmission: Mapping[str, Sequence[TransmissionAngle]] = field(repr=False)
+    blocks: Mapping[str, tuple[float, float]] = field(repr=False)
 
     def lines(self) -> Iterator[str]:
         """The whole report as text."""

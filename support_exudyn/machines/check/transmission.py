@@ -148,7 +148,7 @@ def _extreme(
         return near.travel, value
 
     def at(travel: float) -> float:
-        start, stop = {way.drive: near.travel}, {way.drive: travel}
+        start, stop = dict.fromkeys(way.drives, near.travel), dict.fromkeys(way.drives, travel)
         other = number + 1 if travel > near.travel else number - 1
         along = (way.moved[other].position - near.position) * conditions.arms
         moved = moved_on(conditions, near.position * conditions.arms, start, stop, along)[0]

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from support_exudyn.machines.check.shield import FINE
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.strength.beside import beside_the_middle
@@ -27,6 +26,7 @@ from user_forces.values.value import InputError
 
 __all__ = ["FACTORS", "FRICTION", "StandReport", "stand"]
 
+FINE = 101  # postures over the used height
 FACTORS = (1.0, 1.2)  # on the yield forces; the second of EN 1804-1, 4.3.2
 FRICTION = 0.2  # of the roof on the canopy, assumed
 EVERY = 5  # of the FINE postures: those in which forces are told

@@ -6,8 +6,7 @@ import math
 import textwrap
 from collections.abc import Iterator, Sequence
 
-from support_exudyn.machines.check.shield import RULE
-from support_exudyn.machines.check.shield_stroke import WANDER
+from support_exudyn.machines.check.support_rules import RULE, WANDER
 from support_exudyn.machines.strength.assessment import FACTORS, FRICTION
 from support_exudyn.machines.strength.results import OffMiddle, PinLoad, StandReport, SupportForce
 from support_exudyn.machines.strength.roof_forces import RoofForce

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from support_exudyn.machines.check.shield_stroke import moved_by, stations, usual_stroke
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.mechanics.continuation import conditions_of, moved_on
@@ -38,31 +37,23 @@ def used_postures(data: MachineData, count: int) -> list[UsedPosture]:
     """
     machine = data.machine
     linkage = machine.linkage()
+    legs, stroke, led = legs_of(linkage), data.stroke, linkage
     if isinstance(machine, FourBarShield):
-        stroke = data.stroke if data.stroke is not None else usual_stroke(machine)
-        closed = kinetics_of(linkage)
-        try:
-            found = stations(machine, stroke, count)
-        except InputError as error:
-            raise InputError(str(error).replace("column extension = ", "stroke = ", 1)) from None
-        return [
-            UsedPosture(one.stroke, laid_out(closed, moved_by(machine, linkage, one.posture))) for one in found
-        ]
-    legs = legs_of(linkage)
-    if data.stroke is None or not legs:
+        stroke, led = machine.usual_stroke if stroke is None else stroke, machine.led_linkage()
+    if stroke is None or not legs:
         return [UsedPosture(0.0, linkage)]
-    conditions = conditions_of(linkage)
+    conditions, closed = conditions_of(led), kinetics_of(linkage)
     at, reached = np.zeros(3 * len(linkage.bodies)), 0.0
     postures: list[UsedPosture] = []
-    for goal in np.linspace(0.0, data.stroke, count).tolist():
+    for goal in np.linspace(0.0, stroke, count).tolist():
         at, share = moved_on(conditions, at, dict.fromkeys(legs, reached), dict.fromkeys(legs, goal))
         if share < 1.0:
             raise InputError(
-                f"stroke = {data.stroke:.6g} m: the linkage locks before; allowed: up to "
+                f"stroke = {stroke:.6g} m: the linkage locks before; allowed: up to "
                 f"{reached + share * (goal - reached):.4g} m"
             )
         reached = goal
-        postures.append(UsedPosture(goal, laid_out(conditions.kinetics, at / conditions.arms)))
+        postures.append(UsedPosture(goal, laid_out(closed, at / conditions.arms)))
     return postures
 
 

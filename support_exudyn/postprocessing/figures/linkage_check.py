@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from support_exudyn.machines.check.any_machine import MachineReport
 from support_exudyn.machines.check.drive_way import DriveWay
+from support_exudyn.machines.check.report import CheckReport
 from support_exudyn.machines.check.transmission import LEAST
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.figures import style
@@ -27,7 +27,7 @@ WORDS = 18  # letters of a line of a legend
 MANY = 5  # curves of a panel
 
 
-def linkage_check_figure(report: MachineReport) -> Figure:
+def check_figure(report: CheckReport) -> Figure:
     """A linkage in its start posture and others of its way, the paths of its points, forces and angles.
 
     Of one drive: postures, static forces in pins, what holds the machine, transmission angles. Of several: both
@@ -133,7 +133,7 @@ def _angles(axes: Axes, way: DriveWay, curves: Mapping[str, Series]) -> None:
 
 def _abscissa(axes: Axes, way: DriveWay) -> None:
     """The way below curves, with dead centres and where parts turn back as lines."""
-    axes.set_xlabel(f"{way.drive} [{way.unit}]")
+    axes.set_xlabel(f"{way.label} [{way.unit}]")
     first, last = way.shown(way.ends[0]), way.shown(way.ends[1])
     axes.set_xlim(first, last)
     if way.right_round:

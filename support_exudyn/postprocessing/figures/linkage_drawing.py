@@ -12,8 +12,8 @@ from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 from scipy.spatial import ConvexHull, QhullError
 
-from support_exudyn.machines.check.any_machine import MachineReport
 from support_exudyn.machines.check.drive_way import DriveWay, Moved
+from support_exudyn.machines.check.report import CheckReport
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
@@ -33,7 +33,7 @@ COILS, COIL, ARROW = 6, 0.02, 0.12  # of a spring, half its width; of a force: o
 HALO = [withStroke(linewidth=2.2, foreground="white")]
 
 
-def draw_linkage(axes: Axes, report: MachineReport) -> None:
+def draw_linkage(axes: Axes, report: CheckReport) -> None:
     """Bodies at the start, and pale ones at ends of ways or over a turn; paths of traced points."""
     kinetics = kinetics_of(report.linkage)
     size = _size(kinetics, report)
@@ -62,7 +62,7 @@ def draw_linkage(axes: Axes, report: MachineReport) -> None:
     for way, (colour, dashes) in zip(report.ways, _colours(report.ways), strict=True):
         others = _others(way, len(report.ways) == 1)
         said = ", ".join(f"{way.shown(one.travel):.4g}" for one in others)
-        label = f"{way.drive} at {said} {way.unit}"
+        label = f"{way.label} at {said} {way.unit}"
         if others:
             handles.append(axes.plot([], [], color=colour, ls=dashes, lw=1.2, label=label)[0])
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2, fontsize=7.5)
@@ -72,8 +72,8 @@ def draw_linkage(axes: Axes, report: MachineReport) -> None:
     axes.grid(False)
 
 
-def _start_said(report: MachineReport) -> str:
-    where = [way.at(0.0) for way in report.ways]
+def _start_said(report: CheckReport) -> str:
+    where = [way.at(0.0) for way in report.ways if len(way.drives) == 1]
     return "start" + (f": {', '.join(where)}" if len(where) == 1 else "")
 
 
@@ -89,7 +89,7 @@ def _others(way: DriveWay, alone: bool) -> list[Moved]:
     return [one for one in shown if one.travel != 0.0]
 
 
-def _size(kinetics: Kinetics, report: MachineReport) -> float:
+def _size(kinetics: Kinetics, report: CheckReport) -> float:
     """Extent of the drawing [mm]."""
     points = [
         kinetics.point(report.start.position, body, point)[0]
@@ -99,7 +99,7 @@ def _size(kinetics: Kinetics, report: MachineReport) -> float:
     return 1e3 * max(float(np.ptp(np.array(points), axis=0).max()), 1e-9)
 
 
-def _joints(report: MachineReport) -> dict[str, list[Vector2]]:
+def _joints(report: CheckReport) -> dict[str, list[Vector2]]:
     """Points of each body at which something is joined to it, or that are traced."""
     linkage = report.linkage
     joints: dict[str, list[Vector2]] = {name: [] for name in (GROUND, *linkage.bodies)}
@@ -125,7 +125,7 @@ class _Posture:
 
     axes: Axes
     kinetics: Kinetics
-    report: MachineReport
+    report: CheckReport
     position: Series
     size: float
     colour: str
@@ -227,7 +227,7 @@ def _guides(drawn: _Posture) -> None:
                 axes.plot(x, y, "o", ms=5.5, mfc="white", mec=colour, mew=1.2, zorder=6)
 
 
-def _used(kinetics: Kinetics, report: MachineReport, name: str) -> Iterator[float]:
+def _used(kinetics: Kinetics, report: CheckReport, name: str) -> Iterator[float]:
     """Where along its guide something stands in all postures, from where it is at the start [mm]."""
     slide = report.linkage.slides[name]
     for one in (report.start, *(moved for way in report.ways for moved in way.moved)):
@@ -249,7 +249,7 @@ def _support(axes: Axes, x: float, y: float, size: float) -> None:
         axes.plot((start, start - 0.4 * size), (foot, foot - 0.4 * size), color=GREY, lw=0.6, zorder=3)
 
 
-def _names(axes: Axes, kinetics: Kinetics, report: MachineReport, size: float) -> None:
+def _names(axes: Axes, kinetics: Kinetics, report: CheckReport, size: float) -> None:
     """Names of pins beside them, of bodies on them, of actuators along them, each once."""
     linkage, position = report.linkage, report.start.position
     together: dict[tuple[int, int], list[str]] = {}

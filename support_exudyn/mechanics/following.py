@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 
-from support_exudyn.machines.drive_path import times
 from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.mechanics.continuation import conditions_of, moved_on
 from support_exudyn.mechanics.kinetics import Matrix
@@ -20,7 +20,12 @@ MOST_TURNS = 64  # of a crank that moves the linkage alone, until all has come b
 EVERY = 4  # samples of a run of several drives: in each such one a crank that turns fast turns right round
 SAME = 1e-7  # of the size: how near all has to come back
 DETERMINED = 1e-9  # singular values below this are of movements that no drive determines
+SAMPLES = 32  # of a stretch without breaks, and of a period
+MOST_SAMPLES = 1024  # of a stretch; an oscillation that lasts longer has reached its extremes by then
+MOST_REMEMBERED = 64
 Travels = Mapping[str, float]
+
+_followed: list[tuple[Linkage, dict[str, Drive], float]] = []  # scenarios are checked again and again
 
 
 def follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> None:
@@ -30,13 +35,31 @@ def follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> No
     linkage has come back to its start. If several move, postures are looked at in order of time; of a crank
     that turns over and over, whole revolutions are left out.
 
-    A linkage that can move with all drives held is not looked at: forces decide where it goes.
+    A linkage that can move with all drives held is not checked: forces decide where it goes. Neither is a
+    linkage of which a driven part has no drive, such as a cylinder with an inlet.
 
     Arguments:
         linkage: in its start posture.
-        drives: of its driven parts, by name; one that has none is held.
+        drives: of its driven parts, by name.
         duration: of the run [s].
     """
+    if not drives.keys() >= set(linkage.driven) or (linkage, drives, duration) in _followed:
+        return
+    _follow(linkage, drives, duration)
+    _followed[:] = [*_followed[1 - MOST_REMEMBERED :], (linkage, dict(drives), duration)]
+
+
+def times(drives: Sequence[Drive], duration: float) -> Iterator[float]:
+    """Times of a run at which postures are computed [s], in order; breaks and the end are among them."""
+    breaks = {t for drive in drives for t in drive.breaks if 0.0 < t < duration}
+    ends = [0.0, *sorted(breaks), duration]
+    period = min((one for drive in drives if (one := getattr(drive, "period", None))), default=duration)
+    for first, last in pairwise(ends):
+        count = min(MOST_SAMPLES, SAMPLES * max(1, int(np.ceil(min(1e6, (last - first) / period)))))
+        yield from np.linspace(first, last, count + 1)[1:].tolist()
+
+
+def _follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> None:
     conditions = conditions_of(linkage)
     start = np.zeros(3 * len(linkage.bodies))
     values = np.linalg.svd(conditions.rows(start), compute_uv=False)
@@ -52,7 +75,8 @@ def follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> No
 
 def _alone(conditions: Conditions, name: str, drive: Drive, duration: float) -> None:
     """Follow the only drive that moves, over its span."""
-    low, high = drive.span(duration)
+    extensions = [drive.extension(time) for time in times((drive,), duration)]
+    low, high = min(0.0, *extensions), max(0.0, *extensions)
     crank = name in conditions.linkage.cranks
     start = np.zeros(3 * len(conditions.linkage.bodies))
     for goal in (one for one in (high, low) if one != 0.0):
