@@ -8,7 +8,7 @@ from functools import cache
 from studies.common.subject import without_clearance
 from support_exudyn import ClearancePin, IdealPin
 from support_exudyn.files.machines.read import read_machine
-from support_exudyn.files.scenarios.short_pin import ShortPin, pin_in_machine
+from support_exudyn.files.scenarios.short_joints import ShortPin, pin_in_machine
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.machine_data import MachineData
 

@@ -13,7 +13,7 @@ from studies.common.rise import PAPER, Watched
 from support_exudyn import ClearancePin, CubicStep, IdealPin, Pin, Scenario, SolverSettings
 from support_exudyn.files import load_toml, read_scenario_file
 from support_exudyn.files.machines.read import load_machine, read_machine
-from support_exudyn.files.scenarios.short_pin import ShortPin, pin_in_machine
+from support_exudyn.files.scenarios.short_joints import ShortPin, pin_in_machine
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.simulation.automatic_settings import cheapest
 from user_forces import Ambrosio, Frictionless

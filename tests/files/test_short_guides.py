@@ -9,7 +9,7 @@ import pytest
 
 from support_exudyn import Scenario, ravn_slider_crank
 from support_exudyn.files import parsed, scenario_of
-from support_exudyn.files.scenarios.short_guide import ShortGuide
+from support_exudyn.files.scenarios.short_joints import ShortGuide
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.guides import ClearanceGuide, IdealGuide
 from user_forces import Ambrosio, CubicCoulomb, Exact, Flores, InputError
@@ -77,11 +77,11 @@ def test_a_block_is_that_of_the_machines_file() -> None:
         ),
         (
             f'clearance_mm = 1\n{BLOCK}law = "Johnson"\n',
-            r'type = "ClearanceGuide" and in \[guides.NAME\] normal',
+            "give it in full, with the type of pin or guide, and in it normal",
         ),
         (f'{ONE}{BLOCK}law = "Hertz"\nrestitution = 0.5\n', "restitution: the law Hertz has none"),
         ("clearance_mm = 1\npin_radius_mm = 5\n", "has a pin_radius; allowed: block"),
-        ("ideal = false\n", "true; a guide with clearance has a clearance_mm instead"),
+        ("ideal = false\n", "true; a joint with clearance has a clearance_mm instead"),
     ],
 )
 def test_what_is_wrong_is_told_by_its_key(text: str, said: str) -> None:

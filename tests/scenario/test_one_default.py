@@ -13,9 +13,7 @@ from studies.common.paper_machine import bearing
 from support_exudyn import ClearancePin, CubicStep, Scenario, UniformSpeed, reference_support
 from support_exudyn.files import parsed, read_value, scenario_of, table_of, toml_text
 from support_exudyn.files.scenarios.short_forms import DriveFile, DriveMode, DrivesFile
-from support_exudyn.files.scenarios.short_guide import ShortGuide
-from support_exudyn.files.scenarios.short_laws import simple_laws
-from support_exudyn.files.scenarios.short_pin import ShortPin
+from support_exudyn.files.scenarios.short_joints import ShortGuide, ShortPin, simple_laws
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.guides import ClearanceGuide

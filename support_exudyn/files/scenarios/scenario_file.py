@@ -14,8 +14,7 @@ from support_exudyn.files.scenarios.short_forms import (
     ShortForms,
     read_machine_of,
 )
-from support_exudyn.files.scenarios.short_guide import ShortGuide
-from support_exudyn.files.scenarios.short_pin import ShortPin
+from support_exudyn.files.scenarios.short_joints import ShortGuide, ShortPin
 from support_exudyn.files.toml.faults import Faults
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
 from support_exudyn.files.toml.schema import Schemas, without

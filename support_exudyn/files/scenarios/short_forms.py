@@ -7,14 +7,13 @@ from dataclasses import replace
 from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 from pydantic import model_validator
 
 from support_exudyn.files.machines.read import SHIPPED, read_machine
 from support_exudyn.files.scenarios.drive_table import one_drive, read_drives
-from support_exudyn.files.scenarios.short_guide import ShortGuide
-from support_exudyn.files.scenarios.short_pin import ShortPin, pin_in_machine
+from support_exudyn.files.scenarios.short_joints import ShortContact, ShortGuide, ShortPin, pin_in_machine
 from support_exudyn.files.toml.faults import Faults, Place, said
 from support_exudyn.files.toml.reading import FAILED, Failed, Reader
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
@@ -22,13 +21,15 @@ from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.drives.drive import CubicStep, Drive, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive
-from support_exudyn.model.guides import IdealGuide
+from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.machine import Machine
-from support_exudyn.model.pins import IdealPin
+from support_exudyn.model.pins import IdealPin, Pin
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import ANGLES, LENGTHS, Metres, Seconds
 from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, value
+
+S = TypeVar("S", bound=ShortContact)
 
 
 @value
@@ -167,49 +168,47 @@ class ShortForms:
 
     def pin(self, reader: Reader, item: Any, place: Place) -> Any:
         """A pin with `ideal = true`, or by its clearance."""
-        if not isinstance(item, dict) or "type" in item:
-            return None
-        if "ideal" in item:
-            if item["ideal"] is not True:
-                reader.faults.wrong(
-                    (*place, "ideal"), item["ideal"], "true; a clearance pin has a clearance_mm instead"
-                )
-                return FAILED
-            return reader.value(IdealPin, {key: one for key, one in item.items() if key != "ideal"}, place)
-        short = reader.value(ShortPin, item, place)
-        if isinstance(short, Failed) or self.data is None:
-            return FAILED
-        try:
+
+        def made(data: MachineData, short: ShortPin) -> Pin:
             name = place[-1]
-            radius = self.data.bore_radii.get(name)
+            radius = data.bore_radii.get(name)
             if short.clearance == 0.0:  # as at the end of a sweep over clearances
                 return short.ideal(radius)
-            return pin_in_machine(short, self.data.machine, name, radius)
-        except InputError as error:
-            if short.bore_radius is None and place[-1] not in self.data.bore_radii:
-                bores = ", ".join(self.data.bore_radii) or "no pin"
-                reader.faults.add(place, f"{error}; it says those of {bores}")
-                return FAILED
-            for line in str(error).splitlines():
-                reader.faults.add(place, line)
-            return FAILED
+            return pin_in_machine(short, data.machine, name, radius)
+
+        return self._joint(reader, item, place, IdealPin, ShortPin, made)
 
     def guide(self, reader: Reader, item: Any, place: Place) -> Any:
         """A guide with `ideal = true`, or by its clearance."""
+
+        def made(data: MachineData, short: ShortGuide) -> Guide:
+            return short.guide(data.blocks.get(place[-1]))
+
+        return self._joint(reader, item, place, IdealGuide, ShortGuide, made)
+
+    def _joint(
+        self,
+        reader: Reader,
+        item: Any,
+        place: Place,
+        ideal: type[Value],
+        short: type[S],
+        made: Callable[[MachineData, S], Value],
+    ) -> Any:
+        """A joint with `ideal = true`, or of a short form; None: in full."""
         if not isinstance(item, dict) or "type" in item:
             return None
         if "ideal" in item:
             if item["ideal"] is not True:
-                reader.faults.wrong(
-                    (*place, "ideal"), item["ideal"], "true; a guide with clearance has a clearance_mm instead"
-                )
+                allowed = "true; a joint with clearance has a clearance_mm instead"
+                reader.faults.wrong((*place, "ideal"), item["ideal"], allowed)
                 return FAILED
-            return reader.value(IdealGuide, {key: one for key, one in item.items() if key != "ideal"}, place)
-        short = reader.value(ShortGuide, item, place)
-        if isinstance(short, Failed) or self.data is None:
+            return reader.value(ideal, {key: one for key, one in item.items() if key != "ideal"}, place)
+        found = reader.value(short, item, place)
+        if isinstance(found, Failed) or self.data is None:
             return FAILED
         try:
-            return short.guide(self.data.blocks.get(place[-1]))
+            return made(self.data, found)
         except InputError as error:
             for line in str(error).splitlines():
                 reader.faults.add(place, line)
