@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from support_exudyn.commands.command_line import add_json, answer, folder, say
 from support_exudyn.files.machines import SHIPPED
 from support_exudyn.files.scenarios.scenario_file import read_machine_in
-from support_exudyn.files.toml.reading import in_millimetres
 from user_forces.values.value import InputError
-
-NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-IN_MM = re.compile(rf"(?<![\w])(stroke|floor|length) = ({NUMBER}) mm\b")
-NEWTONS = re.compile(rf"(?<![\w.])({NUMBER})(?: to ({NUMBER}))? N(?![\w^*])")
 
 if TYPE_CHECKING:
     from support_exudyn.machines.strength import StandReport
@@ -41,32 +35,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> None:
     """Print the page or its numbers, and draw the figure that is asked for."""
     from support_exudyn.machines.strength import stand  # and scipy
-    from support_exudyn.machines.strength.numbers import numbers
     from support_exudyn.machines.strength.page import page
 
     data = read_machine_in(given.machine)
     try:
         report = stand(data)
     except InputError as error:
-        raise InputError(f"{given.machine}: {_in_file_units(str(error))}") from None
+        raise InputError(f"{given.machine}: {error}") from None
     figures = _drawn(given, report) if given.figure else []
     if given.json:
-        answer({**numbers(report), "figures": [str(one) for one in figures]})
+        answer({**report.data(), "figures": [str(one) for one in figures]})
         return
     for line in page(report):
         say(line)
     for one in figures:
         say(str(one))
-
-
-def _in_file_units(message: str) -> str:
-    """What `stand` refuses in SI, told by the keys of a machine's file, with their units."""
-    message = NEWTONS.sub(lambda found: " to ".join(_kn(one) for one in found.groups() if one) + " kN", message)
-    return IN_MM.sub(r"\1_mm = \2", in_millimetres(message))
-
-
-def _kn(newtons: str) -> str:
-    return f"{1e-3 * float(newtons):.6g}"
 
 
 def _drawn(given: argparse.Namespace, report: StandReport) -> list[Path]:

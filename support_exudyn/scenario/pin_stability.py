@@ -14,6 +14,7 @@ import numpy as np
 
 from support_exudyn.mechanics.acting_loads import add_load, load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.continuation import conditions_of, moved_on
 from support_exudyn.mechanics.drive_acceleration import accelerations
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.mechanics.loaded_journal import loaded_journals
@@ -35,7 +36,6 @@ from user_forces.contact import JournalContact
 from user_forces.normal.law import LoadError
 
 SAMPLES = 24  # postures between two breaks of the drives
-PARTS = 64  # into which the way between two postures is divided, at most
 NOT_TOLD = (
     "nothing is told; allowed: a scenario in the plane with a clearance pin, whose drives move it and leave "
     "nothing free, without hydraulic cylinders"
@@ -149,18 +149,19 @@ class _Way:
     def of(cls, scenario: Scenario, times: Sequence[float]) -> "_Way | None":
         """The postures at these times, as far as the linkage closes; None if there are none."""
         linkage = scenario.unloaded
-        closed = kinetics_of(linkage)
-        still = np.zeros(3 * len(linkage.bodies))
-        if np.linalg.matrix_rank(closed.rows(still)) < still.size:
+        closed, conditions = kinetics_of(linkage), conditions_of(linkage)
+        moved = np.zeros(3 * len(linkage.bodies))
+        if np.linalg.matrix_rank(closed.rows(moved)) < moved.size:
             return None
         positions: list[Matrix] = []
-        reached, position = 0.0, still
+        before = _travels(scenario, closed, 0.0)
         for time in times:
-            there = _went(scenario, closed, position, reached, time)
-            if there is None:
+            after = _travels(scenario, closed, time)
+            moved, share = moved_on(conditions, moved, before, after)
+            if share < 1.0:
                 break
-            reached, position = time, there
-            positions.append(there)
+            before = after
+            positions.append(moved / conditions.arms)
         if not positions:
             return None
         at = np.array(times[: len(positions)])
@@ -222,19 +223,6 @@ def _slides(journal: LoadedJournal, contact: JournalContact) -> SlidingPin | Non
 def _travels(scenario: Scenario, closed: Kinetics, time: float) -> dict[str, float]:
     names = (*closed.actuators, *closed.linkage.cranks)
     return {name: scenario.drive_of(name).extension(time) for name in names}
-
-
-def _went(scenario: Scenario, closed: Kinetics, position: Matrix, reached: float, time: float) -> Matrix | None:
-    """The posture at a time from that at an earlier one, in as few parts as it takes; None if it is lost."""
-    parts = 1
-    while parts <= PARTS:
-        there: Matrix | None = position
-        for t in np.linspace(reached, time, parts + 1)[1:].tolist():
-            there = None if there is None else posture(closed, there, {}, _travels(scenario, closed, t))
-        if there is not None:
-            return there
-        parts *= 2
-    return None
 
 
 def _moving_times(scenario: Scenario) -> list[float]:

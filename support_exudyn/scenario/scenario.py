@@ -10,8 +10,8 @@ from typing import Any
 from pydantic import field_validator, model_validator
 
 from support_exudyn.scenario.presentation import presenter
-from support_exudyn.scenario.record_period import default_period
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL, ScenarioData
+from support_exudyn.scenario.timescales import default_period
 from support_exudyn.scenario.validation import check
 from user_forces.values.value import InputError, short, value
 

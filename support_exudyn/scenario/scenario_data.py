@@ -90,7 +90,7 @@ class ScenarioData(Value, ABC):
         step: largest time step [s], > 0, of the Exudyn formulation. Steps are equal parts of the time
             between two records; they are cut at impacts.
         record_period: time between records [s], > 0. Records are for curves; means, deviations and extremes are
-            taken from every step. None: as the machine moves, see `record_period.default_period`.
+            taken from every step. None: as the machine moves, see `timescales.default_period`.
         channels: what is recorded: names of channels, or patterns of them as in a shell, case-sensitive,
             such as "tip.*"; all by default. `time` always is. The result checks looks at all of them; without
             it (`SolverSettings.result_checks`) what nothing asks for is neither kept nor computed. A run to an

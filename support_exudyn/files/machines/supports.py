@@ -10,7 +10,6 @@ from dataclasses import field
 from typing import Annotated, Any, Literal
 
 from support_exudyn.files.machines.parts import ColumnData, PartData
-from support_exudyn.files.toml.reading import in_millimetres
 from support_exudyn.files.toml.shapes import Names
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.four_column_support import HydraulicSupport
@@ -53,7 +52,6 @@ BORES = {
     "shield_canopy": "shield beam on canopy",
     "shield_tail": "tail beam on shield beam",
 }
-SAYS_UNIT_TWICE = re.compile(r"(_mm = [^ :]+) mm\b")
 
 
 def pivots(columns: Mapping[str, str]) -> Names:
@@ -129,7 +127,7 @@ class SupportFile(Value, ABC):
                 parts=parts, start_hinge_height=self.start_hinge_height, width=self._width(), **self.pivots
             )
         except InputError as error:
-            raise InputError(self._in_file_units(str(error))) from None
+            raise InputError(re.sub(rf"^{self.machine_class().__name__}(: |\.)", "", str(error))) from None
         return MachineData(
             machine,
             self.name,
@@ -199,23 +197,9 @@ class SupportFile(Value, ABC):
                 found.append(f"{name}: its rods weigh nothing")
         return found
 
-    def _in_file_units(self, message: str) -> str:
-        """The machine's message in metres and names of fields, told in mm and keys of the file."""
-        message = message.removeprefix(f"{self.machine_class().__name__}: ").removeprefix(
-            f"{self.machine_class().__name__}."
-        )
-        for name in self.machine_class().pivots():
-            message = re.sub(rf"(?<![\w.]){name} = \((\S+), (\S+)\)(?: m\b)?", _pivot_in_mm(name), message)
-        message = message.replace("start_hinge_height = ", "start_hinge_height_mm = ")
-        return SAYS_UNIT_TWICE.sub(r"\1", in_millimetres(message))
-
 
 def _said_twice(name: str, mass: float, body: str) -> InputError:
     return InputError(f"masses_kg.{name} = {mass:.10g}: parts.{body} says it too; allowed: one of them")
-
-
-def _pivot_in_mm(name: str) -> Any:
-    return lambda found: f"pivots_mm.{name} = [{1e3 * float(found[1]):g}, {1e3 * float(found[2]):g}]"
 
 
 FOUR_COLUMNS = {"front_column": "front columns", "rear_column": "rear columns"}

@@ -126,7 +126,7 @@ class ShortContact(Value, ABC):
 
     @model_validator(mode="after")
     def _nothing_is_left_unused(self) -> ShortContact:
-        known = {one.name for one in fields(self.law_class)} if self.law_class else set()  # type: ignore[arg-type]
+        known = {one.name for one in fields(self.law_class)} if self.law_class else set()
         for name in ("restitution", "rest_velocity"):
             if self.law and getattr(self, name) is not None and name not in known:
                 raise ValueError(f"{name}: the law {self.law} has none; allowed with it: to leave this out")

@@ -1,7 +1,6 @@
 """Tables of files are read as values, by what the values' classes declare."""
 
 import math
-import re
 from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
 from difflib import get_close_matches
@@ -27,9 +26,6 @@ V = TypeVar("V", bound=Value)
 SMALLEST_EXPONENT = -1000  # of a decimal; what is smaller is 0
 ShortForm = Callable[["Reader", Any, Place], Any]
 UNKNOWN = "unknown key"
-NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-LENGTH = re.compile(rf"(?<![\w.])({NUMBER})(?: to ({NUMBER}))? m(?![\w^*])")
-POINT = re.compile(rf"\(({NUMBER}), ({NUMBER})\) m(?![\w^*])")
 
 
 class Failed:
@@ -118,7 +114,7 @@ class Reader:
         try:
             return cls(**given)
         except InputError as error:
-            for line in map(in_millimetres, str(error).splitlines()):
+            for line in str(error).splitlines():
                 if line.startswith(f"{cls.__name__}."):
                     self.faults.add(
                         (), ".".join(filter(None, (said_place(place), line[len(cls.__name__) + 1 :])))
@@ -294,20 +290,6 @@ def read_value(
     found = Reader(faults, short_forms, sourced).item({"group": GroupShape((cls,))}, table, ())
     faults.check()
     return found  # type: ignore[no-any-return]
-
-
-def in_millimetres(message: str) -> str:
-    """A class's message in metres, with all lengths in mm, also those over a time; areas and others stay.
-
-    Without the question whether millimetres is what was given.
-    """
-    message = POINT.sub(lambda found: f"({_mm(found[1])}, {_mm(found[2])}) mm", message)
-    message = LENGTH.sub(lambda found: " to ".join(_mm(one) for one in found.groups() if one) + " mm", message)
-    return message.replace(" (is it given in mm?)", "")
-
-
-def _mm(metres: str) -> str:
-    return f"{1e3 * float(metres):.10g}"
 
 
 def _removed(cls: type[Value], key: str) -> tuple[str, str] | None:

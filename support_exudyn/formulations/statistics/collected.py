@@ -13,9 +13,9 @@ from support_exudyn.formulations.statistics.ends import between_ends
 from support_exudyn.formulations.statistics.steps import NODES, OF_STEP, add_steps
 from support_exudyn.mechanics.time_statistics import COLUMNS, LAST, TimeStatistics
 from support_exudyn.mechanics.trajectory import ObservedRun, Series, Trajectory
-from support_exudyn.scenario.record_period import rounded
 from support_exudyn.scenario.recorded_channels import asked_definitions, evaluated
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.scenario.timescales import rounded
 
 MOST_INTERVALS = 1000  # of a run, for which statistics are kept
 INSIDE = 1e-6  # share of a step by which its ends are taken inside: what jumps there belongs to one side

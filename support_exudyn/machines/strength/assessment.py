@@ -63,7 +63,8 @@ def stand(data: MachineData) -> StandReport:
             )
             for n, one in enumerate(told)
         ],
-        rated=(rated or math.fsum(strength.cylinders[name].push for name in legs), rated is not None),
+        rated=rated or math.fsum(strength.cylinders[name].push for name in legs),
+        rated_is_assumed=rated is None,
         pins={name: _pin_load(data, name, statics, legs) for name in linkage.pins},
         unknown_pins=without_data(data, linkage.pins),
         buckling=buckling,
@@ -193,7 +194,8 @@ def _support_force(
         pull=smooth.balancing(pushes(cylinders, legs, rams=-1.0)) if rams else None,
         push=smooth.balancing(pushes(cylinders, legs, rams=1.0)) if rams else None,
         over=[
-            (x, smooth.largest_at(x, within)) for x in np.linspace(contact.rear, contact.front, PLACES).tolist()
+            RoofForce(smooth.largest_at(x, within), x)
+            for x in np.linspace(contact.rear, contact.front, PLACES).tolist()
         ],
         largest=max(smooth.corners(within), key=lambda roof: roof.force, default=RoofForce(0.0, contact.rear))
         if unfelt is None

@@ -91,7 +91,7 @@ def _support(report: StandReport) -> Iterator[str]:
             "  one leg leaves the place open: told is where on the canopy it holds most; least: where it holds "
             "least"
         )
-    rated, said = report.rated
+    rated = report.rated
     found = [
         roof.force
         for one in report.forces
@@ -103,12 +103,13 @@ def _support(report: StandReport) -> Iterator[str]:
         return
     most = max(found)
     share = _share(most, rated)
+    assumed = " (assumed)" if report.rated_is_assumed else ""
     if single:
         least = min((one.least.force for one in report.forces if one.least), default=math.nan)
         share = f"by the place {_share(least, rated)} to {share}"
     yield (
         f"  rule EN 1804-1, 4.3.1 (as the roof converges, at most {OVER:g} of the rated force): "
-        f"{share} of {_kn(rated)} kN{'' if said else ' (assumed)'}: {_met(most <= OVER * rated)} on "
+        f"{share} of {_kn(rated)} kN{assumed}: {_met(most <= OVER * rated)} on "
         "a slow roof; what valves add at its speed only a run tells"
     )
     if most < WEAK * rated:
@@ -123,7 +124,7 @@ def _over(report: StandReport) -> Iterator[str]:
         places = [one.over[round(share * (len(one.over) - 1))] for share in shares]
         most = one.largest
         told = (_kn(most.force), _mm(most.x - one.contact.rear))
-        rows.append((_mm(one.contact.height), *(_kn(force) for _, force in places), *told))
+        rows.append((_mm(one.contact.height), *(_kn(one.force) for one in places), *told))
     yield from _table(rows)
 
 

@@ -1,14 +1,25 @@
-"""What was found of what a support must stand, section by section; SI."""
+"""The results of what a support must stand, section by section, and as plain data; SI."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any
 
 from support_exudyn.machines.strength.pins import PinStresses
 from support_exudyn.machines.strength.roof_forces import RoofContact, RoofForce
 from support_exudyn.machines.strength.strength_data import CylinderStrength
 from support_exudyn.machines.strength.tipping import Tipping
+
+UNITS = {  # of fields of results: plain data have them in the keys
+    "N": "force rated nominal worst rubbed euler johnson legs_alone pins centred",
+    "m": "stroke x rear front height length aside wander centre",
+    "N_m": "moment tilts",
+    "Pa": "bearing shear bending yields",
+    "kg": "mass",
+    "rad": "angles",
+}
+UNIT_OF = {name: unit for unit, names in UNITS.items() for name in names.split()}
 
 
 @dataclass(frozen=True)
@@ -25,8 +36,7 @@ class SupportForce:
         least: at the yield pressure of a single leg, where it holds the least; None of two.
         rubbed: at the yield pressure with the roof's friction, by its coefficient.
         pull, push: at the yield pressure with rams at their largest pull and push; None without rams.
-        over: places x [m] on the canopy, each with the largest force there that opens no valve
-            and lifts no leg [N].
+        over: at places on the canopy, the largest force there that opens no valve and lifts no leg.
         largest: of all places.
     """
 
@@ -38,7 +48,7 @@ class SupportForce:
     rubbed: Mapping[float, RoofForce | None]
     pull: RoofForce | None
     push: RoofForce | None
-    over: Sequence[tuple[float, float]]
+    over: Sequence[RoofForce]
     largest: RoofForce
 
 
@@ -118,7 +128,7 @@ class StandReport:
         name, kind: of the machine.
         cylinders: by actuator. legs: names of those on the ground.
         forces: by posture, from the lowest on.
-        rated: support force [N], and whether the file says it.
+        rated: support force [N]. rated_is_assumed: whether the file does not give it.
         pins: by name. unknown_pins: of which too little is known.
         buckling: by actuator.
         unbuckled: actuators whose buckling is not told, with the reason.
@@ -133,7 +143,8 @@ class StandReport:
     cylinders: Mapping[str, CylinderStrength]
     legs: Sequence[str]
     forces: Sequence[SupportForce]
-    rated: tuple[float, bool]
+    rated: float
+    rated_is_assumed: bool
     pins: Mapping[str, PinLoad]
     unknown_pins: Sequence[str]
     buckling: Mapping[str, Buckling]
@@ -143,3 +154,37 @@ class StandReport:
     wander: float | None
     assumed: Sequence[str]
     sources: Sequence[str]
+
+    def data(self) -> dict[str, Any]:
+        """All results as plain data, with the unit in the key."""
+        cylinders = {
+            name: {
+                "count": one.count,
+                "yield_push_N": one.push,
+                "yield_pull_N": one.pull,
+                "setting_push_N": None if one.setting_pressure is None else one.setting_pressure * one.area,
+            }
+            for name, one in self.cylinders.items()
+        }
+        return {**_plain(self), "cylinders": cylinders}
+
+
+def _is_result(item: Any) -> bool:
+    """Whether an item has fields: it is of a data class, or a tuple with names."""
+    return is_dataclass(item) or hasattr(item, "_fields")
+
+
+def _plain(item: Any) -> Any:
+    """A result as numbers, texts, lists and mappings."""
+    if _is_result(item):
+        names = [one.name for one in fields(item)] if is_dataclass(item) else item._fields
+        return {_key(name, getattr(item, name)): _plain(getattr(item, name)) for name in names}
+    if isinstance(item, Mapping):
+        return {f"{key:g}" if isinstance(key, float) else key: _plain(one) for key, one in item.items()}
+    return [_plain(one) for one in item] if isinstance(item, (list, tuple)) else item
+
+
+def _key(name: str, item: Any) -> str:
+    """The key of a field, which ends by the unit of its numbers."""
+    nested = isinstance(item, Mapping) and any(map(_is_result, item.values()))
+    return name if nested or name not in UNIT_OF else f"{name}_{UNIT_OF[name]}"

@@ -47,8 +47,8 @@ def _over_height(axes: Axes, report: StandReport) -> None:
     ):
         if any(roof is not None for roof in roofs):
             axes.plot(heights, _curve(roofs), color=colour, ls=dashes, label=label)
-    axes.axhline(1e-3 * report.rated[0], color="#777777", lw=0.7)
-    axes.annotate("rated", (heights[0], 1e-3 * report.rated[0]), xytext=(2, 2), textcoords="offset points",
+    axes.axhline(1e-3 * report.rated, color="#777777", lw=0.7)
+    axes.annotate("rated", (heights[0], 1e-3 * report.rated), xytext=(2, 2), textcoords="offset points",
                   fontsize=7, color="#777777")  # fmt: skip
     low, high = axes.get_ylim()
     axes.set_ylim(low - 0.25 * (high - low), high + 0.08 * (high - low))
@@ -77,10 +77,10 @@ def _over_canopy(axes: Axes, report: StandReport) -> None:
     last = len(report.forces) - 1
     for n, (colour, dashes) in zip(dict.fromkeys((0, last // 2, last)), style.CURVES, strict=False):
         one = report.forces[n]
-        places = sorted([*one.over, (one.largest.x, one.largest.force)])
-        x = [1e3 * (place - one.contact.rear) for place, _ in places]
+        places = sorted([*one.over, one.largest], key=lambda roof: roof.x)
+        x = [1e3 * (roof.x - one.contact.rear) for roof in places]
         label = f"roof at {1e3 * one.contact.height:.0f} mm"
-        axes.plot(x, [1e-3 * force for _, force in places], color=colour, ls=dashes, label=label)
+        axes.plot(x, [1e-3 * roof.force for roof in places], color=colour, ls=dashes, label=label)
     axes.set_ylim(bottom=0.0)
     axes.set(
         title="opens no valve, lifts no leg",

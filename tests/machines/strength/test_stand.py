@@ -15,7 +15,6 @@ from support_exudyn.files.machines import load_machine, shipped
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.machines.strength import StandReport, stand
-from support_exudyn.machines.strength.numbers import numbers
 from support_exudyn.machines.strength.page import page
 from support_exudyn.machines.strength.strength_data import CylinderStrength, StrengthData
 from support_exudyn.model.loads.spring_damper import SpringDamper
@@ -61,7 +60,7 @@ def test_four_columns_hold_together_what_each_row_pushes() -> None:
         # the peak over the canopy is where all columns yield
         assert one.largest.force == pytest.approx(one.yielding.force, rel=1e-9)
         assert one.largest.x == pytest.approx(one.yielding.x, rel=1e-9)
-        assert max(force for _, force in one.over) <= one.largest.force
+        assert max(roof.force for roof in one.over) <= one.largest.force
         assert (one.pull, one.push) == (None, None)
 
 
@@ -108,7 +107,7 @@ def test_in_other_units_all_is_the_same() -> None:
         stroke=2.0 * (data.stroke or 0.0),
         strength=made(data.strength),
     )
-    one, larger = (dict(leaves(numbers(found))) for found in (stand(data), stand(other)))
+    one, larger = (dict(leaves(found.data())) for found in (stand(data), stand(other)))
     assert one.keys() == larger.keys()
     endings = {"N": 3.0, "m": 2.0, "Pa": 0.75, "N_m": 6.0, "kg": 3.0, "rad": 1.0}
     told = 0
@@ -186,7 +185,9 @@ def test_a_single_leg_is_judged_where_it_holds_most() -> None:
         assert one.yielding is not None
         assert one.least is not None
         # the ends of the curve over the canopy
-        assert [one.least.force, one.yielding.force] == pytest.approx(sorted([one.over[0][1], one.over[-1][1]]))
+        assert [one.least.force, one.yielding.force] == pytest.approx(
+            sorted([one.over[0].force, one.over[-1].force])
+        )
         assert one.yielding.force == pytest.approx(one.largest.force)
     for pin in found.pins.values():
         assert pin.nominal[1.0] == pytest.approx(pin.worst[1.0])
@@ -194,8 +195,8 @@ def test_a_single_leg_is_judged_where_it_holds_most() -> None:
     assert "by the place 0.769 to 1.814 of 1257 kN (assumed): NOT met" in text
     assert "one leg leaves the place open" in text
     assert "50.0" not in text
-    told = numbers(found)["postures"][0]
-    assert told["yield_where_a_single_leg_holds_least"]["force_N"] < 0.5 * told["yield"]["force_N"]
+    told = found.data()["forces"][0]
+    assert told["least"]["force_N"] < 0.5 * told["yielding"]["force_N"]
     assert "one leg" not in "\n".join(page(report("two_leg_shield")))
 
 
@@ -267,6 +268,3 @@ def test_the_section_of_the_page_is_read(tmp_path: Any) -> None:
     assert own is not None
     assert found.cylinders["leg"] == own.cylinders["leg"]
     assert found.base == own.base
-
-
-# --- faults that a check like this has to see ---

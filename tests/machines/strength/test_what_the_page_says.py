@@ -13,7 +13,6 @@ from studies.common.support_legs import PAIRS, legs_data, support_legs
 from support_exudyn.files.machines import shipped
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.strength import StandReport, stand
-from support_exudyn.machines.strength.numbers import numbers
 from support_exudyn.machines.strength.page import page
 from support_exudyn.machines.strength.strength_data import StrengthData
 from support_exudyn.machines.strength.tipping import cylinder_masses, tipping_of
@@ -95,8 +94,8 @@ def test_yield_stresses_are_told_and_defaults_are_called_assumed() -> None:
     others = "front_base, rear_shield, front_shield, shield_canopy"
     assert f"yield stress of {others}: pin 835 MPa, eyes 345 MPa" in text
     assert f"assumed: pins of {others}: of 35CrMo" in text
-    pin = numbers(found)["pins"]["rear_base"]
-    assert (pin["yield_stress_of_pin_Pa"], pin["yield_stress_of_eyes_Pa"]) == (7e8, 3e8)
+    pin = found.data()["pins"]["rear_base"]
+    assert pin["yields_Pa"] == [7e8, 3e8]
     before, after = (one.pins["rear_base"].stresses for one in (usual, found))
     assert before is not None
     assert after is not None
