@@ -118,8 +118,8 @@ def _geometry(m: HydraulicSupport) -> list[float]:
         lumped(m.parts[name]).centre for name in ("canopy", "shield", "front_link", "rear_link")
     )
     # centres of the circles about which the hinge turns on the columns
-    about_front = minus(m.front_foot, minus(start.front_head, start.hinge))
-    about_rear = minus(m.rear_foot, minus(start.rear_head, start.hinge))
+    about_front = minus(m.front_foot, minus(start.ends["front_head"], start.hinge))
+    about_rear = minus(m.rear_foot, minus(start.ends["rear_head"], start.hinge))
     bar = minus(m.front_shield, m.hinge)
     return [
         *minus(m.front_head, m.hinge),

@@ -51,8 +51,11 @@ def _tail_beam(machine: HydraulicSupport, start: Posture) -> Vector2:
 # body that is struck, and where in the start posture, by the name of the place
 PLACES: dict[str, tuple[str, Callable[[HydraulicSupport, Posture], Vector2]]] = {
     "tip": ("canopy", lambda machine, start: start.tip),
-    "between": ("canopy", lambda machine, start: _between(start.tip, start.front_head)),
-    "over the legs": ("canopy", lambda machine, start: _between(start.front_head, start.rear_head)),
+    "between": ("canopy", lambda machine, start: _between(start.tip, start.ends["front_head"])),
+    "over the legs": (
+        "canopy",
+        lambda machine, start: _between(start.ends["front_head"], start.ends["rear_head"]),
+    ),
     "shield": ("shield", lambda machine, start: _between(start.front_shield, start.hinge)),
     "tail beam": ("shield", _tail_beam),
 }
@@ -137,7 +140,7 @@ def roof(machine: str) -> dict[str, AppliedForce]:
     leg = legs_data().of(machine).cylinder
     assert leg.setting_pressure is not None
     force = 0.0, -leg.setting_pressure * leg.bore_area
-    points = {"front_roof": start.front_head, "rear_roof": start.rear_head}
+    points = {"front_roof": start.ends["front_head"], "rear_roof": start.ends["rear_head"]}
     return {name: AppliedForce(body="canopy", point=point, full_force=force) for name, point in points.items()}
 
 

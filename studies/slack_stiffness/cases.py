@@ -60,7 +60,7 @@ class PushedSupport:
     def place(self) -> Vector2:
         """Where roof load and push act in the start posture [m]: on the canopy, between the legs' heads."""
         start = support(self.machine).start()
-        front, rear = start.front_head, start.rear_head
+        front, rear = start.ends["front_head"], start.ends["rear_head"]
         return 0.5 * (front[0] + rear[0]), 0.5 * (front[1] + rear[1])
 
     def time(self, quarters: float) -> float:

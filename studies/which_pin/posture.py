@@ -69,7 +69,9 @@ def loads(pin: ClearancePin) -> dict[str, UnderLoad]:
     """A pin without friction in all five places, under several loads, at rest."""
     support = reference_support()
     start = support.start()
-    middle = tuple(0.5 * (a + b) for a, b in zip(start.front_head, start.rear_head, strict=True))
+    middle = tuple(
+        0.5 * (a + b) for a, b in zip(start.ends["front_head"], start.ends["rear_head"], strict=True)
+    )
     over = {"columns": (middle[0], middle[1]), "hinge": start.hinge, "tip": start.tip}
     presses = {
         "weight alone": (),

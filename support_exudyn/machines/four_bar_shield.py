@@ -16,12 +16,11 @@ freedom and the canopy on its hinge another.
 import math
 from abc import ABC
 from dataclasses import replace
-from typing import Generic
 
 import numpy as np
 
 from support_exudyn.machines.shield_layout import PINS as PINS
-from support_exudyn.machines.shield_layout import P, ShieldLayout
+from support_exudyn.machines.shield_layout import Posture, ShieldLayout
 from support_exudyn.model.linkage import GROUND, Crank, Linkage
 from support_exudyn.model.plane_geometry import minus
 from user_forces.values.value import Vector2
@@ -34,10 +33,10 @@ USUAL_STROKE = 0.3  # of the shortest column
 FARTHEST_SEARCH = 2.0 * LONGEST_STEP  # [rad]
 
 
-class FourBarShield(ShieldLayout[P], ABC, Generic[P]):
+class FourBarShield(ShieldLayout, ABC):
     """Motion of four-bar shield supports, in closed form; a kind of them adds fields and columns."""
 
-    def link_rates(self, posture: P) -> tuple[float, Vector2]:
+    def link_rates(self, posture: Posture) -> tuple[float, Vector2]:
         """How fast the shield beam turns, and the hinge's velocity [m/s], if the rear link turns by 1 rad/s.
 
         Infinite at a dead centre, where the front link lies along the shield beam's line from C to D.
@@ -51,7 +50,7 @@ class FourBarShield(ShieldLayout[P], ABC, Generic[P]):
         arm = _turning(minus(i, c))
         return spin, (speed[0] + spin * arm[0], speed[1] + spin * arm[1])
 
-    def column_rates(self, posture: P) -> np.ndarray:
+    def column_rates(self, posture: Posture) -> np.ndarray:
         """Derivatives of the columns' lengths by the turns of rear link and canopy, (2, 2) [m/rad]."""
         spin, hinge = self.link_rates(posture)
 
@@ -73,7 +72,7 @@ class FourBarShield(ShieldLayout[P], ABC, Generic[P]):
                 rates[row, column] = along @ np.subtract(head, foot)
         return rates
 
-    def extended(self, extension: float, near: P | None = None) -> P | None:
+    def extended(self, extension: float, near: Posture | None = None) -> Posture | None:
         """Posture with the driven columns longer than at the start by `extension` [m]; None if there is none.
 
         Newton's method in the turns of rear link and canopy. A column that follows another is left out, and the

@@ -14,11 +14,10 @@ the four-bar has one degree of freedom and the canopy on its hinge another.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
 from support_exudyn.machines.four_bar_shield import FourBarShield
-from support_exudyn.machines.shield_layout import BODIES, TAIL, ShieldColumn, ShieldPosture
+from support_exudyn.machines.shield_layout import BODIES, TAIL, Posture, ShieldColumn
 from support_exudyn.model.linkage import GROUND
 from user_forces.values.units import Metres
 from user_forces.values.value import Vector2, value
@@ -26,16 +25,8 @@ from user_forces.values.value import Vector2, value
 __all__ = ["BODIES", "PIVOTS", "TAIL", "HydraulicSupport", "Posture"]
 
 
-@dataclass(frozen=True)
-class Posture(ShieldPosture):
-    """Where everything is with ideal pins, the moving ends of the columns too."""
-
-    front_head: Vector2  # E [m]
-    rear_head: Vector2  # G
-
-
 @value
-class HydraulicSupport(FourBarShield[Posture]):
+class HydraulicSupport(FourBarShield):
     """Pivots, parts and start height of a four-column shield support.
 
     Arguments: those of `ShieldLayout`, and in the same reference posture
@@ -43,7 +34,6 @@ class HydraulicSupport(FourBarShield[Posture]):
         rear_foot, rear_head: H and G, ends of the rear column [m].
     """
 
-    POSTURE: ClassVar[type[Posture]] = Posture
     STRUTS: ClassVar[Mapping[str, ShieldColumn]] = {
         "front_column": ShieldColumn(foot=(GROUND, "front_foot"), head=("canopy", "front_head")),
         "rear_column": ShieldColumn(foot=(GROUND, "rear_foot"), head=("canopy", "rear_head")),

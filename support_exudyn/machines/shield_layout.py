@@ -3,9 +3,9 @@
 import math
 from abc import ABC
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from pydantic import model_validator
@@ -39,11 +39,11 @@ FARTHEST = 1000.0  # [m] from the origin
 
 
 @dataclass(frozen=True)
-class ShieldPosture:
+class Posture:
     """Where everything is with ideal pins: turns from the reference posture [rad], and pivots [m].
 
-    Turns are those of rear link, front link, shield beam and canopy; pivots are C, D, I and T. A kind of
-    support adds the ends of its columns that move.
+    Turns are those of rear link, front link, shield beam and canopy; pivots are C, D, I and T; ends are the
+    moving ends of the columns, by their pivots.
     """
 
     rear_link: float
@@ -54,9 +54,7 @@ class ShieldPosture:
     front_shield: Vector2
     hinge: Vector2
     tip: Vector2
-
-
-P = TypeVar("P", bound=ShieldPosture)
+    ends: Mapping[str, Vector2] = field(default_factory=dict)
 
 
 class ShieldColumn(NamedTuple):
@@ -67,9 +65,8 @@ class ShieldColumn(NamedTuple):
 
 
 @value
-class ShieldLayout(Machine, ABC, Generic[P]):
-    """Pivots, parts and start posture of four-bar shield supports; `STRUTS`: its two columns by name;
-    `POSTURE`: its class of postures.
+class ShieldLayout(Machine, ABC):
+    """Pivots, parts and start posture of four-bar shield supports; `STRUTS`: its two columns by name.
 
     All points are those of one reference posture. Arguments:
         rear_base, front_base: B and A, pivots of rear and front link on the base [m].
@@ -87,7 +84,6 @@ class ShieldLayout(Machine, ABC, Generic[P]):
     """
 
     STRUTS: ClassVar[Mapping[str, ShieldColumn]]
-    POSTURE: ClassVar[type[Any]]
 
     rear_base: Metres[Vector2]
     front_base: Metres[Vector2]
@@ -179,13 +175,13 @@ class ShieldLayout(Machine, ABC, Generic[P]):
         turned = turn(direction(self.rear_shield, self.front_shield), direction(c, d))
         return c, d, moved(self.hinge, self.rear_shield, c, turned)
 
-    def posture(self, rear_link: float, canopy: float) -> P | None:
+    def posture(self, rear_link: float, canopy: float) -> Posture | None:
         """Posture for turns of rear link and canopy [rad]; None where the four-bar does not close."""
         closed = self.four_bar(rear_link)
         if closed is None:
             return None
         c, d, i = closed
-        known = ShieldPosture(
+        known = Posture(
             rear_link=rear_link,
             front_link=turn(direction(self.front_base, self.front_shield), direction(self.front_base, d)),
             shield=turn(direction(self.rear_shield, self.front_shield), direction(c, d)),
@@ -201,10 +197,9 @@ class ShieldLayout(Machine, ABC, Generic[P]):
             for body, pivot in strut
             if body != GROUND
         }
-        found: P = self.POSTURE(**vars(known), **ends)
-        return found
+        return replace(known, ends=ends)
 
-    def start(self) -> P:
+    def start(self) -> Posture:
         """Posture with a level canopy and the hinge at its start height.
 
         Raises InputError with the reachable range if the linkage does not go there.
@@ -212,7 +207,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
         return self._start
 
     @cached_property
-    def _start(self) -> P:
+    def _start(self) -> Posture:
         turns = np.radians(np.linspace(-60.0, 60.0, 241))
         heights = np.array([closed[2][1] if (closed := self.four_bar(t)) else math.nan for t in turns])
         if np.isnan(heights).all():
@@ -246,7 +241,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
             )
         return found
 
-    def place(self, body: str, pivot: str, posture: ShieldPosture) -> Vector2:
+    def place(self, body: str, pivot: str, posture: Posture) -> Vector2:
         """Place of a pivot of a body, or of the ground, in a posture [m]."""
         point: Vector2 = getattr(self, pivot)
         if body == GROUND:
@@ -256,7 +251,7 @@ class ShieldLayout(Machine, ABC, Generic[P]):
         assert body == "shield"  # columns stand on nothing else
         return moved(point, self.rear_shield, posture.rear_shield, posture.shield)
 
-    def column_lengths(self, posture: P) -> tuple[float, float]:
+    def column_lengths(self, posture: Posture) -> tuple[float, float]:
         """Lengths [m] of the support's columns, in the order of `STRUTS`."""
         first, second = (
             distance(self.place(*strut.foot, posture), self.place(*strut.head, posture))

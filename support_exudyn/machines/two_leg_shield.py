@@ -15,14 +15,13 @@ a scenario drives it otherwise, the ram follows the leg so that the canopy keeps
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
 from support_exudyn.machines.four_bar_shield import FourBarShield
-from support_exudyn.machines.shield_layout import ShieldColumn, ShieldPosture
+from support_exudyn.machines.shield_layout import ShieldColumn
 from support_exudyn.model.drives.coupled_drive import following
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.linkage import GROUND
@@ -33,17 +32,8 @@ MOST_REMEMBERED = 64
 STRIDE = 0.02  # [m] from one level posture to the next
 
 
-@dataclass(frozen=True)
-class LegPosture(ShieldPosture):
-    """Where everything is with ideal pins, the moving ends of the columns too."""
-
-    leg_head: Vector2  # L [m]
-    ram_foot: Vector2  # P
-    ram_head: Vector2  # Q
-
-
 @value
-class TwoLegShield(FourBarShield[LegPosture]):
+class TwoLegShield(FourBarShield):
     """Pivots, parts and start height of a two-leg shield support.
 
     Columns: `leg` and `ram`. Arguments: those of `ShieldLayout`, and in the same reference posture
@@ -51,7 +41,6 @@ class TwoLegShield(FourBarShield[LegPosture]):
         ram_foot, ram_head: P and Q, ends of the stabilising ram on shield beam and canopy [m].
     """
 
-    POSTURE: ClassVar[type[LegPosture]] = LegPosture
     STRUTS: ClassVar[Mapping[str, ShieldColumn]] = {
         "leg": ShieldColumn(foot=(GROUND, "leg_foot"), head=("canopy", "leg_head")),
         "ram": ShieldColumn(foot=("shield", "ram_foot"), head=("canopy", "ram_head")),

@@ -131,7 +131,7 @@ def shifted(machine: HydraulicSupport, stroke: float, offset: np.ndarray) -> np.
     points = {
         name: np.array(getattr(posture, name)) for name in ("rear_shield", "front_shield", "hinge", "tip")
     }
-    heads = [np.array(posture.front_head), np.array(posture.rear_head)]
+    heads = [np.array(posture.ends["front_head"]), np.array(posture.ends["rear_head"])]
     feet = [np.array(machine.front_foot), np.array(machine.rear_foot)]
     base = np.array(machine.rear_base), np.array(machine.front_base)
 

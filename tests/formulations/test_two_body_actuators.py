@@ -43,7 +43,7 @@ def test_pins_and_guide_carry_what_a_static_balance_says(held: Result, name: str
     start = machine.start()
     front = name == "front_column"
     foot = machine.front_foot if front else machine.rear_foot
-    head = start.front_head if front else start.rear_head
+    head = start.ends["front_head"] if front else start.ends["rear_head"]
     model = cylinders_and_rods()[name]
     length = math.dist(foot, head)
     u = np.subtract(head, foot) / length

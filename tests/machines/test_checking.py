@@ -76,7 +76,7 @@ def test_shipped_machines_give_nothing_to_worry_about(name: str) -> None:
 # --- statics, independently ---
 
 
-def centres(machine: FourBarShield[Any], posture: Any) -> dict[str, np.ndarray]:
+def centres(machine: FourBarShield, posture: Any) -> dict[str, np.ndarray]:
     """Centres of mass of all bodies in a posture [m]."""
     anchors = {
         "rear_link": (machine.rear_base, machine.rear_base, posture.rear_link),
@@ -98,7 +98,7 @@ def postures(data: MachineData) -> Iterator[tuple[Moved, Any]]:
             yield one, near
 
 
-def equilibrium(machine: FourBarShield[Any], p: Any) -> dict[str, Any]:
+def equilibrium(machine: FourBarShield, p: Any) -> dict[str, Any]:
     """Forces from three equations a body, written body by body, in a posture."""
     at = {
         "rear_base": np.array(machine.rear_base),

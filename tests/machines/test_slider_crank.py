@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
 
@@ -10,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import Scenario, SliderCrank, Steady, ravn_slider_crank
-from user_forces import InputError, Value
+from user_forces import InputError
 
 angles = st.floats(-10.0, 10.0)
 speeds = st.floats(-1e3, 1e3)
@@ -131,8 +130,3 @@ def test_a_rod_that_does_not_let_the_crank_round_is_refused(ratio: float) -> Non
     length = 0.05 * ratio
     with pytest.raises(InputError, match=rf"rod_length = {length} m: allowed: > crank_length = 0\.05 m"):
         machine(ratio=ratio)
-
-
-def test_a_slider_crank_comes_back_from_json() -> None:
-    one = machine(start_angle=0.3)
-    assert Value.from_data(json.loads(json.dumps(one.to_data()))) == one

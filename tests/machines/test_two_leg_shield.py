@@ -61,12 +61,12 @@ def test_the_ram_follows_the_leg_within_a_nanometre(shield: TwoLegShield, scenar
     ram, leg = scenario.drive_of("ram"), scenario.drive_of("leg")
     assert isinstance(ram, CoupledDrive)
     start, posture = shield.start(), shield.start()
-    at_start = distance(start.ram_foot, start.ram_head)
+    at_start = distance(start.ends["ram_foot"], start.ends["ram_head"])
     for t in np.linspace(3.0, 5.0, 401):
         found = shield.extended(leg.extension(float(t)), posture)
         assert found is not None
         posture = found
-        exact = distance(posture.ram_foot, posture.ram_head) - at_start
+        exact = distance(posture.ends["ram_foot"], posture.ends["ram_head"]) - at_start
         assert ram.extension(float(t)) == pytest.approx(exact, abs=1e-9)
     assert ram.extension(0.0) == 0.0
 

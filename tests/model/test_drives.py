@@ -1,16 +1,15 @@
 from __future__ import annotations
 
-import json
 import math
 
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from support_exudyn import CubicStep, Drive, Held, Reciprocating, Steady, UniformSpeed
+from support_exudyn import CubicStep, Held, Reciprocating, Steady, UniformSpeed
 from tests.analytic import adams_step
 from tests.ranges import from_zero
-from user_forces import InputError, Value
+from user_forces import InputError
 
 Stroke = CubicStep | UniformSpeed
 
@@ -181,20 +180,6 @@ def test_a_period_that_makes_no_sense_is_refused(period: float) -> None:
 def test_end_before_the_start_is_refused(kind: type[Stroke], end: float) -> None:
     with pytest.raises(InputError, match=rf"{kind.__name__}: end = {end} s: allowed: > start = 3\.0 s"):
         kind(start=3.0, end=end)
-
-
-RETURNING = [
-    Held(),
-    CubicStep(stroke=-0.2),
-    UniformSpeed(end=7.0),
-    Steady(rate=-3.0),
-    Reciprocating(period=4.0),
-]
-
-
-@pytest.mark.parametrize("chosen", RETURNING)
-def test_a_drive_comes_back_from_json(chosen: Drive) -> None:
-    assert Value.from_data(json.loads(json.dumps(chosen.to_data()))) == chosen
 
 
 @given(periods=st.integers(1, 10**6), t=st.integers(0, 4096))

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Body, Crank, LinearActuator, Linkage, Part, PinPlace, Slide, TracePoint
+from support_exudyn import Body, Crank, LinearActuator, Linkage, Part, Slide, TracePoint
 from support_exudyn.model.linkage import bar, lumped, pinned
-from user_forces import InputError, Value
+from user_forces import InputError
 
 coordinates = st.floats(-10.0, 10.0)
 points = st.tuples(coordinates, coordinates)
@@ -86,14 +85,3 @@ def test_actuators_that_are_not_driven_are_no_driven_parts() -> None:
     actuators = {"jack": LinearActuator(**ends), "strut": LinearActuator(**ends, driven=False)}
     linkage = Linkage(bodies={"a": BODY}, actuators=actuators, cranks={"c": Crank(body="a")})
     assert linkage.driven == ("jack", "c")
-
-
-def test_a_linkage_comes_back_from_json() -> None:
-    linkage = Linkage(
-        bodies={"a": BODY},
-        pins={"p": PinPlace(first="ground", second="a", first_point=(0.0, 0.0), second_point=(0.0, 0.1))},
-        points={"t": TracePoint(body="a", point=(1.0, 0.0))},
-        cranks={"c": Crank(body="a")},
-        slides={"s": Slide(body="a", point=(0.0, 1.0), direction=0.3)},
-    )
-    assert Value.from_data(json.loads(json.dumps(linkage.to_data()))) == linkage

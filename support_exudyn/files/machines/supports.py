@@ -7,7 +7,7 @@ import re
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import field
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from support_exudyn.files.machines.parts import ColumnData, PartData
 from support_exudyn.files.toml.shapes import Names
@@ -116,7 +116,7 @@ class SupportFile(Value, ABC):
 
     @classmethod
     @abstractmethod
-    def machine_class(cls) -> type[FourBarShield[Any]]:
+    def machine_class(cls) -> type[FourBarShield]:
         """The class of the machines that these files hold."""
 
     def data(self) -> MachineData:
@@ -229,7 +229,7 @@ class FourColumnSupportFile(SupportFile):
     width: Metres[Annotated[Mapping[str, Mapping[str, NonNegative]], widths(FOUR_COLUMNS)]] | None = None
 
     @classmethod
-    def machine_class(cls) -> type[FourBarShield[Any]]:
+    def machine_class(cls) -> type[FourBarShield]:
         """The class of the machines that these files hold."""
         return HydraulicSupport
 
@@ -245,6 +245,6 @@ class TwoLegShieldFile(SupportFile):
     width: Metres[Annotated[Mapping[str, Mapping[str, NonNegative]], widths(LEGS)]] | None = None
 
     @classmethod
-    def machine_class(cls) -> type[FourBarShield[Any]]:
+    def machine_class(cls) -> type[FourBarShield]:
         """The class of the machines that these files hold."""
         return TwoLegShield

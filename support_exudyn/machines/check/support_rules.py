@@ -38,7 +38,7 @@ class Findings:
     numbers: dict[str, Any] = field(default_factory=dict)
 
 
-def support_findings(data: MachineData, machine: FourBarShield[Any], way: DriveWay) -> Findings:
+def support_findings(data: MachineData, machine: FourBarShield, way: DriveWay) -> Findings:
     """The findings on a support.
 
     Arguments:
@@ -120,7 +120,7 @@ def _column_doubts(way: DriveWay, name: str) -> Iterator[str]:
         )
 
 
-def _file_doubts(data: MachineData, machine: FourBarShield[Any]) -> Iterator[str]:
+def _file_doubts(data: MachineData, machine: FourBarShield) -> Iterator[str]:
     """Warnings on units, masses, centres of mass and bores, with the keys of the file."""
     pivots = {name: point for name in machine.pivots() if (point := getattr(machine, name)) is not None}
     size = float(np.ptp(list(pivots.values()), axis=0).max())
@@ -158,7 +158,7 @@ def _file_doubts(data: MachineData, machine: FourBarShield[Any]) -> Iterator[str
             )
 
 
-def _missing(data: MachineData, machine: FourBarShield[Any]) -> Iterator[str]:
+def _missing(data: MachineData, machine: FourBarShield) -> Iterator[str]:
     """Notes on what cannot be done for want of data."""
     if not data.bore_radii:
         yield "no [bore_radius_mm]: a scenario that gives a pin a clearance has to say its bore's radius"
