@@ -9,9 +9,15 @@ import numpy as np
 
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.machines.strength.beside import beside_the_middle
-from support_exudyn.machines.strength.buckling import buckling_loads
-from support_exudyn.machines.strength.pins import pin_data, stresses, without_data
+from support_exudyn.machines.strength.off_middle import beside_the_middle
+from support_exudyn.machines.strength.parts import (
+    buckling_loads,
+    cylinder_masses,
+    pin_data,
+    stresses,
+    tipping_of,
+    without_data,
+)
 from support_exudyn.machines.strength.results import Buckling, PinLoad, StandReport, SupportForce
 from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, RoofStatics
 from support_exudyn.machines.strength.strength_data import (
@@ -20,7 +26,6 @@ from support_exudyn.machines.strength.strength_data import (
     CylinderStrength,
     StrengthData,
 )
-from support_exudyn.machines.strength.tipping import cylinder_masses, tipping_of
 from support_exudyn.machines.strength.used_postures import UsedPosture, legs_of, used_postures
 from user_forces.values.value import InputError
 

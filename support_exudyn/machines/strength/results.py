@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any
 
-from support_exudyn.machines.strength.pins import PinStresses
+from support_exudyn.machines.strength.parts import PinStresses, Tipping
 from support_exudyn.machines.strength.roof_forces import RoofContact, RoofForce
 from support_exudyn.machines.strength.strength_data import CylinderStrength
-from support_exudyn.machines.strength.tipping import Tipping
 
 UNITS = {  # of fields of results: plain data have them in the keys
     "N": "force rated nominal worst rubbed euler johnson legs_alone pins centred",

@@ -10,7 +10,7 @@ import pytest
 from support_exudyn.files.machines import shipped
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.strength import stand
-from support_exudyn.machines.strength.beside import untold
+from support_exudyn.machines.strength.off_middle import untold
 from support_exudyn.model.to_space import Width
 
 COLUMNS = ("front_column", "rear_column")

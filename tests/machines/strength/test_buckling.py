@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import eigh
 
-from support_exudyn.machines.strength.buckling import (
+from support_exudyn.machines.strength.parts import (
     Segment,
     buckling_loads,
     euler_load,

@@ -11,14 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn.files.machines import shipped
-from support_exudyn.machines.strength.pins import pin_data, stresses, without_data
+from support_exudyn.machines.strength.parts import pin_data, stresses, tipping_of, without_data
 from support_exudyn.machines.strength.strength_data import (
     BaseFrame,
     CylinderStage,
     CylinderStrength,
     PinStrength,
 )
-from support_exudyn.machines.strength.tipping import tipping_of
 from support_exudyn.model.linkage import Body, Linkage
 from user_forces import InputError
 

@@ -14,8 +14,8 @@ from support_exudyn.files.machines import shipped
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.strength import StandReport, stand
 from support_exudyn.machines.strength.page import page
+from support_exudyn.machines.strength.parts import cylinder_masses, tipping_of
 from support_exudyn.machines.strength.strength_data import StrengthData
-from support_exudyn.machines.strength.tipping import cylinder_masses, tipping_of
 from tests.machines.strength.test_stand import report
 
 
