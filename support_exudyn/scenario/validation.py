@@ -8,12 +8,14 @@ import numpy as np
 
 from support_exudyn.mechanics.channels import ALL_CHANNELS, check_patterns
 from support_exudyn.mechanics.following import follow
-from support_exudyn.model.drives.drive import Drive, Held
+from support_exudyn.model.drives.drive import Held
+from support_exudyn.model.guides import Guide
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.hydraulics.lines import PumpStation
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.loads.load import ActingLoad, AnyLoad
+from support_exudyn.model.pins import Pin
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.scenario_data import ScenarioData
 from user_forces.values.value import InputError, check_names
@@ -23,12 +25,7 @@ TURNED = 1e-9  # least share by which a condition holds how a body turns
 
 def check(scenario: ScenarioData) -> None:
     """Raise ValueError that says what of a scenario does not fit its machine, or the rest of it."""
-    for name in scenario.parts:
-        if name not in scenario.machine.jacks:
-            raise ValueError(
-                f"parts.{name}: the machine has no such part on a jack; "
-                f"allowed: {', '.join(scenario.machine.jacks) or 'none'}"
-            )
+    _check_known("parts", scenario.parts, scenario.machine.jacks, "part on a jack")
     try:
         scenario.unloaded  # noqa: B018 - can it be laid out?
     except InputError as error:
@@ -39,11 +36,7 @@ def check(scenario: ScenarioData) -> None:
         _check_space(scenario)
         _check_loads_in_space(scenario)
     places = linkage.pins
-    for name in scenario.pins:
-        if name not in places:
-            raise ValueError(
-                f"pins.{name}: the machine has no such pin; allowed: {', '.join(places) or 'none'}"
-            )
+    _check_known("pins", scenario.pins, places, "pin")
     for name, place in places.items():
         apart = math.dist(place.first_point, place.second_point)
         if apart > 1e-9 and scenario.pin(name).holds:
@@ -63,6 +56,15 @@ def check(scenario: ScenarioData) -> None:
         check_patterns(scenario.channel_definitions, scenario.channels)
 
 
+def _check_known(field: str, names: Collection[str], known: Collection[str], what: str) -> None:
+    """Raise ValueError unless the machine has everything that a field of the scenario names."""
+    for name in names:
+        if name not in known:
+            raise ValueError(
+                f"{field}.{name}: the machine has no such {what}; allowed: {', '.join(known) or 'none'}"
+            )
+
+
 def _check_point_masses(scenario: ScenarioData) -> None:
     """Raise ValueError if joints do not determine how point masses turn, whose own inertia does not either."""
     held, names = scenario.held, list(scenario.linkage.bodies)
@@ -80,11 +82,8 @@ def _check_point_masses(scenario: ScenarioData) -> None:
 
 
 def _check_guides(scenario: ScenarioData, linkage: Linkage) -> None:
+    _check_known("guides", scenario.guides, linkage.slides, "guide")
     for name, guide in scenario.guides.items():
-        if name not in linkage.slides:
-            raise ValueError(
-                f"guides.{name}: the machine has no such guide; allowed: {', '.join(linkage.slides) or 'none'}"
-            )
         if misfit := guide.misfit(linkage.slides[name].turns):
             raise ValueError(f"guides.{name}: {misfit}")
 
@@ -98,14 +97,12 @@ def _check_space(scenario: ScenarioData) -> None:
         raise ValueError(
             f"formulation = {scenario.formulation!r}: is planar; allowed in space: 'auto', 'exudyn'"
         )
-    for name, pin in scenario.pins.items():
-        if refused := pin.refused_in_space():
+    joints: dict[str, Pin | Guide] = {f"pins.{name}": pin for name, pin in scenario.pins.items()}
+    joints |= {f"guides.{name}": guide for name, guide in scenario.guides.items()}
+    for where, joint in joints.items():
+        if refused := joint.refused_in_space():
             part, what, allowed = refused
-            raise ValueError(f"pins.{name}{part} = {what}: is planar; allowed in space: {allowed}")
-    for name, guide in scenario.guides.items():
-        if refused := guide.refused_in_space():
-            part, what, allowed = refused
-            raise ValueError(f"guides.{name}{part} = {what}: is planar; allowed in space: {allowed}")
+            raise ValueError(f"{where}{part} = {what}: is planar; allowed in space: {allowed}")
     for name, bearing in space.bearings.items():
         if scenario.pin(bearing.pin).holds and bearing.misfit:
             raise ValueError(
@@ -130,11 +127,8 @@ def _check_pairs(scenario: ScenarioData, space: SpatialLinkage) -> None:
 
 def _check_actuators(scenario: ScenarioData, linkage: Linkage) -> None:
     driven = [name for name, actuator in linkage.actuators.items() if actuator.driven]
+    _check_known("actuators", scenario.actuators, driven, "actuator")
     for name, actuator in scenario.actuators.items():
-        if name not in driven:
-            raise ValueError(
-                f"actuators.{name}: the machine has no such actuator; allowed: {', '.join(driven) or 'none'}"
-            )
         for one in scenario.space.parts_of_actuator(name) if scenario.dimensions == 3 else (name,):
             actuator.check_extension(scenario.drive_of(one).span(scenario.duration)[0], one)
         actuator.check_elements(f"actuators.{name}")
@@ -171,24 +165,16 @@ def _check_pump(scenario: ScenarioData, pump: PumpStation) -> None:
 
 def _check_drives(scenario: ScenarioData, linkage: Linkage) -> None:
     allowed = tuple(dict.fromkeys((*linkage.driven, *scenario.driven)))
-    for name in scenario.drives:
-        if name not in allowed:
-            raise ValueError(
-                f"drives.{name}: the machine has no such driven part; allowed: {', '.join(allowed) or 'none'}"
-            )
+    _check_known("drives", scenario.drives, allowed, "driven part")
     for drive in scenario.drives_in_use:
         if scenario.start == "settled" and drive.initial_speed != 0.0:
             raise ValueError(
                 "start = 'settled': is at rest, but the drive moves from the start on "
                 f"({drive.initial_speed} per s); allowed with this drive: 'concentric'"
             )
-    for drives in scenario.drives_in_plane:
-        _check_motion(scenario, drives)
-
-
-def _check_motion(scenario: ScenarioData, drives: Mapping[str, Drive]) -> None:
     try:
-        follow(scenario.machine.linkage(), drives, scenario.duration)
+        for drives in scenario.drives_in_plane:
+            follow(scenario.machine.linkage(), drives, scenario.duration)
     except InputError as error:
         raise ValueError(scenario.of_drives(drives, error)) from None
 
