@@ -15,7 +15,7 @@ from support_exudyn.scenario.timescales import default_period
 from support_exudyn.scenario.validation import check
 from user_forces.values.value import InputError, short, value
 
-EARLIER_NAMES = {"redundant": "exudyn"}  # of formulations, still accepted
+EARLIER_NAMES = {"redundant": "exudyn"}  # of formulations, still read
 MOST_REFINED = 1e6  # by what factor a run can be refined
 
 
@@ -37,11 +37,6 @@ class Scenario(ScenarioData):
             f"allowed: {', '.join(map(repr, ACCURACIES))}, None, or a relative error from {SMALLEST_GOAL} to "
             f"{LARGEST_GOAL}"
         )
-
-    @field_validator("formulation", mode="before")
-    @classmethod
-    def _by_its_present_name(cls, asked: object) -> object:
-        return EARLIER_NAMES.get(asked, asked) if isinstance(asked, str) else asked
 
     @classmethod
     def _of_earlier(cls, given: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -133,11 +133,11 @@ def test_numbers_are_rounded_once() -> None:
         ),
         (JournalBearing, "bore_radius_mm = 60\nclearence_mm = 1", "a.toml: clearence_mm: unknown key"),
         (JournalBearing, "bore_radius_mm = 60\nclearance_mm = true", "a.toml: clearance_mm = true"),
-        (JournalBearing, "bore_radius_mm = 60\nclearance_mm = 60", "a.toml: clearance = 60 mm"),
+        (JournalBearing, "bore_radius_mm = 60\nclearance_mm = 60", "a.toml: clearance = 0.06 m"),
         (
             JournalContact,
             LAW + "[bearing]\nbore_radius_mm = 60\nclearance_mm = 60",
-            "a.toml: bearing: clearance = 60 mm: leaves no journal",
+            "a.toml: bearing: clearance = 0.06 m: leaves no journal",
         ),
         (
             JournalContact,

@@ -155,7 +155,7 @@ MISTAKES = {
     "no mass": ("shield = 4200\n", "", "masses_kg.shield: missing"),
     "negative": ("canopy = 5200", "canopy = -5200", "masses_kg.canopy = -5200: allowed: > 0"),
     "no kind": ('kind = "four_column_support"', "", "kind: missing; it says what the machine is"),
-    "height": ("= 2050", "= 5050", "start_hinge_height_mm = 5050: the four-bar cannot bring the hinge there"),
+    "height": ("= 2050", "= 5050", "start_hinge_height = 5.05 m: the four-bar cannot bring the hinge there"),
     "name": ('"a support of ours"', "3", "name = 3: allowed: a text"),
     "stroke": ("stroke_mm = 600", "stroke_mm = 0", "stroke_mm = 0: allowed: > 0"),
     "both": (
@@ -163,7 +163,7 @@ MISTAKES = {
         '[[parts.shield]]\nmass_kg = 1\nbetween = ["hinge", "tip"]\n[masses_kg]',
         "masses_kg.shield = 4200: parts.shield says it too; allowed: one of them",
     ),
-    "metres": ("[3900, 2650]", "[3900000, 2650]", "pivots_mm.tip = [3.9e+06, 2650]"),
+    "metres": ("[3900, 2650]", "[3900000, 2650]", "tip = (3900.0, 2.65) m"),
 }
 
 

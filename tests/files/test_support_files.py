@@ -119,7 +119,7 @@ def test_a_part_with_a_centre_only_is_a_point_mass(tmp_path: Path) -> None:
     [
         ('name = "a support"', 'title = "a support"', "title: unknown key"),
         ("start_hinge_height_mm = 1800", "", "start_hinge_height_mm: missing"),
-        ("start_hinge_height_mm = 1800", "start_hinge_height_mm = 5000", "start_hinge_height_mm = 5000: "),
+        ("start_hinge_height_mm = 1800", "start_hinge_height_mm = 5000", "start_hinge_height = 5.0 m: "),
         ("start_hinge_height_mm = 1800", 'start_hinge_height_mm = "high"', "start_hinge_height_mm"),
         ("mass_kg = 400", "mas_kg = 400", "parts.front_link[0].mas_kg: unknown key; did you mean mass_kg"),
         ("mass_kg = 3000\n", "", "parts.canopy[0].mass_kg: missing"),
