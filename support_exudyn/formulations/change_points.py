@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from support_exudyn.machines.check.dead_centres import in_line
+from support_exudyn.machines.check.freedoms import in_line
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.closing import Conditions, repeated_count
 from support_exudyn.mechanics.kinetics import Matrix

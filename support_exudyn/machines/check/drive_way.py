@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.machines.check.dead_centres import in_line
-from support_exudyn.machines.check.freedoms import listed
+from support_exudyn.machines.check.freedoms import in_line, listed
 from support_exudyn.machines.check.statics import Array, Statics, statics
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.closing import Conditions
