@@ -1,4 +1,4 @@
-"""Conditions of a linkage that repeat each other, movements that are left, what lies in line in a dead centre."""
+"""Conditions that repeat each other, movements that are left, and what lies in line in a dead centre."""
 
 from __future__ import annotations
 
