@@ -77,7 +77,7 @@ def test_a_block_is_that_of_the_machines_file() -> None:
         ),
         (
             f'clearance_mm = 1\n{BLOCK}law = "Johnson"\n',
-            "give it in full, with the type of pin or guide, and in it normal",
+            r'"ClearanceGuide" and in it, normal = {',
         ),
         (f'{ONE}{BLOCK}law = "Hertz"\nrestitution = 0.5\n', "restitution: the law Hertz has none"),
         ("clearance_mm = 1\npin_radius_mm = 5\n", "has a pin_radius; allowed: block"),

@@ -73,13 +73,8 @@ def needed_by(law: type[Value]) -> set[str]:
 
 def _law_in_full(name: str) -> str:
     """Advice on a law that a short form has no room for, or that is not known."""
-    return _in_full(
-        name,
-        NormalLaw,
-        "law",
-        "stiffness and restitution",
-        "with the type of pin or guide, and in it normal = ",
-    )
+    place = 'type = "ClearancePin" and in [pins.NAME.contact], or "ClearanceGuide" and in it, normal = '
+    return _in_full(name, NormalLaw, "law", "stiffness and restitution", place)
 
 
 def _friction_in_full(name: str) -> str:
