@@ -48,7 +48,7 @@ if TYPE_CHECKING:
         RigidActuator,
         bore_area,
     )
-    from support_exudyn.model.bushing_pin import BushingPin
+    from support_exudyn.model.bushing_pin import BushingPin, CompliantPin
     from support_exudyn.model.drives.drive import (
         CubicStep,
         Drive,
@@ -82,18 +82,19 @@ if TYPE_CHECKING:
         Slide,
         TracePoint,
     )
-    from support_exudyn.model.loads.applied_force import AppliedForce
-    from support_exudyn.model.loads.applied_torque import AppliedTorque
-    from support_exudyn.model.loads.bedded_roof import BeddedRoof
-    from support_exudyn.model.loads.course import HarmonicCourse, TableCourse
+    from support_exudyn.model.loads.applied import AppliedForce, AppliedTorque, HarmonicCourse, TableCourse
     from support_exudyn.model.loads.falling_block import FallingBlock
-    from support_exudyn.model.loads.ground_reaction import GroundReaction
-    from support_exudyn.model.loads.load import Load, LoadedPoint
-    from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
-    from support_exudyn.model.loads.roof import Roof
-    from support_exudyn.model.loads.spring_damper import SpringDamper
-    from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
-    from support_exudyn.model.loads.torsion_spring import TorsionSpring
+    from support_exudyn.model.loads.load import (
+        Load,
+        LoadChannel,
+        LoadedPoint,
+        LoadedStretch,
+        MomentLoad,
+        StretchLoad,
+        TurnedBody,
+    )
+    from support_exudyn.model.loads.roofs import BeddedRoof, GroundReaction, Roof
+    from support_exudyn.model.loads.springs import SpringDamper, TorsionSpring
     from support_exudyn.model.machine import Machine
     from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
     from support_exudyn.model.to_space import Width
@@ -128,6 +129,7 @@ __all__ = [
     "ClearanceGuide",
     "ClearancePin",
     "ClosedInlet",
+    "CompliantPin",
     "Crank",
     "CubicStep",
     "CylinderAndRod",
@@ -157,6 +159,7 @@ __all__ = [
     "LinearActuator",
     "Linkage",
     "Load",
+    "LoadChannel",
     "LoadedPoint",
     "LoadedStretch",
     "Lumped",
@@ -242,7 +245,7 @@ _PLACES = {
         "RigidActuator",
         "bore_area",
     ),
-    ".model.bushing_pin": ("BushingPin",),
+    ".model.bushing_pin": ("BushingPin", "CompliantPin"),
     ".model.drives.drive": ("CubicStep", "Drive", "Held", "Reciprocating", "Steady", "Stroke", "UniformSpeed"),
     ".model.drives.table_drive": ("TableDrive",),
     ".model.guides": ("ClearanceGuide", "Guide", "IdealGuide"),
@@ -268,18 +271,19 @@ _PLACES = {
         "Slide",
         "TracePoint",
     ),
-    ".model.loads.applied_force": ("AppliedForce",),
-    ".model.loads.applied_torque": ("AppliedTorque",),
-    ".model.loads.bedded_roof": ("BeddedRoof",),
-    ".model.loads.course": ("HarmonicCourse", "TableCourse"),
+    ".model.loads.applied": ("AppliedForce", "AppliedTorque", "HarmonicCourse", "TableCourse"),
     ".model.loads.falling_block": ("FallingBlock",),
-    ".model.loads.ground_reaction": ("GroundReaction",),
-    ".model.loads.load": ("Load", "LoadedPoint"),
-    ".model.loads.moment_load": ("MomentLoad", "TurnedBody"),
-    ".model.loads.roof": ("Roof",),
-    ".model.loads.spring_damper": ("SpringDamper",),
-    ".model.loads.stretch_load": ("LoadedStretch", "StretchLoad"),
-    ".model.loads.torsion_spring": ("TorsionSpring",),
+    ".model.loads.load": (
+        "Load",
+        "LoadChannel",
+        "LoadedPoint",
+        "LoadedStretch",
+        "MomentLoad",
+        "StretchLoad",
+        "TurnedBody",
+    ),
+    ".model.loads.roofs": ("BeddedRoof", "GroundReaction", "Roof"),
+    ".model.loads.springs": ("SpringDamper", "TorsionSpring"),
     ".model.machine": ("Machine",),
     ".model.pins": ("ClearancePin", "IdealPin", "Pin"),
     ".model.to_space": ("Width",),

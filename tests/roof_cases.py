@@ -15,7 +15,6 @@ from support_exudyn import (
     Line,
     Linkage,
     Load,
-    LoadedPoint,
     Machine,
     OilColumn,
     Roof,
@@ -24,7 +23,7 @@ from support_exudyn import (
     bore_area,
     reference_support,
 )
-from support_exudyn.model.loads.load import AnyLoad, Powers
+from support_exudyn.model.loads.load import AnyLoad
 from user_forces import value
 from user_forces.kernel import kernel
 from user_forces.values.value import Vector2
@@ -72,22 +71,6 @@ class DeadLoad(Load):
         t: float, x: float, y: float, vx: float, vy: float, z: float, vz: float, *vector: float
     ) -> tuple[float, ...]:
         return vector[0], vector[1], 0.0, -vector[0] * x - vector[1] * y, 0.0, 0.0
-
-
-@value
-class HandmadeLoad(Load):
-    """The same in methods of its own."""
-
-    vector: Vector2
-
-    def force(self, at: LoadedPoint) -> Vector2:
-        return self.vector
-
-    def stored(self, at: LoadedPoint) -> float:
-        return -self.vector[0] * at.x - self.vector[1] * at.y
-
-    def powers(self, at: LoadedPoint) -> Powers:
-        return Powers(0.0, 0.0)
 
 
 def elastic_block(**fields: Any) -> FallingBlock:

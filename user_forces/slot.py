@@ -95,3 +95,18 @@ class Slot(ContactGeometry):
     def kinematics(self) -> Kinematics:
         """See `corner_in_slot`."""
         return corner_in_slot
+
+
+@kernel
+def larger_load(across: float, moment: float, half_length: float) -> float:
+    """The larger of a guide's force across a block and of the pair that its moment is at the ends [N]."""
+    return max(abs(across), abs(moment) / half_length)
+
+
+@kernel
+def end_loads(
+    across: float, moment: float, ratio: float, half_length: float, half_height: float
+) -> tuple[float, float]:
+    """What presses the ends of a block on the walls [N], see `IdealGuide`; ratio: of friction to load."""
+    apart = (moment - ratio * across * half_height) / half_length
+    return 0.5 * abs(across + apart), 0.5 * abs(across - apart)

@@ -14,7 +14,7 @@ from support_exudyn import ClearancePin, Line, OilColumn, Result, Scenario, simu
 from support_exudyn.machines.four_bar_shield import PINS as ALL_PINS
 from support_exudyn.machines.four_column_support import HydraulicSupport, Posture
 from support_exudyn.machines.shield_layout import TAIL
-from support_exudyn.model.loads.applied_force import AppliedForce
+from support_exudyn.model.loads.applied import AppliedForce
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.plane_geometry import moved
 from user_forces.values.value import Vector2

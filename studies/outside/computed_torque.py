@@ -11,7 +11,8 @@ rocker's inertia about its centre.
 
 import math
 
-from support_exudyn import MomentLoad, TurnedBody, value
+from support_exudyn import MomentLoad, value
+from user_forces.kernel import kernel
 
 CRANK, COUPLER, ROCKER, GROUND = 1.0, 4.0, 2.5, 3.0  # [m], each of 1 kg
 GRAVITY = 9.81
@@ -19,6 +20,7 @@ AMPLITUDE, RATE = 6.0, 0.75 * math.pi  # of q_d [rad], [rad/s]
 GAIN, SLOPE = 200.0, 10.0  # K [N m s], lambda [1/s]
 
 
+@kernel
 def closed(q: float) -> tuple[float, float]:
     """Angles of coupler and rocker with ideal pins [rad], coupler above."""
     x, y = GROUND - CRANK * math.cos(q), -CRANK * math.sin(q)
@@ -29,6 +31,7 @@ def closed(q: float) -> tuple[float, float]:
     return math.atan2(dy, dx), math.atan2(dy - y, dx - x)
 
 
+@kernel
 def torque(q: float, spin: float, t: float) -> float:
     """The torque on the crank [N m] at its angle [rad], angular velocity [rad/s] and time [s]."""
     a, f = closed(q)
@@ -74,6 +77,9 @@ class ComputedTorque(MomentLoad):
 
     start: float
 
-    def moment(self, at: TurnedBody) -> float:
-        """Torque [N m]."""
-        return torque(self.start + at.turn, at.spin, at.time)
+    @staticmethod
+    @kernel
+    def action(t: float, turn: float, spin: float, start: float) -> tuple[float, ...]:
+        """The torque, all of whose power is work; see `ActingLoad`."""
+        moment = torque(start + turn, spin, t)
+        return moment, 0.0, moment * spin, 0.0, moment

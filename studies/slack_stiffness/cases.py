@@ -8,8 +8,7 @@ from studies.common.loose_supports import loose_pins, support, tight_pins
 from studies.common.support_legs import PAIRS, legs_data
 from support_exudyn import OilColumn, Pin, Scenario
 from support_exudyn.machines.four_bar_shield import PINS
-from support_exudyn.model.loads.applied_force import AppliedForce
-from support_exudyn.model.loads.course import TableCourse
+from support_exudyn.model.loads.applied import AppliedForce, TableCourse
 from user_forces.values.value import Vector2
 
 MACHINES = ("reference", "zf18000")

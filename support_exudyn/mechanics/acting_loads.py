@@ -1,39 +1,219 @@
-"""What loads do to a linkage in motion: their forces and moments at the records, and on the coordinates."""
+"""What loads do to bodies in motion, in the plane and in space: strains, forces, and where these act.
 
+A strain kind is a class here: how it is measured from the motion of the bodies, and where its forces act.
+
+In space a moment acts on the turn that the side view shows: the angle of the body's forward direction e about
+the lateral axis of the body that the opposite moment acts on,
+
+    turn = atan2(e_y, e_x),   d turn/dt = axis . omega
+    axis = (-e_x e_z, -e_y e_z, e_x^2 + e_y^2) / (e_x^2 + e_y^2)
+
+with the components and the relative angular velocity omega in that body's axes. The moment's vector is moment
+times axis, which is the lateral axis as long as e stays in the machine's plane; so the power is moment times
+d turn/dt, and a spring that acts on the turn gives back what it has taken up.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from functools import cache, singledispatch
-from typing import Any
+from functools import cache
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.channels import LOADED, ChannelDefinition, ChannelDefinitions
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.reactions import push, twist
+from support_exudyn.mechanics.space.motion import SpatialMotion, cross
 from support_exudyn.mechanics.trajectory import LoadSeries, Series
-from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
-from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
-from support_exudyn.model.loads.stretch_load import LoadedStretch, StretchLoad
+from support_exudyn.model.linkage import GROUND
+from support_exudyn.model.loads.load import ActingLoad, Load, MomentLoad, StretchLoad
+from support_exudyn.model.to_space import at
 from user_forces.kernel import compiled_or_plain, numbers
+from user_forces.values.value import Vector2
 
 MANY = 1000  # records from which on a compiled loop is faster, though it may have to be compiled
+SAMPLES, FINEST = (
+    200,
+    0.25,
+)  # times at which the largest force is looked for: at least, and of the shortest time
+MOST_SAMPLES = 5000
 
 
-def actions(load: ActingLoad, motion: Matrix) -> tuple[Matrix, Series, dict[str, Series]]:
-    """What a load does at the records: its forces (n, k), stored energy (n,) [J], and its channels by name.
+def turning_axis(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any]:
+    """The axis of a body's turn in the side view, from its forward direction; see the module."""
+    square = x * x + y * y
+    return -x * z / square, -y * z / square, 1.0 + 0.0 * z
 
-    motion: the time [s] and what the load follows, (n, m), in the order of `load.MOTION`.
-    """
+
+class Turning(NamedTuple):
+    """How a body turns against another: turn [rad] and rate [rad/s] (n,), and the axis (n, 1) or (n, 3)."""
+
+    turn: Series
+    rate: Series
+    axis: Series
+
+
+class _Bodies(ABC):
+    """The motion of all bodies that strains are measured from; vectors (n, 2) in the plane, (n, 3) in space."""
+
+    @abstractmethod
+    def point(self, body: str, point: Vector2, lateral: float) -> Any:
+        """Position [m] and velocity [m/s] of a point of the start posture."""
+
+    @abstractmethod
+    def turning(self, body: str, other: str) -> Turning:
+        """How a body turns against another."""
+
+    @abstractmethod
+    def push(self, forces: Series, body: str, force: Series, point: Series) -> None:
+        """Add a force [N] on a body at points [m] to the forces on all bodies."""
+
+    @abstractmethod
+    def twist(self, forces: Series, body: str, moment: Series) -> None:
+        """Add a moment [N m] on a body, along the axis of its turning, to the forces on all bodies."""
+
+
+class _PlaneBodies(_Bodies):
+    """Bodies in the plane; forces on them have the shape (n, 3 b)."""
+
+    def __init__(self, motion: BodyMotion) -> None:
+        self.motion = motion
+
+    def point(self, body: str, point: Vector2, lateral: float) -> Any:
+        del lateral  # both sides are lumped
+        return self.motion.point(body, point)
+
+    def turning(self, body: str, other: str) -> Turning:
+        turn = self.motion.turn(body) - self.motion.turn(other)
+        return Turning(turn, self.motion.spin(body) - self.motion.spin(other), np.ones((len(turn), 1)))
+
+    def push(self, forces: Series, body: str, force: Series, point: Series) -> None:
+        push(forces, self.motion, body, force, point)
+
+    def twist(self, forces: Series, body: str, moment: Series) -> None:
+        twist(forces, self.motion, body, moment[:, 0])
+
+
+class _SpaceBodies(_Bodies):
+    """Bodies in space; forces on them have the shape (n, b, 6)."""
+
+    def __init__(self, motion: SpatialMotion) -> None:
+        self.motion = motion
+
+    def point(self, body: str, point: Vector2, lateral: float) -> Any:
+        return self.motion.point(body, at(point, lateral))
+
+    def turning(self, body: str, other: str) -> Turning:
+        motion = self.motion
+        frame = np.stack([motion.carried(other, np.eye(3)[k]) for k in range(3)], axis=-1)
+        forward = np.einsum("nij,ni->jn", frame, motion.carried(body, np.array([1.0, 0.0, 0.0])))
+        axis = np.einsum("nij,jn->ni", frame, np.array(turning_axis(*forward)))
+        rate = np.einsum("ni,ni->n", axis, motion.spin_of(body) - motion.spin_of(other))
+        return Turning(np.unwrap(np.arctan2(forward[1], forward[0])), rate, axis)
+
+    def push(self, forces: Series, body: str, force: Series, point: Series) -> None:
+        if body != GROUND:
+            n = self.motion.index(body)
+            centre = np.array(self.motion.linkage.bodies[body].centre) + self.motion.displacement[:, n]
+            forces[:, n, :3] += force
+            forces[:, n, 3:] += cross(point - centre, force)
+
+    def twist(self, forces: Series, body: str, moment: Series) -> None:
+        if body != GROUND:
+            forces[:, self.motion.index(body), 3:] += moment
+
+
+def _bodies(motion: BodyMotion | SpatialMotion) -> _Bodies:
+    return _PlaneBodies(motion) if isinstance(motion, BodyMotion) else _SpaceBodies(motion)
+
+
+class _Strain(ABC):
+    """A strain kind over the motion of all bodies. numbers: strains and rates (n, m), as `MOTION` has them."""
+
+    numbers: Series
+
+    @abstractmethod
+    def apply(self, total: Series, forces: Series) -> None:
+        """Add forces (n, k) of a load, as its action gives them, to the forces on all bodies."""
+
+
+class _Way(_Strain):
+    """The way of a point against another, of a `Load`."""
+
+    def __init__(self, load: Load, name: str, bodies: _Bodies) -> None:
+        self.body, self.against, self.bodies = load.body, load.against(name), bodies
+        self.point = bodies.point(self.body, load.point, load.lateral)
+        self.origin = bodies.point(self.against, load.origin, load.origin_lateral)
+        way, velocity = self.point.position - self.origin.position, self.point.velocity - self.origin.velocity
+        level = np.zeros((len(way), 3 - way.shape[1]))
+        across = np.column_stack([way[:, 2:], level, velocity[:, 2:], level])
+        self.numbers = np.column_stack([way[:, :2], velocity[:, :2], across])
+
+    def apply(self, total: Series, forces: Series) -> None:
+        known = forces[:, : self.point.position.shape[1]]
+        self.bodies.push(total, self.body, known, self.point.position)
+        self.bodies.push(total, self.against, -known, self.origin.position)
+
+
+class _Turn(_Strain):
+    """The turn of a body against another, of a `MomentLoad`."""
+
+    def __init__(self, load: MomentLoad, name: str, bodies: _Bodies) -> None:
+        del name
+        self.load, self.bodies = load, bodies
+        turn, rate, self.axis = bodies.turning(load.body, load.other)
+        self.numbers = np.column_stack([turn, rate])
+
+    def apply(self, total: Series, forces: Series) -> None:
+        self.bodies.twist(total, self.load.body, forces * self.axis)
+        self.bodies.twist(total, self.load.other, -forces * self.axis)
+
+
+class _Stretch(_Strain):
+    """The ways up of both ends of a stretch, of a `StretchLoad`."""
+
+    def __init__(self, load: StretchLoad, name: str, bodies: _Bodies) -> None:
+        del name
+        self.load, self.bodies = load, bodies
+        self.ends = [bodies.point(load.body, point, load.lateral) for point in load.points]
+        ways = [end.position[:, 1] - point[1] for end, point in zip(self.ends, load.points, strict=True)]
+        self.numbers = np.column_stack([*ways, *(end.velocity[:, 1] for end in self.ends)])
+
+    def apply(self, total: Series, forces: Series) -> None:
+        for end, size in zip(self.ends, forces.T, strict=True):
+            up = np.zeros_like(end.position)
+            up[:, 1] = size
+            self.bodies.push(total, self.load.body, up, end.position)
+
+
+def _strain(load: ActingLoad, name: str, motion: BodyMotion | SpatialMotion) -> _Strain:
+    """The strain of a load of this name. Raises TypeError for a load of no strain kind."""
+    bodies = _bodies(motion)
+    if isinstance(load, Load):
+        return _Way(load, name, bodies)
+    if isinstance(load, MomentLoad):
+        return _Turn(load, name, bodies)
+    if isinstance(load, StretchLoad):
+        return _Stretch(load, name, bodies)
+    raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
+
+
+def load_series(load: ActingLoad, name: str, motion: BodyMotion | SpatialMotion, time: Series) -> LoadSeries:
+    """The load of this name at the records [s]."""
+    known = np.column_stack([time, _strain(load, name, motion).numbers])
     forces, width = load.FORCES, load.FORCES + 3 + len(load.channels)
-    if load.own_methods or len(motion) < MANY:
-        found = np.array([load.acts(load.MOTION(*row)) for row in motion.tolist()]).reshape(-1, width)
+    if len(known) < MANY:
+        found = np.array([load.numbers(load.MOTION(*row)) for row in known.tolist()]).reshape(-1, width)
     else:
         action, own = load.formula
-        times = motion[:, 0].tolist()
-        values = [[course(t) for t in times] for course in load.courses]
-        known = np.column_stack([motion, *values])
+        values = [[course(t) for t in time.tolist()] for course in load.courses]
+        known = np.ascontiguousarray(np.column_stack([known, *values]))
         found = _loop(action, known.shape[1], len(own), width)(known, np.array(own))
-    observed = zip(load.channels, found[:, forces + 3 :].T, strict=True)
-    return found[:, :forces], found[:, forces], dict(observed)
+    observed = dict(zip(load.channels, found[:, forces + 3 :].T, strict=True))
+    return LoadSeries(found[:, :forces], found[:, forces], observed)
 
 
 @cache
@@ -54,54 +234,21 @@ def _loop(
     return compiled_or_plain(loop, (np.empty((1, known)), np.empty(count)))
 
 
-@singledispatch
-def load_series(load: ActingLoad, name: str, motion: BodyMotion, time: Series) -> LoadSeries:
-    """The load of this name at the records [s]."""
-    raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
+def add_load(
+    forces: Series, motion: BodyMotion | SpatialMotion, name: str, load: ActingLoad, series: LoadSeries
+) -> None:
+    """Add what a load of this name does at the records to the forces on all bodies, (n, 3 b) or (n, b, 6)."""
+    _strain(load, name, motion).apply(forces, series.forces)
 
 
-@load_series.register
-def _of_force(load: Load, name: str, motion: BodyMotion, time: Series) -> LoadSeries:
-    point, origin = motion.point(load.body, load.point), motion.point(load.against(name), load.origin)
-    way, velocity = point.position - origin.position, point.velocity - origin.velocity
-    level = np.zeros((len(time), 2))
-    forces, stored, observed = actions(load, np.column_stack([time, way, velocity, level]))
-    return LoadSeries(forces[:, :2], level[:, 0], stored, observed)
+def load_channels(name: str, load: ActingLoad, stem: str | None = None) -> ChannelDefinitions:
+    """The channels of a load of this name; stem: what their names begin with, by default its name."""
 
+    def definition(what: str) -> ChannelDefinition:
+        unit, meaning = load.channels[what]
+        return ChannelDefinition(unit, meaning, LOADED, lambda context: context.acting[name].observed[what])
 
-@load_series.register
-def _of_moment(load: MomentLoad, name: str, motion: BodyMotion, time: Series) -> LoadSeries:
-    del name
-    turn, spin = motion.turn(load.body), motion.spin(load.body)
-    turn, spin = turn - motion.turn(load.other), spin - motion.spin(load.other)
-    moments, stored, observed = actions(load, np.column_stack([time, turn, spin]))
-    return LoadSeries(np.zeros((len(time), 2)), moments[:, 0], stored, observed)
-
-
-@load_series.register
-def _of_stretch(load: StretchLoad, name: str, motion: BodyMotion, time: Series) -> LoadSeries:
-    del name
-    ends = [motion.point(load.body, point) for point in load.points]
-    ways = [end.position[:, 1] - point[1] for end, point in zip(ends, load.points, strict=True)]
-    rates = [end.velocity[:, 1] for end in ends]
-    forces, stored, observed = actions(load, np.column_stack([time, *ways, *rates]))
-    arm = ends[1].position[:, 0] - ends[0].position[:, 0]
-    upward = np.column_stack([np.zeros(len(time)), forces.sum(axis=1)])
-    return LoadSeries(upward, arm * forces[:, 1], stored, observed)
-
-
-def add_load(forces: Series, motion: BodyMotion, name: str, load: ActingLoad, series: LoadSeries) -> None:
-    """Add what a load of this name does at the records to the forces on all coordinates (n, 3 b)."""
-    against = load.against(name)
-    if isinstance(load, Load):
-        push(forces, motion, load.body, series.force, motion.place(load.body, load.point))
-        push(forces, motion, against, -series.force, motion.place(against, load.origin))
-    elif isinstance(load, StretchLoad):
-        push(forces, motion, load.body, series.force, motion.place(load.body, load.points[0]))
-        twist(forces, motion, load.body, series.moment)
-    else:
-        twist(forces, motion, load.body, series.moment)
-        twist(forces, motion, against, -series.moment)
+    return {f"{stem or name}.{what}": definition(what) for what in load.channels}
 
 
 def forces_at_rest(
@@ -111,35 +258,45 @@ def forces_at_rest(
 
     position: coordinates of all bodies (n,). at: a time [s]; None: each once it has come on for good.
     """
-    forces = np.zeros(position.size)
+    order = np.concatenate([np.arange(one.first, one.first + 3) for one in system.bodies.values()])
+    motion, forces = _at_rest(system, position[order][None]), np.zeros((1, position.size))
     for name, load in loads.items():
         time = max(load.breaks, default=0.0) if at is None else at
-        against = load.against(name)
-        if isinstance(load, Load):
-            point, rate = system.point(position, load.body, load.point)
-            origin, origin_rate = system.point(position, against, load.origin)
-            x, y = (point - origin).tolist()
-            forces += (rate - origin_rate).T @ load.force(LoadedPoint(time, x, y, 0.0, 0.0))
-        elif isinstance(load, MomentLoad):
-            row = system.turning(position.size, load.body) - system.turning(position.size, against)
-            forces += row * load.moment(TurnedBody(time, float(row @ position), 0.0))
-        elif isinstance(load, StretchLoad):
-            ends = [system.point(position, load.body, point) for point in load.points]
-            ways = [float(place[1]) - point[1] for (place, _), point in zip(ends, load.points, strict=True)]
-            pushes = load.forces(LoadedStretch(time, ways[0], ways[1], 0.0, 0.0))
-            forces += sum(push * rate[1] for push, (_, rate) in zip(pushes, ends, strict=True))
+        add_load(forces, motion, name, load, load_series(load, name, motion, np.array([time])))
+    found = np.zeros(position.size)
+    found[order] = forces[0]
+    return found
+
+
+def largest_forces(system: Kinetics, loads: Mapping[str, ActingLoad], duration: float) -> Matrix:
+    """What loads do to all coordinates (n,) in the start posture, each when it is largest in a run [N], [N m].
+
+    system: with coordinates in the order of its bodies. duration: of the run [s].
+    """
+    found = np.zeros(3 * len(system.bodies))
+    for name, load in loads.items():
+        count = SAMPLES + duration / (FINEST * load.shortest_time)
+        even = np.linspace(0.0, duration, int(min(count, MOST_SAMPLES)) + 1)
+        times = np.union1d(even, [t for t in load.breaks if 0.0 <= t <= duration])
+        motion = _at_rest(system, np.zeros((len(times), found.size)))
+        series = load_series(load, name, motion, times)
+        forces = np.zeros((len(times), found.size))
+        add_load(forces, motion, name, load, series)
+        found += forces[np.argmax(np.linalg.norm(series.forces, axis=1))]
+    return found
+
+
+def strain_rates(system: Kinetics, name: str, load: ActingLoad) -> Matrix:
+    """What turns all velocities into the rates of a load's strains in the start posture, (k, n).
+
+    That is the transpose of what turns its forces into those on all coordinates.
+    """
+    count, size = load.FORCES, 3 * len(system.bodies)
+    motion, forces = _at_rest(system, np.zeros((count, size))), np.zeros((count, size))
+    _strain(load, name, motion).apply(forces, np.eye(count))
     return forces
 
 
-def load_rate(system: Kinetics, name: str, load: ActingLoad) -> Matrix:
-    """What turns all velocities into those a load sees in the start posture, (2, n) or of a moment (1, n).
-
-    Of a stretch those up at both its ends.
-    """
-    still, against = np.zeros(3 * len(system.bodies)), load.against(name)
-    if isinstance(load, Load):
-        point = system.point(still, load.body, load.point)[1]
-        return point - system.point(still, against, load.origin)[1]
-    if isinstance(load, StretchLoad):
-        return np.array([system.point(still, load.body, point)[1][1] for point in load.points])
-    return (system.turning(still.size, load.body) - system.turning(still.size, against))[None]
+def _at_rest(system: Kinetics, position: Matrix) -> BodyMotion:
+    """Bodies at rest at coordinates (n, 3 b) in the order of the linkage."""
+    return BodyMotion(system.linkage, position, np.zeros_like(position), np.zeros_like(position))

@@ -3,7 +3,7 @@
 They are known before a run, so that nothing is kept or computed that nobody asks for.
 """
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from enum import Flag, auto
@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.trajectory import Series, Trajectory
+from support_exudyn.mechanics.trajectory import LoadSeries, Series, Trajectory
 from support_exudyn.model.linkage import Linkage
 from user_forces.values.value import Vector2
 
@@ -66,6 +66,11 @@ class EvaluationContext:
         """The motion of all bodies."""
         return BodyMotion(self.linkage, self.run.position, self.run.velocity, self.run.acceleration)
 
+    @property
+    def acting(self) -> Mapping[str, LoadSeries]:
+        """What acts by the motion, loads and those of compliant pins, by name."""
+        return self.run.loads
+
     def path(self, name: str) -> Series:
         """The path of a traced point (n, 2) [m]."""
         if name not in self._paths:
@@ -102,10 +107,9 @@ class EvaluationContext:
 
     @cached_property
     def stored(self) -> Series:
-        """Energy stored in contacts, compliant pins, oil and loads (n,) [J]."""
+        """Energy stored in contacts, oil, loads and compliant pins (n,) [J]."""
         run = self.run
         found = run.oil_energy + sum(contact.stored for contact in run.contacts.values())
-        found = found + sum(pin.stored for pin in run.compliant_pins.values())
         return found + sum(load.stored for load in run.loads.values())
 
     @cached_property

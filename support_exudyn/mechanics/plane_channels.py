@@ -5,7 +5,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-import support_exudyn.mechanics.bushing  # noqa: F401 - registers its channels
+from support_exudyn.mechanics.acting_loads import load_channels
 from support_exudyn.mechanics.block_contact import block_channels
 from support_exudyn.mechanics.channels import (
     CONTACT,
@@ -21,10 +21,11 @@ from support_exudyn.mechanics.guide_channels import guide_channels
 from support_exudyn.mechanics.leg_channels import leg_channels
 from support_exudyn.mechanics.pin_channels import pin_channels
 from support_exudyn.mechanics.trajectory import CylinderSeries, Series
+from support_exudyn.model.bushing_pin import CompliantPin
 from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
-from support_exudyn.model.linkage import Body, Linkage, TracePoint
-from support_exudyn.model.loads.load import ActingLoad, LoadChannel
+from support_exudyn.model.linkage import Body, Linkage, PinPlace, TracePoint
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.pins import IdealPin, Pin
 from user_forces.values.value import InputError
 
@@ -53,7 +54,9 @@ def channel_definitions(
         blocks: names of those that fall on the machine.
     """
     compliant = not all(pin.holds for pin in pins.values()) or bool(guides) or bool(blocks)
-    stored = _stored(compliant, bool(oil), bool(loads))
+    stored = _stored(
+        compliant, bool(oil), bool(loads) or any(isinstance(pin, CompliantPin) for pin in pins.values())
+    )
     parts = [
         {"time": ChannelDefinition("s", "time", DataNeeds.NOTHING, lambda context: context.run.time)},
         *(_of_body(name, body, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())),
@@ -64,8 +67,8 @@ def channel_definitions(
         *map(_of_crank, linkage.cranks),
         *(guide_channels(guides.get(name, IdealGuide()), name, one) for name, one in linkage.slides.items()),
         *map(_of_gear, linkage.gears),
-        *(pin_channels(pins.get(name, IdealPin()), name) for name in linkage.pins),
-        *(_of_load(name, load) for name, load in loads.items()),
+        *(_of_pin(pins.get(name, IdealPin()), name, place) for name, place in linkage.pins.items()),
+        *(load_channels(name, load) for name, load in loads.items()),
         *map(block_channels, blocks),
         _of_energy(stored, bool(loads), bool(cylinders) or bool(legs)),
     ]
@@ -182,20 +185,21 @@ def _of_crank(name: str) -> ChannelDefinitions:
     return {f"{name}.moment": moment}
 
 
+def _of_pin(pin: Pin, name: str, place: PinPlace) -> ChannelDefinitions:
+    """The channels of a pin; those of a compliant one are its loads'."""
+    if not isinstance(pin, CompliantPin):
+        return pin_channels(pin, name)
+    found: ChannelDefinitions = {}
+    for part, load in pin.loads(place).items():
+        found |= load_channels(f"pin.{name}.{part}", load, f"pin.{name}")
+    return found
+
+
 def _of_gear(name: str) -> ChannelDefinitions:
     moment = ChannelDefinition(
         "N m", "of the gear on its second body", DataNeeds.JOINTS, lambda context: context.run.gears[name]
     )
     return {f"{name}.moment": moment}
-
-
-def _of_load(name: str, load: ActingLoad) -> ChannelDefinitions:
-    def said(what: str, channel: LoadChannel) -> ChannelDefinition:
-        return ChannelDefinition(
-            channel.unit, channel.meaning, LOADED, lambda context: context.run.loads[name].observed[what]
-        )
-
-    return {f"{name}.{what}": said(what, channel) for what, channel in load.channels.items()}
 
 
 def _stored(compliant: bool, oil: bool, loaded: bool) -> DataNeeds:

@@ -35,31 +35,15 @@ class ContactSeries:
     deflection: Series | None = None
 
 
-class CompliantSeries(NamedTuple):
-    """A pin whose force follows from its deflection, at the records, ground's axes.
-
-    force (n, 2) [N], moment (n,) [N m]: of the first body on the second, at its point. deflection (n, 2) [m]:
-    the second body's point minus the first's. angle (n,) [rad]: turn of the second body against the first.
-    stored (n,) [J]: elastic energy.
-    """
-
-    force: Series
-    moment: Series
-    deflection: Series
-    angle: Series
-    stored: Series
-
-
 @dataclass(frozen=True)
 class LoadSeries:
-    """A load at the records, shape (n,) each.
+    """A load at the records.
 
-    force: on the loaded point (n, 2) [N]. moment: on the body besides [N m]. In space both have shape (n, 3).
-    stored: energy [J]. observed: values of its channels, by name.
+    forces: as its action gives them (n, k) [N], [N m]. stored: energy (n,) [J]. observed: values of its
+    channels (n,), by name.
     """
 
-    force: Series
-    moment: Series
+    forces: Series
     stored: Series
     observed: Mapping[str, Series]
 
@@ -111,8 +95,7 @@ class Trajectory:
     contacts: clearance pins by name. actuators: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all actuators (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
-    (n,) [J]. loads: by name. cylinders, legs: of actuators, by name. compliant_pins: by name. gears: moment on
-    the second body (n,) [N m].
+    (n,) [J]. loads: by name. cylinders, legs: of actuators, by name. gears: on the second body (n,) [N m].
     """
 
     time: Series
@@ -133,7 +116,6 @@ class Trajectory:
     loads: Mapping[str, LoadSeries] = field(default_factory=dict)
     cylinders: Mapping[str, CylinderSeries] = field(default_factory=dict)
     legs: Mapping[str, LegSeries] = field(default_factory=dict)
-    compliant_pins: Mapping[str, CompliantSeries] = field(default_factory=dict)
     gears: Mapping[str, Series] = field(default_factory=dict)
 
     def contacts_of(self, pin: str) -> list[ContactSeries]:

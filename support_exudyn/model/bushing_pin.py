@@ -1,17 +1,123 @@
-"""A linear bushing in place of a pin: springs and dampers in two directions and about the axis."""
+"""Compliant pins, whose force follows from how the two bodies have moved at the pin; a linear bushing."""
 
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+
+from pydantic import model_validator
+from typing_extensions import Self
+
+from support_exudyn.model.linkage import PinPlace
+from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel
+from support_exudyn.model.loads.springs import TorsionSpring
 from support_exudyn.model.pins import Pin, Refusal
+from user_forces.kernel import kernel
 from user_forces.values.units import (
+    Metres,
     NewtonMetreSecondsPerRadian,
     NewtonMetresPerRadian,
     NewtonSecondsPerMetre,
     NewtonsPerMetre,
 )
-from user_forces.values.value import NonNegative, Positive, value
+from user_forces.values.value import NonNegative, Positive, Vector2, value
+
+
+class CompliantPin(Pin, ABC):
+    """A pin without constraints: loads act between its two bodies. A new kind is a class with `loads`."""
+
+    @abstractmethod
+    def loads(self, place: PinPlace) -> Mapping[str, ActingLoad]:
+        """What acts between the bodies of a place, by names of the pin's choice.
+
+        Forces and moments are those of the first body on the second. The pin has the loads' channels.
+        """
+
+    @property
+    def holds(self) -> bool:
+        """A compliant pin gives way."""
+        return False
+
+    def refused_in_space(self) -> Refusal | None:
+        """Compliant pins are of the plane alone."""
+        return Refusal("", type(self).__name__, "IdealPin, ClearancePin")
+
+    def losses(self) -> dict[str, object]:
+        """A compliant pin loses energy by damping."""
+        return {"damping_loss": self}
 
 
 @value
-class BushingPin(Pin):
+class _BushingForce(Load):
+    """The force of a linear bushing on its second body; d: way of that body's point against the first's.
+
+        F = -(stiffness d + damping d')
+
+    Arguments:
+        body, point: the second body and its point, see `Load`.
+        other, other_point: the first body and its point, start posture [m].
+        stiffness: forward and up [N/m]. damping: forward and up [N s/m].
+    """
+
+    other: str
+    other_point: Metres[Vector2]
+    stiffness: NewtonsPerMetre[Vector2]
+    damping: NewtonSecondsPerMetre[Vector2]
+
+    def against(self, name: str) -> str:
+        """The opposite force acts on the first body."""
+        del name
+        return self.other
+
+    @property
+    def origin(self) -> Vector2:
+        """The opposite force acts at the first body's point."""
+        return self.other_point
+
+    @property
+    def coefficients(self) -> tuple[float, ...]:
+        """Stiffnesses, then dampings."""
+        return (*self.stiffness, *self.damping)
+
+    @staticmethod
+    @kernel
+    def action(
+        t: float, x: float, y: float, vx: float, vy: float, z: float, vz: float, *coefficients: float
+    ) -> tuple[float, ...]:
+        """The force, energy of the springs and loss of the dampers; see `ActingLoad`."""
+        kx, ky, cx, cy = coefficients
+        fx, fy = -kx * x - cx * vx, -ky * y - cy * vy
+        stored, loss = 0.5 * (kx * x * x + ky * y * y), cx * vx * vx + cy * vy * vy
+        return fx, fy, 0.0, stored, 0.0, loss, math.hypot(fx, fy), fx, fy, math.hypot(x, y), x, y
+
+    @property
+    def channels(self) -> Mapping[str, LoadChannel]:
+        """The channels are force and deflection."""
+        return {
+            "force": LoadChannel("N", "magnitude of the pin force"),
+            "force_x": LoadChannel("N", "force of the first body on the second, forward"),
+            "force_y": LoadChannel("N", "force of the first body on the second, up"),
+            "deflection": LoadChannel("m", "distance of both bodies' points"),
+            "deflection_x": LoadChannel("m", "second body's point from the first's, forward"),
+            "deflection_y": LoadChannel("m", "second body's point from the first's, up"),
+        }
+
+    @property
+    def steepness(self) -> tuple[float, ...]:
+        """Stiffness forward and up [N/m]."""
+        return (*self.stiffness, 0.0)
+
+
+@value
+class _BushingMoment(TorsionSpring):
+    """The moment of a bushing on its second body, by the turn against the first; it may be none."""
+
+    @model_validator(mode="after")
+    def _does_something(self) -> Self:
+        return self
+
+
+@value
+class BushingPin(CompliantPin):
     """A linear bushing, as of rubber: force and moment follow from how the two bodies have moved at the pin.
 
     With d from the first body's point to the second's, in the axes of the ground, and a the turn of the second
@@ -33,20 +139,21 @@ class BushingPin(Pin):
     rotational_stiffness: NewtonMetresPerRadian[NonNegative] = 0.0
     rotational_damping: NewtonMetreSecondsPerRadian[NonNegative] = 0.0
 
-    @property
-    def holds(self) -> bool:
-        """A bushing gives way."""
-        return False
-
-    @property
-    def steepness(self) -> tuple[float, float, float]:
-        """Stiffness against shifts forward and up [N/m] and against turning [N m/rad]."""
-        return (*self.stiffness, self.rotational_stiffness)
-
-    def refused_in_space(self) -> Refusal | None:
-        """A bushing is of the plane alone."""
-        return Refusal("", "BushingPin", "IdealPin, ClearancePin")
-
-    def losses(self) -> dict[str, object]:
-        """A bushing loses energy by damping."""
-        return {"damping_loss": self}
+    def loads(self, place: PinPlace) -> Mapping[str, ActingLoad]:
+        """A force between both points and a moment between both bodies."""
+        return {
+            "force": _BushingForce(
+                body=place.second,
+                point=place.second_point,
+                other=place.first,
+                other_point=place.first_point,
+                stiffness=self.stiffness,
+                damping=self.damping,
+            ),
+            "moment": _BushingMoment(
+                body=place.second,
+                other=place.first,
+                stiffness=self.rotational_stiffness,
+                damping=self.rotational_damping,
+            ),
+        }

@@ -28,7 +28,7 @@ from user_forces.friction.laws import Frictionless
 from user_forces.materials import STEEL, STEEL_35CRMO, Material, plane_contact_stiffness
 from user_forces.normal.law import NormalLaw
 from user_forces.normal.power_laws import Exact
-from user_forces.slot import Slot
+from user_forces.slot import Slot, end_loads, larger_load
 from user_forces.values.units import Metres
 from user_forces.values.value import InputError, NonNegative, Positive, Value, Vector2, short, value
 
@@ -135,10 +135,9 @@ class IdealGuide(Guide):
         if self.block is None:
             return float(law(slip, abs(across), deflection))
         half_length, half_height = 0.5 * self.block[0], 0.5 * self.block[1]
-        larger = max(abs(across), abs(moment) / half_length)
+        larger = larger_load(across, moment, half_length)
         ratio = law(slip, larger, deflection) / larger if larger > 0.0 else 0.0
-        apart = (moment - ratio * across * half_height) / half_length
-        ends = (0.5 * abs(across + apart), 0.5 * abs(across - apart))
+        ends = end_loads(across, moment, ratio, half_length, half_height)
         return float(sum(law(slip, end, deflection) for end in ends))
 
     def losses(self) -> dict[str, object]:

@@ -58,11 +58,6 @@ class Pin(Value, ABC):
         """The second body's point minus that of the first at the start [m]."""
         return (0.0, 0.0)
 
-    @property
-    def steepness(self) -> tuple[float, float, float]:
-        """Stiffness that steps have to follow: against shifts forward and up [N/m], and turning [N m/rad]."""
-        return (0.0, 0.0, 0.0)
-
     def refused_in_space(self) -> Refusal | None:
         """What of the pin is of the plane alone; None: nothing."""
         return None

@@ -246,6 +246,6 @@ def _moving_times(scenario: Scenario) -> list[float]:
 def _loaded(scenario: Scenario, motion: BodyMotion, times: Series) -> Series:
     """Forces of loads between what the machine has and the ground, on all coordinates (n, 3 bodies)."""
     forces = np.zeros_like(motion.position)
-    for name, load in scenario.acting_loads.items():
+    for name, load in scenario.elements.items():
         add_load(forces, motion, name, load, load_series(load, name, motion, times))
     return forces

@@ -29,6 +29,7 @@ from support_exudyn.model.actuators import (
     PartModel,
     with_cylinder_and_rod,
 )
+from support_exudyn.model.bushing_pin import CompliantPin
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
@@ -147,6 +148,20 @@ class ScenarioData(Value, ABC):
         """Loads that act by time and motion: those that the machine has of its own making, then the others."""
         given = {name: load for name, load in self.loads.items() if isinstance(load, ActingLoad)}
         return {**self.machine.loads, **given}
+
+    @property
+    def compliant_pins(self) -> dict[str, CompliantPin]:
+        """The pins for which loads between their bodies stand, by name."""
+        return {name: pin for name, pin in self.pins.items() if isinstance(pin, CompliantPin)}
+
+    @cached_property
+    def elements(self) -> dict[str, ActingLoad]:
+        """All that acts by time and motion: loads, and those of compliant pins as "pin.NAME.LOAD"."""
+        return self.acting_loads | {
+            f"pin.{name}.{part}": load
+            for name, pin in self.compliant_pins.items()
+            for part, load in pin.loads(self.linkage.pins[name]).items()
+        }
 
     @cached_property
     def blocks(self) -> dict[str, FallingBlock]:
@@ -285,7 +300,7 @@ class ScenarioData(Value, ABC):
         """Breaks of all drives in use, of loads and of valves [s], sorted."""
         of_drives = {t for drive in self.drives_in_use for t in drive.breaks}
         of_valves = (cylinder.inlet.breaks for cylinder in self.valved.values())
-        return tuple(sorted(of_drives.union(*(load.breaks for load in self.acting_loads.values()), *of_valves)))
+        return tuple(sorted(of_drives.union(*(load.breaks for load in self.elements.values()), *of_valves)))
 
     @cached_property
     def channel_definitions(self) -> dict[str, ChannelDefinition]:

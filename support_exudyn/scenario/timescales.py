@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.acting_loads import load_rate
+from support_exudyn.mechanics.acting_loads import largest_forces, strain_rates
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.model.drives.drive import Reciprocating, Stroke
@@ -166,11 +166,7 @@ def _static_loads(scenario: ScenarioData, closed: Kinetics) -> list[dict[str, Ma
     weight = closed.weight(scenario.gravity)
     still, forces = np.zeros(weight.size), [weight]
     if scenario.acting_loads:
-        loaded = weight.copy()
-        for name, load in scenario.acting_loads.items():
-            rate = load_rate(closed, name, load)
-            loaded += np.array(load.largest(scenario.duration)) @ rate
-        forces.append(loaded)
+        forces.append(weight + largest_forces(closed, scenario.acting_loads, scenario.duration))
     return [_by_joint(closed, closed.respond(still, force, 0.0)[1]) for force in forces]
 
 
@@ -190,19 +186,13 @@ def _compliant(scenario: ScenarioData) -> list[float]:
     rigid = tuple(actuator for actuator in linkage.actuators if actuator not in scenario.compliant_actuators)
     free = kinetics_of(scenario.guided_linkage, scenario.held_pins, rigid)
     still, found = np.zeros(3 * len(linkage.bodies)), []
-    springs: list[tuple[tuple[float, ...], Matrix]]
-    springs = [(load.steepness, load_rate(free, name, load)) for name, load in scenario.acting_loads.items()]
-    springs += [
-        (pin.steepness, free.pin_rate(still, linkage.pins[name]))
-        for name, pin in scenario.pins.items()
-        if any(pin.steepness)
-    ]
-    for steepness, rate in springs:
+    for name, load in scenario.elements.items():
+        rate = strain_rates(free, name, load)
         inverse_mass = np.diag(rate @ free.respond(still, rate.T, 0.0)[0])
         # what nothing but rounding lets move does not vibrate
         found += [
             math.sqrt(1.0 / (steep * mobile))
-            for steep, mobile in zip(steepness, inverse_mass.tolist(), strict=True)
+            for steep, mobile in zip(load.steepness, inverse_mass.tolist(), strict=True)
             if steep > 0.0 and mobile > SMALLEST_INVERSE_MASS
         ]
     return found

@@ -64,7 +64,6 @@ CYLINDER = _record(
 # of these at the start, `first` and `second`; with the first of its own courses, and how many
 FORCE, MOMENT, STRETCH = range(3)
 LOAD = _record("point origin kind constants course courses", "law first second fx fy work loss")
-BUSHING = _record("first second", "kx ky cx cy kt ct fx fy m loss")
 # friction of an ideal pin (BOLT) or guide (GUIDED; BLOCK with a moment); row: the first of the joint; state: of
 # the friction law in y | direction and speed along a guide, slip, arm of the friction force, the force and its
 # moment, by how much the last round changed it
@@ -120,7 +119,6 @@ class SceneArrays(NamedTuple):
     cylinders: Records
     legs: LegArrays | None
     loads: Records
-    bushings: Records
     rubbing: Records
     constants: Vector
     out: Vector

@@ -24,7 +24,6 @@ from support_exudyn.scene.compilation import call_law, compiled, entry
 from support_exudyn.scene.contract import Failure, SimulationError
 from support_exudyn.scene.forces import (
     observe,
-    press_bushings,
     press_cylinders,
     press_loads,
     press_oil,
@@ -207,7 +206,6 @@ def balance(scene: SceneArrays, springs: Matrix, volumes: Matrix, y: Vector, x: 
     press_cylinders(scene, y, left)
     press_resting_legs(scene, scene.legs, y, left)
     press_loads(scene, 0.0, y)
-    press_bushings(scene, y)
     for n in range(scene.bodies.size):
         body = scene.bodies[n]
         left[3 * n], left[3 * n + 1], left[3 * n + 2] = body.fx, body.fy, body.m
@@ -311,7 +309,7 @@ def settle(model: Model, y: Vector) -> None:
     """
     scenario, scene = model.scenario, model.scene
     scene.courses["value"] = scene.courses["rate"] = scene.courses["bend"] = 0.0
-    of_loads = [course(0.0) for load in scenario.acting_loads.values() for course in load.courses]
+    of_loads = [course(0.0) for load in scenario.elements.values() for course in load.courses]
     scene.courses["value"][len(scene.courses) - len(of_loads) :] = of_loads  # which come last
     weights = {what: scene.bodies[what].copy() for what in ("weight_x", "weight_y")}
     falling = [list(scenario.linkage.bodies).index(name) for name in scenario.blocks]

@@ -1,4 +1,4 @@
-"""What acts on the bodies: contacts, oil, hydraulic cylinders, loads, bushings; their powers."""
+"""What acts on the bodies: contacts, oil, hydraulic cylinders, loads; their powers."""
 
 import math
 
@@ -223,26 +223,6 @@ def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
 
 
 @compiled
-def press_bushings(scene: SceneArrays, y: Vector) -> None:
-    """Forces and moments of bushings on their second bodies, see `BushingPin`."""
-    for n in range(scene.bushings.size):
-        one = scene.bushings[n]
-        first, second = scene.points[one.first], scene.points[one.second]
-        vx, vy = second.vx - first.vx, second.vy - first.vy
-        turn = (y[3 * second.body + 2] if second.body >= 0 else 0.0) - (
-            y[3 * first.body + 2] if first.body >= 0 else 0.0
-        )
-        spin = spin_of(scene, y, second.body) - spin_of(scene, y, first.body)
-        one.fx = -one.kx * (second.x - first.x) - one.cx * vx
-        one.fy = -one.ky * (second.y - first.y) - one.cy * vy
-        one.m = -one.kt * turn - one.ct * spin
-        one.loss = one.cx * vx * vx + one.cy * vy * vy + one.ct * spin * spin
-        push_apart(scene, one.first, one.second, one.fx, one.fy)
-        push(scene, second.body, 0.0, 0.0, one.m)
-        push(scene, first.body, 0.0, 0.0, -one.m)
-
-
-@compiled
 def with_legs(
     legs: LegArrays | None, damping: float, friction: float, work: float
 ) -> tuple[float, float, float]:
@@ -272,8 +252,6 @@ def powers(scene: SceneArrays, y: Vector, slope: Vector) -> None:
     damping, friction, work = with_legs(scene.legs, damping, friction, work)
     for n in range(scene.loads.size):
         work, damping = work + scene.loads[n].work, damping + scene.loads[n].loss
-    for n in range(scene.bushings.size):
-        damping += scene.bushings[n].loss
     for n in range(scene.rubbing.size):
         one = scene.rubbing[n]
         friction -= one.force * one.slip

@@ -9,6 +9,7 @@ import math
 from support_exudyn.scene.arrays import BLOCK, BOLT, SceneArrays, Vector
 from support_exudyn.scene.compilation import call_law, compiled, once
 from support_exudyn.scene.motion import SETTLED, push, push_point, solve, spin_of, turn_of
+from user_forces.slot import end_loads, larger_load
 
 RUBBINGS = 30  # rounds at most
 JAMMED = 1e-6  # share that is still open after all rounds, from which on friction and force have no solution
@@ -63,10 +64,10 @@ def friction_force(scene: SceneArrays, y: Vector, n: int) -> float:
     if one.kind != BLOCK:
         return rubbed(scene, y, n, abs(held))
     across, twist = -held, -scene.rows[one.row + 1].held
-    larger = max(abs(across), abs(twist) / one.half_length)
+    larger = larger_load(across, twist, one.half_length)
     ratio = rubbed(scene, y, n, larger) / larger if larger > 0.0 else 0.0
-    apart = (twist - ratio * across * one.half_height) / one.half_length
-    return rubbed(scene, y, n, 0.5 * abs(across + apart)) + rubbed(scene, y, n, 0.5 * abs(across - apart))
+    first, second = end_loads(across, twist, ratio, one.half_length, one.half_height)
+    return rubbed(scene, y, n, first) + rubbed(scene, y, n, second)
 
 
 @once

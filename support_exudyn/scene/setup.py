@@ -14,11 +14,11 @@ from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
+from support_exudyn.mechanics.joint_friction import friction_joints
 from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
-from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.model.linkage import GROUND, Linkage
-from support_exudyn.model.loads.load import Load, TimeFunction
-from support_exudyn.model.loads.stretch_load import StretchLoad
+from support_exudyn.model.loads.load import Load, StretchLoad, TimeFunction
+from support_exudyn.model.pins import IdealPin
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene import arrays
 from support_exudyn.scene.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
@@ -105,7 +105,7 @@ def model_of(scenario: Scenario) -> Model:
     functions: list[TimeFunction] = [extension_of(scenario.drive_of(name)) for name in moving]
     functions += [scenario.valved[name].inlet.opening for name in valves]
     of_loads = len(functions)
-    functions += [function for load in scenario.acting_loads.values() for function in load.courses]
+    functions += [function for load in scenario.elements.values() for function in load.courses]
     found = courses(functions, edges)
     course = {name: n for n, name in enumerate((*moving, *valves))}
     joints, order, held = _joints(scenario, build, rigid, course)
@@ -126,7 +126,6 @@ def model_of(scenario: Scenario) -> Model:
     legs = _legs(scenario, build, course, states)
     states += legs.states
     loads = _loads(scenario, build, of_loads)
-    bushings = _bushings(scenario, build)
     rows, pairs, square = _rows(joints, held)
     rubbing = _rubbing(scenario, build, joints, states)
     states += int((rubbing["state"] >= 0).sum())
@@ -151,7 +150,6 @@ def model_of(scenario: Scenario) -> Model:
         cylinders=cylinder_records,
         legs=arrays.leg_arrays(legs.records, legs.pumps, legs.gaps),
         loads=loads,
-        bushings=bushings,
         rubbing=rubbing,
         constants=np.array([*build.constants, 0.0]),
         out=np.zeros(FIRST_COURSE + int(loads["courses"].max(initial=0))),
@@ -360,8 +358,8 @@ def _oil(record: Any, one: PreloadedActuator, build: _Builder, course: int) -> N
 
 def _loads(scenario: Scenario, build: _Builder, course: int) -> Records:
     """Loads with their compiled functions; course: the first of theirs."""
-    found = np.zeros(len(scenario.acting_loads), arrays.LOAD)
-    for record, (name, load) in zip(found, scenario.acting_loads.items(), strict=True):
+    found = np.zeros(len(scenario.elements), arrays.LOAD)
+    for record, (name, load) in zip(found, scenario.elements.items(), strict=True):
         against, kind = load.against(name), arrays.MOMENT
         point, origin = (0.0, 0.0), (0.0, 0.0)
         if isinstance(load, Load):
@@ -376,39 +374,24 @@ def _loads(scenario: Scenario, build: _Builder, course: int) -> Records:
     return found
 
 
-def _bushings(scenario: Scenario, build: _Builder) -> Records:
-    pins = {name: pin for name, pin in scenario.pins.items() if isinstance(pin, BushingPin)}
-    found = np.zeros(len(pins), arrays.BUSHING)
-    for record, (name, pin) in zip(found, pins.items(), strict=True):
-        place = scenario.linkage.pins[name]
-        record["first"] = build.point(place.first, place.first_point)
-        record["second"] = build.point(place.second, place.second_point)
-        (record["kx"], record["ky"]), (record["cx"], record["cy"]) = pin.stiffness, pin.damping
-        record["kt"], record["ct"] = pin.rotational_stiffness, pin.rotational_damping
-    return found
-
-
 def _rubbing(scenario: Scenario, build: _Builder, joints: Records, states: int) -> Records:
     """Friction of ideal pins, then of ideal guides; states: how many the state has without theirs."""
-    laws, linkage = scenario.friction_laws.values(), scenario.linkage
-    found = np.zeros(len(laws), arrays.RUBBING)
-    for record, law in zip(found, laws, strict=True):
-        record["law"], record["constants"] = build.law(*friction_law(law))
-        record["state"] = states if law.has_state else -1
-        states += law.has_state
-    pins, held = scenario.friction_pins, list(scenario.held_pins)
-    for record, (name, pin) in zip(found, pins.items(), strict=False):
-        place = linkage.pins[name]
-        record["row"], record["kind"] = joints[held.index(name)]["row"], arrays.BOLT
-        record["body"], record["other"] = build.numbers[place.second], build.numbers[place.first]
-        record["radius"] = pin.radius or 0.0  # goes with friction
+    rubbing = friction_joints(scenario)
+    pins = dict(zip(scenario.held_pins, joints[joints["kind"] == arrays.PIN], strict=True))
     slides = dict(zip(scenario.guided_linkage.slides, joints[joints["kind"] == arrays.SLIDE], strict=True))
-    for record, (name, guide) in zip(found[len(pins) :], scenario.friction_guides.items(), strict=True):
-        slide = linkage.slides[name]
-        record["kind"] = arrays.BLOCK if guide.block else arrays.GUIDED
-        record["body"], record["other"] = build.numbers[slide.body], build.numbers[slide.against]
+    found = np.zeros(len(rubbing), arrays.RUBBING)
+    for record, joint in zip(found, rubbing.values(), strict=True):
+        record["law"], record["constants"] = build.law(*friction_law(joint.law))
+        record["state"] = states if joint.law.has_state else -1
+        states += joint.law.has_state
+        record["body"], record["other"] = build.numbers[joint.second], build.numbers[joint.first]
+        name, part = joint.owner[1], joint.part
+        if isinstance(part, IdealPin):
+            record["kind"], record["row"], record["radius"] = arrays.BOLT, pins[name]["row"], part.radius
+            continue
+        record["kind"] = arrays.BLOCK if part.block else arrays.GUIDED
         for what in ("row", "first", "second", "angle"):
             record[what] = slides[name][what]
-        record["radius"] = guide.pin_radius or 0.0
-        record["half_length"], record["half_height"] = (0.5 * side for side in guide.block or (0.0, 0.0))
+        record["radius"] = part.pin_radius or 0.0
+        record["half_length"], record["half_height"] = (0.5 * side for side in part.block or (0.0, 0.0))
     return found

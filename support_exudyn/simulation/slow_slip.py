@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.joint_slip import joint_slips
+from support_exudyn.mechanics.joint_friction import joint_slips
 from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.friction.law import FrictionLaw

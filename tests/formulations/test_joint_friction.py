@@ -114,23 +114,26 @@ BLOCK, SLOPE = (0.1, 0.04), math.radians(20.0)
 
 
 @both
-def test_a_block_that_is_pulled_beside_its_guide_is_braked_by_the_moment(way: str) -> None:
+@pytest.mark.parametrize("weight", [0.0, G])
+def test_a_block_that_is_pulled_beside_its_guide_is_braked_by_the_moment(way: str, weight: float) -> None:
     force, high = 10.0, 0.2  # as a drawer that is pulled at its side
     scene = Scenario(
         machine=Sled(),
-        gravity=(0.0, 0.0),
+        gravity=(0.0, -weight),
         duration=0.2,
         record_period=0.01,
         guides={"g": IdealGuide(friction=DRY, block=BLOCK)},
         loads={"pull": AppliedForce(body="sled", point=(0.0, high), full_force=(force, 0.0))},
     )
     result = WAYS[way](scene)
-    # both ends press with force high / length; after 1 ms the slip has passed the ramp of the law
-    assert result["g.friction_force"][5:] == pytest.approx(-2.0 * MU * force * high / BLOCK[0], rel=1e-6)
+    # both ends together press with twice the moment of pull and friction over the length, that of the weight
+    # at the wall below more; after 1 ms the slip has passed the ramp of the law
+    braked = 2.0 * MU * (force * high + 0.5 * MU * weight * BLOCK[1]) / BLOCK[0]
+    assert result["g.friction_force"][5:] == pytest.approx(-braked, rel=1e-6)
     acceleration = (result["sled.velocity_x"][-1] - result["sled.velocity_x"][5]) / (
         result.time[-1] - result.time[5]
     )
-    assert acceleration == pytest.approx(force * (1.0 - 2.0 * MU * high / BLOCK[0]), rel=1e-5)
+    assert acceleration == pytest.approx(force - braked, rel=1e-5)
     left_out = WAYS[way](replace(scene, guides={"g": IdealGuide(friction=DRY)}))
     assert "friction by the moment of up to 2 N m is left out" in " ".join(left_out.warnings)
 

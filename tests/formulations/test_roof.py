@@ -36,8 +36,6 @@ from tests.roof_cases import (
     STIFFNESS,
     TEN_MEGANEWTONS,
     TOP,
-    DeadLoad,
-    HandmadeLoad,
     Ram,
     elastic_block,
     over_the_canopy,
@@ -45,7 +43,6 @@ from tests.roof_cases import (
     pressed_support,
     thrown,
 )
-from user_forces import InputError
 from user_forces.values.value import Vector2
 
 W = math.sqrt(STIFFNESS / MASS)
@@ -140,30 +137,6 @@ def test_an_applied_force_gives_its_work_to_the_ram() -> None:
         [0.0, 0.0, 2.5e3, 5e3, 5e3], abs=1e-6
     )
     assert result.energy_error < 1e-4 * 0.5 * MASS * speed**2
-
-
-@FORMULATIONS
-def test_a_dead_load_takes_no_more_than_its_class(formulation: str) -> None:
-    load = DeadLoad(body="ram", point=TOP, vector=(7.0, -300.0))
-    result = by(formulation, replace(thrown(0.01, 1e-3), loads={"weight": load}, record_period=1e-2))
-    expected = TOP[1] + result.time - 0.5 * 0.3 * result.time**2
-    # constant acceleration, which both integrators take exactly; Newton's tolerance of 1e-8, else rounding
-    place, share = (1e-8, 1e-6) if formulation == "exudyn" else (1e-13, 1e-12)
-    np.testing.assert_allclose(result["ram.y"], expected, atol=place)
-    np.testing.assert_allclose(result["guide.force"][1:], 7.0, rtol=share)
-    assert result.energy_error < 1e-4  # of 500 J
-    assert "weight.force" not in result.channels
-
-
-def test_a_load_of_methods_runs_in_the_engine_only() -> None:
-    loads = [kind(body="ram", point=TOP, vector=(7.0, -300.0)) for kind in (DeadLoad, HandmadeLoad)]
-    scenes = [replace(thrown(0.01, 1e-3), loads={"weight": load}, record_period=1e-2) for load in loads]
-    action, methods = (by("exudyn", scene) for scene in scenes)
-    for name in action.channels:
-        np.testing.assert_array_equal(action[name], methods[name])
-    why = r"loads\.weight = HandmadeLoad \(it has no action, but force, stored, powers of its own\): not"
-    with pytest.raises(InputError, match=why):
-        by("compiled", scenes[1])
 
 
 @FORMULATIONS

@@ -16,12 +16,10 @@ from support_exudyn import (
     CubicStep,
     GroundReaction,
     Linkage,
-    LoadedStretch,
     Machine,
     Scenario,
     SolverSettings,
     SpringDamper,
-    UniformSpeed,
     reference_support,
     simulate,
 )
@@ -87,25 +85,6 @@ def test_a_bedding_is_the_integral_over_its_stretch(formulation: str, share: flo
     assert result.energy_error < 1e-4 * turned
     if damping > 0.0:
         assert result["energy.damping_loss"][-1] > 1e-3 * turned
-
-
-def test_place_and_pressed_length_of_a_bedding_on_what_stands_still() -> None:
-    # a wedge: pressed from where the gap is closed to the second point, resultant at its third
-    roof = BeddedRoof(
-        body="ram",
-        points=((-1.0, 1.0), (2.0, 1.0)),
-        bedding=2e6,
-        gaps=(0.02, 0.005),
-        descent=UniformSpeed(stroke=0.015, start=0.0, end=1e-3),
-    )
-    found = roof.observed(LoadedStretch(0.02, 0.0, 0.0, 0.0, 0.0))
-    pressed = 3.0 * 0.01 / 0.015
-    force = 0.5 * 2e6 * 0.01 * pressed
-    expected = {"pressed": pressed, "force": force, "place": 3.0 - pressed / 3.0}
-    assert found == pytest.approx(expected | {"gap_first": 0.005, "gap_second": -0.01}, rel=1e-12)
-    assert sum(roof.largest(1.0)) == pytest.approx(-force, rel=1e-12)
-    apart = roof.observed(LoadedStretch(0.0, 0.0, 0.0, 0.0, 0.0))
-    assert (apart["force"], apart["place"], apart["pressed"]) == (0.0, 0.0, 0.0)
 
 
 def over_the_canopy(load: ActingLoad | dict[str, ActingLoad], **changes: object) -> Scenario:

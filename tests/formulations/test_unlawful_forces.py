@@ -22,7 +22,6 @@ from support_exudyn import (
     bore_area,
     simulate,
 )
-from support_exudyn.model.loads.load import LoadedPoint, Powers
 from tests.cases.run_cases import CRANK_SPEED, PIN, slider_crank, support
 from user_forces import (
     FrictionLaw,
@@ -34,7 +33,6 @@ from user_forces import (
     value,
 )
 from user_forces.kernel import kernel
-from user_forces.values.value import Vector2
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=0.0005)
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
@@ -298,14 +296,19 @@ def test_a_crank_that_turns_by_itself_is_refused() -> None:
 class Pushing(AppliedForce):
     """A load that gives what it should lose."""
 
-    def powers(self, at: LoadedPoint) -> Powers:
-        return Powers(0.0, -1e4)
+    @staticmethod
+    @kernel
+    def action(t: float, *numbers: float) -> tuple[float, ...]:
+        return 0.0, -1e4, 0.0, 0.0, 0.0, -1e4, 0.0, -1e4
 
 
 @value
 class NoLoad(AppliedForce):
-    def force(self, at: LoadedPoint) -> Vector2:
-        return 0.0, math.nan if at.time > 5e-3 else -1e4
+    @staticmethod
+    @kernel
+    def action(t: float, *numbers: float) -> tuple[float, ...]:
+        up = math.nan if t > 5e-3 else -1e4
+        return 0.0, up, 0.0, 0.0, up * numbers[3], 0.0, 0.0, up
 
 
 @pytest.mark.parametrize("kind", [Pushing, NoLoad])

@@ -16,11 +16,9 @@ from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.model.linkage import GROUND, Body, Crank, LinearActuator, Linkage, Slide, pinned
-from support_exudyn.model.loads.applied_force import AppliedForce
-from support_exudyn.model.loads.applied_torque import AppliedTorque
+from support_exudyn.model.loads.applied import AppliedForce, AppliedTorque
 from support_exudyn.model.loads.load import ActingLoad
-from support_exudyn.model.loads.spring_damper import SpringDamper
-from support_exudyn.model.loads.torsion_spring import TorsionSpring
+from support_exudyn.model.loads.springs import SpringDamper, TorsionSpring
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.linkage_check import check_figure
 from tests.drawn.drawn_linkages import bar_of, chain, towards

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import AppliedForce, FallingBlock, LoadedPoint, Scenario, reference_support
+from support_exudyn import FallingBlock, Scenario, reference_support
 from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.look.plain import blocks, look
 from support_exudyn.postprocessing.look.solid import Role
@@ -17,19 +17,6 @@ from tests.roof_cases import TOP, Ram
 from user_forces import InputError
 
 ROCK = FallingBlock(body="ram", point=TOP, mass=400.0, height=0.2, stiffness=2e8, restitution=0.4)
-FORCE = AppliedForce(body="ram", point=TOP, full_force=(2e3, -5e4), start=0.1, end=0.3)
-
-
-@given(
-    vx=st.floats(-2.0, 2.0),
-    vy=st.floats(-3.0, 3.0),
-    t=st.floats(0.0, 0.5),
-)
-def test_what_an_applied_force_does_is_work(vx: float, vy: float, t: float) -> None:
-    at = LoadedPoint(t, 0.0, 0.0, vx, vy)
-    (fx, fy), powers = FORCE.force(at), FORCE.powers(at)
-    assert powers.work == pytest.approx(fx * vx + fy * vy)
-    assert (powers.loss, FORCE.stored(at)) == (0.0, 0.0)
 
 
 @given(depth=st.floats(-0.1, 0.1), rate=st.floats(-20.0, 20.0))
@@ -94,16 +81,3 @@ def test_a_block_is_a_cube_and_its_guide_stands_upright() -> None:
     assert ROCK.side**3 * 2600.0 == pytest.approx(400.0)  # of broken rock, if nothing else is said
     assert body.inertia == pytest.approx(400.0 * ROCK.side**2 / 6.0)  # of a cube about its centre
     assert scene.linkage.slides["rock_guide"].direction == pytest.approx(0.5 * math.pi)
-
-
-def test_an_applied_force_has_come_on_when_it_says() -> None:
-    assert FORCE.breaks == (0.1, 0.3)
-    assert FORCE.largest(0.2) == pytest.approx((1e3, -2.5e4))  # half of it
-    assert FORCE.largest(9.0) == FORCE.full_force
-    always = replace(FORCE, start=0.0, end=0.0)
-    assert (always.breaks, always.largest(0.0)) == ((), FORCE.full_force)
-    point = LoadedPoint(0.2, 0.0, 0.0, 0.0, 0.0)
-    assert FORCE.observed(point) == pytest.approx({"force_x": 1e3, "force_y": -2.5e4})
-    for end in (0.0, 0.1):
-        with pytest.raises(InputError, match=r"allowed: > start = 0\.1 s, or both 0"):
-            replace(FORCE, end=end)

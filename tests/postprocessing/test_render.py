@@ -16,7 +16,7 @@ from PIL.ImageColor import getrgb
 from studies.common.paper_machine import clearance_rise, ideal_rise
 from support_exudyn import CubicStep, Held, Result, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.model.loads.roof import Roof
+from support_exudyn.model.loads.roofs import Roof
 from support_exudyn.postprocessing.export.meshes import machine_mesh
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render import render, still

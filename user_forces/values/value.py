@@ -192,8 +192,9 @@ def kinds_of(cls: type[Value]) -> dict[str, type[Value]]:
 
 
 def is_kind_of(kind: type[Value], cls: type[Value]) -> bool:
-    """Whether a class is under another, and values can be made of it."""
-    return issubclass(kind, cls) and _has_fields(kind) and not only_groups(kind)
+    """Whether a class is under another, and users can make values of it: its name does not begin with _."""
+    is_public = not kind.__name__.startswith("_")
+    return issubclass(kind, cls) and _has_fields(kind) and not only_groups(kind) and is_public
 
 
 def only_groups(cls: type) -> bool:

@@ -5,11 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.loads.applied_force import AppliedForce
-from support_exudyn.model.loads.applied_torque import AppliedTorque
-from support_exudyn.model.loads.course import LoadCourse
-from support_exudyn.model.loads.spring_damper import SpringDamper
-from support_exudyn.model.loads.torsion_spring import TorsionSpring
+from support_exudyn.model.loads.applied import AppliedForce, AppliedTorque, LoadCourse
+from support_exudyn.model.loads.springs import SpringDamper, TorsionSpring
 from user_forces.values.units import (
     Metres,
     NewtonMetres,

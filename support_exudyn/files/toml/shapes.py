@@ -24,7 +24,7 @@ from typing_extensions import Never
 
 from support_exudyn.files.toml.faults import said
 from user_forces.values.units import Unit
-from user_forces.values.value import InputError, Value, known_classes, only_groups
+from user_forces.values.value import InputError, Value, is_kind_of, known_classes
 
 Shape = Mapping[str, Any]
 # keywords of JSON Schema, each with its name in metadata, its sign and what fits it
@@ -108,7 +108,7 @@ class GroupShape:
 
 
 def _is_kind(cls: type) -> bool:
-    return hasattr(cls, "__pydantic_fields__") and not only_groups(cls)
+    return is_kind_of(cls, Value)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from typing import NoReturn
 
 from support_exudyn.mechanics.closing import repeated_count
-from support_exudyn.model.bushing_pin import BushingPin
+from support_exudyn.model.bushing_pin import CompliantPin
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.compilation import UncompiledLawError, address_of, contact_law, load_law
@@ -11,7 +11,7 @@ from support_exudyn.scene.setup import friction_law
 from user_forces.values.value import InputError
 
 COMPILED = "laws and loads that are functions of numbers, in what numba knows of Python"
-PINS: tuple[type[Pin], ...] = (IdealPin, ClearancePin, BushingPin)  # kinds of pins that it has records for
+PINS: tuple[type[Pin], ...] = (IdealPin, ClearancePin, CompliantPin)  # kinds of pins that it has records for
 
 
 def check(scenario: Scenario) -> None:
@@ -19,7 +19,7 @@ def check(scenario: Scenario) -> None:
     if scenario.dimensions == 3:
         _refuse("dimensions", "3", "2")
     for name, pin in scenario.pins.items():
-        if type(pin) not in PINS:
+        if not isinstance(pin, PINS):
             _refuse(f"pins.{name}", type(pin).__name__, ", ".join(kind.__name__ for kind in PINS))
     _check_compiled(scenario)
     if repeated_count(scenario.held)[1]:
@@ -36,10 +36,9 @@ def _check_compiled(scenario: Scenario) -> None:
         for name, friction in scenario.friction_laws.items():
             where, what = f"{name}.friction", type(friction).__name__
             address_of(friction_law(friction)[0])
-        for name, load in scenario.acting_loads.items():
-            where, what = f"loads.{name}", type(load).__name__
-            if load.own_methods:
-                raise UncompiledLawError(f"it has no action, but {', '.join(load.own_methods)} of its own")
+        for name, load in scenario.elements.items():
+            where = f"loads.{name}" if name in scenario.acting_loads else name
+            what = type(load).__name__
             address_of(load_law(load)[0])
     except UncompiledLawError as error:
         _refuse(where, f"{what} ({error})", COMPILED)

@@ -8,12 +8,10 @@ import numpy as np
 
 from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.bushing import bushing_series
 from support_exudyn.mechanics.channels import DataNeeds
-from support_exudyn.mechanics.joint_slip import friction_series
+from support_exudyn.mechanics.joint_friction import friction_series
 from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, OilEvent, Series, Trajectory
-from support_exudyn.model.bushing_pin import BushingPin
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scene.arrays import LOSSES, MEMORY, Matrix
 from support_exudyn.scene.hydraulics.series import leg_series
@@ -100,14 +98,9 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         for n, (name, place) in enumerate(scenario.contact_places.items())
         if wanted
     }
-    bushings = {
-        name: bushing_series(pin, linkage.pins[name], motion)
-        for name, pin in scenario.pins.items()
-        if isinstance(pin, BushingPin)
-    }
     loads = {
         name: load_series(load, name, motion, found.time)
-        for name, load in scenario.acting_loads.items()
+        for name, load in scenario.elements.items()
         if DataNeeds.LOADS in needed
     }
     losses = found.state[:, -LOSSES:]
@@ -130,7 +123,6 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         loads=loads,
         cylinders=cylinders,
         legs=legs,
-        compliant_pins=bushings,
     )
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.joint_slip import joint_slips
+from support_exudyn.mechanics.joint_friction import joint_slips
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.arrays import LOSSES, Vector

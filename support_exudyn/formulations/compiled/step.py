@@ -17,7 +17,6 @@ from support_exudyn.scene.forces import (
     observe,
     powers,
     press,
-    press_bushings,
     press_cylinders,
     press_loads,
     press_oil,
@@ -93,8 +92,6 @@ def evaluate(scene: SceneArrays, t: float, y: Vector, slope: Vector, right: Vect
     press_legs(scene, scene.legs, y, slope)
     if scene.loads.size > 0:
         press_loads(scene, t, y)
-    if scene.bushings.size > 0:
-        press_bushings(scene, y)
     if scene.rubbing.size > 0:
         begin_rubbing(scene, y)
     solve(scene, right)

@@ -31,7 +31,7 @@ from support_exudyn.machines.check.freedoms import FIELDS, repeated
 from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
-from support_exudyn.mechanics.joint_slip import friction_series
+from support_exudyn.mechanics.joint_friction import friction_series
 from support_exudyn.mechanics.oil_column import OilSeries, oil_series
 from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import needs
@@ -160,17 +160,14 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         for n, name in enumerate(scene.clearance_joints)
         if DataNeeds.CONTACTS in needed
     }
-    compliant = {
-        name: item.series(motion) for name, item in scene.compliant_pins.items() if DataNeeds.CONTACTS in needed
-    }
     loads = {
         name: load_series(load, name, motion, history.time)
-        for name, load in scene.scenario.acting_loads.items()
+        for name, load in scene.scenario.elements.items()
         if DataNeeds.LOADS in needed
     }
     found = Following(velocity[:, :0], JointForces(), {}, {})
     if needed & FOLLOWING:
-        applied = Applied(contacts, compliant, compliant_actuators, loads)
+        applied = Applied(contacts, compliant_actuators, loads)
         found = following(scene, motion, history.time, applied, history.deflection)
     return Trajectory(
         time=history.time,
@@ -191,7 +188,6 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         loads=loads,
         cylinders=cylinders,
         legs=legs,
-        compliant_pins=compliant,
     )
 
 

@@ -11,6 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from support_exudyn.mechanics.acting_loads import load_channels
 from support_exudyn.mechanics.block_contact import block_channels
 from support_exudyn.mechanics.channels import (
     CONTACT,
@@ -20,7 +21,6 @@ from support_exudyn.mechanics.channels import (
     ChannelDefinitions,
     DataNeeds,
 )
-from support_exudyn.mechanics.space.acting_loads import load_channels
 from support_exudyn.mechanics.space.determined import UNDETERMINED, Loads
 from support_exudyn.mechanics.space.motion import SpatialMotion
 from support_exudyn.mechanics.trajectory import ContactSeries, LoadSeries, Series

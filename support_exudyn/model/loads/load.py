@@ -1,12 +1,22 @@
-"""What every load is; most are a force or a moment that follows from time and the motion of what it acts on."""
+"""Loads: functions of time and of the motion of what they act on, of three strain kinds.
+
+| kind | strain | force |
+|---|---|---|
+| `Load` | way of a point against another | a force on the point, and the opposite one on the other |
+| `MomentLoad` | turn of a body against another | a moment on the body, and the opposite one on the other |
+| `StretchLoad` | ways up of both ends of a stretch of a body | forces up that are spread over the stretch |
+"""
 
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
+from abc import ABC
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple
+
+from pydantic import model_validator
+from typing_extensions import Self
 
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import GROUND
@@ -15,6 +25,7 @@ from user_forces.values.units import Metres
 from user_forces.values.value import Real, Value, Vector2, value
 
 TimeFunction = Callable[[float], float]
+COINCIDE = 1e-9  # [m] up to which two points are one
 
 
 class LoadedPoint(NamedTuple):
@@ -33,6 +44,27 @@ class LoadedPoint(NamedTuple):
     vz: float = 0.0
 
 
+class TurnedBody(NamedTuple):
+    """A body under a moment: time [s], turn since the start posture [rad], angular velocity [rad/s].
+
+    Turn and angular velocity are against `MomentLoad.other`; anticlockwise is positive.
+    """
+
+    time: float
+    turn: float
+    spin: float
+
+
+class LoadedStretch(NamedTuple):
+    """Both ends of a stretch: time [s], their ways up since the start posture [m], their rates [m/s]."""
+
+    time: float
+    first: float
+    second: float
+    first_rate: float
+    second_rate: float
+
+
 class LoadChannel(NamedTuple):
     """A channel of a load: its unit, and what it is."""
 
@@ -40,11 +72,18 @@ class LoadChannel(NamedTuple):
     meaning: str
 
 
-class Powers(NamedTuple):
-    """Power of what moves a load, and of what it loses [W]."""
+class LoadAction(NamedTuple):
+    """What a load does at an instant.
 
+    forces: [N], or the moment [N m], as the action gives them. stored: energy [J]. work, loss: power of what
+    moves the load, and power that is lost in it [W]. channels: values by name.
+    """
+
+    forces: tuple[float, ...]
+    stored: float
     work: float
     loss: float
+    channels: Mapping[str, float]
 
 
 @value
@@ -65,28 +104,29 @@ class AnyLoad(Value, ABC):
 
 @value
 class ActingLoad(AnyLoad, ABC):
-    """What acts on a body: `Load` is a force on a point, `MomentLoad` a moment, `StretchLoad` spread forces.
-
-    What a load does is one function of numbers, its `action`, which Python runs and numba compiles:
+    """What acts on a body by a function of numbers, its `action`; see the module for the strain kinds.
 
         action(*at, *values of its courses, *parameters)
             = (*forces, stored energy, power of what moves it, power that is lost, *values of its channels)
 
-    It is a static method and a `user_forces.kernel.kernel`, in plain Python with `if` and `math`. `at` is the
-    motion, a `LoadedPoint`, `TurnedBody` or `LoadedStretch`. Parameters are named as attributes of the load.
-    The last one may be `*name`, for a tuple.
+    It is a static method and a `user_forces.kernel.kernel`, in plain Python with `if` and `math`, which Python
+    runs and numba compiles. `at` is the motion, a `LoadedPoint`, `TurnedBody` or `LoadedStretch`. Parameters
+    are named as attributes of the load; the last one may be `*name`, for a tuple.
 
-    A load that no function of numbers describes has methods of its own, in any Python: that of its forces,
-    `stored` and `powers`. The compiled formulation does not cover it.
+    The contract: the force is continuous in time and motion, and smooth between two neighbouring `breaks` but
+    for kinks; the stored energy changes by the powers and by the work that is done on the bodies,
+
+        d stored/dt = work - loss - force . rate of the strain
+
+    An action that numba cannot compile runs in the Exudyn formulation only.
 
     Arguments:
         body: name of the body.
     """
 
-    action: ClassVar[Callable[..., tuple[float, ...]] | None] = None
+    action: ClassVar[Callable[..., tuple[float, ...]]]
     MOTION: ClassVar[Any]  # the tuple of what a load follows
     FORCES: ClassVar[int]  # how many numbers of the action come before the stored energy
-    METHODS: ClassVar[tuple[str, ...]]  # that follow from the action, unless a class has its own
 
     @property
     def courses(self) -> tuple[TimeFunction, ...]:
@@ -95,57 +135,30 @@ class ActingLoad(AnyLoad, ABC):
 
     @cached_property
     def formula(self) -> Formula:
-        """The action as a function of numbers, with this load's parameters."""
-        if self.action is None:
-            raise NotImplementedError(
-                f"{type(self).__name__}: has no `action`; allowed without it: all of {', '.join(self.METHODS)}"
-            )
-        return formula_of(self, self.action, len(self.MOTION._fields) + len(self.courses))
+        """The action as a function of numbers, with this load's parameters.
 
-    @cached_property
-    def own_methods(self) -> tuple[str, ...]:
-        """Names of the methods that the load's class has in place of its action."""
-        kind: Any = next(one for one in type(self).__mro__ if "METHODS" in vars(one))
-        return tuple(name for name in kind.METHODS if getattr(type(self), name) is not getattr(kind, name))
+        Raises TypeError if the class has no action.
+        """
+        if not hasattr(type(self), "action"):
+            raise TypeError(f"{type(self).__name__}: has no `action`; see `ActingLoad`")
+        return formula_of(self, type(self).action, len(self.MOTION._fields) + len(self.courses))
 
-    def acts(self, at: Any) -> tuple[float, ...]:
-        """What the action gives; of a load with methods of its own, the same from these."""
-        if not self.own_methods:
-            return self._acted(at)
-        observed = self.observed(at)
-        return (
-            *self.pushes(at),
-            self.stored(at),
-            *self.powers(at),
-            *(observed[name] for name in self.channels),
-        )
-
-    def _acted(self, at: Any) -> tuple[float, ...]:
+    def numbers(self, at: Any) -> tuple[float, ...]:
+        """What the action gives for a motion."""
         found: tuple[float, ...] = self.formula(*at, *(course(at.time) for course in self.courses))
         return found
 
-    @abstractmethod
-    def pushes(self, at: Any) -> tuple[float, ...]:
-        """Its forces [N] or its moment [N m], as the action gives them."""
-
-    def stored(self, at: Any) -> float:
-        """Energy that the load has stored [J]."""
-        return self._acted(at)[self.FORCES]
-
-    def powers(self, at: Any) -> Powers:
-        """What moves the load does, and what is lost in it."""
-        return Powers(*self._acted(at)[self.FORCES + 1 : self.FORCES + 3])
+    def acting(self, at: Any) -> LoadAction:
+        """What the load does for a motion, by names."""
+        found, count = self.numbers(at), self.FORCES
+        stored, work, loss = found[count : count + 3]
+        observed = dict(zip(self.channels, found[count + 3 :], strict=True))
+        return LoadAction(found[:count], stored, work, loss, observed)
 
     @property
     def channels(self) -> Mapping[str, LoadChannel]:
-        """What is recorded of it besides its energies, by name; see `observed`."""
+        """Channels that are recorded of it besides its energies, by name; the action gives them last."""
         return {}
-
-    def observed(self, at: Any) -> Mapping[str, float]:
-        """Values of its `channels`, by name."""
-        if self.action is None:
-            return {}
-        return dict(zip(self.channels, self._acted(at)[self.FORCES + 3 :], strict=True))
 
     @property
     def drives(self) -> tuple[Drive, ...]:
@@ -159,13 +172,8 @@ class ActingLoad(AnyLoad, ABC):
 
     @property
     def steepness(self) -> tuple[float, ...]:
-        """Largest growth of the force [N/m] or moment [N m/rad] with the motion, in each direction."""
-        return ()
-
-    def largest(self, duration: float) -> tuple[float, ...]:
-        """The largest force [N] or moment [N m] in a run of this duration [s] in the start posture."""
-        del duration
-        return ()
+        """Largest growth of each force with its strain [N/m], [N m/rad], which steps follow; 0 by default."""
+        return (0.0,) * self.FORCES
 
     @property
     def shortest_time(self) -> float:
@@ -176,13 +184,6 @@ class ActingLoad(AnyLoad, ABC):
 @value
 class Load(ActingLoad, ABC):
     """A force on a point of a body: forward, up, and to the right, which counts in space alone.
-
-    A new one is a class with an `action`, see `ActingLoad`, or with `force`, `stored` and `powers`.
-
-    The contract: the force is continuous in time and motion, and smooth between two neighbouring `breaks` but
-    for kinks; the energy `stored` changes by what `powers` say and by the work that is done on the point,
-
-        d stored/dt = work - loss - force . velocity
 
     Arguments:
         body: name of the body.
@@ -196,20 +197,6 @@ class Load(ActingLoad, ABC):
 
     MOTION: ClassVar[Any] = LoadedPoint
     FORCES: ClassVar[int] = 3
-    METHODS: ClassVar[tuple[str, ...]] = ("force", "sideways", "stored", "powers", "observed")
-
-    def force(self, at: LoadedPoint) -> Vector2:
-        """Force on the point, forward and up [N]."""
-        along, up = self._acted(at)[:2]
-        return along, up
-
-    def sideways(self, at: LoadedPoint) -> float:
-        """Force on the point to the right [N], in space; 0 of a load without an action."""
-        return 0.0 if self.action is None else self._acted(at)[2]
-
-    def pushes(self, at: LoadedPoint) -> tuple[float, ...]:
-        """Force on the point, forward, up and to the right [N]."""
-        return (*self.force(at), self.sideways(at)) if self.own_methods else self._acted(at)[:3]
 
     @property
     def origin(self) -> Vector2:
@@ -221,12 +208,76 @@ class Load(ActingLoad, ABC):
         """How far to the right that point is [m]; by default as far as the other."""
         return self.lateral
 
-    @property
-    def steepness(self) -> Vector2:
-        """Largest growth of the force with the point's way along x and y [N/m]."""
-        return 0.0, 0.0
 
-    def largest(self, duration: float) -> Vector2:
-        """The largest force in a run of this duration [s] if the point stayed in its start posture [N]."""
-        del duration
-        return 0.0, 0.0
+@value
+class MomentLoad(ActingLoad, ABC):
+    """A moment on a body, and the opposite one on another.
+
+    In space it acts on the turn that the side view shows, about the lateral axis; see
+    `mechanics/acting_loads.py`.
+
+    Arguments:
+        body: name of the body.
+        other: the body that the opposite moment acts on, or "ground".
+    """
+
+    MOTION: ClassVar[Any] = TurnedBody
+    FORCES: ClassVar[int] = 1
+
+    other: str = GROUND
+
+    @model_validator(mode="after")
+    def _acts_between_two(self) -> Self:
+        check_two(self.body, self.other)
+        return self
+
+    @property
+    def channels(self) -> Mapping[str, LoadChannel]:
+        """The only channel is the moment by default."""
+        return {"moment": LoadChannel("N m", "on the body, positive anticlockwise")}
+
+    def against(self, name: str) -> str:
+        """The opposite moment acts on the other body."""
+        del name
+        return self.other
+
+
+@value
+class StretchLoad(ActingLoad, ABC):
+    """Forces, up or down, over the stretch between two points of a body.
+
+    The body is rigid, so that forces q(s) up, at shares s of the way from the first point to the second, do as
+    two forces at its ends,
+
+        F1 = integral of (1 - s) q ds,   F2 = integral of s q ds,
+
+    whose sum and moments are theirs.
+
+    Arguments:
+        body: name of the body.
+        points: both ends of the stretch, start posture [m].
+        lateral: how far to the right of the machine's plane it is in space [m]; without effect in the plane.
+    """
+
+    MOTION: ClassVar[Any] = LoadedStretch
+    FORCES: ClassVar[int] = 2
+
+    points: Metres[tuple[Vector2, Vector2]]
+    lateral: Metres[Real] = 0.0
+
+    @model_validator(mode="after")
+    def _has_a_length(self) -> Self:
+        if self.length <= COINCIDE:
+            raise ValueError(f"points = {self.points} m: allowed: two that are > {COINCIDE:g} m apart")
+        return self
+
+    @property
+    def length(self) -> float:
+        """Length of the stretch [m]."""
+        return math.dist(*self.points)
+
+
+def check_two(body: str, other: str) -> None:
+    """Raise ValueError if what acts between two bodies has the same one twice."""
+    if body == other:
+        raise ValueError(f"other = {other!r}: is the body itself; allowed: another body, or {GROUND!r}")

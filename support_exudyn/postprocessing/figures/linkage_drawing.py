@@ -18,7 +18,7 @@ from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
-from support_exudyn.model.loads.spring_damper import SpringDamper
+from support_exudyn.model.loads.springs import SpringDamper
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.style import CURVES, Dashes
 from user_forces.values.value import Vector2
@@ -309,7 +309,8 @@ def _load(axes: Axes, kinetics: Kinetics, name: str, load: ActingLoad, size: flo
         axes.plot(x, y, color=LOAD, lw=1.0, zorder=4.5)
         _word(axes, np.array([start, end]), name)
         return
-    force = np.array(load.force(LoadedPoint(max(load.breaks, default=0.0), 0.0, 0.0, 0.0, 0.0)))
+    come_on = LoadedPoint(max(load.breaks, default=0.0), 0.0, 0.0, 0.0, 0.0)
+    force = np.array(load.acting(come_on).forces[:2])
     if np.hypot(*force) > 0.0:
         tail = end - ARROW * size * force / np.hypot(*force)
         arrow = {"arrowstyle": "-|>", "color": LOAD, "lw": 1.4, "shrinkA": 0, "shrinkB": 0}

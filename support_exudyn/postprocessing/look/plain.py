@@ -9,7 +9,7 @@ from shapely.geometry import Polygon, box
 from shapely.ops import unary_union
 
 from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage, Slide
-from support_exudyn.model.loads.spring_damper import SpringDamper
+from support_exudyn.model.loads.springs import SpringDamper
 from support_exudyn.model.to_space import at, copies
 from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.shapes import bar, bored, hull, plate, together, tube

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from shapely.geometry import LineString
 
-from support_exudyn.model.loads.spring_damper import SpringDamper
+from support_exudyn.model.loads.springs import SpringDamper
 from support_exudyn.model.to_space import at
 from support_exudyn.postprocessing.look.shapes import plate, tube
 from support_exudyn.postprocessing.look.solid import DrawnActuator

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.loads.roof import Roof
+from support_exudyn.model.loads.roofs import Roof
 from support_exudyn.postprocessing.look.looks import look
 from support_exudyn.postprocessing.look.poses import Poses, strut_pose
 from support_exudyn.postprocessing.look.solid import COLOURS, Look, Role, Solid

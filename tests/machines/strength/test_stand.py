@@ -17,7 +17,7 @@ from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.machines.strength import StandReport, stand
 from support_exudyn.machines.strength.page import page
 from support_exudyn.machines.strength.strength_data import CylinderStrength, StrengthData
-from support_exudyn.model.loads.spring_damper import SpringDamper
+from support_exudyn.model.loads.springs import SpringDamper
 from tests.machines.strength.test_roof_forces import beam
 from tests.metamorphic.scaling import Scale
 from tests.pages import ROOT, listings

@@ -20,6 +20,7 @@ from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.scenario.scenario import Scenario
+from user_forces.values.value import Vector2
 
 
 class EngineBuilder(ABC):
@@ -55,6 +56,14 @@ class EngineBuilder(ABC):
     @abstractmethod
     def new_marker(self, body: str, point: Any) -> Any:
         """A marker on a body at a point of the start posture, not yet in the engine."""
+
+    @abstractmethod
+    def place(self, point: Vector2, lateral: float) -> Any:
+        """A point of the plane's start posture, so far to the right [m], as markers take points."""
+
+    @abstractmethod
+    def frame(self, body: str, point: Any = None) -> Any:
+        """A marker on a body with the axes of the ground at the start, at a point; None: at its centre."""
 
     def add_weight(self, name: str, body: Any) -> Any:
         """Let gravity act on a body."""

@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import Any, Protocol
+from typing import Any
 
 import exudyn
 
@@ -11,9 +11,7 @@ from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
 from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
-from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.trajectory import CompliantSeries, Impulse, Series
-from support_exudyn.model.linkage import PinPlace
+from support_exudyn.mechanics.trajectory import Impulse, Series
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.contact import ContactForce
@@ -22,37 +20,14 @@ INITIAL = exudyn.ConfigurationType.Initial
 CURRENT = exudyn.ConfigurationType.Current
 
 
-class CompliantItem(Protocol):
-    """A pin in the engine whose force follows from its deflection without contact."""
-
-    @property
-    def rounding(self) -> float:
-        """The force by which rounding of positions lets it scatter [N]."""
-        ...
-
-    @property
-    def place(self) -> PinPlace:
-        """Where it is in the linkage."""
-        ...
-
-    def loss(self) -> float:
-        """The power that is dissipated now [W]."""
-        ...
-
-    def series(self, motion: BodyMotion) -> CompliantSeries:
-        """Force, moment and deflection at the records, from the motion of all bodies."""
-        ...
-
-
 class EngineScene(ABC):
     """The model of one scenario, assembled and ready for the solver.
 
     scenario: what is modelled. container: owns the system, and must live as long as it. mbs: the system.
     bodies: all that move, each an item with its data as `body`. clearance_pins: everything that may make
-    contact and part. compliant_pins: pins whose force follows from their deflection. frictions: of ideal
-    joints. loads: what presses on the machine. weights: loads of the engine, by body. driven: all actuators and
-    cranks, by the drive that they follow. cylinders: the actuators that follow none. legs: those on oil with
-    elements.
+    contact and part. frictions: of ideal joints. loads: what acts by the motion, compliant pins, too.
+    weights: loads of the engine, by body. driven: all actuators and cranks, by the drive that they follow.
+    cylinders: the actuators that follow none. legs: those on oil with elements.
     """
 
     scenario: Scenario
@@ -60,7 +35,6 @@ class EngineScene(ABC):
     mbs: Any
     bodies: Mapping[str, Any]
     clearance_joints: Mapping[str, ContactConnector]
-    compliant_pins: Mapping[str, CompliantItem]
     frictions: Mapping[str, JointFriction]
     loads: Mapping[str, LoadItem]
     weights: Mapping[str, Any]

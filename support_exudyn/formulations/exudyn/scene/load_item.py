@@ -1,130 +1,209 @@
-"""Loads in the engine: a connector between the loaded point or body and what it is loaded from.
+"""Loads in the engine, in the plane and in space: a connector for each strain kind, which calls the action.
 
 They are connectors and no loads of the engine's, for those have no Jacobian, without which Newton's method does
-not get along with a stiff one.
+not get along with a stiff one. What a connector gives is what pulls its ends together: minus the force.
 """
 
 import math
+import sys
 from abc import ABC, abstractmethod
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import exudyn
-from exudyn.itemInterface import ObjectConnectorCartesianSpringDamper, ObjectConnectorCoordinateSpringDamper
+import numpy as np
+from exudyn.itemInterface import ObjectConnectorCartesianSpringDamper, ObjectConnectorRigidBodySpringDamper
 
-from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint, Powers
-from support_exudyn.model.loads.moment_load import MomentLoad, TurnedBody
+from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
+from support_exudyn.mechanics.acting_loads import turning_axis
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.loads.load import (
+    ActingLoad,
+    Load,
+    LoadAction,
+    LoadedPoint,
+    LoadedStretch,
+    MomentLoad,
+    StretchLoad,
+    TurnedBody,
+)
 from user_forces.lawful import ROUNDING, LawError
+from user_forces.values.value import Vector3
 
-NAME = "springForceUserFunction"  # the engine's, of its springs
+ROUNDINGS = 8.0  # of a point's coordinates, from which ways are computed
+KNOWN = exudyn.OutputVariableType
 
 
-@dataclass(frozen=True)
 class LoadItem(ABC):
-    """A load in the engine: its data, its connector, and the force, which must live as long as it."""
+    """A load in the engine: its data, its connector, and the connector's function, which must live as long."""
 
-    mbs: Any
-    load: ActingLoad
-    object: Any
-    function: Any
+    def __init__(self, load: ActingLoad, builder: EngineBuilder) -> None:
+        self.load, self.mbs = load, builder.mbs
+        self.object: Any = None
+        self.rounding = 0.0  # force by which rounding of positions lets it scatter [N]
 
     @abstractmethod
     def at(self, t: float) -> Any:
-        """What the load is told of the motion at the end of a step, t [s]."""
+        """The motion that the load follows, at the end of a step, t [s]."""
 
-    @abstractmethod
-    def said(self, at: Any) -> tuple[str, float, float]:
-        """Its force [N] or moment [N m] in words, its size, and the size of its power [W]."""
-
-    def powers(self, t: float) -> Powers:
-        """Powers [W] at the end of a step, t [s]."""
-        return self.load.powers(self.at(t))
+    def acting(self, t: float) -> LoadAction:
+        """What the load does at the end of a step, t [s]."""
+        return self.load.acting(self.at(t))
 
     def probe(self, t: float, name: str) -> None:
-        """Raise LawError if the load has no finite force at a time t [s] where the point is now."""
-        said, size, _ = self.said(self.at(t))
-        if not math.isfinite(size):
-            raise LawError(f"{name}: {type(self.load).__name__} has a {said}")
+        """Raise LawError if the load has no finite force at a time t [s] where its bodies are now."""
+        forces = self.acting(t).forces
+        if not all(map(math.isfinite, forces)):
+            said = ", ".join(f"{force:g}" for force in forces)
+            what, unit = ("moment", "N m") if isinstance(self.load, MomentLoad) else ("force", "N")
+            raise LawError(f"{name}: {type(self.load).__name__} has a {what} of {said} {unit}")
 
     def look(self, t: float, name: str) -> None:
         """Raise LawError if the load gives at t [s] what it should lose, but for rounding, or no number."""
         at = self.at(t)
-        work, loss = self.load.powers(at)
-        _, _, power = self.said(at)
-        if not loss >= -ROUNDING * (abs(work) + power):
-            raise LawError(f"{name}: {type(self.load).__name__} loses {loss:.6g} W; allowed: >= 0")
+        now = self.load.acting(at)
+        power = math.hypot(*now.forces) * math.hypot(*self.rates(at))
+        if not now.loss >= -ROUNDING * (abs(now.work) + power):
+            raise LawError(f"{name}: {type(self.load).__name__} loses {now.loss:.6g} W; allowed: >= 0")
+
+    @abstractmethod
+    def rates(self, at: Any) -> tuple[float, ...]:
+        """The rates of the strain."""
 
 
-@dataclass(frozen=True)
 class ForceItem(LoadItem):
-    """A force on a point in the engine."""
+    """A force on a point: a connector in the axes of the ground."""
 
-    load: Load
+    def __init__(self, load: Load, name: str, builder: EngineBuilder) -> None:
+        super().__init__(load, builder)
+        origin = builder.marker(load.against(name), builder.place(load.origin, load.origin_lateral))
+        point = builder.marker(load.body, builder.place(load.point, load.lateral))
+        self.object = self.mbs.AddObject(
+            ObjectConnectorCartesianSpringDamper(
+                markerNumbers=[origin, point], springForceUserFunction=self.pull
+            )
+        )
+        farthest = max(map(abs, (*load.point, *load.origin)))
+        self.rounding = ROUNDINGS * sys.float_info.epsilon * math.hypot(*load.steepness) * farthest
+
+    def pull(self, mbs: Any, t: float, item: int, way: Any, velocity: Any, *others: Any) -> list[float]:
+        """The engine's user function."""
+        (x, y, z), (vx, vy, vz) = way, velocity
+        return [-force for force in self.load.numbers(LoadedPoint(t, x, y, vx, vy, z, vz))[:3]]
 
     def at(self, t: float) -> LoadedPoint:
         """See `LoadItem`."""
-        output = exudyn.OutputVariableType
-        x, y, z = self.mbs.GetObjectOutput(self.object, output.Displacement)
-        vx, vy, vz = self.mbs.GetObjectOutput(self.object, output.Velocity)
-        return LoadedPoint(t, float(x), float(y), float(vx), float(vy), float(z), float(vz))
+        x, y, z = map(float, self.mbs.GetObjectOutput(self.object, KNOWN.Displacement))
+        vx, vy, vz = map(float, self.mbs.GetObjectOutput(self.object, KNOWN.Velocity))
+        return LoadedPoint(t, x, y, vx, vy, z, vz)
 
-    def said(self, at: LoadedPoint) -> tuple[str, float, float]:
+    def rates(self, at: LoadedPoint) -> tuple[float, ...]:
         """See `LoadItem`."""
-        along, up, aside = self.load.pushes(at)
-        size = math.hypot(along, up, aside)
-        said = f"force of {along:g}, {up:g}" + f", {aside:g}" * (aside != 0.0)
-        return f"{said} N", size, size * math.hypot(at.vx, at.vy, at.vz)
+        return at.vx, at.vy, at.vz
 
 
-@dataclass(frozen=True)
 class MomentItem(LoadItem):
-    """A moment on a body in the engine."""
+    """A moment on a body: a connector that knows all turns, in the other body's axes; it counts whole turns."""
 
-    load: MomentLoad
+    def __init__(self, load: MomentLoad, name: str, builder: EngineBuilder) -> None:
+        super().__init__(load, builder)
+        del name
+        self._turn = 0.0  # [rad], the last
+        self.object = self.mbs.AddObject(
+            ObjectConnectorRigidBodySpringDamper(
+                markerNumbers=[builder.frame(body) for body in (load.other, load.body)],
+                springForceTorqueUserFunction=self.pull,
+            )
+        )
+
+    def pull(
+        self, mbs: Any, t: float, item: int, shift: Any, angles: Any, velocity: Any, spin: Any, *others: Any
+    ) -> list[float]:
+        """The engine's user function."""
+        at, axis = self._turned(t, angles, spin)
+        moment = self.load.numbers(at)[0]
+        return [0.0, 0.0, 0.0, *(-moment * k for k in axis)]
+
+    def _turned(self, t: float, angles: Any, spin: Any) -> tuple[TurnedBody, Vector3]:
+        """Turn and rate, and the axis by which a moment acts on them; angles, spin: in the other's axes."""
+        x, y, z = _forward(*map(float, angles)).tolist()
+        axis: Vector3 = turning_axis(x, y, z)
+        self._turn += math.remainder(math.atan2(y, x) - self._turn, 2.0 * math.pi)
+        rate = float(sum(k * w for k, w in zip(axis, spin, strict=True)))
+        return TurnedBody(t, self._turn, rate), axis
 
     def at(self, t: float) -> TurnedBody:
         """See `LoadItem`."""
-        output = exudyn.OutputVariableType
-        turn = self.mbs.GetObjectOutput(self.object, output.Displacement)
-        return TurnedBody(t, float(turn), float(self.mbs.GetObjectOutput(self.object, output.Velocity)))
+        angles, spin = (
+            self.mbs.GetObjectOutput(self.object, what) for what in (KNOWN.Rotation, KNOWN.AngularVelocityLocal)
+        )
+        return self._turned(t, angles, spin)[0]
 
-    def said(self, at: TurnedBody) -> tuple[str, float, float]:
+    def rates(self, at: TurnedBody) -> tuple[float, ...]:
         """See `LoadItem`."""
-        moment = self.load.moment(at)
-        return f"moment of {moment:g} N m", abs(moment), abs(moment * at.spin)
+        return (at.spin,)
 
 
-def add_force(mbs: Any, load: Load, origin: Any, point: Any) -> ForceItem:
-    """Let a force act between a marker on what it acts against and one on the body."""
-    connector = mbs.AddObject(ObjectConnectorCartesianSpringDamper(markerNumbers=[origin, point]))
-    function = _pull(load)
-    mbs.SetObjectParameter(connector, NAME, function)
-    return ForceItem(mbs, load, connector, function)
+class StretchItem(LoadItem):
+    """Forces over a stretch: a connector from the ground to its first point, with force and moment there."""
+
+    load: StretchLoad
+
+    def __init__(self, load: StretchLoad, name: str, builder: EngineBuilder) -> None:
+        super().__init__(load, builder)
+        places = [builder.place(point, load.lateral) for point in load.points]
+        first = builder.frame(load.body, places[0])
+        self.ends = first, builder.marker(load.body, places[1])
+        self.object = self.mbs.AddObject(
+            ObjectConnectorRigidBodySpringDamper(
+                markerNumbers=[builder.frame(load.against(name), places[0]), first],
+                springForceTorqueUserFunction=self.pull,
+            )
+        )
+
+    def pull(
+        self, mbs: Any, t: float, item: int, way: Any, angles: Any, velocity: Any, spin: Any, *others: Any
+    ) -> list[float]:
+        """The engine's user function."""
+        (x, y), (u, v) = self.load.points
+        a, b, c = map(float, angles)
+        arm = (u - x) * _forward(a, b, c) + (v - y) * _upward(a, b, c)
+        rate = velocity[1] + spin[2] * arm[0] - spin[0] * arm[2]
+        at = LoadedStretch(t, way[1], way[1] + arm[1] - (v - y), velocity[1], rate)
+        first, second = self.load.numbers(at)[:2]
+        return [0.0, -first - second, 0.0, arm[2] * second, 0.0, -arm[0] * second]
+
+    def at(self, t: float) -> LoadedStretch:
+        """See `LoadItem`."""
+        heights, rates = (
+            [float(self.mbs.GetMarkerOutput(end, what)[1]) for end in self.ends]
+            for what in (KNOWN.Position, KNOWN.Velocity)
+        )
+        ways = [height - point[1] for height, point in zip(heights, self.load.points, strict=True)]
+        return LoadedStretch(t, ways[0], ways[1], rates[0], rates[1])
+
+    def rates(self, at: LoadedStretch) -> tuple[float, ...]:
+        """See `LoadItem`."""
+        return at.first_rate, at.second_rate
 
 
-def add_moment(mbs: Any, load: MomentLoad, rotations: list[Any]) -> MomentItem:
-    """Let a moment act between markers of the rotations of what it acts against and of the body."""
-    connector = mbs.AddObject(ObjectConnectorCoordinateSpringDamper(markerNumbers=rotations))
-    function = _twist(load)
-    mbs.SetObjectParameter(connector, NAME, function)
-    return MomentItem(mbs, load, connector, function)
+def _forward(a: float, b: float, c: float) -> Series:
+    """A body's forward direction in the other's axes, by the engine's angles: R = R_x(a) R_y(b) R_z(c)."""
+    sa, ca, sb, cb, sc, cc = math.sin(a), math.cos(a), math.sin(b), math.cos(b), math.sin(c), math.cos(c)
+    return np.array([cb * cc, ca * sc + sa * sb * cc, sa * sc - ca * sb * cc])
 
 
-def _pull(load: Load) -> Callable[..., list[float]]:
-    """The force with which the connector pulls its ends together, of the engine's signature."""
-
-    def pull(mbs: Any, t: float, item: int, displacement: Any, velocity: Any, *others: Any) -> list[float]:
-        (x, y, z), (vx, vy, vz) = displacement, velocity
-        return [-push for push in load.pushes(LoadedPoint(t, x, y, vx, vy, z, vz))]
-
-    return pull
+def _upward(a: float, b: float, c: float) -> Series:
+    """A body's upward direction in the other's axes, see `_forward`."""
+    sa, ca, sb, cb, sc, cc = math.sin(a), math.cos(a), math.sin(b), math.cos(b), math.sin(c), math.cos(c)
+    return np.array([-cb * sc, ca * cc - sa * sb * sc, sa * cc + ca * sb * sc])
 
 
-def _twist(load: MomentLoad) -> Callable[..., float]:
-    """The moment with which the connector turns its ends together, of the engine's signature."""
-
-    def twist(mbs: Any, t: float, item: int, displacement: Any, velocity: Any, *others: Any) -> float:
-        return -load.moment(TurnedBody(t, displacement, velocity))
-
-    return twist
+def add_load(load: ActingLoad, name: str, builder: EngineBuilder) -> LoadItem:
+    """Add what stands in the engine for a load of this name. Raises TypeError for one of no strain kind."""
+    if isinstance(load, Load):
+        return ForceItem(load, name, builder)
+    if isinstance(load, MomentLoad):
+        return MomentItem(load, name, builder)
+    if isinstance(load, StretchLoad):
+        return StretchItem(load, name, builder)
+    raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")

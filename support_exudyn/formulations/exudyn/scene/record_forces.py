@@ -10,8 +10,8 @@ from support_exudyn.mechanics.acting_loads import add_load
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import MOTION, DataNeeds
 from support_exudyn.mechanics.drive_acceleration import accelerations_of
-from support_exudyn.mechanics.reactions import HeldJoints, direction, equations, push, twist, weight_of
-from support_exudyn.mechanics.trajectory import CompliantSeries, ContactSeries, LoadSeries, Series
+from support_exudyn.mechanics.reactions import HeldJoints, direction, equations, push, weight_of
+from support_exudyn.mechanics.trajectory import ContactSeries, LoadSeries, Series
 
 FOLLOWING = DataNeeds.ACCELERATION | DataNeeds.JOINTS
 APPLIED = DataNeeds.CONTACTS | DataNeeds.OIL | DataNeeds.LOADS
@@ -28,12 +28,11 @@ def with_causes(needed: DataNeeds) -> DataNeeds:
 class Applied:
     """Forces that follow from the motion by themselves, by the names of what gives them.
 
-    contacts: of clearance pins. pins: of compliant ones. actuators: that push their ends apart (n,) [N]. loads:
-    on their points and bodies.
+    contacts: of clearance pins. actuators: that push their ends apart (n,) [N]. loads: as their
+    actions give them.
     """
 
     contacts: Mapping[str, ContactSeries]
-    pins: Mapping[str, CompliantSeries]
     actuators: Mapping[str, Series]
     loads: Mapping[str, LoadSeries]
 
@@ -85,9 +84,9 @@ def following(
     for _ in range(FRICTION_ROUNDS if scene.frictions else 0):
         last, rubbed = reactions, forces.copy()
         for (name, item), deflection in zip(scene.frictions.items(), deflections.T, strict=True):
-            carried = reactions[:, rows[item.owner]]
-            frictions[name] = item.series(carried, motion, deflection)
-            item.apply(rubbed, motion, carried, frictions[name])
+            carried = reactions[:, rows[item.joint.owner]]
+            frictions[name] = item.joint.forces(motion, carried, deflection)
+            item.joint.apply(rubbed, motion, carried, frictions[name])
         acceleration, reactions = all_bodies.solve(rubbed)
         if np.abs(reactions - last).max() <= SETTLED * np.abs(reactions).max():
             break
@@ -121,19 +120,11 @@ def _applied_forces(scene: Scene, motion: BodyMotion, applied: Applied) -> Serie
         first, second, known = scenario.contact_places[name].push(motion, contact)
         push(forces, motion, second, known.force, known.point)
         push(forces, motion, first, -known.force, known.point)
-    for name, pin in applied.pins.items():
-        place = linkage.pins[name]
-        for body, point, sign in (
-            (place.second, place.second_point, 1.0),
-            (place.first, place.first_point, -1.0),
-        ):
-            push(forces, motion, body, sign * pin.force, motion.place(body, point))
-            twist(forces, motion, body, sign * pin.moment)
     for name, force in applied.actuators.items():
         actuator = linkage.actuators[name]
         apart = force[:, None] * direction(motion, actuator)
         push(forces, motion, actuator.head, apart, motion.place(actuator.head, actuator.head_point))
         push(forces, motion, actuator.foot, -apart, motion.place(actuator.foot, actuator.foot_point))
     for name, loaded in applied.loads.items():
-        add_load(forces, motion, name, scenario.acting_loads[name], loaded)
+        add_load(forces, motion, name, scenario.elements[name], loaded)
     return forces

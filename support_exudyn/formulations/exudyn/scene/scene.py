@@ -14,12 +14,12 @@ from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.engine_scene import (
     CURRENT,
     INITIAL,
-    CompliantItem,
     EngineScene,
 )
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
 from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
+from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
@@ -44,7 +44,6 @@ class Scene(EngineScene):
     ideal_pins: dict[str, IdealItem]
     frictions: dict[str, JointFriction]  # of ideal pins and guides, "pins.NAME" and "guides.NAME"
     clearance_joints: dict[str, ContactConnector]
-    compliant_pins: dict[str, CompliantItem]
     rigid_actuators: dict[str, ActuatorItem]
     oil_columns: dict[str, OilColumnItem]
     cylinders: dict[str, CylinderItem]
@@ -147,7 +146,7 @@ class Scene(EngineScene):
 
     def multiplier_of(self, friction: JointFriction) -> int:
         """The first multiplier of a joint with friction."""
-        kind, name = friction.owner
+        kind, name = friction.joint.owner
         return int(self.ideal_pins[name].first if kind == "pins" else self.slides[name].first)
 
     def start_rubbing(self) -> None:
@@ -164,19 +163,19 @@ class Scene(EngineScene):
         later, earlier = (kinetics.rows(position + h * velocity) for h in (small, -small))
         turning = (earlier - later) @ velocity / (2.0 * small)  # accelerations that the constraints ask for
         owners = kinetics.owners()
+        still = np.zeros((1, velocity.size))
+        motion = BodyMotion(self.linkage, still, velocity[None], still)
         for friction in self.frictions.values():
-            friction.start(velocity)
+            friction.start(motion)
         force = kinetics.weight(self.scenario.gravity)
         multipliers = data.GetAECoordinates(INITIAL)
         for _ in range(FRICTION_ROUNDS):
             _, reactions = kinetics.respond(position, force, turning)
-            force = kinetics.weight(self.scenario.gravity)
+            total = kinetics.weight(self.scenario.gravity)[None]
             for friction in self.frictions.values():
-                row, first = owners.index(friction.owner), self.multiplier_of(friction)
-                held = reactions[row : row + friction.conditions]
-                multipliers[first : first + held.size] = held
-                multipliers[first] *= friction.sign
-                friction.add(force, (float(held[0]), float(held[1]) if held.size == 2 else 0.0), velocity)
+                row = owners.index(friction.joint.owner)
+                friction.guess(total, motion, reactions[row : row + friction.joint.conditions], multipliers)
+            force = total[0]
         data.SetAECoordinates(multipliers, INITIAL)
 
     def reset_memory(self) -> None:

@@ -23,29 +23,19 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
 )
 
-from support_exudyn.formulations.exudyn.scene.bushing import BushingItem
 from support_exudyn.formulations.exudyn.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.exudyn.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
-from support_exudyn.formulations.exudyn.scene.engine_scene import CompliantItem
-from support_exudyn.formulations.exudyn.scene.joint_friction import (
-    GuideFriction,
-    JointFriction,
-    PinFriction,
-    rotations,
-)
-from support_exudyn.formulations.exudyn.scene.load_item import LoadItem, add_force, add_moment
+from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
+from support_exudyn.formulations.exudyn.scene.load_item import add_load
 from support_exudyn.formulations.exudyn.scene.scene import Scene
-from support_exudyn.formulations.exudyn.scene.stretch_item import add_stretch
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.cylinder_chambers import fill_cylinders
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
+from support_exudyn.mechanics.joint_friction import FrictionJoint, friction_joints
 from support_exudyn.mechanics.oil_column import fill
-from support_exudyn.model.bushing_pin import BushingPin
+from support_exudyn.model.bushing_pin import CompliantPin
 from support_exudyn.model.linkage import GROUND, Body, Crank, Gear, Slide
-from support_exudyn.model.loads.load import ActingLoad, Load
-from support_exudyn.model.loads.moment_load import MomentLoad
-from support_exudyn.model.loads.stretch_load import StretchLoad
 from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.connector.contact_connector import ContactConnector
@@ -64,7 +54,6 @@ class PlaneBuilder(EngineBuilder):
         self.linkage = scenario.linkage
         self.ideal: dict[str, Any] = {}  # joints by name
         self.connectors: dict[str, JointItem] = {}  # of all that may make contact
-        self.compliant: dict[str, CompliantItem] = {}
         self.bodies = {name: self.add_body(body) for name, body in self.linkage.bodies.items()}
 
     @cached_property
@@ -95,6 +84,19 @@ class PlaneBuilder(EngineBuilder):
         place = point if body == GROUND else self.bodies[body].local(point)
         return MarkerBodyRigid(bodyNumber=self.item(body), localPosition=[*place, 0.0])
 
+    def place(self, point: Vector2, lateral: float) -> Vector2:
+        """See `EngineBuilder`."""
+        del lateral  # both sides are lumped
+        return point
+
+    def frame(self, body: str, point: Vector2 | None = None) -> Any:
+        """See `EngineBuilder`."""
+        local, turn = point or (0.0, 0.0), 0.0
+        if body != GROUND:
+            item = self.bodies[body]
+            local, turn = item.local(point or item.body.centre), -item.body.angle
+        return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.item(body), localHT=frame(local, turn)))
+
     @singledispatchmethod
     def add_pin(self, pin: Pin, name: str) -> None:
         """Add what stands in the engine for a pin of this name. A new kind of pin is registered below."""
@@ -106,10 +108,8 @@ class PlaneBuilder(EngineBuilder):
         self.ideal[name] = self.mbs.AddObject(joint)
 
     @add_pin.register
-    def _add_bushing(self, pin: BushingPin, name: str) -> None:
-        place = self.linkage.pins[name]
-        turns = rotations(self.mbs, self.node(place.first), self.node(place.second))
-        self.compliant[name] = BushingItem(self.mbs, pin, place, self.pin_markers(name), turns)
+    def _add_compliant(self, pin: CompliantPin, name: str) -> None:
+        """Nothing: its loads stand for it, see `ScenarioData.elements`."""
 
     @add_pin.register
     def _add_clearance(self, pin: ClearancePin, name: str) -> None:
@@ -143,19 +143,11 @@ class PlaneBuilder(EngineBuilder):
         mass = partial(scene.inverse_mass, name)
         return ContactConnector(item, mass, solver.impact_steps)
 
-    def add_frictions(self) -> dict[str, JointFriction]:
-        """Add the friction of all ideal pins and guides."""
-        found: dict[str, JointFriction] = {}
-        for name, pin in self.scenario.friction_pins.items():
-            place = self.linkage.pins[name]
-            nodes = [self.node(place.first), self.node(place.second)]
-            found[f"pins.{name}"] = PinFriction(self.mbs, name, pin, place, nodes)
-        for name, guide in self.scenario.friction_guides.items():
-            slide = self.linkage.slides[name]
-            points = [self.marker(body, slide.point) for body in (slide.against, slide.body)]
-            nodes = [self.node(slide.against), self.node(slide.body)]
-            found[f"guides.{name}"] = GuideFriction(self.mbs, name, guide, slide, points, nodes)
-        return found
+    def add_friction(self, joint: FrictionJoint) -> JointFriction:
+        """Add the friction of an ideal pin or guide."""
+        bodies = joint.first, joint.second
+        points = [] if joint.slide is None else [self.marker(body, joint.slide.point) for body in bodies]
+        return JointFriction(self.mbs, joint, [self.node(body) for body in bodies], points)
 
     def add_crank(self, crank: Crank) -> Any:
         """Add what holds a crank's angle; returns its number in the engine."""
@@ -203,33 +195,14 @@ class PlaneBuilder(EngineBuilder):
             )
         )
 
-    @singledispatchmethod
-    def add_load(self, load: ActingLoad, name: str) -> LoadItem:
-        """Add what stands in the engine for a load of this name."""
-        raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
-
-    @add_load.register
-    def _add_force(self, load: Load, name: str) -> LoadItem:
-        origin = self.marker(load.against(name), load.origin)
-        return add_force(self.mbs, load, origin, self.marker(load.body, load.point))
-
-    @add_load.register
-    def _add_moment(self, load: MomentLoad, name: str) -> LoadItem:
-        del name
-        return add_moment(self.mbs, load, rotations(self.mbs, self.node(load.other), self.node(load.body)))
-
-    @add_load.register
-    def _add_stretch(self, load: StretchLoad, name: str) -> LoadItem:
-        first, second = (self.marker(load.body, point) for point in load.points)
-        return add_stretch(self.mbs, load, self.marker(load.against(name), load.points[0]), first, second)
-
     def build(self) -> Scene:
         """The whole scene."""
         scenario, linkage, mbs = self.scenario, self.linkage, self.mbs
         given = scenario.pins.items()
         for name in (*(name for name, pin in given if not pin.holds), *scenario.held_pins):
             self.add_pin(scenario.pin(name), name)
-        frictions = self.add_frictions()
+        rubbing = friction_joints(scenario).items()
+        frictions = {name: self.add_friction(joint) for name, joint in rubbing}
         oil = {name: self.add_oil_column(linkage.actuators[name]) for name in scenario.oil_columns}
         rigid = {
             name: self.add_rigid_actuator(actuator)
@@ -245,7 +218,7 @@ class PlaneBuilder(EngineBuilder):
             self.add_contact(block.contact, name)
         for gear in linkage.gears.values():
             self.add_gear(gear)
-        loads = {name: self.add_load(load, name) for name, load in scenario.acting_loads.items()}
+        loads = {name: add_load(load, name, self) for name, load in scenario.elements.items()}
         is_in_equilibrium = scenario.start == "settled"
         cylinders = {
             name: CylinderItem(mbs, preloaded, self.ends(linkage.actuators[name]), is_in_equilibrium)
@@ -273,7 +246,6 @@ class PlaneBuilder(EngineBuilder):
             ideal_pins={name: IdealItem(o, multiplier(o)) for name, o in self.ideal.items()},
             frictions=frictions,
             clearance_joints={},
-            compliant_pins=self.compliant,
             rigid_actuators=rigid_actuators,
             oil_columns=oil_columns,
             cylinders=cylinders,

@@ -100,7 +100,6 @@ class Recorder:
         self.integrates = DataNeeds.INTEGRALS in needs and bool(
             works
             or scene.clearance_joints
-            or scene.compliant_pins
             or scene.frictions
             or scene.loads
             or scene.cylinders
@@ -110,7 +109,6 @@ class Recorder:
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.clearance_joints.items())
-        self._compliant = tuple(scene.compliant_pins.values())
         self._looks = scene.scenario.solver.result_checks  # whether what is lost is
         self._driven = tuple((parts, parts.multipliers, parts.oil) for parts in scene.driven)
         self._frictions = tuple(scene.frictions.items())
@@ -281,11 +279,11 @@ class Recorder:
             for item in oil:
                 driving += item.preloaded.power(self._length(item), extension, speed)
         for name, load in self._loads:
-            work, loss = load.powers(t)
-            if self._looks and not loss >= 0.0:
+            acting = load.acting(t)
+            if self._looks and not acting.loss >= 0.0:
                 load.look(t, name)
-            driving += work
-            damping += loss
+            driving += acting.work
+            damping += acting.loss
         for cylinder in self._cylinders:
             work, loss = cylinder.powers()
             driving += work
@@ -293,8 +291,6 @@ class Recorder:
         if self._legs.names:
             work, loss, rubbed = self._legs.powers()
             driving, damping, friction = driving + work, damping + loss, friction + rubbed
-        for compliant in self._compliant:
-            damping += compliant.loss()
         for name, rubbing in self._frictions:
             lost = rubbing.power()
             if self._looks and not lost >= 0.0:

@@ -75,7 +75,7 @@ class SolverRun:
             scenario.duration,
             unknowns,
             force_rounding([item.preloaded for parts in scene.driven for item in parts.oil])
-            + sum(pin.rounding for pin in scene.compliant_pins.values())
+            + sum(load.rounding for load in scene.loads.values())
             + scene.legs.rounding,
             bool(self.cylinders),
             scene.repeats,
@@ -84,7 +84,7 @@ class SolverRun:
         # what a load does need not show in accelerations, and long steps would pass over where it begins
         # and pressures and states of friction are not interpolated at records that a step passes over
         states = scene.cylinders or scene.legs.names or any(one.law.has_state for one in self.frictions)
-        grows = scenario.solver.growth > 1.0 and not (scene.loads or states)
+        grows = scenario.solver.growth > 1.0 and not (scenario.acting_loads or states)
         self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0

@@ -11,11 +11,11 @@ from support_exudyn.formulations.exudyn.space.block_face import BlockFace
 from support_exudyn.formulations.exudyn.space.scene import SpatialScene
 from support_exudyn.formulations.exudyn.space.section_pin import SectionPin
 from support_exudyn.formulations.exudyn.space.sections import SectionMotion, section_motion
+from support_exudyn.mechanics.acting_loads import add_load, load_series
 from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
 from support_exudyn.mechanics.drive_acceleration import accelerations_of
 from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.space.accelerations import accelerations
-from support_exudyn.mechanics.space.acting_loads import add_load, load_series
 from support_exudyn.mechanics.space.constraints import TURNS, Constraint, direction_of
 from support_exudyn.mechanics.space.kinetics import inertias, weight
 from support_exudyn.mechanics.space.motion import SpatialMotion, cross, motion_of
@@ -125,7 +125,7 @@ class SpatialObservation:
     @cached_property
     def acting(self) -> dict[str, LoadSeries]:
         """What acts on the machine besides its weight, by name."""
-        acting = self.scene.scenario.acting_loads.items()
+        acting = self.scene.scenario.elements.items()
         return {name: load_series(load, name, self.motion, self.time) for name, load in acting}
 
     @cached_property
@@ -216,8 +216,8 @@ class SpatialObservation:
             point = self.motion.point(body, place).position
             self._push(forces, body, push, point)
             self._push(forces, block, -push, point)
-        for name, load in self.scene.scenario.acting_loads.items():
-            add_load(forces, self.motion, name, load, self.acting[name], self._push)
+        for name, load in self.scene.scenario.elements.items():
+            add_load(forces, self.motion, name, load, self.acting[name])
         return forces
 
     def _push(self, forces: Series, body: str, force: Series, point: Series) -> None:

@@ -14,7 +14,6 @@ from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.engine_scene import (
     CURRENT,
     INITIAL,
-    CompliantItem,
     EngineScene,
 )
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
@@ -73,7 +72,6 @@ class SpatialScene(EngineScene):
     oil_columns: dict[str, OilColumnItem]
     legs: EngineLegs
     driven: tuple[DrivenParts, ...]  # all actuators, by the drive that they follow
-    compliant_pins: dict[str, CompliantItem] = field(default_factory=dict)  # not covered
     frictions: dict[str, JointFriction] = field(default_factory=dict)  # of ideal pins: nor these
     loads: dict[str, LoadItem] = field(default_factory=dict)
     weights: dict[str, Any] = field(default_factory=dict)  # loads of the engine, by body

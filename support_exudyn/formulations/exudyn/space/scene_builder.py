@@ -18,8 +18,8 @@ from exudyn.itemInterface import (
 
 from support_exudyn.formulations.exudyn.scene.driven_parts import OilColumnItem, by_drive
 from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
+from support_exudyn.formulations.exudyn.scene.load_item import add_load
 from support_exudyn.formulations.exudyn.space.block_face import BlockFace, places
-from support_exudyn.formulations.exudyn.space.loads import add_load
 from support_exudyn.formulations.exudyn.space.scene import SpatialBodyItem, SpatialScene
 from support_exudyn.formulations.exudyn.space.section_pin import SectionJournal, SectionPin, part_of
 from support_exudyn.formulations.exudyn.space.sections import ends, marker_frame, sections
@@ -40,10 +40,11 @@ from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
+from support_exudyn.model.to_space import at
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.connector.item import JointItem, Mount, frame
-from user_forces.values.value import Vector3
+from user_forces.values.value import Vector2, Vector3
 
 TILTS: tuple[Kind, ...] = ("tilt_1", "tilt_2")
 
@@ -72,6 +73,15 @@ class _SpaceBuilder(EngineBuilder):
         """See `EngineBuilder`."""
         local = np.array(point) - np.array(self.centre(body))
         return MarkerBodyPosition(bodyNumber=self.item(body), localPosition=local)
+
+    def place(self, point: Vector2, lateral: float) -> Vector3:
+        """See `EngineBuilder`."""
+        return at(point, lateral)
+
+    def frame(self, body: str, point: Vector3 | None = None) -> Any:
+        """See `EngineBuilder`."""
+        local = (0.0, 0.0, 0.0) if point is None else self.local(body, point)
+        return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.item(body), localPosition=local))
 
     def frame_marker(self, end: BearingEnd) -> Any:
         """A marker in the middle of a bore or journal, its z along the axis."""
@@ -156,7 +166,7 @@ class _SpaceBuilder(EngineBuilder):
         oil = {name: self.add_oil_column(linkage.actuators[name]) for name in on_oil}
         legs = [self.add_leg(leg) for leg in self.legs()]
         connectors = {name: self.add_connectors(linkage.bearings[name]) for name in with_clearance}
-        loads = {name: add_load(load, name, self) for name, load in scenario.acting_loads.items()}
+        loads = {name: add_load(load, name, self) for name, load in scenario.elements.items()}
         faces = {name: self.add_face(name, block) for name, block in scenario.blocks.items()}
         heavy = linkage.bodies if any(scenario.gravity) else {}
         weights = {name: self.add_weight(name, body) for name, body in heavy.items()}

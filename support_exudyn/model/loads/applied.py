@@ -1,18 +1,20 @@
-"""The course of a force or a moment over time: a table, a harmonic one, or one that comes on and stays."""
+"""Forces and torques over time: by a table, by a sine, or such that come on and stay."""
 
 from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
+from typing_extensions import Self
 
 from support_exudyn.model.drives.table_drive import MOST_POINTS, TableDrive
-from user_forces.kernel import smooth_step
-from user_forces.values.units import Radians, Seconds
-from user_forces.values.value import NonNegative, Positive, Real, Value, value
+from support_exudyn.model.loads.load import Load, LoadChannel, MomentLoad, TimeFunction
+from user_forces.kernel import kernel, smooth_step
+from user_forces.values.units import NewtonMetres, Newtons, Radians, Seconds
+from user_forces.values.value import NonNegative, Positive, Real, Value, Vector2, value
 
 
 class LoadCourse(Value, ABC):
@@ -30,10 +32,6 @@ class LoadCourse(Value, ABC):
     @abstractmethod
     def breaks(self) -> tuple[float, ...]:
         """Times [s] at which a derivative jumps."""
-
-    @abstractmethod
-    def largest(self, duration: float) -> float:
-        """The share of the largest magnitude within a duration [s]."""
 
     @property
     @abstractmethod
@@ -81,10 +79,6 @@ class TableCourse(LoadCourse):
         """The points [s]; where they are joined by lines, those at which the slope jumps."""
         return self._rise.breaks
 
-    def largest(self, duration: float) -> float:
-        """The share of the largest magnitude within a duration [s]."""
-        return max((self.shares[0] + rise for rise in self._rise.span(duration)), key=abs)
-
     @property
     def shortest_time(self) -> float:
         """The time from the first point to the last [s], as of a drive."""
@@ -118,35 +112,37 @@ class HarmonicCourse(LoadCourse):
         """There are none."""
         return ()
 
-    def largest(self, duration: float) -> float:
-        """Mean and amplitude together, which a duration of a period reaches."""
-        del duration
-        return self.mean + math.copysign(1.0, self.mean)
-
     @property
     def shortest_time(self) -> float:
         """One over the angular frequency [s]."""
         return self.period / (2.0 * math.pi)
 
 
-class Coming(NamedTuple):
-    """How a load comes on: by a course, or smoothly between two times, and stays; both 0: it is there at once.
+@value
+class ComingOn(Value, ABC):
+    """What comes on smoothly between two times and stays, or has a course.
 
-    course: None: between `start` and `end` [s].
+        share = 3 x^2 - 2 x^3,   x = (t - start)/(end - start) from 0 to 1
+
+    Arguments:
+        start, end: between which it comes on [s], 0 <= start < end; both 0: it acts from the start on, and a
+            start "settled" is settled under it.
+        course: by which it is multiplied over time, in place of both.
     """
 
-    start: float
-    end: float
-    course: LoadCourse | None
+    start: Seconds[NonNegative] = 0.0
+    end: Seconds[NonNegative] = 0.0
+    course: LoadCourse | None = None
 
-    def check(self) -> None:
-        """Raise ValueError unless the times are in order, or a course is given in their place."""
+    @model_validator(mode="after")
+    def _comes_on(self) -> Self:
         if self.course is not None and (self.start, self.end) != (0.0, 0.0):
             raise ValueError(
                 f"start = {self.start} s, end = {self.end} s: the course says when; allowed beside it: none"
             )
         if self.end <= self.start and (self.start, self.end) != (0.0, 0.0):
             raise ValueError(f"end = {self.end} s: allowed: > start = {self.start} s, or both 0")
+        return self
 
     def share(self, t: float) -> float:
         """Share of the full force at a time t [s]."""
@@ -157,17 +153,86 @@ class Coming(NamedTuple):
         return smooth_step((t - self.start) / (self.end - self.start))
 
     @property
+    def courses(self) -> tuple[TimeFunction, ...]:
+        """The share of the full force that acts."""
+        return (self.share,)
+
+    @property
     def breaks(self) -> tuple[float, ...]:
-        """Times [s] at which a derivative jumps."""
+        """Start and end of its rise, or the breaks of its course [s]."""
         if self.course is not None:
             return self.course.breaks
         return () if self.end == 0.0 else (self.start, self.end)
 
-    def largest(self, duration: float) -> float:
-        """The share of the largest magnitude within a duration [s]."""
-        return self.share(duration) if self.course is None else self.course.largest(duration)
-
     @property
     def shortest_time(self) -> float:
-        """Shortest time of a course [s]; infinite without one."""
+        """Shortest time of its course [s]; infinite without one."""
         return math.inf if self.course is None else self.course.shortest_time
+
+
+@value
+class AppliedForce(ComingOn, Load):
+    """A force that keeps its direction whatever the point does; it comes on smoothly and stays.
+
+        F = force (3 x^2 - 2 x^3),   x = (t - start)/(end - start) from 0 to 1
+
+    With a `course` it is force times that. It is what a roof that follows the machine puts on it, where `Roof`
+    yields as the machine does. All that it does to the point counts as work; it stores nothing.
+
+    Arguments:
+        body, point: what it acts on, see `Load`; it stays with the point of the body.
+        full_force: in the end, forward and up [N]; a roof presses down, (0, -1e6).
+        start, end: between which it comes on [s], 0 <= start < end; both 0: it acts from the start on, and a
+            start "settled" is settled under it.
+        course: by which it is multiplied over time, in place of both.
+    """
+
+    full_force: Newtons[Vector2]
+
+    @staticmethod
+    @kernel
+    def action(
+        t: float,
+        x: float,
+        y: float,
+        vx: float,
+        vy: float,
+        z: float,
+        vz: float,
+        share: float,
+        *full_force: float,
+    ) -> tuple[float, ...]:
+        """The force, all of whose power is work; see `ActingLoad`."""
+        along, up = full_force[0] * share, full_force[1] * share
+        return along, up, 0.0, 0.0, along * vx + up * vy, 0.0, along, up
+
+    @property
+    def channels(self) -> dict[str, LoadChannel]:
+        """The channels are the force's two components."""
+        return {
+            "force_x": LoadChannel("N", "of the load, forward"),
+            "force_y": LoadChannel("N", "of the load, up"),
+        }
+
+
+@value
+class AppliedTorque(ComingOn, MomentLoad):
+    """A torque on a body, however it turns, and the opposite one on another, or on the ground.
+
+    It comes on and stays as `AppliedForce` does, or has a course. All that it does counts as work.
+
+    Arguments:
+        body, other: see `MomentLoad`.
+        full_torque: in the end, positive anticlockwise [N m].
+        start, end: between which it comes on [s], 0 <= start < end; both 0: it acts from the start on.
+        course: by which it is multiplied over time, in place of both.
+    """
+
+    full_torque: NewtonMetres[Real]
+
+    @staticmethod
+    @kernel
+    def action(t: float, turn: float, spin: float, share: float, full_torque: float) -> tuple[float, ...]:
+        """The torque, all of whose power is work; see `ActingLoad`."""
+        moment = full_torque * share
+        return moment, 0.0, moment * spin, 0.0, moment
