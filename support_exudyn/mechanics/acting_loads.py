@@ -140,7 +140,7 @@ class _Strain(ABC):
         """Add forces (n, k) of a load, as its action gives them, to the forces on all bodies."""
 
 
-class _Way(_Strain):
+class _PointStrain(_Strain):
     """The way of a point against another, of a `Load`."""
 
     def __init__(self, load: Load, name: str, bodies: _Bodies) -> None:
@@ -158,7 +158,7 @@ class _Way(_Strain):
         self.bodies.push(total, self.against, -known, self.origin.position)
 
 
-class _Turn(_Strain):
+class _TurnStrain(_Strain):
     """The turn of a body against another, of a `MomentLoad`."""
 
     def __init__(self, load: MomentLoad, name: str, bodies: _Bodies) -> None:
@@ -172,7 +172,7 @@ class _Turn(_Strain):
         self.bodies.twist(total, self.load.other, -forces * self.axis)
 
 
-class _Stretch(_Strain):
+class _StretchStrain(_Strain):
     """The ways up of both ends of a stretch, of a `StretchLoad`."""
 
     def __init__(self, load: StretchLoad, name: str, bodies: _Bodies) -> None:
@@ -193,11 +193,11 @@ def _strain(load: ActingLoad, name: str, motion: BodyMotion | SpatialMotion) -> 
     """The strain of a load of this name. Raises TypeError for a load of no strain kind."""
     bodies = _bodies(motion)
     if isinstance(load, Load):
-        return _Way(load, name, bodies)
+        return _PointStrain(load, name, bodies)
     if isinstance(load, MomentLoad):
-        return _Turn(load, name, bodies)
+        return _TurnStrain(load, name, bodies)
     if isinstance(load, StretchLoad):
-        return _Stretch(load, name, bodies)
+        return _StretchStrain(load, name, bodies)
     raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
 
 
@@ -251,21 +251,16 @@ def load_channels(name: str, load: ActingLoad, stem: str | None = None) -> Chann
     return {f"{stem or name}.{what}": definition(what) for what in load.channels}
 
 
-def forces_at_rest(
-    system: Kinetics, loads: Mapping[str, ActingLoad], position: Matrix, at: float | None = None
-) -> Matrix:
-    """What loads do to all coordinates (n,) of a linkage at rest [N], [N m].
+def forces_at_rest(system: Kinetics, loads: Mapping[str, ActingLoad], position: Matrix) -> Matrix:
+    """What loads do to all coordinates (n,) of a linkage at rest, each once it has come on for good [N], [N m].
 
-    position: coordinates of all bodies (n,). at: a time [s]; None: each once it has come on for good.
+    system: with coordinates in the order of its bodies. position: coordinates of all bodies (n,).
     """
-    order = np.concatenate([np.arange(one.first, one.first + 3) for one in system.bodies.values()])
-    motion, forces = _at_rest(system, position[order][None]), np.zeros((1, position.size))
+    motion, forces = _at_rest(system, position[None]), np.zeros((1, position.size))
     for name, load in loads.items():
-        time = max(load.breaks, default=0.0) if at is None else at
-        add_load(forces, motion, name, load, load_series(load, name, motion, np.array([time])))
-    found = np.zeros(position.size)
-    found[order] = forces[0]
-    return found
+        time = np.array([max(load.breaks, default=0.0)])
+        add_load(forces, motion, name, load, load_series(load, name, motion, time))
+    return forces[0]
 
 
 def largest_forces(system: Kinetics, loads: Mapping[str, ActingLoad], duration: float) -> Matrix:

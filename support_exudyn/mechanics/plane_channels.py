@@ -190,8 +190,8 @@ def _of_pin(pin: Pin, name: str, place: PinPlace) -> ChannelDefinitions:
     if not isinstance(pin, CompliantPin):
         return pin_channels(pin, name)
     found: ChannelDefinitions = {}
-    for part, load in pin.loads(place).items():
-        found |= load_channels(f"pin.{name}.{part}", load, f"pin.{name}")
+    for load_name, load in pin.named_loads(name, place).items():
+        found |= load_channels(load_name, load, f"pin.{name}")
     return found
 
 

@@ -32,6 +32,10 @@ class CompliantPin(Pin, ABC):
         Forces and moments are those of the first body on the second. The pin has the loads' channels.
         """
 
+    def named_loads(self, name: str, place: PinPlace) -> dict[str, ActingLoad]:
+        """The loads of a pin of this name, as "pin.NAME.LOAD"."""
+        return {f"pin.{name}.{part}": load for part, load in self.loads(place).items()}
+
     @property
     def holds(self) -> bool:
         """A compliant pin gives way."""

@@ -16,6 +16,7 @@ from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.mechanics.contact_places import ContactPlace, contact_places
 from support_exudyn.mechanics.continuation import conditions_of
 from support_exudyn.mechanics.initial_eccentricity import eccentric
+from support_exudyn.mechanics.joint_friction import friction_joints
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.mechanics.law_masses import guide_with_mass, lacks_mass, with_mass
 from support_exudyn.mechanics.leg_channels import leg_channels
@@ -149,19 +150,14 @@ class ScenarioData(Value, ABC):
         given = {name: load for name, load in self.loads.items() if isinstance(load, ActingLoad)}
         return {**self.machine.loads, **given}
 
-    @property
-    def compliant_pins(self) -> dict[str, CompliantPin]:
-        """The pins for which loads between their bodies stand, by name."""
-        return {name: pin for name, pin in self.pins.items() if isinstance(pin, CompliantPin)}
-
     @cached_property
     def elements(self) -> dict[str, ActingLoad]:
         """All that acts by time and motion: loads, and those of compliant pins as "pin.NAME.LOAD"."""
-        return self.acting_loads | {
-            f"pin.{name}.{part}": load
-            for name, pin in self.compliant_pins.items()
-            for part, load in pin.loads(self.linkage.pins[name]).items()
-        }
+        found = dict(self.acting_loads)
+        for name, pin in self.pins.items():
+            if isinstance(pin, CompliantPin):
+                found |= pin.named_loads(name, self.linkage.pins[name])
+        return found
 
     @cached_property
     def blocks(self) -> dict[str, FallingBlock]:
@@ -367,21 +363,19 @@ class ScenarioData(Value, ABC):
     @property
     def friction_pins(self) -> dict[str, IdealPin]:
         """The ideal pins that have friction, by name."""
-        ideal = {name: pin for name, pin in self.pins.items() if isinstance(pin, IdealPin)}
-        return {name: pin for name, pin in ideal.items() if pin.friction is not None}
+        pins = self.pins.items()
+        return {name: pin for name, pin in pins if isinstance(pin, IdealPin) and pin.friction is not None}
 
     @property
     def friction_guides(self) -> dict[str, IdealGuide]:
         """The ideal guides that have friction, by name."""
-        ideal = {name: guide for name, guide in self.guides.items() if isinstance(guide, IdealGuide)}
-        return {name: guide for name, guide in ideal.items() if guide.friction is not None}
+        found = {name: guide for name, guide in self.guides.items() if isinstance(guide, IdealGuide)}
+        return {name: guide for name, guide in found.items() if guide.friction is not None}
 
     @property
     def friction_laws(self) -> dict[str, FrictionLaw]:
         """Laws of ideal pins with friction, then of ideal guides, as "pins.NAME" and "guides.NAME"."""
-        laws = {f"pins.{name}": pin.friction for name, pin in self.friction_pins.items()}
-        laws |= {f"guides.{name}": guide.friction for name, guide in self.friction_guides.items()}
-        return {name: law for name, law in laws.items() if law is not None}
+        return {name: joint.law for name, joint in friction_joints(self).items()}
 
     @cached_property
     def hydraulics(self) -> dict[str, HydraulicLeg]:

@@ -387,7 +387,11 @@ def _rubbing(scenario: Scenario, build: _Builder, joints: Records, states: int) 
         record["body"], record["other"] = build.numbers[joint.second], build.numbers[joint.first]
         name, part = joint.owner[1], joint.part
         if isinstance(part, IdealPin):
-            record["kind"], record["row"], record["radius"] = arrays.BOLT, pins[name]["row"], part.radius
+            record["kind"], record["row"], record["radius"] = (
+                arrays.BOLT,
+                pins[name]["row"],
+                joint.lever((0.0, 0.0)),
+            )
             continue
         record["kind"] = arrays.BLOCK if part.block else arrays.GUIDED
         for what in ("row", "first", "second", "angle"):
