@@ -48,7 +48,7 @@ if TYPE_CHECKING:
         RigidActuator,
         bore_area,
     )
-    from support_exudyn.model.bushing_pin import BushingPin, CompliantPin
+    from support_exudyn.model.bushing_pin import BushingPin
     from support_exudyn.model.drives.drive import (
         CubicStep,
         Drive,
@@ -96,7 +96,7 @@ if TYPE_CHECKING:
     from support_exudyn.model.loads.roofs import BeddedRoof, GroundReaction, Roof
     from support_exudyn.model.loads.springs import SpringDamper, TorsionSpring
     from support_exudyn.model.machine import Machine
-    from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
+    from support_exudyn.model.pins import ClearancePin, CompliantPin, IdealPin, Pin
     from support_exudyn.model.to_space import Width
     from support_exudyn.postprocessing.comparing.files_compared import FilesCompared, compare_files
     from support_exudyn.postprocessing.export.solution_file import save_solution
@@ -245,7 +245,7 @@ _PLACES = {
         "RigidActuator",
         "bore_area",
     ),
-    ".model.bushing_pin": ("BushingPin", "CompliantPin"),
+    ".model.bushing_pin": ("BushingPin",),
     ".model.drives.drive": ("CubicStep", "Drive", "Held", "Reciprocating", "Steady", "Stroke", "UniformSpeed"),
     ".model.drives.table_drive": ("TableDrive",),
     ".model.guides": ("ClearanceGuide", "Guide", "IdealGuide"),
@@ -285,7 +285,7 @@ _PLACES = {
     ".model.loads.roofs": ("BeddedRoof", "GroundReaction", "Roof"),
     ".model.loads.springs": ("SpringDamper", "TorsionSpring"),
     ".model.machine": ("Machine",),
-    ".model.pins": ("ClearancePin", "IdealPin", "Pin"),
+    ".model.pins": ("ClearancePin", "CompliantPin", "IdealPin", "Pin"),
     ".model.to_space": ("Width",),
     ".scenario.recorded_channels": ("Channel",),
     ".scenario.scenario": ("Scenario",),

@@ -21,12 +21,11 @@ from support_exudyn.mechanics.guide_channels import guide_channels
 from support_exudyn.mechanics.leg_channels import leg_channels
 from support_exudyn.mechanics.pin_channels import pin_channels
 from support_exudyn.mechanics.trajectory import CylinderSeries, Series
-from support_exudyn.model.bushing_pin import CompliantPin
 from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.linkage import Body, Linkage, PinPlace, TracePoint
 from support_exudyn.model.loads.load import ActingLoad
-from support_exudyn.model.pins import IdealPin, Pin
+from support_exudyn.model.pins import CompliantPin, IdealPin, Pin
 from user_forces.values.value import InputError
 
 

@@ -1,7 +1,6 @@
-"""Compliant pins, whose force follows from how the two bodies have moved at the pin; a linear bushing."""
+"""A linear bushing in place of a pin: a force between two points and a moment between two bodies."""
 
 import math
-from abc import ABC, abstractmethod
 from collections.abc import Mapping
 
 from pydantic import model_validator
@@ -10,7 +9,7 @@ from typing_extensions import Self
 from support_exudyn.model.linkage import PinPlace
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel
 from support_exudyn.model.loads.springs import TorsionSpring
-from support_exudyn.model.pins import Pin, Refusal
+from support_exudyn.model.pins import CompliantPin
 from user_forces.kernel import kernel
 from user_forces.values.units import (
     Metres,
@@ -20,34 +19,6 @@ from user_forces.values.units import (
     NewtonsPerMetre,
 )
 from user_forces.values.value import NonNegative, Positive, Vector2, value
-
-
-class CompliantPin(Pin, ABC):
-    """A pin without constraints: loads act between its two bodies. A new kind is a class with `loads`."""
-
-    @abstractmethod
-    def loads(self, place: PinPlace) -> Mapping[str, ActingLoad]:
-        """What acts between the bodies of a place, by names of the pin's choice.
-
-        Forces and moments are those of the first body on the second. The pin has the loads' channels.
-        """
-
-    def named_loads(self, name: str, place: PinPlace) -> dict[str, ActingLoad]:
-        """The loads of a pin of this name, as "pin.NAME.LOAD"."""
-        return {f"pin.{name}.{part}": load for part, load in self.loads(place).items()}
-
-    @property
-    def holds(self) -> bool:
-        """A compliant pin gives way."""
-        return False
-
-    def refused_in_space(self) -> Refusal | None:
-        """Compliant pins are of the plane alone."""
-        return Refusal("", type(self).__name__, "IdealPin, ClearancePin")
-
-    def losses(self) -> dict[str, object]:
-        """A compliant pin loses energy by damping."""
-        return {"damping_loss": self}
 
 
 @value

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from typing import Any, Final, Literal, NamedTuple
 
 from pydantic import model_validator
 
+from support_exudyn.model.linkage import PinPlace
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.simple_laws import USUAL_RESTITUTION, fields_of, friction_of, law_with
 from user_forces.backing import pin_stiffness
 from user_forces.contact import JournalContact
@@ -213,6 +216,34 @@ class ClearancePin(Pin):
     def losses(self) -> dict[str, object]:
         """A clearance pin loses energy by the damping and the friction of its contact."""
         return {"damping_loss": self.contact.normal, "friction_loss": self.contact.friction}
+
+
+class CompliantPin(Pin, ABC):
+    """A pin without constraints: loads act between its two bodies. A new kind is a class with `loads`."""
+
+    @abstractmethod
+    def loads(self, place: PinPlace) -> Mapping[str, ActingLoad]:
+        """What acts between the bodies of a place, by names of the pin's choice.
+
+        Forces and moments are those of the first body on the second. The pin has the loads' channels.
+        """
+
+    def named_loads(self, name: str, place: PinPlace) -> dict[str, ActingLoad]:
+        """The loads of a pin of this name, as "pin.NAME.LOAD"."""
+        return {f"pin.{name}.{part}": load for part, load in self.loads(place).items()}
+
+    @property
+    def holds(self) -> bool:
+        """A compliant pin gives way."""
+        return False
+
+    def refused_in_space(self) -> Refusal | None:
+        """Compliant pins are of the plane alone."""
+        return Refusal("", type(self).__name__, "IdealPin, ClearancePin")
+
+    def losses(self) -> dict[str, object]:
+        """A compliant pin loses energy by damping."""
+        return {"damping_loss": self}
 
 
 def on_cylinders(

@@ -30,7 +30,6 @@ from support_exudyn.model.actuators import (
     PartModel,
     with_cylinder_and_rod,
 )
-from support_exudyn.model.bushing_pin import CompliantPin
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
 from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
@@ -40,7 +39,7 @@ from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.loads.load import ActingLoad, AnyLoad
 from support_exudyn.model.machine import Machine
-from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
+from support_exudyn.model.pins import ClearancePin, CompliantPin, IdealPin, Pin
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.scenario.solver_settings import ERROR_CONTROLLED, SolverSettings
 from user_forces.friction.law import FrictionLaw

@@ -3,8 +3,7 @@
 from typing import NoReturn
 
 from support_exudyn.mechanics.closing import repeated_count
-from support_exudyn.model.bushing_pin import CompliantPin
-from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
+from support_exudyn.model.pins import ClearancePin, CompliantPin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.compilation import UncompiledLawError, address_of, contact_law, load_law
 from support_exudyn.scene.setup import friction_law

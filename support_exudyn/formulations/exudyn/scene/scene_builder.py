@@ -34,9 +34,8 @@ from support_exudyn.mechanics.cylinder_chambers import fill_cylinders
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
 from support_exudyn.mechanics.joint_friction import FrictionJoint, friction_joints
 from support_exudyn.mechanics.oil_column import fill
-from support_exudyn.model.bushing_pin import CompliantPin
 from support_exudyn.model.linkage import GROUND, Body, Crank, Gear, Slide
-from support_exudyn.model.pins import ClearancePin, IdealPin, Pin
+from support_exudyn.model.pins import ClearancePin, CompliantPin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.connector.item import JointItem, Mount, frame
