@@ -260,7 +260,7 @@ def forces_at_rest(system: Kinetics, loads: Mapping[str, ActingLoad], position: 
     for name, load in loads.items():
         time = np.array([max(load.breaks, default=0.0)])
         add_load(forces, motion, name, load, load_series(load, name, motion, time))
-    return forces[0]
+    return np.asarray(forces[0])
 
 
 def largest_forces(system: Kinetics, loads: Mapping[str, ActingLoad], duration: float) -> Matrix:
