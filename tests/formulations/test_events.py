@@ -16,8 +16,7 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from support_exudyn.formulations.compiled import depth as depths
-from support_exudyn.formulations.compiled import events as general_events
+from support_exudyn.formulations.compiled import events
 from support_exudyn.scene.arrays import CONTACT
 from tests.formulations.plain import plain
 
@@ -27,13 +26,13 @@ LENGTH = 1.0  # of a course [s]
 FIRST, SHORTEN, GROWTH = LENGTH / 16.0, 0.25, 4.0  # step at first [s] and at most, and its changes
 NOTHING, IMPACT, SEPARATION, UNCLEAR = "nothing", "impact", "separation", "unclear"
 NAMES = {
-    depths.NOTHING: NOTHING,
-    depths.IMPACT: IMPACT,
-    depths.SEPARATION: SEPARATION,
-    depths.CUT: "cut",
-    depths.TOO_LONG: UNCLEAR,
+    events.NOTHING: NOTHING,
+    events.IMPACT: IMPACT,
+    events.SEPARATION: SEPARATION,
+    events.CUT: "cut",
+    events.TOO_LONG: UNCLEAR,
 }
-EvaluationContext = tuple[str, float, float]  # what, between which times [s]
+Event = tuple[str, float]  # what, and when [s]
 
 
 class Course(NamedTuple):
@@ -78,21 +77,19 @@ def contacts(depth: float, rate: float, push: float = 1.0, closed: bool = True) 
     return found
 
 
-def found_in_general(at: Callable[[float], np.recarray], t: float, h: float) -> EvaluationContext:
+def found_in_general(at: Callable[[float], np.recarray], t: float, h: float) -> Event:
     """What the general finder sees of a contact over time."""
     scene = Fake(at(t + h))
 
     def look(scene: Fake, n: int, x: float, path: object, y: object, slope: object, forced: bool) -> None:
         scene.contacts[:] = at(t + x * h)
 
-    look_for = plain(general_events.first_event, look=look)
-    n, what, low, high = look_for(scene, h, at(t), at(t + h), None, None, None)
-    if n < 0:
-        return NOTHING, t + h, t + h
-    return NAMES[what], t + low * h, t + high * h
+    first_event = plain(events.first_event, look=look)
+    n, what, x = first_event(scene, h, at(t), at(t + h), None, None, None)
+    return (NAMES[what], t + x * h) if n >= 0 else (NOTHING, t + h)
 
 
-def find(course: Course, t: float, h: float) -> EvaluationContext:
+def find(course: Course, t: float, h: float) -> Event:
     """The finder of the compiled formulation."""
 
     def at(time: float) -> np.recarray:
@@ -101,20 +98,20 @@ def find(course: Course, t: float, h: float) -> EvaluationContext:
     return found_in_general(at, t, h)
 
 
-def driven(course: Course) -> tuple[EvaluationContext, float]:
+def driven(course: Course) -> tuple[Event, float]:
     """What is found first over a whole course, and the length of the step in which it was."""
     t, h = 0.0, FIRST
     while t < LENGTH:
         h = min(h, LENGTH - t)
-        context = find(course, t, h)
-        if context[0] == UNCLEAR:
+        event = find(course, t, h)
+        if event[0] == UNCLEAR:
             h *= SHORTEN
             assert h > 1e-12, "it shortens for ever"
             continue
-        if context[0] != NOTHING:
-            return context, h
+        if event[0] != NOTHING:
+            return event, h
         t, h = t + h, min(GROWTH * h, FIRST)
-    return (NOTHING, LENGTH, LENGTH), h
+    return (NOTHING, LENGTH), h
 
 
 def course_of(turns: list[float], sign: float, lowest: float, closed: bool) -> Course:
@@ -144,14 +141,11 @@ margins = st.floats(0.01, 0.5) | st.floats(-0.5, -0.01)
 
 def check(course: Course) -> None:
     what, when = course.first()
-    (context, low, high), h = driven(course)
-    assert context == what
+    (event, at), h = driven(course)
+    assert event == what
     if what != NOTHING:
-        # by the cubic of the step; a tenth of it is what integrators allow when they end a step there. A depth
-        # that passes zero where it is about to turn is met, its time is not
-        met = abs(course.depth(low)) < 1e-2 * DEPTH
-        assert met or low - 0.1 * h <= when <= high + 0.1 * h
-        assert high - low <= h
+        # by the cubic of the step. A depth that passes zero where it is about to turn is met, its time is not
+        assert abs(course.depth(at)) < 1e-2 * DEPTH or abs(at - when) <= 0.1 * h
 
 
 @given(turns=times, sign=st.sampled_from([1.0, -1.0]), lowest=margins)
@@ -176,9 +170,7 @@ def test_the_first_touch_of_a_flight_is_found(turns: list[float], sign: float, h
 # --- tension that is cut ---
 
 
-def cut(
-    push: Callable[[float], float], depth: Polynomial, h: float = 0.125, start: float = 0.0
-) -> EvaluationContext:
+def cut(push: Callable[[float], float], depth: Polynomial, h: float = 0.125, start: float = 0.0) -> Event:
     """What is seen in a step of a contact that asks for tension where `push` is below zero."""
 
     def at(time: float) -> np.recarray:
@@ -215,17 +207,15 @@ CUTS: dict[str, tuple[Callable[[float], float], str]] = {
 @pytest.mark.parametrize("case", CUTS)
 def test_cuts_within_a_step_are_seen(case: str) -> None:
     push, what = CUTS[case]
-    found, low, high = cut(push, DEEP)
-    assert found == what
-    assert (low, high) == ((0.0, 0.125) if what == "cut" else (low, high))
+    event, at = cut(push, DEEP)
+    assert event == what
+    assert at == pytest.approx(0.1, rel=1e-12) if what == "cut" else at >= 0.0  # straight lines
 
 
 def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones() -> None:
     assert cut(lambda t: 0.07 - t, PARTS_EARLY)[0] == UNCLEAR
-    assert cut(lambda t: 0.04 - t, PARTS_EARLY, h=0.045) == ("cut", 0.0, 0.045)
-    what, low, high = cut(lambda t: 0.07 - t, PARTS_EARLY, h=0.06)
-    assert what == SEPARATION
-    assert low <= 0.05 <= high
+    assert cut(lambda t: 0.04 - t, PARTS_EARLY, h=0.045) == ("cut", pytest.approx(0.04, rel=1e-12))
+    assert cut(lambda t: 0.07 - t, PARTS_EARLY, h=0.06) == (SEPARATION, pytest.approx(0.05, rel=1e-12))
     # in so short a step the separation counts
     tiny = Polynomial([5e-14, -1e-3])
     assert cut(lambda t: 2e-11 - t, tiny, h=1e-10)[0] == SEPARATION
@@ -238,10 +228,9 @@ def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones() -> Non
 def test_what_is_over_within_a_step_is_seen(middle: float) -> None:
     # a parabola that passes zero 0.03 s on either side of its middle, in a step of an eighth of a second
     out = 10.0 * DEPTH * Polynomial([middle**2 - 9e-4, -2.0 * middle, 1.0])
-    what, low, high = find(Course(out, closed=True), 0.0, 0.125)
-    assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (SEPARATION, True)
-    what, low, high = find(Course(-out, closed=False), 0.0, 0.125)
-    assert (what, low - 1e-9 <= middle - 0.03 <= high + 1e-9) == (IMPACT, True)
+    when = pytest.approx(middle - 0.03, abs=1e-12)
+    assert find(Course(out, closed=True), 0.0, 0.125) == (SEPARATION, when)
+    assert find(Course(-out, closed=False), 0.0, 0.125) == (IMPACT, when)
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,7 @@ import numpy as np
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from support_exudyn.formulations.compiled import depth
-from support_exudyn.formulations.compiled import landing as general
+from support_exudyn.formulations.compiled import events, landing
 from support_exudyn.scene.arrays import CONTACT, REPORT
 from tests.formulations.plain import plain
 
@@ -48,8 +47,8 @@ def landed(turning: Turning) -> float:
     start, now = (np.zeros(1, CONTACT).view(np.recarray) for _ in range(2))
     start[0].push, now[0].push = turning.rate(0.0), turning.rate(1.0)
     scene, report = SimpleNamespace(contacts=now), [0.0] * REPORT
-    land = plain(general.land, advance=advance)
-    length: float = land(scene, 0, 0.0, STEP, depth.CUT, 0.0, 1.0, start, None, None, None, None, None, report)
+    land = plain(landing.land, advance=advance)
+    length: float = land(scene, 0, 0.0, STEP, events.CUT, 0.5, start, None, None, None, None, None, report)
     return length
 
 

@@ -13,7 +13,7 @@ from user_forces import Flores
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.contact import ContactForce
 from user_forces.lawful import LawError
-from user_forces.peak_force import has_a_top, peak
+from user_forces.roots import has_a_top, peak
 
 LAW = Flores(restitution=0.485, stiffness=5.7e8, exponent=1.167)
 

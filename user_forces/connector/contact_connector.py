@@ -16,11 +16,11 @@ from user_forces.connector.attachment import connector_kernel
 from user_forces.connector.friction_line import FrictionLine, can_be_line, with_line
 from user_forces.connector.item import INITIAL, JointItem
 from user_forces.contact import ContactForce
-from user_forces.contact_events import STILL, Action, DepthPath, Verdict, goes_on, judge, judge_at_ends
+from user_forces.contact_events import Action, Verdict, goes_on, judge, judge_at_ends
 from user_forces.contact_state import InverseMass, Onset, PinMemory
 from user_forces.impact_steps import ImpactSteps
 from user_forces.lawful import PROBED, look
-from user_forces.peak_force import NEAR_PEAK, has_a_top, peak
+from user_forces.roots import NEAR_PEAK, STILL, DepthPath, depth_at, has_a_top, peak, rate_at
 
 SHALLOW = 1e-9  # depth [m] at which a law is probed that has only just been in contact
 FIRST, LAST = 4, 14  # where `ContactForce` stands in what the kernel gives; the place x, y follows
@@ -331,7 +331,7 @@ class ContactConnector:
             return end
         path = DepthPath(start.depth, start.rate, end.depth, end.rate, self._step)
         slip = start.slip + x * (end.slip - start.slip)
-        motion = self.contact.bearing.placed(path.depth(x), path.rate(x), slip)
+        motion = self.contact.bearing.placed(depth_at(path, x), rate_at(path, x), slip)
         memory = self.memory.impact_velocity, self.memory.deflection, self.memory.slip, x * self._step
         return ContactForce(*self._force(*motion, True, *memory, self.contact.constants))
 

@@ -6,7 +6,7 @@ from support_exudyn.scene.arrays import JUMP_ENERGY, WORK, Matrix, SceneArrays, 
 from support_exudyn.scene.compilation import compiled, once
 from support_exudyn.scene.legs import begin_legs
 from support_exudyn.scene.motion import SINGULAR, solve
-from user_forces.contact_events import STILL
+from user_forces.roots import STILL
 
 
 @once

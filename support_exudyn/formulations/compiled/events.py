@@ -1,30 +1,52 @@
 """What happens to contacts within a step that has been tried, and where.
 
-A step is looked at in parts. Over a part a depth is the cubic that fits depth and rate at both ends; where that
-leaves in doubt whether something happens, the step is too long, and is made again shorter.
+A step is looked at in parts. Over a part a depth is the cubic of `roots`; where that leaves in doubt whether
+something happens, the step is too long, and is made again shorter.
 """
 
 import math
 
-from support_exudyn.formulations.compiled.depth import (
-    CUT,
-    CUT_MET,
-    CUT_SAMPLES,
-    IMPACT,
-    NEAR_CUT,
-    NOTHING,
-    PARTS,
-    SEPARATION,
-    SHORT,
-    TOO_LONG,
-    Found,
-    in_contact,
-    rise,
-)
 from support_exudyn.formulations.compiled.step import within
 from support_exudyn.scene.arrays import Matrix, Records, SceneArrays, Vector
 from support_exudyn.scene.compilation import compiled, once
 from support_exudyn.scene.forces import observe, press
+from user_forces.roots import Bracket, DepthPath, depth_at, doubt, first_rise, may_turn, turn, zero_of
+
+# CUT: the law begins or ceases to ask for tension
+NOTHING, IMPACT, SEPARATION, CUT, TOO_LONG = range(5)
+PARTS = 4  # of a step in free flight
+SHORT = 1e-9  # [s]: in so short a step what cannot be told apart is taken as it ends
+SEEN = 0.125  # of a part: what has just happened is not over in less
+CUT_MET = 1e-9  # PUSH, of the order of 1, at which a cut of tension is met; the force has only a kink there
+NEAR_CUT = 0.5  # PUSH below which a step is looked at for two cuts,
+CUT_SAMPLES = 4  # in so many parts
+AT_ZERO = 1e-13  # depth [m] that is an impact or separation just made; those are met to a tenth of it
+TOGETHER = 10.0 * AT_ZERO  # depth [m] within which contacts meet or part at the same instant
+Found = tuple[int, float]  # what, and the fraction of the step at which it happens
+
+
+@compiled
+def passes(what: int, path: DepthPath) -> Found:
+    """Whether a depth that begins a part below zero passes zero upwards; an event of this kind happens then.
+
+    Of a contact that may part, the path of the negative depth. Fractions are those of the part.
+    """
+    clear, top = path.step > SHORT, 1.0
+    if path.depth1 <= 0.0:
+        if not path.rate0 > 0.0 > path.rate1:
+            reach = path.step * max(abs(path.rate0), abs(path.rate1))
+            unseen = max(path.depth0, path.depth1) + reach > 0.0 and not path.rate0 < 0.0 < path.rate1
+            return (TOO_LONG, 0.0) if clear and unseen and may_turn(path) else (NOTHING, 1.0)
+        top = turn(path, -1.0)
+        highest = depth_at(path, top)
+        if clear and abs(highest) < doubt(path):
+            return TOO_LONG, 0.0
+        if highest <= 0.0:
+            return NOTHING, 1.0
+    x = min(first_rise(path), top)
+    # the reverse has just happened, and must be seen first
+    just = path.depth0 >= -AT_ZERO and path.rate0 <= 0.0
+    return (TOO_LONG, 0.0) if clear and just and x < SEEN else (what, x)
 
 
 @compiled
@@ -64,22 +86,22 @@ def in_flight(
     one, two = start[n], end[n]
     fastest = max(math.hypot(one.vx, one.vy), math.hypot(two.vx, two.vy))
     if max(one.depth, two.depth) < -h * fastest and h * fastest < one.clearance:
-        return NOTHING, 1.0, 1.0
+        return NOTHING, 1.0
     if math.hypot(two.x - one.x, two.y - one.y) > one.clearance:
-        return TOO_LONG, 0.0, 0.0
+        return TOO_LONG, 0.0
     d0, r0 = min(one.depth, 0.0), one.rate
     for part in range(PARTS):
         d1, r1 = two.depth, two.rate
         if part + 1 < PARTS:
             look(scene, n, (part + 1) / PARTS, path, y, slope, False)
             d1, r1 = scene.contacts[n].depth, scene.contacts[n].rate
-        what, low, high = rise(d0, r0, d1, r1, h / PARTS)
+        what, x = passes(IMPACT, DepthPath(d0, r0, d1, r1, h / PARTS))
         if what == TOO_LONG:
-            return TOO_LONG, 0.0, 0.0
+            return TOO_LONG, 0.0
         if what == IMPACT:
-            return IMPACT, (part + low) / PARTS, (part + high) / PARTS
+            return IMPACT, (part + x) / PARTS
         d0, r0 = d1, r1
-    return NOTHING, 1.0, 1.0
+    return NOTHING, 1.0
 
 
 @once
@@ -106,36 +128,36 @@ def closed(
     """What happens in a step that begins in contact, see `in_flight` for the arguments."""
     one, two = start[n], end[n]
     if cut_twice(scene, n, h, start, end, path, y, slope):
-        return TOO_LONG, 0.0, 0.0
-    what, low, high = in_contact(max(one.depth, 0.0), one.rate, two.depth, two.rate, h)
+        return TOO_LONG, 0.0
+    what, x = passes(SEPARATION, DepthPath(min(-one.depth, 0.0), -one.rate, -two.depth, -two.rate, h))
     if what == TOO_LONG:
-        return TOO_LONG, 0.0, 0.0
+        return TOO_LONG, 0.0
     # a step that begins on a cut and ends beyond it only grazes it; landing would go back to its start
     if abs(one.push) > CUT_MET and (one.push < 0.0) != (two.push < 0.0):
         # a separation may be first
         if what == SEPARATION and h > SHORT:
-            return TOO_LONG, 0.0, 0.0
+            return TOO_LONG, 0.0
         if what != SEPARATION:
-            return CUT, 0.0, 1.0
-    return what, low, high
+            return CUT, zero_of(Bracket(0.0, 1.0, one.push, two.push))
+    return what, x
 
 
 @once
 def first_event(
     scene: SceneArrays, h: float, start: Records, end: Records, path: Matrix, y: Vector, slope: Vector
-) -> tuple[int, int, float, float]:
-    """The contact to which something happens first in a step, what, and between which fractions.
+) -> tuple[int, int, float]:
+    """The contact to which something happens first in a step, what, and at which fraction.
 
     start, end: all contacts there. y, slope: scratch.
     """
-    first, happens, low, high = -1, NOTHING, 1.0, 2.0
+    first, happens, at = -1, NOTHING, 2.0
     for n in range(scene.contacts.size):
         if start[n].closed == 0.0:
-            what, begin, stop = in_flight(scene, n, h, start, end, path, y, slope)
+            what, x = in_flight(scene, n, h, start, end, path, y, slope)
         else:
-            what, begin, stop = closed(scene, n, h, start, end, path, y, slope)
+            what, x = closed(scene, n, h, start, end, path, y, slope)
         if what == TOO_LONG:
-            return n, TOO_LONG, 0.0, 0.0
-        if what != NOTHING and stop < high:
-            first, happens, low, high = n, what, begin, stop
-    return first, happens, low, high
+            return n, TOO_LONG, 0.0
+        if what != NOTHING and x < at:
+            first, happens, at = n, what, x
+    return first, happens, at

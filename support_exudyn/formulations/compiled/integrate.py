@@ -1,8 +1,7 @@
 """The run: steps of chosen length, cut at impacts and separations, between two breaks of drives and loads."""
 
 from support_exudyn.formulations.compiled.beginning import begin_run, jump
-from support_exudyn.formulations.compiled.changes import happen
-from support_exudyn.formulations.compiled.depth import (
+from support_exudyn.formulations.compiled.events import (
     CUT,
     CUT_MET,
     IMPACT,
@@ -10,9 +9,9 @@ from support_exudyn.formulations.compiled.depth import (
     SEPARATION,
     SHORT,
     TOO_LONG,
+    first_event,
 )
-from support_exudyn.formulations.compiled.events import first_event
-from support_exudyn.formulations.compiled.landing import copy_contacts, land, met_before
+from support_exudyn.formulations.compiled.landing import copy_contacts, happen, land, met_before
 from support_exudyn.formulations.compiled.method import (
     AT,
     CUT_STEPS,
@@ -77,8 +76,7 @@ def land_on_first(
     t: float,
     h: float,
     what: int,
-    low: float,
-    high: float,
+    x: float,
     was_cut: bool,
     y: Vector,
     weights: Vector,
@@ -91,12 +89,12 @@ def land_on_first(
     now, then = room.now, room.then
     while True:
         copy_contacts(then, scene.contacts)
-        h = land(scene, n, t, h, what, low, high, now, y, room.rates, room.end, weights, room.right, report)
+        h = land(scene, n, t, h, what, x, now, y, room.rates, room.end, weights, room.right, report)
         copy_contacts(scene.contacts, then)
         m = met_before(n, now, then)
         if m < 0:
             return h, n, what, was_cut
-        n, what, low, high = m, IMPACT if now[m].closed == 0.0 else SEPARATION, 0.0, 1.0
+        n, what, x = m, IMPACT if now[m].closed == 0.0 else SEPARATION, 0.5
         was_cut = now[n].push < 0.0
 
 
@@ -227,7 +225,7 @@ def integrate(
         fit_step(room, decay, h, y)
         if going[UNCUT] > 0.0:
             overlook_cuts(now)
-        n, what, low, high = first_event(scene, h, now, then, room.path, room.probe, room.slope)
+        n, what, x = first_event(scene, h, now, then, room.path, room.probe, room.slope)
         oil, leg, gap = first_gap(scene.legs)
         hidden = hidden_gap(scene, scene.legs, room, t, h)
         # events are met by the explicit method
@@ -249,7 +247,7 @@ def integrate(
             copy_contacts(scene.contacts, then)
             fit_step(room, 0.0, h, y)
             last = h >= stop - t
-            n, what, low, high = first_event(scene, h, now, then, room.path, room.probe, room.slope)
+            n, what, x = first_event(scene, h, now, then, room.path, room.probe, room.slope)
             if what == TOO_LONG:
                 h *= SHORTEN
                 continue
@@ -258,10 +256,8 @@ def integrate(
         follow = wanted if last else h * factor_of(error, error_before, decay)
         error_before = max(error, 1e-4)
         was_cut = n >= 0 and now[n].push < 0.0
-        if what != NOTHING and low < 1.0:
-            h, n, what, was_cut = land_on_first(
-                scene, room, n, t, h, what, low, high, was_cut, y, weights, report
-            )
+        if what != NOTHING and x < 1.0:
+            h, n, what, was_cut = land_on_first(scene, room, n, t, h, what, x, was_cut, y, weights, report)
             fit_step(room, 0.0, h, y)
             last = h >= stop - t
         keep_gaps(scene.legs)

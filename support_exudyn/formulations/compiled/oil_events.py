@@ -21,10 +21,9 @@ from support_exudyn.scene.compilation import compiled
 from support_exudyn.scene.hydraulics.gaps import met
 from support_exudyn.scene.hydraulics.leg import OPEN
 from support_exudyn.scene.hydraulics.records import RELIEF, YIELD
+from user_forces.roots import PEAK_LOOKS, Bracket, Peak, narrowed, peak_place, peak_with, zero_of
 
 LOOKS = 40  # for a gap, by false position
-PARTS, NARROWER = 8, 16  # of a step that are looked at for a highest place; how often it is closed in then
-GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 NONE, GAP, AT_ONCE = range(3)  # what is found
 
 
@@ -83,26 +82,6 @@ def beyond_at(
 
 
 @compiled
-def farthest(scene: SceneArrays, legs: LegArrays, room: Scratch, n: int, k: int, t: float, h: float) -> float:
-    """The fraction of a step at which a gap is farthest on the other side; 1 if it does not get there."""
-    best, at = -math.inf, 1.0
-    for part in range(1, PARTS):
-        value = beyond_at(scene, legs, room, n, k, t, h, part / PARTS)
-        if value > best:
-            best, at = value, part / PARTS
-    low, high = at - 1.0 / PARTS, at + 1.0 / PARTS
-    for _ in range(NARROWER):
-        one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        at_one = beyond_at(scene, legs, room, n, k, t, h, one)
-        if at_one > beyond_at(scene, legs, room, n, k, t, h, two):
-            high = two
-        else:
-            low = one
-    at = 0.5 * (low + high)
-    return at if beyond_at(scene, legs, room, n, k, t, h, at) > met(k) else 1.0
-
-
-@compiled
 def hidden_gap(scene: SceneArrays, legs: LegArrays | None, room: Scratch, t: float, h: float) -> float:
     """The fraction of a step at which a valve would have jumped that has come back by its end; 1 if none has.
 
@@ -119,7 +98,11 @@ def hidden_gap(scene: SceneArrays, legs: LegArrays | None, room: Scratch, t: flo
             most = legs.beyond[n, k]
             if jumps == 0 or not end >= -met(k) or not max(begin, end) + 2.0 * most > 0.0:
                 continue
-            found = min(found, farthest(scene, legs, room, n, k, t, h))
+            peak = Peak(-math.inf, 0.0, 0.0, 1.0)
+            for look in range(PEAK_LOOKS):
+                x = peak_place(peak, look)
+                peak = peak_with(peak, look, x, beyond_at(scene, legs, room, n, k, t, h, x))
+            found = min(found, peak.at if peak.top > met(k) else 1.0)
             evaluate(scene, t + h, room.end, room.slope, room.right)
     return found
 
@@ -139,28 +122,18 @@ def land_on_gap(
 ) -> float:
     """Make a step of h [s] again so that it ends where a gap of leg n passes zero; its length [s].
 
-    By false position (Illinois), on the side that it passes to.
+    By false position, on the side that it passes to.
     """
     if legs is None:
         return h
-    before, after = 0.0, h
-    at_before, at_after = legs.before[n, k], legs.gaps[n, k]
-    length, near = h, met(k)
+    bracket, length = Bracket(0.0, h, legs.before[n, k], legs.gaps[n, k]), h
     for _ in range(LOOKS):
-        length = (before * at_after - after * at_before) / (at_after - at_before)
-        if not before < length < after:
-            length = 0.5 * (before + after)
+        length = zero_of(bracket)
         advance(scene, t, length, y, room.rates, room.end, weights, room.right)
         report[EVALUATIONS] += STAGES - 1
-        value = legs.gaps[n, k]
-        if abs(value) <= near:
+        if abs(legs.gaps[n, k]) <= met(k):
             break
-        if (value > 0.0) == (at_before > 0.0):
-            before, at_before = length, value
-            at_after *= 0.5
-        else:
-            after, at_after = length, value
-            at_before *= 0.5
+        bracket = narrowed(bracket, length, legs.gaps[n, k])
     return length
 
 

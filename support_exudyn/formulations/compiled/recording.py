@@ -18,7 +18,7 @@ from support_exudyn.scene.arrays import (
     Vector,
 )
 from support_exudyn.scene.compilation import compiled, once
-from user_forces.peak_force import GOLDEN, NARROWINGS, NEAR_PEAK, NEAR_TOP, PEAK_SAMPLES
+from user_forces.roots import NEAR_PEAK, NEAR_TOP, PEAK_LOOKS, PEAK_SAMPLES, Peak, peak_place, peak_with
 
 
 @compiled
@@ -27,42 +27,17 @@ def size(scene: SceneArrays, n: int) -> float:
     return math.hypot(scene.contacts[n].normal, scene.contacts[n].friction)
 
 
-@compiled
-def peak(
-    scene: SceneArrays, n: int, path: Matrix, last: float, y: Vector, slope: Vector
-) -> tuple[float, float]:
-    """The largest force [N] of a contact in a step that ends with the force `last` [N], and at which fraction.
-
-    That at points between the ends, and the highest between these, which may be a corner (where what limits
-    the damping changes), if it may be the largest so far.
-    """
-    top, at = 0.0, 0
-    for i in range(PEAK_SAMPLES + 1):
-        force = last
-        if i < PEAK_SAMPLES:
-            look(scene, n, i / PEAK_SAMPLES, path, y, slope, True)
-            force = size(scene, n)
-        if force > top:
-            top, at = force, i
-    best = at / PEAK_SAMPLES
-    if top <= NEAR_TOP * scene.contacts[n].largest:
-        return top, best
-    low, high = max(0.0, (at - 1) / PEAK_SAMPLES), min(1.0, (at + 1) / PEAK_SAMPLES)
-    for _ in range(NARROWINGS):
-        one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        look(scene, n, one, path, y, slope, True)
-        at_one = size(scene, n)
-        look(scene, n, other, path, y, slope, True)
-        at_other = size(scene, n)
-        if at_one > top:
-            top, best = at_one, one
-        if at_other > top:
-            top, best = at_other, other
-        if at_one > at_other:
-            high = other
-        else:
-            low = one
-    return top, best
+@once
+def peak_of(scene: SceneArrays, n: int, path: Matrix, y: Vector, slope: Vector) -> Peak:
+    """The largest force of a contact in a step; next to the largest so far it is sought between the samples."""
+    peak = Peak(-math.inf, 0.0, 0.0, 1.0)
+    for k in range(PEAK_LOOKS):
+        x = peak_place(peak, k)
+        look(scene, n, x, path, y, slope, True)
+        peak = peak_with(peak, k, x, size(scene, n))
+        if k == PEAK_SAMPLES and peak.top <= NEAR_TOP * scene.contacts[n].largest:
+            break
+    return peak
 
 
 @compiled
@@ -128,9 +103,10 @@ def note_peaks(scene: SceneArrays, room: Scratch, t: float, h: float, report: Ve
         if then[m].closed != 0.0:
             first, final = math.hypot(now[m].normal, now[m].friction), size(scene, m)
             if max(first, final) > NEAR_PEAK * then[m].largest:
-                highest, at = peak(scene, m, room.path, final, room.probe, room.slope)
-                if highest > then[m].largest:
-                    then[m].largest, then[m].largest_at = highest, t + at * h
+                peak = peak_of(scene, m, room.path, room.probe, room.slope)
+                if max(peak.top, final) > then[m].largest:
+                    then[m].largest = max(peak.top, final)
+                    then[m].largest_at = t + h * (peak.at if peak.top > final else 1.0)
         report[CLAMPED] += then[m].push < 0.0
 
 

@@ -22,9 +22,3 @@ def factor(error: float, before: float) -> float:
         return SLOWEST
     wanted: float = SAFETY * max(error, 1e-9) ** -ORDER * before**STEADY
     return min(FASTEST, max(SLOWEST, wanted))
-
-
-@compiled
-def crossing(low: float, high: float, at_low: float, at_high: float) -> float:
-    """Where a line through two points passes zero."""
-    return (low * at_high - high * at_low) / (at_high - at_low)

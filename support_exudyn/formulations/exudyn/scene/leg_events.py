@@ -16,7 +16,8 @@ from support_exudyn.mechanics.trajectory import OilEvent
 from support_exudyn.scene.hydraulics.gaps import begin_sides
 from support_exudyn.scene.hydraulics.leg import OPEN
 from support_exudyn.scene.hydraulics.records import GAP_NAMES, HIGH_2, LOW
-from user_forces.contact_events import BEYOND, SHARE, DepthPath, first_rise
+from user_forces.contact_events import BEYOND, SHARE
+from user_forces.roots import DepthPath, first_rise
 
 NEAR_PRESSURE, NEAR_LENGTH = 0.1, 1e-12  # [Pa], [m] beyond zero that rounding may be
 
@@ -73,7 +74,7 @@ class LegEvents:
             self._pending.append((n, k, t if end[0] == OPEN else t - h))
             return None
         x = self._passes(n, k, h, end)
-        if x is None:
+        if x > 1.0:
             return None
         if x <= SHARE:  # the step begins where it happens
             self._pass(n, k, t - h + x * h)
@@ -83,7 +84,7 @@ class LegEvents:
                 return math.inf
             self._gaps[n, k] = self._sides[n, k] * float(self._near[n, k])
             x = self._passes(n, k, h, end)
-            if x is None:
+            if x > 1.0:
                 return None
         if x >= 1.0 - SHARE:
             self._pending.append((n, k, t - (1.0 - x) * h))
@@ -93,8 +94,8 @@ class LegEvents:
         # the engine shortens a repeated step to three quarters or less, so a late one is reached in two
         return (goal if goal <= 0.75 else 0.5 * goal) * h
 
-    def _passes(self, n: int, k: int, h: float, end: tuple[float, float]) -> float | None:
-        """The fraction of the step at which a gap passes zero to the other side; None if it does not."""
+    def _passes(self, n: int, k: int, h: float, end: tuple[float, float]) -> float:
+        """The fraction of the step at which a gap passes zero to the other side; infinite if it does not."""
         side, near = -float(self._sides[n, k]), float(self._near[n, k])
         before, after = side * float(self._gaps[n, k]), side * end[0]
         if before > 0.0 and after > near:  # it did steps ago, by less than counted then

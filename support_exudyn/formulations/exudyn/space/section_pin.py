@@ -15,7 +15,7 @@ from user_forces.contact import JournalContact
 from user_forces.contact_state import InverseMass, Onset, PinMemory
 from user_forces.impact_steps import ImpactSteps
 from user_forces.normal.part import PartOf
-from user_forces.peak_force import NEAR_PEAK, has_a_top, peak
+from user_forces.roots import NEAR_PEAK, has_a_top, peak
 from user_forces.values.value import Vector2
 
 
