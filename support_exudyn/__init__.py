@@ -42,7 +42,6 @@ if TYPE_CHECKING:
         ActuatorModel,
         CylinderAndRod,
         Lumped,
-        OilColumn,
         OwnBody,
         PartModel,
         RigidActuator,
@@ -60,17 +59,19 @@ if TYPE_CHECKING:
     )
     from support_exudyn.model.drives.table_drive import TableDrive
     from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
-    from support_exudyn.model.hydraulic_cylinder import (
-        ClosedInlet,
-        HydraulicCylinder,
-        Inlet,
-        RampedOpening,
-        SuddenOpening,
+    from support_exudyn.model.hydraulics.elements import (
+        CheckValve,
+        EndStops,
+        Line,
+        Poppet,
+        PumpStation,
+        SealFriction,
+        SecondStage,
+        TrappedAir,
+        YieldValve,
     )
-    from support_exudyn.model.hydraulics.lines import Line, PumpStation
-    from support_exudyn.model.hydraulics.motion import EndStops, SealFriction, SecondStage
-    from support_exudyn.model.hydraulics.oil import TrappedAir
-    from support_exudyn.model.hydraulics.valves import CheckValve, Poppet, YieldValve
+    from support_exudyn.model.hydraulics.inlets import ClosedInlet, Inlet, RampedOpening, SuddenOpening
+    from support_exudyn.model.hydraulics.leg import HydraulicCylinder, OilColumn
     from support_exudyn.model.linkage import (
         Body,
         Crank,
@@ -239,7 +240,6 @@ _PLACES = {
         "ActuatorModel",
         "CylinderAndRod",
         "Lumped",
-        "OilColumn",
         "OwnBody",
         "PartModel",
         "RigidActuator",
@@ -249,17 +249,19 @@ _PLACES = {
     ".model.drives.drive": ("CubicStep", "Drive", "Held", "Reciprocating", "Steady", "Stroke", "UniformSpeed"),
     ".model.drives.table_drive": ("TableDrive",),
     ".model.guides": ("ClearanceGuide", "Guide", "IdealGuide"),
-    ".model.hydraulic_cylinder": (
-        "ClosedInlet",
-        "HydraulicCylinder",
-        "Inlet",
-        "RampedOpening",
-        "SuddenOpening",
+    ".model.hydraulics.elements": (
+        "CheckValve",
+        "EndStops",
+        "Line",
+        "Poppet",
+        "PumpStation",
+        "SealFriction",
+        "SecondStage",
+        "TrappedAir",
+        "YieldValve",
     ),
-    ".model.hydraulics.lines": ("Line", "PumpStation"),
-    ".model.hydraulics.motion": ("EndStops", "SealFriction", "SecondStage"),
-    ".model.hydraulics.oil": ("TrappedAir",),
-    ".model.hydraulics.valves": ("CheckValve", "Poppet", "YieldValve"),
+    ".model.hydraulics.inlets": ("ClosedInlet", "Inlet", "RampedOpening", "SuddenOpening"),
+    ".model.hydraulics.leg": ("HydraulicCylinder", "OilColumn"),
     ".model.linkage": (
         "Body",
         "Crank",

@@ -14,7 +14,7 @@ from support_exudyn import HydraulicCylinder, Scenario
 from support_exudyn.files.toml.reading import read_value
 from support_exudyn.files.toml.text import parsed
 from support_exudyn.model.actuators import bore_area
-from support_exudyn.model.hydraulics.lines import PumpStation
+from support_exudyn.model.hydraulics.elements import PumpStation
 from user_forces.values.sourced import SourcedNumber
 from user_forces.values.units import Metres, Newtons, Pascals
 from user_forces.values.value import InputError, Positive, Value, value

@@ -28,7 +28,7 @@ from support_exudyn import (
     UniformSpeed,
     YieldValve,
 )
-from support_exudyn.model.hydraulics.oil import ATMOSPHERE
+from support_exudyn.model.hydraulics.elements import ATMOSPHERE
 
 Leg = OilColumn | HydraulicCylinder
 LEAST = 1e4  # [N] that a leg is made for

@@ -25,7 +25,7 @@ from support_exudyn import (
 )
 from support_exudyn.files.machines import shipped
 from support_exudyn.formulations.registry import FormulationName
-from support_exudyn.mechanics.oil_column import static_loads
+from support_exudyn.mechanics.hydraulic_legs import static_loads
 from support_exudyn.model.linkage import GROUND, pinned
 from user_forces.values.value import Vector2, value
 

@@ -20,17 +20,12 @@ def engine_settings(
     duration: float,
     unknowns: int,
     rounding: float = 0.0,
-    cylinders: bool = False,
     repeats: bool = False,
 ) -> Any:
     """The engine's settings for a run of this duration [s] with so many coordinates and multipliers.
 
     rounding: of its forces [N]. Where a machine rests, Newton's method has nothing else to solve, and without
     being told it would fail by it.
-    cylinders: whether there are any. Their flow rises infinitely steeply where the pressure drop over a valve
-    begins: no residual becomes small there, but increments do. And the rows of pressures are not scaled by the
-    step as those of motions are: with a Jacobian of another step iterations end at a wrong place. So they are
-    judged by increments, with a new Jacobian for each.
     repeats: whether constraints repeat each other, which full pivoting alone of the engine's methods solves.
     """
     settings = exudyn.SimulationSettings()
@@ -45,11 +40,9 @@ def engine_settings(
     integration.discontinuous.ignoreMaxIterations = False
     integration.generalizedAlpha.spectralRadius = chosen.spectral_radius
     integration.newton.relativeTolerance = chosen.newton_tolerance
-    if not cylinders:  # whose residual is of increments, in metres and pascals
-        norm = rounding / unknowns  # the engine's norm of a residual
-        integration.newton.absoluteTolerance = max(integration.newton.absoluteTolerance, norm)
-    integration.newton.useModifiedNewton = chosen.newton == "modified" and not cylinders
-    integration.newton.residualMode = 1 if cylinders else 0
+    norm = rounding / unknowns  # the engine's norm of a residual
+    integration.newton.absoluteTolerance = max(integration.newton.absoluteTolerance, norm)
+    integration.newton.useModifiedNewton = chosen.newton == "modified"
     integration.newton.modifiedNewtonContractivity = 0.1  # renew the Jacobian early: a fifth faster here
     if repeats:
         settings.linearSolver.solverType = exudyn.LinearSolverType.EigenDense

@@ -1,15 +1,15 @@
-"""Hydraulic legs with elements in their place: what they carry, and with what pressures they start."""
+"""Hydraulic legs in their place: what they carry, and with what pressures they start."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from support_exudyn.mechanics.oil_column import static_loads
-from support_exudyn.model.actuators import OilColumn
-from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
-from support_exudyn.model.hydraulics.leg import HydraulicLeg
-from support_exudyn.model.hydraulics.oil import ATMOSPHERE
+import numpy as np
+
+from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.model.hydraulics.elements import ATMOSPHERE
+from support_exudyn.model.hydraulics.leg import HydraulicCylinder, HydraulicLeg
 from support_exudyn.model.linkage import LinearActuator, Linkage
 from support_exudyn.model.spatial_linkage import SpatialActuator
 from user_forces.values.value import InputError, Vector2
@@ -41,8 +41,6 @@ class PreloadedLeg:
     def start_pressures(self) -> StartPressures:
         """The pressures that carry the load, or those of setting. Raises InputError if none can."""
         model = self.model
-        if not isinstance(model, OilColumn | HydraulicCylinder):
-            raise TypeError(f"actuators.{self.name} = {type(model).__name__}: is no oil column or cylinder")
         tank, rod_area = 0.0, 0.0
         if isinstance(model, HydraulicCylinder):
             tank, rod_area = model.tank_pressure, model.rod_side_area
@@ -75,7 +73,6 @@ class PreloadedLeg:
         air, model = self.model.trapped_air, self.model
         if air is None:
             return
-        assert isinstance(model, OilColumn | HydraulicCylinder)  # `start_pressures` has looked
         room = model.bore_area * model.oil_length
         room += model.hose_volume if isinstance(model, HydraulicCylinder) else 0.0
         if pressure <= -ATMOSPHERE or not air.at(pressure) < room:
@@ -83,6 +80,14 @@ class PreloadedLeg:
                 f"actuators.{self.name}.trapped_air.volume = {air.volume} m^3: at the {pressure:.4g} Pa of the "
                 f"start no room for oil is left in {room:.4g} m^3; allowed: less air, or a leg that is pressed"
             )
+
+
+def static_loads(linkage: Linkage, gravity: Vector2) -> dict[str, float]:
+    """What every actuator carries in the start posture, all pins ideal [N]; positive pushes its ends apart."""
+    closed = kinetics_of(linkage)
+    weight = closed.weight(gravity)
+    tensions = closed.respond(np.zeros(weight.size), weight, 0.0)[1][closed.driven()]
+    return {name: -float(tension) for name, tension in zip(linkage.actuators, tensions, strict=False)}
 
 
 def preloaded_legs(

@@ -7,8 +7,7 @@ from typing import Any, NamedTuple
 
 from support_exudyn.mechanics.channels import OIL, ChannelDefinition, ChannelDefinitions
 from support_exudyn.mechanics.trajectory import LegSeries
-from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
-from support_exudyn.model.hydraulics.leg import HydraulicLeg
+from support_exudyn.model.hydraulics.leg import HydraulicCylinder, HydraulicLeg
 
 PUMP = "pump"  # the name of the pump's channels
 

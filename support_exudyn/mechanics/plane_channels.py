@@ -1,6 +1,6 @@
 """All channels of a linkage in the plane by name, see `channels`."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from types import MappingProxyType
 
 import numpy as np
@@ -20,7 +20,7 @@ from support_exudyn.mechanics.channels import (
 from support_exudyn.mechanics.guide_channels import guide_channels
 from support_exudyn.mechanics.leg_channels import leg_channels
 from support_exudyn.mechanics.pin_channels import pin_channels
-from support_exudyn.mechanics.trajectory import CylinderSeries, Series
+from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.guides import Guide, IdealGuide
 from support_exudyn.model.hydraulics.leg import HydraulicLeg
 from support_exudyn.model.linkage import Body, Linkage, PinPlace, TracePoint
@@ -34,7 +34,6 @@ def channel_definitions(
     pins: Mapping[str, Pin],
     oil: Collection[str],
     loads: Mapping[str, ActingLoad],
-    cylinders: Collection[str] = (),
     guides: Mapping[str, Guide] = MappingProxyType({}),
     legs: Mapping[str, HydraulicLeg] = MappingProxyType({}),
     pump: bool = False,
@@ -47,9 +46,8 @@ def channel_definitions(
         pins: all that are not ideal, by name.
         oil: names of the actuators that no constraint holds.
         loads: what acts on the machine besides its weight, by name.
-        cylinders: names of those columns of oil that have a valve and pressures.
         guides: all that are not ideal, by name.
-        legs: actuators on oil that have elements, by name. pump: whether they share one.
+        legs: actuators on oil, by name. pump: whether they share one.
         blocks: names of those that fall on the machine.
     """
     compliant = not all(pin.holds for pin in pins.values()) or bool(guides) or bool(blocks)
@@ -61,7 +59,6 @@ def channel_definitions(
         *(_of_body(name, body, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())),
         *map(_of_point, linkage.points),
         *(_of_actuator(name, name in oil) for name in linkage.actuators),
-        *map(_of_cylinder, cylinders),
         leg_channels(legs, pump),
         *map(_of_crank, linkage.cranks),
         *(guide_channels(guides.get(name, IdealGuide()), name, one) for name, one in linkage.slides.items()),
@@ -69,7 +66,7 @@ def channel_definitions(
         *(_of_pin(pins.get(name, IdealPin()), name, place) for name, place in linkage.pins.items()),
         *(load_channels(name, load) for name, load in loads.items()),
         *map(block_channels, blocks),
-        _of_energy(stored, bool(loads), bool(cylinders) or bool(legs)),
+        _of_energy(stored, bool(loads), bool(legs)),
     ]
     # a traced centre of mass may have the name of its body, as its place is the same
     centres = {name for name, one in linkage.points.items() if _is_centre(linkage, name, one)}
@@ -157,24 +154,6 @@ def _of_actuator(name: str, oil: bool) -> ChannelDefinitions:
             lambda context: context.run.actuators[name],
         ),
     }
-
-
-def _of_cylinder(name: str) -> ChannelDefinitions:
-    def said(
-        what: str, unit: str, meaning: str, values: Callable[[CylinderSeries], Series]
-    ) -> ChannelDefinitions:
-        return {
-            f"{name}.{what}": ChannelDefinition(
-                unit, meaning, OIL, lambda context: values(context.run.cylinders[name])
-            )
-        }
-
-    found = said("pressure", "Pa", "of the piston side", lambda c: c.pressure)
-    found |= said("rod_pressure", "Pa", "of the rod side", lambda c: c.rod_pressure)
-    found |= said("opening", "1", "of the valve; positive: pump to the piston side", lambda c: c.opening)
-    found |= said("flow", "m^3/s", "into the piston side", lambda c: c.flow)
-    found |= said("rod_flow", "m^3/s", "into the rod side", lambda c: c.rod_flow)
-    return found
 
 
 def _of_crank(name: str) -> ChannelDefinitions:

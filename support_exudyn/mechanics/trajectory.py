@@ -48,25 +48,9 @@ class LoadSeries:
     observed: Mapping[str, Series]
 
 
-class CylinderSeries(NamedTuple):
-    """A hydraulic cylinder over time, shape (n,) each.
-
-    force: that pushes the ends apart [N]. energy: stored in the oil [J]. pressure, rod_pressure: of piston side
-    and rod side [Pa]. opening: of the valve. flow, rod_flow: into the piston side and the rod side [m^3/s].
-    """
-
-    force: Series
-    energy: Series
-    pressure: Series
-    rod_pressure: Series
-    opening: Series
-    flow: Series
-    rod_flow: Series
-
-
 @dataclass(frozen=True)
 class LegSeries:
-    """A hydraulic leg with elements at the records: see `leg_channels` for what its values are.
+    """A hydraulic leg at the records: see `leg_channels` for what its values are.
 
     force: that pushes the ends apart (n,) [N]. energy: stored (n,) [J]. values: (n,) each, by name.
     """
@@ -95,7 +79,7 @@ class Trajectory:
     contacts: clearance pins by name. actuators: force (n,) [N] that pushes the ends apart.
     cranks: moment of the drive on the crank (n,) [N m]. slides: magnitude of force across and of moment (n, 2).
     oil_energy: stored in all actuators (n,) [J]. work: of the drive so far, damping_loss, friction_loss: so far
-    (n,) [J]. loads: by name. cylinders, legs: of actuators, by name. gears: on the second body (n,) [N m].
+    (n,) [J]. loads: by name. legs: actuators on oil, by name. gears: on the second body (n,) [N m].
     """
 
     time: Series
@@ -114,7 +98,6 @@ class Trajectory:
     friction_moments: Mapping[str, Series] = field(default_factory=dict)
     friction_forces: Mapping[str, Series] = field(default_factory=dict)
     loads: Mapping[str, LoadSeries] = field(default_factory=dict)
-    cylinders: Mapping[str, CylinderSeries] = field(default_factory=dict)
     legs: Mapping[str, LegSeries] = field(default_factory=dict)
     gears: Mapping[str, Series] = field(default_factory=dict)
 

@@ -3,14 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC
-from typing import TypeVar
-
-import numpy as np
-import numpy.typing as npt
 
 from user_forces.values.value import Value
-
-Quantity = TypeVar("Quantity", float, npt.NDArray[np.float64])  # one, or one for every instant
 
 
 class ActuatorModel(Value, ABC):

@@ -4,67 +4,19 @@ from __future__ import annotations
 
 import math
 from abc import ABC
-from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import ClassVar
 
 from support_exudyn.model.actuator_model import ActuatorModel as ActuatorModel
-from support_exudyn.model.actuator_model import Quantity as Quantity
-from support_exudyn.model.hydraulics.leg import HydraulicLeg
+from support_exudyn.model.hydraulics.leg import OilColumn as OilColumn
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, Slide, pinned
 from support_exudyn.model.plane_geometry import direction
-from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Pascals, SquareMetres
+from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres
 from user_forces.values.value import InputError, NonNegative, Positive, Value, Vector2, value
 
 
 @value
 class RigidActuator(ActuatorModel):
     """A massless drive: the length is what the drive says, a constraint whose multiplier is the force."""
-
-
-@value
-class OilColumn(HydraulicLeg):
-    """A massless linear actuator whose column of oil is compressible; the drive lets oil into it.
-
-        F = k u,   k = B A / (h + extension)
-
-    u is by how much the oil is compressed: length at the start + precompression + extension - length. The
-    precompression carries the static load of the start posture with ideal pins, so that a machine at rest
-    stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff. Nothing damps,
-    and the oil pulls as well as it pushes. Elements change that, see `HydraulicLeg`: with a `line` the drive's
-    oil comes through a hose whose resistance damps, with a `vapour_pressure` oil that is pulled boils.
-
-    Arguments:
-        bore_area: A, area of the piston, all actuators of a pair together [m^2], > 0.
-        oil_length: h, length of the oil under the piston at the start [m], > 0.
-        bulk_modulus: B of the oil or emulsion [Pa], > 0; 1.96e9 by the published stiffness of four shields.
-    """
-
-    _removed: ClassVar[Mapping[str, str]] = {
-        "damping_time": "allowed: a line, whose resistance damps the column: its volume, nominal_flow and "
-        "nominal_drop"
-    }
-    extensive: ClassVar[tuple[str, ...]] = ("bore_area",)
-
-    bore_area: SquareMetres[Positive]
-    oil_length: Metres[Positive]
-    bulk_modulus: Pascals[Positive]
-
-    def stiffness(self, extension: Quantity) -> Quantity:
-        """k [N/m] at an extension from the start [m], or at many."""
-        return self.bulk_modulus * self.bore_area / (self.oil_length + extension)
-
-    def stiffness_slope(self, extension: Quantity) -> Quantity:
-        """Derivative of k by the extension [N/m^2]."""
-        return -self.stiffness(extension) / (self.oil_length + extension)
-
-    def check_extension(self, lowest: float, name: str) -> None:
-        """Raise InputError if no oil would be left under the piston."""
-        if self.oil_length + lowest <= 0.0:
-            raise InputError(
-                f"actuators.{name}.oil_length = {self.oil_length} m: the drive draws the actuator in by "
-                f"{-lowest:.4g} m and no oil is left; allowed: more than that"
-            )
 
 
 @value

@@ -25,16 +25,14 @@ from support_exudyn.mechanics.space.channels import channel_definitions as spati
 from support_exudyn.model.actuators import (
     ActuatorModel,
     CylinderAndRod,
-    OilColumn,
     OwnBody,
     PartModel,
     with_cylinder_and_rod,
 )
 from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
-from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
-from support_exudyn.model.hydraulics.leg import HydraulicLeg
-from support_exudyn.model.hydraulics.lines import PumpStation
+from support_exudyn.model.hydraulics.elements import PumpStation
+from support_exudyn.model.hydraulics.leg import HydraulicCylinder, HydraulicLeg
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.loads.load import ActingLoad, AnyLoad
@@ -315,7 +313,6 @@ class ScenarioData(Value, ABC):
             self.pins,
             self.compliant_actuators,
             self.acting_loads,
-            self.cylinders,
             self.guides,
             self.legs,
             self.pump is not None,
@@ -377,32 +374,11 @@ class ScenarioData(Value, ABC):
         return {name: joint.law for name, joint in friction_joints(self).items()}
 
     @cached_property
-    def hydraulics(self) -> dict[str, HydraulicLeg]:
+    def legs(self) -> dict[str, HydraulicLeg]:
         """All actuators, and jacks, that oil holds, by name."""
         jacks = {self.machine.jacks[name]: part.jack for name, part in self.own_bodies.items()}
         found = {name: one.hydraulic for name, one in {**self.actuators, **jacks}.items()}
         return {name: one for name, one in found.items() if isinstance(one, HydraulicLeg)}
-
-    @cached_property
-    def legs(self) -> dict[str, HydraulicLeg]:
-        """Those whose oil is counted, by name: with elements, or cylinders with a pump or in space."""
-        shared = self.pump is not None or self.dimensions == 3
-        return {
-            name: one
-            for name, one in self.hydraulics.items()
-            if one.elements or (shared and isinstance(one, HydraulicCylinder))
-        }
-
-    @property
-    def oil_columns(self) -> dict[str, OilColumn]:
-        """Those that are plain columns of oil, by name."""
-        plain = {name: one for name, one in self.hydraulics.items() if name not in self.legs}
-        return {name: one for name, one in plain.items() if isinstance(one, OilColumn)}
-
-    @property
-    def cylinders(self) -> dict[str, HydraulicCylinder]:
-        """Those that are plain hydraulic cylinders, by name."""
-        return {name: one for name, one in self.valved.items() if name not in self.legs}
 
     @property
     def valved(self) -> dict[str, HydraulicCylinder]:
@@ -412,7 +388,7 @@ class ScenarioData(Value, ABC):
     @property
     def compliant_actuators(self) -> tuple[str, ...]:
         """Names of the actuators whose length no constraint holds: those on oil."""
-        return *self.oil_columns, *self.cylinders, *self.legs
+        return tuple(self.legs)
 
     @property
     def own_bodies(self) -> dict[str, OwnBody]:

@@ -35,8 +35,7 @@ class SolverSettings(Value):
             step) to 1 (none). At 0.5 the joint forces are quiet at small steps; at 0.9 rounding
             shows in them below a step of 0.2 ms.
         newton_tolerance: relative tolerance of Newton's residual, > 0.
-        newton: "modified", which keeps a Jacobian as long as it serves, or "full", a new one each iteration, as
-            hydraulic cylinders always have.
+        newton: "modified", which keeps a Jacobian as long as it serves, or "full", a new one each iteration.
         impact_steps: how many steps an impact takes at least, from the impact to the separation of an undamped
             one of the same speed; 16 to 10000. Steps are so short from the impact until the surfaces part, or
             until the depth swings little any more. Errors are of second order; 512 delivers any

@@ -10,8 +10,8 @@ from support_exudyn.mechanics.channels import ALL_CHANNELS, check_patterns
 from support_exudyn.mechanics.following import follow
 from support_exudyn.model.drives.drive import Held
 from support_exudyn.model.guides import Guide
-from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
-from support_exudyn.model.hydraulics.lines import PumpStation
+from support_exudyn.model.hydraulics.elements import PumpStation
+from support_exudyn.model.hydraulics.leg import HydraulicCylinder
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.loads.load import ActingLoad, AnyLoad

@@ -3,7 +3,7 @@
 Every record has what is known before the run, and behind it what is computed at an instant. Numbers of bodies
 are -1 for the ground, of points and courses -1 for none. The state y of a scene with b bodies is
 
-    y = [x, y, turn of each body | their rates | states of friction laws, pressures, legs | losses, work]
+    y = [x, y, turn of each body | their rates | states of friction laws, legs | losses, work]
 
 with positions from those at the start.
 """
@@ -54,12 +54,6 @@ CONTACT = _record(
     "depth rate slip normal friction damping push x y vx vy nx ny fx fy "
     "largest largest_at asked_depth asked_rate asked_slip asked_deflection",
 )
-OIL = _record("foot head course", "modulus_area oil_length natural force work")
-CYLINDER = _record(
-    "foot head course state",
-    "bore rod_side oil_length rod_length modulus supply flow_factor tank hose rod_hose damping length0 "
-    "force work loss",
-)
 # a force on point `point` against `origin`, a moment on their bodies, or forces up on both, with the heights
 # of these at the start, `first` and `second`; with the first of its own courses, and how many
 FORCE, MOMENT, STRETCH = range(3)
@@ -75,7 +69,7 @@ RUBBING = _record(
 
 
 class LegArrays(NamedTuple):
-    """Legs with elements, and their pump if they have one.
+    """Hydraulic legs, and their pump if they have one.
 
     gaps: what passes zero where something happens, shape (legs, GAPS); before: at the start of the step. sides:
     on which side of zero each is. beyond: how far it has been on the other within the step.
@@ -115,8 +109,6 @@ class SceneArrays(NamedTuple):
     spare: Vector
     rounds: int
     contacts: Records
-    oil: Records
-    cylinders: Records
     legs: LegArrays | None
     loads: Records
     rubbing: Records

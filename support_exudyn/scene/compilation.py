@@ -16,7 +16,7 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.extending import intrinsic
 
-from support_exudyn.model.hydraulics import oil
+from support_exudyn.model.hydraulics import elements
 from support_exudyn.model.loads.load import ActingLoad
 from user_forces import contact
 from user_forces.kernel import copied, numbers, prepare, reason
@@ -29,7 +29,7 @@ except ImportError:  # Windows
 fcntl: Any = _fcntl
 SECONDS = {"compiled": 10}  # that compiling takes on a quiet machine of 2020
 COMPILED = ("scene", "formulations/compiled", "formulations/statistics")  # folders with compiled functions
-CONSTANTS_OF = (oil,)  # modules of which compiled functions use constants
+CONSTANTS_OF = (elements,)  # modules of which compiled functions use constants
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
 prepare()  # kernels are known to numba from now on
 Function = TypeVar("Function", bound=Callable[..., Any])

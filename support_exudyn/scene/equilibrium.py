@@ -24,9 +24,7 @@ from support_exudyn.scene.compilation import call_law, compiled, entry
 from support_exudyn.scene.contract import Failure, SimulationError
 from support_exudyn.scene.forces import (
     observe,
-    press_cylinders,
     press_loads,
-    press_oil,
     push_contact,
 )
 from support_exudyn.scene.legs import press_resting_legs
@@ -182,8 +180,8 @@ def centring_spring(scenario: Scenario, name: str, contact: Contact, share: floa
 
 
 @compiled
-def balance(scene: SceneArrays, springs: Matrix, volumes: Matrix, y: Vector, x: Vector, left: Vector) -> None:
-    """Write what is left of forces and joints at places and multipliers x; pressures in y follow from them."""
+def balance(scene: SceneArrays, springs: Matrix, y: Vector, x: Vector, left: Vector) -> None:
+    """Write what is left of forces and joints at places and multipliers x; states of legs in y follow."""
     count = 3 * scene.bodies.size
     for i in range(count):
         y[i] = x[i]
@@ -194,16 +192,6 @@ def balance(scene: SceneArrays, springs: Matrix, volumes: Matrix, y: Vector, x: 
         body.fx, body.fy, body.m = body.weight_x, body.weight_y, 0.0
     for n in range(scene.contacts.size):
         hold_contact(scene, springs[n], n, y)
-    for n in range(scene.cylinders.size):
-        one = scene.cylinders[n]
-        foot, head = scene.points[one.foot], scene.points[one.head]
-        extension = math.hypot(head.x - foot.x, head.y - foot.y) - one.length0
-        piston = one.bore * (one.oil_length + extension) + one.hose
-        rod = one.rod_side * (one.rod_length - extension) + one.rod_hose
-        y[one.state] = volumes[n, 0] + one.modulus * math.log(volumes[n, 2] / piston)
-        y[one.state + 1] = volumes[n, 1] + one.modulus * math.log(volumes[n, 3] / rod)
-    press_oil(scene)
-    press_cylinders(scene, y, left)
     press_resting_legs(scene, scene.legs, y, left)
     press_loads(scene, 0.0, y)
     for n in range(scene.bodies.size):
@@ -249,7 +237,6 @@ def hold_contact(scene: SceneArrays, spring: Vector, n: int, y: Vector) -> None:
 def linearise(
     scene: SceneArrays,
     springs: Matrix,
-    volumes: Matrix,
     y: Vector,
     x: Vector,
     shift: float,
@@ -261,13 +248,13 @@ def linearise(
     for i in range(slope.shape[1]):
         before = x[i]
         x[i] = before + shift
-        balance(scene, springs, volumes, y, x, left)
+        balance(scene, springs, y, x, left)
         x[i] = before - shift
-        balance(scene, springs, volumes, y, x, other)
+        balance(scene, springs, y, x, other)
         x[i] = before
         for k in range(x.size):
             slope[k, i] = (left[k] - other[k]) / (2.0 * shift)
-    balance(scene, springs, volumes, y, x, left)
+    balance(scene, springs, y, x, left)
 
 
 class ArrayBalance:
@@ -280,9 +267,6 @@ class ArrayBalance:
         room = max(size, y.size)  # rates of pressures are written at their places in the state
         self._left, self._other = np.zeros(room), np.zeros(room)
         self._slope = np.zeros((size, self._count))
-        self._volumes = np.array(
-            [[*one.start_pressures, *one.model.volumes(0.0)] for one in model.cylinders.values()]
-        ).reshape(-1, 4)
 
     def centre(self, share: float) -> None:
         """See `Balance`."""
@@ -294,9 +278,7 @@ class ArrayBalance:
         """See `Balance`."""
         x = np.concatenate([q, multipliers])
         shift = SHIFT if self.scene.contacts.size else SMOOTH_SHIFT
-        linearise(
-            self.scene, self._springs, self._volumes, self.y, x, shift, self._left, self._other, self._slope
-        )
+        linearise(self.scene, self._springs, self.y, x, shift, self._left, self._other, self._slope)
         return self._left[: x.size], self._slope
 
 

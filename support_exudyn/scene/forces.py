@@ -1,4 +1,4 @@
-"""What acts on the bodies: contacts, oil, hydraulic cylinders, loads; their powers."""
+"""What acts on the bodies: contacts, loads; their powers, and those of hydraulic legs."""
 
 import math
 
@@ -134,63 +134,6 @@ def push_apart(scene: SceneArrays, foot: int, head: int, fx: float, fy: float) -
 
 
 @compiled
-def press_oil(scene: SceneArrays) -> None:
-    """Forces and powers of columns of oil, see `OilColumn`."""
-    for n in range(scene.oil.size):
-        one = scene.oil[n]
-        extension = speed = 0.0
-        if one.course >= 0:
-            extension, speed = scene.courses[one.course].value, scene.courses[one.course].rate
-        length, _, ux, uy = lengthening(scene, one.foot, one.head)
-        stiffness = one.modulus_area / (one.oil_length + extension)
-        compression = one.natural + extension - length
-        one.force = stiffness * compression
-        one.work = (
-            one.force * speed
-            - 0.5 * stiffness / (one.oil_length + extension) * speed * compression * compression
-        )
-        push_apart(scene, one.foot, one.head, one.force * ux, one.force * uy)
-
-
-@inlined
-def root_of(drop: float) -> float:
-    """Square root of the size, with the sign."""
-    return math.sqrt(drop) if drop > 0.0 else -math.sqrt(-drop)
-
-
-@inlined
-def density(pressure: float, modulus: float) -> float:
-    """Energy of compressed oil [J/m^3], see `HydraulicCylinder.energy_density`."""
-    strain = pressure / modulus
-    return modulus * (math.expm1(strain) - strain)
-
-
-@compiled
-def press_cylinders(scene: SceneArrays, y: Vector, slope: Vector) -> None:
-    """Forces, powers and rates of the pressures of hydraulic cylinders, see `HydraulicCylinder`."""
-    for n in range(scene.cylinders.size):
-        one = scene.cylinders[n]
-        length, rate, ux, uy = lengthening(scene, one.foot, one.head)
-        extension = length - one.length0
-        piston, rod = y[one.state], y[one.state + 1]
-        opening = scene.courses[one.course].value if one.course >= 0 else 0.0
-        supply, back = (one.supply, one.tank) if opening >= 0.0 else (one.tank, one.supply)
-        wide = one.flow_factor * abs(opening)
-        flow, rod_flow = wide * root_of(supply - piston), wide * root_of(back - rod)
-        volume = one.bore * (one.oil_length + extension) + one.hose
-        rod_volume = one.rod_side * (one.rod_length - extension) + one.rod_hose
-        slope[one.state] = one.modulus / volume * (flow - one.bore * rate)
-        slope[one.state + 1] = one.modulus / rod_volume * (rod_flow + one.rod_side * rate)
-        one.force = one.bore * piston - one.rod_side * rod - one.damping * rate
-        one.work, one.loss = 0.0, one.damping * rate * rate
-        if opening != 0.0:
-            one.work = flow * (supply + density(piston, one.modulus))
-            one.work += rod_flow * (back + density(rod, one.modulus))
-            one.loss += flow * (supply - piston) + rod_flow * (back - rod)
-        push_apart(scene, one.foot, one.head, one.force * ux, one.force * uy)
-
-
-@compiled
 def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
     """Forces, moments and powers of loads."""
     for n in range(scene.loads.size):
@@ -245,10 +188,6 @@ def powers(scene: SceneArrays, y: Vector, slope: Vector) -> None:
         contact = scene.contacts[n]
         damping += contact.damping
         friction -= contact.friction * contact.slip
-    for n in range(scene.oil.size):
-        work += scene.oil[n].work
-    for n in range(scene.cylinders.size):
-        work, damping = work + scene.cylinders[n].work, damping + scene.cylinders[n].loss
     damping, friction, work = with_legs(scene.legs, damping, friction, work)
     for n in range(scene.loads.size):
         work, damping = work + scene.loads[n].work, damping + scene.loads[n].loss

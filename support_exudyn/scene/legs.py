@@ -1,4 +1,4 @@
-"""Hydraulic legs with elements in the scene: what they are told of the motion, and how they push.
+"""Hydraulic legs in the scene: what they are told of the motion, and how they push.
 
 Functions that take `LegArrays | None` do nothing where there are no legs. Numba decides that by the type of the
 argument, before it compiles the rest.
@@ -9,6 +9,7 @@ from support_exudyn.scene.compilation import compiled, once
 from support_exudyn.scene.forces import lengthening, push_apart
 from support_exudyn.scene.hydraulics.gaps import begin_sides
 from support_exudyn.scene.hydraulics.leg import press_all
+from support_exudyn.scene.hydraulics.records import RELIEF, YIELD
 from support_exudyn.scene.hydraulics.rest import rest_legs
 
 
@@ -24,7 +25,7 @@ def tell_legs(scene: SceneArrays, legs: Records) -> None:
     """Write lengths, rates and inlets of all legs into their records."""
     for n in range(legs.size):
         leg = legs[n]
-        leg.length, leg.rate, _, _ = lengthening(scene, leg.foot, leg.head)
+        leg.length, leg.rate, leg.ux, leg.uy = lengthening(scene, leg.foot, leg.head)
         if leg.course < 0:
             continue
         course = scene.courses[leg.course]
@@ -49,18 +50,18 @@ def push_legs(scene: SceneArrays, legs: Records) -> None:
     """Let the force of each leg act on what its ends are in."""
     for n in range(legs.size):
         leg = legs[n]
-        _, _, ux, uy = lengthening(scene, leg.foot, leg.head)
-        push_apart(scene, leg.foot, leg.head, leg.force * ux, leg.force * uy)
+        push_apart(scene, leg.foot, leg.head, leg.force * leg.ux, leg.force * leg.uy)
 
 
 @once
 def reach(legs: LegArrays) -> None:
-    """Keep how far each gap has been on the other side since it was last forgotten."""
-    for n in range(legs.gaps.shape[0]):
-        for k in range(legs.gaps.shape[1]):
-            beyond = -legs.sides[n, k] * legs.gaps[n, k]
-            if beyond > legs.beyond[n, k]:
-                legs.beyond[n, k] = beyond
+    """Keep how far the gap of each valve with hysteresis has been on the other side since it was forgotten."""
+    for n in range(legs.records.size):
+        leg = legs.records[n]
+        if leg.jumps != 0:
+            legs.beyond[n, YIELD] = max(legs.beyond[n, YIELD], -legs.sides[n, YIELD] * legs.gaps[n, YIELD])
+        if leg.rod_jumps != 0:
+            legs.beyond[n, RELIEF] = max(legs.beyond[n, RELIEF], -legs.sides[n, RELIEF] * legs.gaps[n, RELIEF])
 
 
 @compiled

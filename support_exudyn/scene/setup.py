@@ -12,10 +12,8 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
-from support_exudyn.mechanics.cylinder_chambers import PreloadedCylinder, fill_cylinders
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
 from support_exudyn.mechanics.joint_friction import friction_joints
-from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import Load, StretchLoad, TimeFunction
 from support_exudyn.model.pins import IdealPin
@@ -60,8 +58,6 @@ class Model:
     valves: tuple[str, ...]
     order: Whole
     contacts: tuple[str, ...]
-    oil: Mapping[str, PreloadedActuator]
-    cylinders: Mapping[str, PreloadedCylinder]
     legs: Legs
     driven_rows: Mapping[str, int]
     states: int
@@ -114,15 +110,6 @@ def model_of(scenario: Scenario) -> Model:
     contacts = np.zeros(len(scenario.contact_places), arrays.CONTACT)
     for record, place in zip(contacts, scenario.contact_places.values(), strict=True):
         states = _contact(record, place, build, linkage, states)
-    cylinders = fill_cylinders(linkage, scenario.cylinders, scenario.gravity)
-    cylinder_records = np.zeros(len(cylinders), arrays.CYLINDER)
-    for record, (name, one) in zip(cylinder_records, cylinders.items(), strict=True):
-        _cylinder(record, one, build, course.get(name, -1), states)
-        states += 2
-    oil = fill(linkage, scenario.oil_columns, scenario.gravity)
-    oil_records = np.zeros(len(oil), arrays.OIL)
-    for record, (name, filled) in zip(oil_records, oil.items(), strict=True):
-        _oil(record, filled, build, course.get(name, -1))
     legs = _legs(scenario, build, course, states)
     states += legs.states
     loads = _loads(scenario, build, of_loads)
@@ -146,8 +133,6 @@ def model_of(scenario: Scenario) -> Model:
         spare=np.zeros(len(rows)),
         rounds=rounds_of(scenario.held),
         contacts=contacts,
-        oil=oil_records,
-        cylinders=cylinder_records,
         legs=arrays.leg_arrays(legs.records, legs.pumps, legs.gaps),
         loads=loads,
         rubbing=rubbing,
@@ -164,8 +149,6 @@ def model_of(scenario: Scenario) -> Model:
         valves=tuple(valves),
         order=order,
         contacts=tuple(scenario.contact_places),
-        oil=oil,
-        cylinders=cylinders,
         legs=legs,
         driven_rows={
             name: int(order[n]) for n, name in enumerate((*rigid, *linkage.cranks), 2 * len(scenario.held_pins))
@@ -318,25 +301,8 @@ def friction_law(law: FrictionLaw) -> tuple[Callable[..., float], tuple[float, .
     return joint_friction(force, len(own), rate, len(others)), (*own, *others)
 
 
-def _cylinder(record: Any, one: PreloadedCylinder, build: _Builder, course: int, state: int) -> None:
-    actuator, model = one.actuator, one.model
-    record["foot"] = build.point(actuator.foot, actuator.foot_point)
-    record["head"] = build.point(actuator.head, actuator.head_point)
-    record["course"], record["state"] = course, state
-    record["bore"], record["rod_side"] = model.bore_area, model.rod_side_area
-    record["oil_length"], record["rod_length"] = model.oil_length, model.rod_side_length
-    record["modulus"], record["supply"], record["tank"] = (
-        model.bulk_modulus,
-        model.system_pressure,
-        model.tank_pressure,
-    )
-    record["flow_factor"], record["damping"] = model.flow_factor, model.damping
-    record["hose"], record["rod_hose"] = model.hose_volume, model.rod_side_hose_volume
-    record["length0"] = actuator.start_length
-
-
 def _legs(scenario: Scenario, build: _Builder, course: Mapping[str, int], states: int) -> Legs:
-    """Legs with elements, whose states begin at a place."""
+    """Hydraulic legs, whose states begin at a place."""
     preloaded = preloaded_legs(scenario.linkage, scenario.legs, scenario.gravity)
     found = fill_legs(tuple(preloaded.values()), scenario.pump, states)
     for record, name in zip(found.records, preloaded, strict=True):
@@ -345,15 +311,6 @@ def _legs(scenario: Scenario, build: _Builder, course: Mapping[str, int], states
         record["head"] = build.point(actuator.head, actuator.head_point)
         record["course"] = course.get(name, -1)
     return found
-
-
-def _oil(record: Any, one: PreloadedActuator, build: _Builder, course: int) -> None:
-    actuator, model = one.actuator, one.model
-    record["foot"] = build.point(actuator.foot, actuator.foot_point)
-    record["head"] = build.point(actuator.head, actuator.head_point)
-    record["course"] = course
-    record["modulus_area"], record["oil_length"] = model.bulk_modulus * model.bore_area, model.oil_length
-    record["natural"] = one.natural_length(0.0)
 
 
 def _loads(scenario: Scenario, build: _Builder, course: int) -> Records:

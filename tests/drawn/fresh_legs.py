@@ -21,7 +21,7 @@ from support_exudyn import (
     TrappedAir,
     YieldValve,
 )
-from support_exudyn.model.hydraulics.oil import ATMOSPHERE
+from support_exudyn.model.hydraulics.elements import ATMOSPHERE
 
 Leg = OilColumn | HydraulicCylinder
 BOILING = -99e3  # [Pa]

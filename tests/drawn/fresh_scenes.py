@@ -38,7 +38,7 @@ from support_exudyn import (
     ravn_slider_crank,
     reference_support,
 )
-from support_exudyn.mechanics.oil_column import static_loads
+from support_exudyn.mechanics.hydraulic_legs import static_loads
 from support_exudyn.scenario.scenario_data import Accuracy
 from tests.drawn.drawn_linkages import chain_scene, guide_scene, parallelogram_scene
 from tests.drawn.fresh_legs import Leg, between, hose, pump, with_elements
@@ -272,10 +272,8 @@ def _on_legs(random: np.random.Generator) -> Scenario:
         scene = _scene(random, reference_support(), pins, 0.15, actuators=columns)
     else:
         base = _on_cylinders(random)
-        columns = {name: with_elements(random, leg, loads[name]) for name, leg in base.cylinders.items()}
-        shared = (
-            pump(random, base.cylinders["front_column"].system_pressure) if random.uniform() < 0.7 else None
-        )
+        columns = {name: with_elements(random, leg, loads[name]) for name, leg in base.valved.items()}
+        shared = pump(random, base.valved["front_column"].system_pressure) if random.uniform() < 0.7 else None
         scene = replace(base, pins=pins, actuators=columns, pump=shared)
     if random.uniform() < 0.4:
         scene = replace(scene, loads={"roof": _roof(random, scene.duration, sum(loads.values()))})

@@ -6,6 +6,7 @@ first, behind jumps and with friction in ideal pins, by as much.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -21,6 +22,7 @@ from support_exudyn import (
     BushingPin,
     ClearancePin,
     CubicStep,
+    Drive,
     Held,
     IdealPin,
     OwnBody,
@@ -43,13 +45,34 @@ from tests.cases.law_cases import LUGRE
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, paper_contact, support
 from tests.formulations import test_guide_clearance as guides
 from tests.formulations import test_slots_and_gears as slots
-from tests.formulations.test_compiled_on_oil import Swaying
 from tests.formulations.test_falling_block import block, on_the_held
 from tests.formulations.test_springs import FREE
 from tests.formulations.test_tail_beam import SOFT
 from tests.linkage_cases import CrankRocker
 from tests.roof_cases import GAP, over_the_canopy, pressed_support
-from user_forces import Ambrosio
+from user_forces import Ambrosio, value
+
+
+@value
+class Swaying(Drive):
+    """A drive in and out: stroke (1 - cos(rate t)) / 2."""
+
+    stroke: float
+    rate: float
+
+    def extension(self, t: float) -> float:
+        return 0.5 * self.stroke * (1.0 - math.cos(self.rate * t))
+
+    def speed(self, t: float) -> float:
+        return 0.5 * self.stroke * self.rate * math.sin(self.rate * t)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return ()
+
+    def span(self, duration: float) -> tuple[float, float]:
+        return 0.0, self.stroke
+
 
 RUBBING = IdealPin(friction=Ambrosio(sliding_coefficient=0.25), radius=0.0655)
 BUSHING = BushingPin(stiffness=(5e8, 8e8), damping=(1e5, 2e5), rotational_stiffness=1e4)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from functools import cache
 from typing import Literal
@@ -15,7 +14,6 @@ from support_exudyn import (
     Body,
     ClearancePin,
     CubicStep,
-    Drive,
     Held,
     Linkage,
     Machine,
@@ -201,27 +199,6 @@ def test_loose_pins_between_moving_bodies_of_several_branches() -> None:
             assert one.speed == pytest.approx(other.speed, rel=2e-3)
     np.testing.assert_allclose(ours["bar1.angle"], theirs["bar1.angle"], atol=1e-6)
     assert ours.energy_error < 1e-7 * ours.dissipated
-
-
-@value
-class Swaying(Drive):
-    """A drive in and out: stroke (1 - cos(rate t)) / 2."""
-
-    stroke: float
-    rate: float
-
-    def extension(self, t: float) -> float:
-        return 0.5 * self.stroke * (1.0 - math.cos(self.rate * t))
-
-    def speed(self, t: float) -> float:
-        return 0.5 * self.stroke * self.rate * math.sin(self.rate * t)
-
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        return ()
-
-    def span(self, duration: float) -> tuple[float, float]:
-        return 0.0, self.stroke
 
 
 # --- what is refused ---

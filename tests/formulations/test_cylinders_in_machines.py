@@ -9,11 +9,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import (
-    ClosedInlet,
     Held,
     Inlet,
-    Linkage,
-    OilColumn,
     RampedOpening,
     Roof,
     Scenario,
@@ -21,8 +18,8 @@ from support_exudyn import (
     SuddenOpening,
     simulate,
 )
-from tests.cases.cylinder_cases import CYLINDER, GRAVITY, MASS, Ram, lift, on_cylinders, opened
-from tests.cases.run_cases import FORCE, loose_support
+from tests.cases.cylinder_cases import Ram, lift, on_cylinders, opened
+from tests.cases.run_cases import FORCE
 from user_forces import value
 
 
@@ -37,26 +34,6 @@ def test_a_machine_with_closed_valves_stays_where_it_is() -> None:
     # the journal has sunk, and pressures have changed with the posture
     assert np.ptp(settled["rear_column.length"]) < 1e-10
     assert settled["rear_column.pressure"][0] != pytest.approx(result["rear_column.pressure"][0], rel=1e-6)
-
-
-def test_one_closed_chamber_is_a_column_of_oil() -> None:
-    tiny = 1e-9
-    cylinder = replace(CYLINDER, rod_side_area=tiny, hose_volume=tiny, tank_pressure=0.0)
-    oil = OilColumn(bore_area=0.098, oil_length=0.5, bulk_modulus=1.5e9)
-    runs = [
-        simulate(
-            loose_support(
-                actuators=dict.fromkeys(("front_column", "rear_column"), one), drive=Held(), duration=0.1
-            )
-        )
-        for one in (cylinder, oil)
-    ]
-    for channel in ("rear_column.force", "front_column.force"):  # the pin's own has many sharp impacts
-        one, other = (run[channel] for run in runs)
-        swing = np.ptp(other)
-        assert swing > 1e4  # the journal has fallen through its clearance
-        # the stiffness of a cylinder follows its length, by 1e-3 for half a millimetre; impacts add to that
-        assert np.abs(one - other).max() < 0.01 * swing
 
 
 def test_energy_adds_up_with_loose_pins_and_valves() -> None:
@@ -88,40 +65,6 @@ def test_a_piston_at_the_end_of_its_cylinder_stops_the_run() -> None:
     cylinder = opened(SuddenOpening(start=0.0, end=0.4), rod_side_length=0.05)
     with pytest.raises(SimulationError, match=r"jack is extended by 0\.05.*allowed: -0\.5 to 0\.05 m"):
         lift(cylinder, duration=0.5)
-
-
-@value
-class ThrownRam(Ram):
-    """The ram, already on its way up at the start."""
-
-    speed: float
-
-    def linkage(self) -> Linkage:
-        still = super().linkage()
-        ram = replace(still.bodies["ram"], velocity=(0.0, self.speed))
-        return replace(still, bodies={"ram": ram})
-
-
-def test_closed_oil_of_an_actuator_that_moves_at_the_start_follows_its_length() -> None:
-    cylinder = opened(ClosedInlet())
-    before = np.array(cylinder.volumes(0.0))
-    pressures = np.array([(MASS * GRAVITY + 0.5e6 * 0.03) / 0.098, 0.5e6])
-
-    def error(step: float) -> float:
-        run = simulate(
-            Scenario(
-                machine=ThrownRam(speed=0.05), actuators={"jack": cylinder}, drive=Held(), duration=0.02,
-                step=step, record_period=1e-3,
-            )
-        )  # fmt: skip
-        now = np.array([cylinder.volumes(float(e)) for e in run["jack.length"] - 1.6])
-        wanted = pressures + 1.5e9 * np.log(before / now)
-        found = np.column_stack([run["jack.pressure"], run["jack.rod_pressure"]])
-        return float(np.abs(found - wanted).max())
-
-    coarse, fine = error(2e-4), error(1e-4)
-    # 4 for second order; a first step that knew no rate of the pressures would leave 7 kPa, and 2
-    assert 3.0 < coarse / fine < 5.5
 
 
 @value

@@ -143,3 +143,8 @@ def test_wrong_oil_is_refused() -> None:
         OilColumn(bore_area=1.0, oil_length=1.0, bulk_modulus=0.0)
     with pytest.raises(InputError, match="diameter"):
         bore_area(0.0)
+
+
+def test_who_asks_for_the_damping_time_is_told_of_the_line() -> None:
+    with pytest.raises(InputError, match=r"OilColumn\.damping_time = 0\.001.*allowed: a line"):
+        OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9, damping_time=1e-3)

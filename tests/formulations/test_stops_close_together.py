@@ -28,6 +28,7 @@ from support_exudyn import (
 )
 from support_exudyn.formulations.exudyn.scene.engine_scene import slide
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
+from support_exudyn.scene.hydraulics.implicit import START_RATE
 from tests.cases.run_cases import PIN, loose_support, support
 
 OIL = OilColumn(bore_area=bore_area(0.25, 2), oil_length=0.5, bulk_modulus=1.5e9)
@@ -150,21 +151,22 @@ def test_a_rest_is_moved_over_by_the_rates(rest: float) -> None:
     numbers = np.random.default_rng(3)
     at = data.GetODE2Coordinates() + 1e-4 * numbers.standard_normal(data.ODE2Size())
     velocity, acceleration = (numbers.standard_normal(at.size) for _ in range(2))
-    pressures = data.GetODE1Coordinates() + 1e6
-    flows = 1e9 * numbers.standard_normal(pressures.size)
-    assert pressures.size > 0
+    oil = [np.frombuffer(circuit.states()) for circuit in scene.legs.circuits]
+    assert oil[0].size > 0
+    for circuit in scene.legs.circuits:
+        circuit.known[START_RATE] = 1e9 * numbers.standard_normal(oil[0].size)
+    flows = [circuit.known[START_RATE].copy() for circuit in scene.legs.circuits]
     data.SetODE2Coordinates(at)
     data.SetODE2Coordinates_t(velocity)
     data.SetODE2Coordinates_tt(acceleration)
-    data.SetODE1Coordinates(pressures)
-    data.SetODE1Coordinates_t(flows)
     slide(scene, rest)
     # what a constant acceleration gives; rounding
     np.testing.assert_allclose(
         data.GetODE2Coordinates(), at + velocity * rest + acceleration * rest**2 / 2.0, rtol=1e-14
     )
     np.testing.assert_allclose(data.GetODE2Coordinates_t(), velocity + acceleration * rest, rtol=1e-14)
-    np.testing.assert_allclose(data.GetODE1Coordinates(), pressures + flows * rest, rtol=1e-14)
+    for circuit, before, flow in zip(scene.legs.circuits, oil, flows, strict=True):
+        np.testing.assert_allclose(np.frombuffer(circuit.states()), before + flow * rest, rtol=1e-14)
     # what the pin remembers is of where it is now
     pin = scene.clearance_joints[PIN]
     motion = pin.item.relative()

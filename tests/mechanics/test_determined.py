@@ -61,7 +61,7 @@ def test_what_two_hold_together_is_determined() -> None:
 
 @pytest.mark.parametrize("scenario", [RIGID, ON_OIL], ids=["rigid", "oil"])
 def test_other_shares_balance_as_well_and_change_only_what_is_said(scenario: Scenario) -> None:
-    loads = Loads(scenario.space, (), scenario.oil_columns)
+    loads = Loads(scenario.space, (), scenario.compliant_actuators)
     held = matrix(loads.start, loads.rows)[0]
     assert loads.unbalanced.shape[1] > 0
     # nothing is done to any body, by loads of the size of one

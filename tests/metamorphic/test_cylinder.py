@@ -18,6 +18,7 @@ from tests.metamorphic import drawn
 from tests.metamorphic.same import plain, run, scenes
 
 LITTLE, MUCH = 1.0, 1e5  # hoses, of what the cylinder holds
+OF_OIL = (".pressure", ".flow", ".oil")  # that a column of as stiff oil has otherwise
 ENERGY = "energy.elastic"  # of which only the change is the same: oil around the rod stores none at the start
 # Share by which the stiffness changes along with the compression of some 0.5 mm in 0.5 m and more of oil
 CURVED = 2e-3
@@ -75,9 +76,9 @@ def compared(scene: Scenario, cylinders: Mapping[str, HydraulicCylinder], hoses:
     driven = {name: scene.drive for name in drawn.actuators_of(scene.machine) if name not in cylinders}
     oil = replace(scene, actuators=with_oil, drives=driven | dict.fromkeys(cylinders, Held()))
     one, two = run(oil), run(replace(scene, actuators=filled_up, drives=driven))
-    # methods differ, for pressures are coordinates: each has its error
+    # methods differ, for a cylinder's pressures are states: each has its error
     both = {name: allowed + two.allowed[name] for name, allowed in one.allowed.items()}
-    other = dict(plain(two.result))
+    other = {name: values for name, values in plain(two.result).items() if not name.endswith(OF_OIL)}
     other[ENERGY] = other[ENERGY] - other[ENERGY][0] + one.result[ENERGY][0]
     replace(one, allowed=both).check(other, rounding=curved)
 

@@ -255,14 +255,14 @@ def test_a_jack_on_oil_is_held() -> None:
         drives={"rear_column": CubicStep(stroke=0.2)},
         duration=5.0,
     )
-    assert sorted(one.oil_columns) == ["tail_jack"]
+    assert sorted(one.legs) == ["tail_jack"]
     assert one.drive_of("tail_jack") == Held()
 
 
 def test_oil_in_an_actuator_of_two_bodies_is_oil() -> None:
     oil = OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9)
     actuators = cylinders_and_rods(oil)
-    assert scenario(actuators=actuators).oil_columns == {"front_column": oil, "rear_column": oil}
+    assert scenario(actuators=actuators).legs == {"front_column": oil, "rear_column": oil}
     with pytest.raises(InputError, match=r"actuators\.front_column\.drive\.oil_length = 0\.1 m"):
         scenario(actuators=actuators, drive=CubicStep(stroke=-0.2))
 

@@ -16,7 +16,7 @@ import sys
 import support_exudyn
 from user_forces.values.value import Value
 
-assert "support_exudyn.model.hydraulic_cylinder" not in sys.modules
+assert "support_exudyn.model.hydraulics.leg" not in sys.modules
 inlet = Value.from_data({"type": "ClosedInlet"})
 assert inlet is not None and type(inlet) is support_exudyn.ClosedInlet
 assert "user_forces.normal.power_laws" not in sys.modules

@@ -22,7 +22,7 @@ from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.drives.drive import CubicStep, Drive, Stroke, UniformSpeed
 from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.guides import Guide, IdealGuide
-from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
+from support_exudyn.model.hydraulics.leg import HydraulicCylinder
 from support_exudyn.model.machine import Machine
 from support_exudyn.model.pins import IdealPin, Pin
 from user_forces.values.sourced import SourcedNumber

@@ -18,8 +18,8 @@ from support_exudyn.scene.arrays import (
     Vector,
 )
 from support_exudyn.scene.compilation import compiled
+from support_exudyn.scene.hydraulics.flows import OPEN
 from support_exudyn.scene.hydraulics.gaps import met
-from support_exudyn.scene.hydraulics.leg import OPEN
 from support_exudyn.scene.hydraulics.records import RELIEF, YIELD
 from user_forces.roots import PEAK_LOOKS, Bracket, Peak, narrowed, peak_place, peak_with, zero_of
 

@@ -10,8 +10,7 @@ from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.joint_friction import friction_series
-from support_exudyn.mechanics.oil_column import OilSeries
-from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, OilEvent, Series, Trajectory
+from support_exudyn.mechanics.trajectory import OilEvent, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scene.arrays import LOSSES, MEMORY, Matrix
 from support_exudyn.scene.hydraulics.series import leg_series
@@ -67,11 +66,6 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
     def driven(name: str, which: int) -> Series:
         return found.courses[:, course[name], which] if name in course else still
 
-    oil = {name: one.series(motion, driven(name, 0), driven(name, 1)) for name, one in model.oil.items()}
-    cylinders: dict[str, CylinderSeries] = {}
-    for record, (name, filled) in zip(model.scene.cylinders, model.cylinders.items(), strict=True):
-        state = int(record["state"])
-        cylinders[name] = filled.series(motion, found.state[:, state : state + 2], driven(name, 0))
     legs = leg_series(model.legs, found.time, _told(model, motion, driven), found.state, oil_events)
     held, first = found.held, 0
     pins: dict[str, Series] = {}
@@ -79,8 +73,7 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         # rows of pins are second minus first, so that what holds them acts on the second reversed
         pins[name] = -held[:, first : first + 2]
         first += 2
-    on_oil: dict[str, OilSeries | CylinderSeries | LegSeries] = {**oil, **cylinders, **legs}
-    actuators = {name: one.force for name, one in on_oil.items() if name in linkage.actuators}
+    actuators = {name: one.force for name, one in legs.items() if name in linkage.actuators}
     rigid = [name for name in linkage.actuators if name not in scenario.compliant_actuators]
     pushed: dict[str, Series] = {}
     for name in (*rigid, *linkage.cranks):
@@ -116,12 +109,11 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         cranks={name: pushed[name] for name in linkage.cranks},
         slides=slides,
         gears=gears,
-        oil_energy=sum((one.energy for one in on_oil.values()), still),
+        oil_energy=sum((one.energy for one in legs.values()), still),
         work=losses[:, 2],
         damping_loss=losses[:, 0],
         friction_loss=losses[:, 1],
         loads=loads,
-        cylinders=cylinders,
         legs=legs,
     )
 

@@ -13,7 +13,7 @@ from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Outcome
 from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.hydraulic_cylinder import Inlet
+from support_exudyn.model.hydraulics.inlets import Inlet
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.arrays import (
     ACCEPTED,
@@ -205,11 +205,11 @@ def _outcome(going: _Run) -> Outcome:
 
 
 def _oil_events(going: _Run) -> dict[str, tuple[OilEvent, ...]]:
-    """What happened in each leg."""
+    """What happened in each leg with elements."""
     names, legs = going.model.legs.names, going.model.scene.legs
     if legs is None:
         return {}
-    found: dict[str, list[OilEvent]] = {name: [] for name in names}
+    found: dict[str, list[OilEvent]] = {name: [] for name in names if going.scenario.legs[name].elements}
     for t, leg, gap, side in legs.events[: int(going.report[OIL_EVENTS])].tolist():
         found[names[int(leg)]].append(OilEvent(t, GAP_NAMES[int(gap)], side > 0.0))
     return {name: tuple(events) for name, events in found.items()}
@@ -235,10 +235,10 @@ def _failure(going: _Run) -> Failure:
         reason, advice = f"more than {MOST_OIL_EVENTS} openings and closings of valves", CHATTER
     elif broken := _broken_law(going):
         reason, advice = broken
-    elif legs is not None and (empty := empty_legs(going.model.legs.names, legs.records)):
-        reason, advice = empty, EMPTY
     elif pressed := _pressed_through(going):
         reason, advice = pressed, ENDS
+    elif legs is not None and (empty := empty_legs(going.model.legs.names, legs.records)):
+        reason, advice = empty, EMPTY
     elif singular := change_points.ended_at(scenario, going.y[:count]):
         reason, advice = singular, change_points.ADVICE
     elif code == DEAD_CENTRE:

@@ -23,11 +23,7 @@ def first_state(model: Model) -> Vector:
     """The state at the start. Raises SimulationError if a static equilibrium is asked for and not found."""
     scenario, y = model.scenario, np.zeros(model.states)
     count = 3 * len(scenario.linkage.bodies)
-    for record, one in zip(model.scene.cylinders, model.cylinders.values(), strict=True):
-        y[record["state"] : record["state"] + 2] = one.start_pressures
-    if model.legs.names:
-        first = int(model.legs.records["state"][0])
-        y[first : first + model.legs.states] = model.legs.start
+    y[model.legs.first : model.legs.first + model.legs.states] = model.legs.start
     if scenario.start == "settled":
         settle(model, y)
     else:
@@ -85,9 +81,6 @@ def error_weights(model: Model, y: Vector, tolerance: float) -> Vector:
     found = np.zeros(model.states)
     found[: reach.size] = reach / play
     found[reach.size : 2 * reach.size] = reach / speed
-    for record in model.scene.cylinders:
-        pressure = max(mass * pull / record["bore"], record["supply"])
-        found[record["state"] : record["state"] + 2] = 1.0 / pressure
     if model.legs.names:
         carries = mass * pull / float(model.legs.records["bore"].max())
         weigh_states(model.legs, found, carries, mass * speed**2, play)

@@ -17,9 +17,7 @@ from support_exudyn.scene.forces import (
     observe,
     powers,
     press,
-    press_cylinders,
     press_loads,
-    press_oil,
     push_contact,
 )
 from support_exudyn.scene.legs import press_legs
@@ -85,10 +83,6 @@ def evaluate(scene: SceneArrays, t: float, y: Vector, slope: Vector, right: Vect
         press(scene, n, y, slope)
         push_contact(scene, n)
     # a call costs more than a loop over nothing
-    if scene.oil.size > 0:
-        press_oil(scene)
-    if scene.cylinders.size > 0:
-        press_cylinders(scene, y, slope)
     press_legs(scene, scene.legs, y, slope)
     if scene.loads.size > 0:
         press_loads(scene, t, y)

@@ -9,7 +9,6 @@ from typing import TypeVar
 
 import numpy as np
 
-from support_exudyn.formulations.exudyn.scene.cylinder_item import UNIT, CylinderItem
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
 from support_exudyn.formulations.exudyn.scene.record_forces import (
     FOLLOWING,
@@ -32,8 +31,7 @@ from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.joint_friction import friction_series
-from support_exudyn.mechanics.oil_column import OilSeries, oil_series
-from support_exudyn.mechanics.trajectory import CylinderSeries, LegSeries, Outcome, Series, Trajectory
+from support_exudyn.mechanics.trajectory import LegSeries, Outcome, Series, Trajectory
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.contract import Progress
@@ -139,22 +137,11 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         ordered(history.velocity, DataNeeds.VELOCITY),
     )
     motion = BodyMotion(scene.linkage, position, velocity, np.zeros_like(velocity))
-    oil = {
-        name: oil_series(item.preloaded, motion, scene.scenario.drive_of(name), history.time)
-        for name, item in scene.oil_columns.items()
-        if DataNeeds.OIL in needed
-    }
-    cylinders = {
-        name: _cylinder_series(item, motion, history)
-        for name, item in scene.cylinders.items()
-        if DataNeeds.OIL in needed
-    }
     legs: dict[str, LegSeries] = {}
     if scene.legs.names and DataNeeds.OIL in needed:
         lengths = {name: motion.lengthening(scene.linkage.actuators[name]) for name in scene.legs.names}
         legs = scene.legs.series(history.time, lengths, history.legs)
-    on_oil: dict[str, OilSeries | CylinderSeries | LegSeries] = {**oil, **cylinders, **legs}
-    compliant_actuators = {name: one.force for name, one in on_oil.items() if name in scene.linkage.actuators}
+    compliant_actuators = {name: one.force for name, one in legs.items() if name in scene.linkage.actuators}
     contacts = {
         name: scene.places[name].series(motion, history.memory[:, n])
         for n, name in enumerate(scene.clearance_joints)
@@ -181,17 +168,10 @@ def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
         cranks=found.joints.cranks,
         slides=found.joints.slides,
         gears=found.joints.gears,
-        oil_energy=sum((one.energy for one in on_oil.values()), np.zeros_like(history.time)),
+        oil_energy=sum((one.energy for one in legs.values()), np.zeros_like(history.time)),
         work=history.work,
         damping_loss=history.damping_loss,
         friction_loss=history.friction_loss,
         loads=loads,
-        cylinders=cylinders,
         legs=legs,
     )
-
-
-def _cylinder_series(item: CylinderItem, motion: BodyMotion, history: History) -> CylinderSeries:
-    """A hydraulic cylinder at the records."""
-    opening = np.array([item.preloaded.model.inlet.opening(t) for t in history.time.tolist()])
-    return item.preloaded.series(motion, UNIT * history.pressure[:, item.first : item.first + 2], opening)

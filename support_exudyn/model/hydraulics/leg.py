@@ -1,17 +1,45 @@
-"""What oil columns and hydraulic cylinders can have besides their oil."""
+"""Legs: actuators on oil. A drive lets oil into an `OilColumn`, a valve into a `HydraulicCylinder`.
+
+Both are settings of the same leg, whose physics `scene/hydraulics` computes. In a cylinder
+
+    dp0/dt = B / V0 (Q0 - A0 v),    V0 = A0 (h0 + e) + H0      piston side
+    dp1/dt = B / V1 (Q1 + A1 v),    V1 = A1 (h1 - e) + H1      rod side
+    F = p0 A0 - p1 A1 - d v
+
+e is the extension since the start, v its rate; F pushes the ends apart. Flows follow from the opening o:
+
+    Q = o Qn sqrt(|dp| / dpn) sign(dp),   dp: pump less chamber, or chamber less tank
+"""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import field
+from typing import ClassVar
 
 from support_exudyn.model.actuator_model import ActuatorModel
-from support_exudyn.model.hydraulics.lines import Line
-from support_exudyn.model.hydraulics.motion import EndStops, SealFriction, SecondStage
-from support_exudyn.model.hydraulics.oil import ATMOSPHERE, TrappedAir
-from support_exudyn.model.hydraulics.sharing import Shared
-from support_exudyn.model.hydraulics.valves import YieldValve
-from user_forces.values.units import Pascals
-from user_forces.values.value import InputError, Positive, Real, value
+from support_exudyn.model.hydraulics.elements import (
+    ATMOSPHERE,
+    CheckValve,
+    EndStops,
+    Line,
+    SealFriction,
+    SecondStage,
+    Shared,
+    TrappedAir,
+    YieldValve,
+)
+from support_exudyn.model.hydraulics.inlets import ClosedInlet, Inlet
+from user_forces.values.units import (
+    CubicMetres,
+    CubicMetresPerSecond,
+    Metres,
+    NewtonSecondsPerMetre,
+    Pascals,
+    SquareMetres,
+)
+from user_forces.values.value import InputError, NonNegative, Positive, Real, value
 
 ELEMENTS = (  # fields of a leg that make it more than its oil
     "yield_valve",
@@ -31,10 +59,13 @@ ELEMENTS = (  # fields of a leg that make it more than its oil
 class HydraulicLeg(Shared, ActuatorModel, ABC):
     """An actuator on oil, and what it has besides; each is None by default, which leaves it out.
 
-    Pressures are those above the atmosphere's. Where an element takes part, the oil in each chamber is counted,
-    and its pressure follows from that and the chamber's volume.
+    Pressures are those above the atmosphere's. The oil in each chamber is counted, and its pressure follows
+    from that and the chamber's volume.
 
     Arguments:
+        bore_area: of the piston, all legs of a pair together [m^2], > 0.
+        oil_length: of the oil under the piston at the start [m], > 0.
+        bulk_modulus: of the oil or emulsion [Pa], > 0.
         yield_valve: lets oil out of the piston side above a pressure.
         vapour_pressure: below which no pressure falls [Pa], > -101325: there the oil boils, and a cavity grows
             until it is filled again; -99e3 for water. None: oil pulls as well as it pushes.
@@ -47,6 +78,11 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
             carries the static load of the start posture with ideal pins.
     """
 
+    extensive: ClassVar[tuple[str, ...]] = ("bore_area",)
+
+    bore_area: SquareMetres[Positive]
+    oil_length: Metres[Positive]
+    bulk_modulus: Pascals[Positive]
     yield_valve: YieldValve | None = None
     vapour_pressure: Pascals[Real] | None = None
     trapped_air: TrappedAir | None = None
@@ -83,3 +119,137 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
                 f"{where}.end_stops = None: allowed with a second stage: stops of the outer one, "
                 "whose lowest place releases the foot valve"
             )
+
+
+@value
+class OilColumn(HydraulicLeg):
+    """A massless linear actuator whose column of oil is compressible; the drive lets oil into it.
+
+        F = k u,   k = B A / (h + extension)
+
+    u is by how much the oil is compressed: length at the start + precompression + extension - length. The
+    precompression carries the static load of the start posture with ideal pins, so that a machine at rest
+    stays there. k is that of a closed volume of oil; steel, seals and hoses are taken as stiff. Nothing damps,
+    and the oil pulls as well as it pushes. Elements change that, see `HydraulicLeg`: with a `line` the drive's
+    oil comes through a hose whose resistance damps, with a `vapour_pressure` oil that is pulled boils.
+
+    Arguments:
+        bore_area: A, area of the piston, all actuators of a pair together [m^2], > 0.
+        oil_length: h, length of the oil under the piston at the start [m], > 0.
+        bulk_modulus: B of the oil or emulsion [Pa], > 0; 1.96e9 by the published stiffness of four shields.
+    """
+
+    _removed: ClassVar[Mapping[str, str]] = {
+        "damping_time": "allowed: a line, whose resistance damps the column: its volume, nominal_flow and "
+        "nominal_drop"
+    }
+
+    def stiffness(self, extension: float) -> float:
+        """k [N/m] of the closed oil at an extension from the start [m]."""
+        return self.bulk_modulus * self.bore_area / (self.oil_length + extension)
+
+    def check_extension(self, lowest: float, name: str) -> None:
+        """Raise InputError if no oil would be left under the piston."""
+        if self.oil_length + lowest <= 0.0:
+            raise InputError(
+                f"actuators.{name}.oil_length = {self.oil_length} m: the drive draws the actuator in by "
+                f"{-lowest:.4g} m and no oil is left; allowed: more than that"
+            )
+
+
+@value
+class HydraulicCylinder(HydraulicLeg):
+    """A massless actuator that is a hydraulic cylinder: it moves by the oil that its valve lets in.
+
+    No drive moves it. Until the valve opens, the oil in both chambers carries the static load of the start
+    posture with ideal pins: the chamber that the load presses has the pressure for it, the other one that of
+    the tank. Pipe, valve and fittings are one resistance. Without a check valve oil flows back where a
+    chamber has more pressure than the pump. Oil pulls as well as it pushes unless a `vapour_pressure` says
+    where it boils. A run in which the piston comes to an end of its cylinder is refused.
+
+    Arguments:
+        bore_area: of the piston, all cylinders of a pair together [m^2], > 0.
+        rod_side_area: the annulus around the rod, all together [m^2], > 0.
+        oil_length: length of the oil under the piston at the start [m], > 0, less than the actuator.
+        rod_side_length: length of the oil around the rod at the start [m], > 0: by so much it can extend.
+        bulk_modulus: of the oil or emulsion, with what hoses and cylinders give [Pa], > 0.
+        system_pressure: of the pump [Pa], > tank_pressure.
+        nominal_flow: through the fully open valve at `nominal_drop`, all cylinders together, either side
+            [m^3/s], > 0.
+        nominal_drop: of the pressure, at which that flows [Pa], > 0, 1 MPa by default.
+        tank_pressure: [Pa], >= 0, 0 by default.
+        hose_volume: between valve and piston side, all together [m^3], > 0, 1 litre by default.
+        rod_side_hose_volume: between valve and rod side, all together [m^3], > 0, 1 litre by default.
+        damping: viscous, of the seals, all together [N s/m], >= 0, 0 by default.
+        inlet: how the valve opens over time; closed by default.
+        check_valve: holds the oil of the piston side; None: where it has more pressure than the pump, oil flows
+            back.
+        rod_relief: lets oil out of the rod side above a pressure; None: nothing does.
+        The others are those of `HydraulicLeg`.
+    """
+
+    extensive: ClassVar[tuple[str, ...]] = (
+        "bore_area",
+        "rod_side_area",
+        "nominal_flow",
+        "hose_volume",
+        "rod_side_hose_volume",
+        "damping",
+    )
+
+    rod_side_area: SquareMetres[Positive]
+    rod_side_length: Metres[Positive]
+    system_pressure: Pascals[Positive]
+    nominal_flow: CubicMetresPerSecond[Positive]
+    nominal_drop: Pascals[Positive] = 1e6
+    tank_pressure: Pascals[NonNegative] = 0.0
+    hose_volume: CubicMetres[Positive] = 1e-3
+    rod_side_hose_volume: CubicMetres[Positive] = 1e-3
+    damping: NewtonSecondsPerMetre[NonNegative] = 0.0
+    inlet: Inlet = field(default_factory=ClosedInlet)
+    check_valve: CheckValve | None = None
+    rod_relief: YieldValve | None = None
+
+    def check_length(self, length: float, name: str) -> None:
+        """Raise InputError if the cylinder does not fit into an actuator of this length [m] at the start."""
+        if self.oil_length >= length:
+            raise InputError(
+                f"actuators.{name}.oil_length = {self.oil_length} m: the actuator is {length:.4g} m long at "
+                "the start; allowed: less than that"
+            )
+        if self.system_pressure <= self.tank_pressure:
+            raise InputError(
+                f"actuators.{name}.system_pressure = {self.system_pressure} Pa: allowed: > tank_pressure = "
+                f"{self.tank_pressure} Pa"
+            )
+
+    def past_end(self, extension: float, name: str) -> str:
+        """The message that an extension since the start [m] is beyond an end of the cylinder; empty: it is not.
+
+        A second stage has stops of its own.
+        """
+        low, high = -self.oil_length, self.rod_side_length
+        if self.second_stage is not None or low <= extension <= high:
+            return ""
+        return (
+            f"{name} is {'drawn in' if extension < low else 'extended'} by {abs(extension):.4g} m, beyond its "
+            f"cylinder's end; allowed: {low:.4g} to {high:.4g} m from the start"
+        )
+
+    def check_elements(self, where: str) -> None:
+        """Raise InputError if elements do not go together; where: path of the cylinder."""
+        super().check_elements(where)
+        if self.rod_relief is not None and self.rod_relief.poppet is not None:
+            raise InputError(f"{where}.rod_relief.poppet: allowed: none; the rod side's valve opens at once")
+        for name, valve in (("yield_valve", self.yield_valve), ("rod_relief", self.rod_relief)):
+            if valve is not None and valve.closes_at < self.tank_pressure:
+                raise InputError(
+                    f"{where}.tank_pressure = {self.tank_pressure} Pa: oil would come in through {name}, which "
+                    f"is open down to {valve.closes_at} Pa; allowed: at most that"
+                )
+
+    def stiffness(self, extension: float) -> float:
+        """Stiffness of the closed chambers [N/m] at an extension since the start [m]."""
+        piston = self.bore_area * (self.oil_length + extension) + self.hose_volume
+        rod = self.rod_side_area * (self.rod_side_length - extension) + self.rod_side_hose_volume
+        return self.bulk_modulus * (self.bore_area**2 / piston + self.rod_side_area**2 / rod)

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.actuators import OilColumn
-from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
+from support_exudyn.model.hydraulics.leg import HydraulicCylinder
 from support_exudyn.postprocessing.instruments.instrument import Instrument
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
@@ -49,8 +49,8 @@ class PressureGauge(Instrument):
         """The pressure (n, 1) [Pa]."""
         scenario = result.scenario
         whole, _ = column_of(scenario, self.column)
-        area, leg = self.area(scenario), scenario.hydraulics.get(whole)
-        plain = isinstance(leg, OilColumn) and (self.side == "rod" or whole in scenario.oil_columns)
+        area, leg = self.area(scenario), scenario.legs.get(whole)
+        plain = isinstance(leg, OilColumn) and (self.side == "rod" or not leg.elements)
         if leg is not None and not plain:
             name = f"{self.column}.{'pressure' if self.side == 'piston' else 'rod_pressure'}"
             return result.recorded(name, "a gauge shows it")[:, None]
@@ -72,7 +72,7 @@ class PressureGauge(Instrument):
                 )
             return self.cylinders * math.pi / 4.0 * (self.bore**2 - rod**2)
         whole, share = column_of(scenario, self.column)
-        leg = scenario.hydraulics.get(whole)
+        leg = scenario.legs.get(whole)
         if isinstance(leg, HydraulicCylinder):
             return share * (leg.bore_area if self.side == "piston" else leg.rod_side_area)
         if isinstance(leg, OilColumn) and self.side == "piston":

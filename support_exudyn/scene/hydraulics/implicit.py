@@ -1,43 +1,43 @@
-"""States of hydraulic legs at the end of a step, by the trapezoidal rule.
+"""Legs in steps of a given length: their states at the end of a step, and whether something happens in it.
 
 z1 = z0 + h/2 (f(z0) + f(z1)),   with the lengths and rates that both ends of the step have
 
-It is of second order, damps nothing that it need not, stays finite however stiff a valve, a stop or a poppet
-is, and keeps sums that the rates keep, such as that of all oil. What is only booked follows from the rest.
+The trapezoidal rule is of second order, damps nothing that it need not, stays finite however stiff a valve, a
+stop or a poppet is, and keeps sums that the rates keep, such as that of all oil. Integrals follow from the
+rest.
 """
+
+import math
 
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scene.compilation import compiled, entry
-from support_exudyn.scene.hydraulics.leg import press_all
+from support_exudyn.scene.hydraulics.leg import press_all, press_leg
 from support_exudyn.scene.hydraulics.records import Matrix, Records
 
 Places = npt.NDArray[np.int64]
-ROUNDS, HALVINGS = 60, 12  # of Newton's method; of a step of it that makes nothing better
+Watched = npt.NDArray[np.float64]  # (WATCHED, legs, GAPS)
+NEWTON_ROUNDS, HALVINGS = 60, 12  # of Newton's method; of a step of it that makes nothing better
 SHIFT = 1e-7  # of what a state is of, over which rates are differenced
-FOUND = 1e-10  # the same, by which a state changes when it has been found: the next change would be its square
-SOLVED = 1e-15  # the same, of what is left of the equations, with which there is nothing to solve
+CONVERGED = 1e-10  # the same, by which a state changes in the last round: the next change would be its square
+SOLVED = 1e-15  # the same, of the residual, with which there is nothing to solve
+AHEAD = 1e-5  # of a step, over which gaps are differenced
+# rows of what is known of the states: one over what each is of, values and rates at both ends, room
+WEIGHT, START, START_RATE, END, END_RATE, LATER, LATER_RATE, KNOWN = range(8)
+# what is known of each gap: its side of zero, how near to that rounding is, the gap and its rate at the start
+# of the step, its rate at the end
+SIDE, NEAR, BEFORE, RATE_BEFORE, RATE, WATCHED = range(6)
 
 
 @compiled
-def fill_rest(
-    h: float,
-    weights: Series,
-    y0: Series,
-    rates0: Series,
-    y: Series,
-    slope: Series,
-    places: Places,
-    rows: Matrix,
-) -> float:
-    """Write what is left of the equations into the last column of `rows`; the most of it, by weights."""
+def fill_residual(h: float, known: Matrix, places: Places, rows: Matrix) -> float:
+    """Write the residual of the rule into the last column of `rows`; its largest, by weights."""
     most, m = 0.0, rows.shape[0]
     for i in range(m):
         k = places[i]
-        rows[i, m] = y0[k] + 0.5 * h * (rates0[k] + slope[k]) - y[k]
-        left = abs(rows[i, m]) * weights[k]
+        rows[i, m] = known[START, k] + 0.5 * h * (known[START_RATE, k] + known[END_RATE, k]) - known[END, k]
+        left = abs(rows[i, m]) * known[WEIGHT, k]
         if not left <= most:
             most = left
     return float(most)
@@ -68,23 +68,15 @@ def eliminate(rows: Matrix) -> None:
 
 @compiled
 def linearise(
-    legs: Records,
-    pumps: Records,
-    gaps: Matrix,
-    h: float,
-    weights: Series,
-    y: Series,
-    slope: Series,
-    places: Places,
-    rows: Matrix,
+    legs: Records, pumps: Records, gaps: Matrix, h: float, known: Matrix, places: Places, rows: Matrix
 ) -> None:
     """Write 1 - h/2 df/dz into the columns of `rows` but the last, by differences."""
-    m = rows.shape[0]
+    m, y, slope = rows.shape[0], known[END], known[END_RATE]
     for i in range(m):
         rows[i, m] = slope[places[i]]
     for j in range(m):
         kept = y[places[j]]
-        y[places[j]] = kept + SHIFT / weights[places[j]]
+        y[places[j]] = kept + SHIFT / known[WEIGHT, places[j]]
         shift = y[places[j]] - kept
         press_all(legs, pumps, gaps, y, slope)
         y[places[j]] = kept
@@ -95,65 +87,157 @@ def linearise(
         slope[places[i]] = rows[i, m]
 
 
-@entry
+@compiled
 def advance_legs(
-    legs: Records,
-    pumps: Records,
-    gaps: Matrix,
-    h: float,
-    weights: Series,
-    y0: Series,
-    rates0: Series,
-    y: Series,
-    slope: Series,
-    places: Places,
-    rows: Matrix,
+    legs: Records, pumps: Records, gaps: Matrix, h: float, known: Matrix, places: Places, rows: Matrix
 ) -> bool:
-    """Find the states of all legs, and of their pump, at the end of a step of h [s]; whether they were found.
+    """Solve for the states of all legs, and of their pump, at the end of a step of h [s]; whether it converged.
 
     By Newton's method; where a whole step of it makes nothing better, by a part of it. With h = 0 the states
-    are those of the start. Records tell lengths, rates and inlets at the end, and take what follows.
+    are those of the start. Records have lengths, rates and inlets of the end, and take what follows.
 
     Arguments:
         legs, pumps, gaps: see `press_all`.
-        weights: one over what each state is of.
-        y0, rates0: states and their rates at the start. y, slope: those at the end, which are written.
-        places: of the m states that are solved for, then of those that are only booked.
+        known: shape (KNOWN, states); the rows END and END_RATE are written.
+        places: of the m states that are solved for, then of the integrals.
         rows: room, shape (m, m + 1).
     """
-    m = rows.shape[0]
+    m, y, slope = rows.shape[0], known[END], known[END_RATE]
     for i in range(y.size):
-        y[i] = y0[i]
+        y[i] = known[START, i]
     press_all(legs, pumps, gaps, y, slope)
     if h == 0.0:
         return True
-    left = fill_rest(h, weights, y0, rates0, y, slope, places, rows)
-    found = left <= SOLVED
-    for _ in range(ROUNDS):
-        if found:
+    left = fill_residual(h, known, places, rows)
+    converged = left <= SOLVED
+    for _ in range(NEWTON_ROUNDS):
+        if converged:
             break
-        linearise(legs, pumps, gaps, h, weights, y, slope, places, rows)
-        fill_rest(h, weights, y0, rates0, y, slope, places, rows)
+        linearise(legs, pumps, gaps, h, known, places, rows)
+        fill_residual(h, known, places, rows)
         eliminate(rows)
         change = 0.0
         for i in range(m):
-            size = abs(rows[i, 0]) * weights[places[i]]
+            size = abs(rows[i, 0]) * known[WEIGHT, places[i]]
             y[places[i]] += rows[i, 0]
             if not size <= change:
                 change = size
-        found, share = change <= FOUND, 1.0
+        converged, share = change <= CONVERGED, 1.0
         press_all(legs, pumps, gaps, y, slope)
-        then = fill_rest(h, weights, y0, rates0, y, slope, places, rows)
+        then = fill_residual(h, known, places, rows)
         for _ in range(HALVINGS):
-            if found or then < left:
+            if converged or then < left:
                 break
             share *= 0.5
             for i in range(m):
                 y[places[i]] -= share * rows[i, 0]
             press_all(legs, pumps, gaps, y, slope)
-            then = fill_rest(h, weights, y0, rates0, y, slope, places, rows)
+            then = fill_residual(h, known, places, rows)
         left = then
     for i in range(m, y.size):
         k = places[i]
-        y[k] = y0[k] + 0.5 * h * (rates0[k] + slope[k])
-    return found
+        y[k] = known[START, k] + 0.5 * h * (known[START_RATE, k] + slope[k])
+    return converged
+
+
+@entry
+def pull_of_leg(
+    legs: Records,
+    pumps: Records,
+    gaps: Matrix,
+    h: float,
+    known: Matrix,
+    places: Places,
+    rows: Matrix,
+    n: int,
+    length: float,
+    rate: float,
+) -> float:
+    """Force [N] with which leg n pulls its ends together at the end of a step of h [s]; no number if unsolved.
+
+    Arguments:
+        length, rate: of the leg at the end of the step [m], [m/s]. Others: see `advance_legs`.
+    """
+    legs[n].length, legs[n].rate = length, rate
+    if not advance_legs(legs, pumps, gaps, h, known, places, rows):
+        return math.nan
+    return float(-legs[n].force)
+
+
+@entry
+def passes_gap(legs: Records, pumps: Records, gaps: Matrix, h: float, known: Matrix, watched: Watched) -> bool:
+    """Whether a gap may pass zero in a step of h [s] that has been solved; writes the rates of all gaps.
+
+    A gap may pass zero if it is beyond at the end, or if it comes nearer at the start and leaves at the end.
+
+    Arguments:
+        legs, pumps, gaps: see `press_all`. known: see `advance_legs`.
+        watched: shape (WATCHED, legs, GAPS), of which RATE is written.
+    """
+    ahead = AHEAD * h
+    for n in range(legs.size):
+        legs[n].kept_length, legs[n].kept_inflow = legs[n].length, legs[n].inflow
+        legs[n].length += ahead * legs[n].rate
+        legs[n].inflow += ahead * legs[n].inflow_rate
+    for i in range(known.shape[1]):
+        known[LATER, i] = known[END, i] + ahead * known[END_RATE, i]
+    press_all(legs, pumps, gaps, known[LATER], known[LATER_RATE])
+    for n in range(legs.size):
+        legs[n].length, legs[n].inflow = legs[n].kept_length, legs[n].kept_inflow
+        for k in range(gaps.shape[1]):
+            watched[RATE, n, k] = gaps[n, k]
+    press_all(legs, pumps, gaps, known[END], known[END_RATE])
+    passes = False
+    for n in range(legs.size):
+        for k in range(gaps.shape[1]):
+            side, gap = watched[SIDE, n, k], gaps[n, k]
+            rate = (watched[RATE, n, k] - gap) / ahead
+            watched[RATE, n, k] = rate
+            turns = side * watched[RATE_BEFORE, n, k] < 0.0 and side * rate > 0.0
+            passes = passes or (side != 0.0 and (-side * gap > watched[NEAR, n, k] or turns))
+    return passes
+
+
+@entry
+def spring_of_leg(legs: Records, gaps: Matrix, known: Matrix, n: int, inflow: float) -> tuple[float, float]:
+    """Stiffness [N/m] and free length [m] of leg n, whose force is linear in its length and has no state.
+
+    Evaluated at the length that the drive has given the leg, and at one longer by all of the oil's length.
+
+    Arguments:
+        legs, gaps: see `press_all`. known: see `advance_legs`. n: which leg.
+        inflow: that the drive has let in, as an extension [m].
+    """
+    leg = legs[n]
+    leg.inflow, reach = inflow, leg.oil_length + inflow
+    leg.length = leg.length0 + leg.inflow
+    press_leg(legs, n, leg.supply, False, known[END], known[END_RATE], gaps[n])
+    force = leg.force
+    leg.length += reach
+    press_leg(legs, n, leg.supply, False, known[END], known[END_RATE], gaps[n])
+    stiffness = (force - leg.force) / reach
+    return float(stiffness), float(leg.length0 + leg.inflow + force / stiffness)
+
+
+@entry
+def power_of_spring(legs: Records, gaps: Matrix, known: Matrix, n: int, length: float, rate: float) -> float:
+    """Power [W] of the drive that lets oil into leg n, see `spring_of_leg`, at a length and a rate of inflow.
+
+    Arguments:
+        legs, gaps, known, n: see `spring_of_leg`. length: of the leg [m].
+        rate: at which the drive lets oil in, as that of an extension [m/s].
+    """
+    legs[n].length, legs[n].inflow_rate = length, rate
+    press_leg(legs, n, legs[n].supply, False, known[END], known[END_RATE], gaps[n])
+    return float(legs[n].work)
+
+
+@entry
+def powers_of_legs(legs: Records, pumps: Records) -> tuple[float, float, float]:
+    """Powers [W] as evaluated last: of what gives oil, taken by flows and dampers, and taken by seals."""
+    work = loss = friction = 0.0
+    for n in range(legs.size):
+        work, loss, friction = work + legs[n].work, loss + legs[n].loss, friction + legs[n].friction
+    for n in range(pumps.size):
+        work += pumps[n].work
+    return work, loss, friction

@@ -6,7 +6,7 @@ pressure p:     liquid volume + V_air (p_a/(p + p_a))^(1/n) = V
 
 import math
 
-from support_exudyn.model.hydraulics.oil import ATMOSPHERE
+from support_exudyn.model.hydraulics.elements import ATMOSPHERE
 from support_exudyn.scene.compilation import compiled, inlined
 from support_exudyn.scene.hydraulics.records import LOG
 
@@ -61,13 +61,34 @@ def pressure_with_air(
 
 
 @inlined
-def pressure_of(
-    law: int, oil: float, volume: float, reference: float, modulus: float, air: float, exponent: float
-) -> float:
-    """The pressure [Pa] of a chamber, before it is cut at that of the vapour."""
+def fill_chamber(
+    law: int,
+    oil: float,
+    volume: float,
+    reference: float,
+    modulus: float,
+    air: float,
+    exponent: float,
+    lowest: float,
+) -> tuple[float, float, float]:
+    """Pressure of a chamber if nothing boiled, its pressure [Pa], and the volume of its cavity [m^3].
+
+    No number where no room or no oil is left, see `fill.empty_legs`.
+
+    Arguments:
+        law, oil, reference, modulus, air, exponent: see `stored_in`. volume: of the chamber [m^3].
+        lowest: pressure at which the oil boils [Pa]; -inf: oil pulls.
+    """
+    if not (volume > 0.0 and oil > 0.0):
+        return math.nan, math.nan, 0.0
     if air > 0.0:
-        return pressure_with_air(law, oil, volume, reference, modulus, air, exponent)
-    return liquid_pressure(law, oil, volume, reference, modulus)
+        p = pressure_with_air(law, oil, volume, reference, modulus, air, exponent)
+    else:
+        p = liquid_pressure(law, oil, volume, reference, modulus)
+    if not p < lowest:
+        return p, p, 0.0
+    liquid = liquid_volume(law, oil, lowest, reference, modulus)
+    return p, lowest, volume - liquid - air_volume(air, exponent, lowest)
 
 
 @inlined
@@ -93,7 +114,14 @@ def stored_in(
     exponent: float,
     cavity: float,
 ) -> float:
-    """Energy [J] stored in a chamber: in its liquid, its air, and in the cavity, which has been pulled open."""
+    """Energy [J] stored in a chamber: in its liquid, its air, and in the cavity, which has been pulled open.
+
+    Arguments:
+        law: of the oil. oil: as its volume without pressure [m^3]. pressure: in the chamber [Pa].
+        reference: volume V_ref of a linear law [m^3]. modulus: B of the oil [Pa].
+        air: volume of trapped air without pressure [m^3]. exponent: of its change.
+        cavity: volume of the vapour [m^3].
+    """
     if law == LOG:
         strain = pressure / modulus
         total = oil * modulus * (-math.expm1(-strain) - strain * math.exp(-strain))

@@ -2,8 +2,9 @@
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scene.compilation import compiled, entry
+from support_exudyn.scene.hydraulics.flows import SEAT
 from support_exudyn.scene.hydraulics.gaps import MET_PRESSURE
-from support_exudyn.scene.hydraulics.leg import SEAT, press_all
+from support_exudyn.scene.hydraulics.leg import press_all
 from support_exudyn.scene.hydraulics.records import Matrix, Records
 
 ROUNDS = 40  # of Newton's method

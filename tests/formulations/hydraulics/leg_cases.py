@@ -145,6 +145,7 @@ def two_on_a_pump(inlet: Any, pump: PumpStation, **elements: Any) -> Scenario:
 PUMP = PumpStation(flow=5e-3, pressure=25e6, pressure_range=2e6, line_volume=5e-3)
 
 CASES: dict[str, Scenario] = {
+    "column, plain": on_column(-0.2, drive=LIFT),
     "column, yield valve": on_column(-0.6, yield_valve=YIELDING),
     "column, hysteresis": on_column(-0.6, yield_valve=WITH_HYSTERESIS),
     "column, poppet": on_column(-0.6, yield_valve=WITH_POPPET),
@@ -163,6 +164,8 @@ CASES: dict[str, Scenario] = {
         yield_valve=WITH_HYSTERESIS, vapour_pressure=VAPOUR, trapped_air=AIR, line=LINE, seal_friction=SEALS,
         end_stops=STOPS, second_stage=STAGE, setting_pressure=3e6, drive=LIFT,
     ),
+    "cylinder, plain": on_cylinder(-0.2, inlet=UP),
+    "cylinder, pulled": on_cylinder(0.3, inlet=DOWN),
     "cylinder, yield valve": on_cylinder(-0.6, yield_valve=YIELDING),
     "cylinder, hysteresis": on_cylinder(-0.6, yield_valve=WITH_HYSTERESIS),
     "cylinder, poppet": on_cylinder(-0.6, yield_valve=WITH_POPPET),

@@ -11,8 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from support_exudyn import HydraulicCylinder, OilColumn, SealFriction, TrappedAir, YieldValve
-from support_exudyn.model.hydraulics.lines import PumpStation
-from support_exudyn.model.hydraulics.motion import EndStops
+from support_exudyn.model.hydraulics.elements import EndStops, PumpStation
 
 ATMOSPHERE = 101325.0
 ROUNDED = 1e-3  # of the nominal drop: below it the root of an orifice is rounded

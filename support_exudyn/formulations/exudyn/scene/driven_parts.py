@@ -1,4 +1,4 @@
-"""Actuators and cranks in the engine that follow the same drive."""
+"""Rigid actuators and cranks in the engine that follow the same drive."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -6,33 +6,23 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, CrankItem
-from support_exudyn.mechanics.oil_column import PreloadedActuator
 from support_exudyn.model.drives.drive import Drive
 from user_forces.lawful import LawError
 
 Item = TypeVar("Item")
 
 
-@dataclass(frozen=True)
-class OilColumnItem:
-    """A column of oil in the engine."""
-
-    preloaded: PreloadedActuator
-    object: Any
-
-
 @dataclass
 class DrivenParts:
     """All that one drive moves.
 
-    mbs: the engine's system. drive: of all of these. rigid, oil, cranks: in the engine. state: extension that
+    mbs: the engine's system. drive: of all of these. rigid, cranks: in the engine. state: extension that
     the engine has, and speed, which are those of a time [s].
     """
 
     mbs: Any
     drive: Drive
     rigid: tuple[ActuatorItem, ...]
-    oil: tuple[OilColumnItem, ...]
     cranks: tuple[CrankItem, ...]
     state: tuple[float, float] | None = None
     time: float = math.nan
@@ -78,10 +68,6 @@ class DrivenParts:
         put = self.mbs.SetObjectParameter
         for rigid in self.rigid:
             put(rigid.object, "distance", rigid.actuator.start_length + extension)
-        for oil in self.oil:
-            stiffness = oil.preloaded.model.stiffness(extension)
-            put(oil.object, "referenceLength", oil.preloaded.natural_length(extension))
-            put(oil.object, "stiffness", stiffness)
         for crank in self.cranks:
             put(crank.object, "offset", extension)
 
@@ -90,16 +76,15 @@ def by_drive(
     mbs: Any,
     drive_of: Callable[[str], Drive],
     rigid: Mapping[str, ActuatorItem],
-    oil: Mapping[str, OilColumnItem],
     cranks: Mapping[str, CrankItem],
 ) -> tuple[DrivenParts, ...]:
     """All that can be driven, by the drive that it follows; drive_of: gives that of a name."""
     drives: list[Drive] = []
-    for name in (*rigid, *oil, *cranks):
+    for name in (*rigid, *cranks):
         if (drive := drive_of(name)) not in drives:
             drives.append(drive)
 
     def of(drive: Drive, items: Mapping[str, Item]) -> tuple[Item, ...]:
         return tuple(item for name, item in items.items() if drive_of(name) == drive)
 
-    return tuple(DrivenParts(mbs, one, of(one, rigid), of(one, oil), of(one, cranks)) for one in drives)
+    return tuple(DrivenParts(mbs, one, of(one, rigid), of(one, cranks)) for one in drives)

@@ -17,7 +17,7 @@ from exudyn.itemInterface import (
 from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.leg_circuit import LegItem
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
-from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder
+from support_exudyn.model.hydraulics.leg import HydraulicCylinder
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
@@ -76,26 +76,20 @@ class EngineBuilder(ABC):
         ends = self.ends(actuator)
         return self.mbs.AddObject(ObjectConnectorDistance(markerNumbers=ends, distance=actuator.start_length))
 
-    def add_oil_column(self, actuator: Any) -> Any:
-        """Put a spring in place of an actuator; its load and its stiffness follow when all is whole."""
-        ends = self.ends(actuator)
-        spring = ObjectConnectorSpringDamper(markerNumbers=ends, referenceLength=actuator.start_length)
-        return self.mbs.AddObject(spring)
-
     def add_leg(self, leg: PreloadedLeg) -> LegItem:
-        """Put a hydraulic leg with elements in place of an actuator; its force follows when all is there."""
+        """Put a hydraulic leg in place of an actuator; its force follows when all is there."""
         ends, model = self.ends(leg.actuator), leg.model
         spring = ObjectConnectorSpringDamper(markerNumbers=ends, referenceLength=leg.actuator.start_length)
         drive = self.scenario.drive_of(leg.name)
         source = model.inlet if isinstance(model, HydraulicCylinder) else drive
-        return LegItem(leg, ends, self.mbs.AddObject(spring), source)
+        return LegItem(self.mbs, leg, ends, self.mbs.AddObject(spring), source)
 
     def join_legs(self, items: Iterable[LegItem]) -> EngineLegs:
         """All legs, and the pump that they share."""
         scenario = self.scenario
         mass = sum(body.mass for body in scenario.linkage.bodies.values())
         weight = mass * math.hypot(*scenario.gravity)
-        return EngineLegs(self.mbs, tuple(items), scenario.pump, weight)
+        return EngineLegs(tuple(items), scenario.pump, weight)
 
     def ends(self, actuator: Any) -> list[Any]:
         """The markers of foot and head."""

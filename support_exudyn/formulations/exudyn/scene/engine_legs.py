@@ -1,41 +1,90 @@
-"""All hydraulic legs with elements of a scene, as the solver and the recorder see them."""
+"""All hydraulic legs of a scene in the engine, as the solver and the recorder see them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any
+from functools import partial
 
 import exudyn
 import numpy as np
 
-from support_exudyn.formulations.exudyn.scene.leg_circuit import LegCircuit, LegItem
+from support_exudyn.formulations.exudyn.scene.leg_circuit import OUTPUT, LegCircuit, LegItem, Supply, supply_at
 from support_exudyn.formulations.exudyn.scene.leg_events import LegEvents
 from support_exudyn.mechanics.trajectory import LegSeries, OilEvent, Series
-from support_exudyn.model.hydraulics.lines import PumpStation
+from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.hydraulics.elements import PumpStation
+from support_exudyn.model.hydraulics.inlets import Inlet
 from support_exudyn.scene.hydraulics.fill import Legs, empty_legs, fill_legs
-from support_exudyn.scene.hydraulics.series import leg_series
+from support_exudyn.scene.hydraulics.implicit import KNOWN, power_of_spring, spring_of_leg
+from support_exudyn.scene.hydraulics.series import INPUTS, leg_series
 
 INITIAL = exudyn.ConfigurationType.Initial
 
 
-class EngineLegs:
-    """Legs with elements in the engine, in circuits; there may be none.
+class LegSpring:
+    """A leg whose force is linear in its length and has no state: the engine's spring has the kernel's numbers.
 
     Arguments:
-        mbs: the engine's system.
-        items: legs. pump: that all of them share, if any.
+        item: the leg.
+    """
+
+    def __init__(self, item: LegItem) -> None:
+        self._mbs, self.item = item.mbs, item
+        legs = fill_legs([item.preloaded], None, 0)
+        self._leg = legs.records, legs.gaps, np.zeros((KNOWN, 0))
+        self._supply = Supply(math.nan, 0.0, 0.0)  # that the engine's spring has
+
+    def let_in(self, supply: Supply) -> None:
+        """Let a drive let so much oil into the leg."""
+        before, self._supply = self._supply, supply
+        if supply.inflow != before.inflow:
+            stiffness, length = spring_of_leg(*self._leg, 0, supply.inflow)
+            self._mbs.SetObjectParameter(self.item.object, "stiffness", stiffness)
+            self._mbs.SetObjectParameter(self.item.object, "referenceLength", length)
+
+    def power(self) -> float:
+        """Power of the drive now [W]."""
+        rate = self._supply.inflow_rate
+        if rate == 0.0:
+            return 0.0
+        length = self._mbs.GetObjectOutput(self.item.object, OUTPUT.Distance)
+        return float(power_of_spring(*self._leg, 0, length, rate))
+
+
+class EngineLegs:
+    """Hydraulic legs in the engine: springs, and circuits of those that have states; there may be none.
+
+    Arguments:
+        items: legs. pump: that all cylinders share, if any.
         weight: of the machine [N].
     """
 
-    def __init__(self, mbs: Any, items: Sequence[LegItem], pump: PumpStation | None, weight: float) -> None:
-        together = [list(items)] if pump is not None and items else [[item] for item in items]
+    def __init__(self, items: Sequence[LegItem], pump: PumpStation | None, weight: float) -> None:
         self.items = tuple(items)
         self.names = tuple(item.preloaded.name for item in items)
-        self.circuits = tuple(LegCircuit(mbs, one, pump, weight) for one in together)
+        self._springs = tuple(LegSpring(item) for item in items if item.is_spring)
+        solved = [item for item in items if not item.is_spring]
+        together = [solved] if pump is not None and solved else [[item] for item in solved]
+        self.circuits = tuple(LegCircuit(one, pump, weight) for one in together)
         self._whole: Legs = fill_legs([item.preloaded for item in items], pump, 0)
         self._events = tuple(LegEvents(circuit) for circuit in self.circuits)
+        self._sources: list[Drive | Inlet] = []  # each once
+        for item in items:
+            if item.source not in self._sources:
+                self._sources.append(item.source)
+        self._followers = [[*self._following(source)] for source in self._sources]
+
+    def _following(self, source: Drive | Inlet) -> Iterator[Callable[[Supply], None]]:
+        """What lets the oil of a source into each leg that follows it."""
+        for spring in self._springs:
+            if spring.item.source == source:
+                yield spring.let_in
+        for circuit in self.circuits:
+            for n, item in enumerate(circuit.items):
+                if item.source == source:
+                    yield partial(circuit.let_in, n)
 
     def begin(self) -> None:
         """The bodies stand where the run begins."""
@@ -44,15 +93,16 @@ class EngineLegs:
             circuit.refresh(INITIAL)
             events.start()
 
-    def follow(self, t: float) -> None:
-        """Let drives and inlets be as they are at t [s]."""
-        for circuit in self.circuits:
-            circuit.follow(t)
+    def follow(self, t: float, after: bool = False) -> None:
+        """Let drives and inlets be as they are at t [s], or just after it."""
+        for source, followers in zip(self._sources, self._followers, strict=True):
+            supply = supply_at(source, t, after)
+            for let_in in followers:
+                let_in(supply)
 
     def switch(self, t: float) -> None:
         """Let drives and inlets be as they are just after a break t [s]."""
-        for circuit in self.circuits:
-            circuit.follow(t, after=True)
+        self.follow(t, after=True)
 
     def refresh(self) -> None:
         """The engine's velocities, drives or inlets have jumped: rates of the states anew."""
@@ -82,9 +132,8 @@ class EngineLegs:
         """The step to t [s] stands; whether anything has happened at its end."""
         happened = False
         for circuit, events in zip(self.circuits, self._events, strict=True):
-            happened = events.accept(t) or happened
             circuit.accept()
-            events.keep()
+            happened = events.accept(t) or happened
         return happened
 
     def slide(self, rest: float) -> None:
@@ -109,12 +158,20 @@ class EngineLegs:
 
     def powers(self) -> tuple[float, float, float]:
         """Powers [W] of what gives oil, of flows and dampers, and of seals, now."""
-        powers = [circuit.powers() for circuit in self.circuits]
-        return sum(p[0] for p in powers), sum(p[1] for p in powers), sum(p[2] for p in powers)
+        work, loss, friction = sum(spring.power() for spring in self._springs), 0.0, 0.0
+        for circuit in self.circuits:
+            powers = circuit.powers()
+            work, loss, friction = work + powers[0], loss + powers[1], friction + powers[2]
+        return work, loss, friction
 
-    def states(self) -> Series:
-        """States of all legs, and of the pump, at the end of the last step."""
-        return np.concatenate([circuit.states for circuit in self.circuits])
+    @property
+    def states_count(self) -> int:
+        """How many states all legs and the pump have."""
+        return self._whole.states
+
+    def states(self) -> bytes:
+        """States of all legs, and of the pump, at the end of the last step, as bytes."""
+        return b"".join(circuit.states() for circuit in self.circuits)
 
     @contextmanager
     def settling(self) -> Iterator[None]:
@@ -127,6 +184,10 @@ class EngineLegs:
             for circuit in self.circuits:
                 circuit.settles = False
 
+    def lengths(self) -> dict[str, float]:
+        """Lengths of all legs now [m]."""
+        return {name: item.motion()[0] for name, item in zip(self.names, self.items, strict=True)}
+
     def empty(self) -> str:
         """Which leg has no room or no oil left, in words; empty if none."""
         for circuit in self.circuits:
@@ -134,30 +195,23 @@ class EngineLegs:
                 return said
         return ""
 
-    def look(self, t: float) -> None:
-        """Raise LawError if a drive or an inlet is no number at t [s]."""
-        for item in self.items:
-            item.look(t)
-
     @property
     def events(self) -> dict[str, tuple[OilEvent, ...]]:
-        """What has happened in each leg."""
-        found = [tuple(one) for events in self._events for one in events.found]
-        return dict(zip(self.names, found, strict=True))
+        """What has happened in each leg with elements."""
+        return {
+            item.preloaded.name: tuple(found)
+            for events in self._events
+            for item, found in zip(events.circuit.items, events.found, strict=True)
+            if item.preloaded.model.elements
+        }
 
     def series(
         self, time: Series, motion: Mapping[str, tuple[Series, Series]], states: Series
     ) -> dict[str, LegSeries]:
         """All legs at the records, and the pump; motion: length [m] and its rate [m/s] of each leg (n,)."""
+        supplies = [np.array([supply_at(source, t) for t in time.tolist()]).T for source in self._sources]
         told = {}
-        for item in self.items:
-            length, rate = motion[item.preloaded.name]
-            inflow, inflow_rate, opening = np.array([item.told(t) for t in time.tolist()]).reshape(-1, 3).T
-            told[item.preloaded.name] = {
-                "length": length,
-                "rate": rate,
-                "inflow": inflow,
-                "inflow_rate": inflow_rate,
-                "opening": opening,
-            }
+        for name, item in zip(self.names, self.items, strict=True):
+            supply = supplies[self._sources.index(item.source)]
+            told[name] = dict(zip(INPUTS, (*motion[name], *supply), strict=True))
         return leg_series(self._whole, time, told, states, self.events)

@@ -6,7 +6,6 @@ from typing import Any
 
 import exudyn
 
-from support_exudyn.formulations.exudyn.scene.cylinder_item import CylinderItem
 from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
@@ -26,8 +25,8 @@ class EngineScene(ABC):
     scenario: what is modelled. container: owns the system, and must live as long as it. mbs: the system.
     bodies: all that move, each an item with its data as `body`. clearance_pins: everything that may make
     contact and part. frictions: of ideal joints. loads: what acts by the motion, compliant pins, too.
-    weights: loads of the engine, by body. driven: all actuators and cranks, by the drive that they follow.
-    cylinders: the actuators that follow none. legs: those on oil with elements.
+    weights: loads of the engine, by body. driven: rigid actuators and cranks, by the drive that they follow.
+    legs: the actuators on oil.
     """
 
     scenario: Scenario
@@ -39,7 +38,6 @@ class EngineScene(ABC):
     loads: Mapping[str, LoadItem]
     weights: Mapping[str, Any]
     driven: tuple[DrivenParts, ...]
-    cylinders: Mapping[str, CylinderItem]
     legs: EngineLegs
 
     @property
@@ -59,8 +57,6 @@ class EngineScene(ABC):
         """Set every actuator, crank and valve to where it is at time t [s]."""
         for parts in self.driven:
             parts.move_to(t)
-        for cylinder in self.cylinders.values():
-            cylinder.open_to(t)
         self.legs.follow(t)
 
     @abstractmethod
@@ -118,8 +114,6 @@ def slide(scene: EngineScene, rest: float) -> None:
     velocity, acceleration = data.GetODE2Coordinates_t(), data.GetODE2Coordinates_tt()
     data.SetODE2Coordinates(data.GetODE2Coordinates() + rest * (velocity + 0.5 * rest * acceleration))
     data.SetODE2Coordinates_t(velocity + rest * acceleration)
-    if scene.cylinders:
-        data.SetODE1Coordinates(data.GetODE1Coordinates() + rest * data.GetODE1Coordinates_t())
     scene.legs.slide(rest)
     scene.legs.refresh()
     scene.refresh_memory(rest)

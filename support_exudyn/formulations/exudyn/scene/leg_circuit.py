@@ -1,5 +1,5 @@
 # ruff: noqa: N803 - the engine goes by the names of arguments
-"""Hydraulic legs with elements in the engine: a leg, or all legs that share a pump.
+"""Hydraulic legs in the engine whose states are solved for: a leg, or all legs that share a pump.
 
 The states of legs are no coordinates of the engine. Each leg is a connector, whose force at the end of a step
 follows from its length and rate there, and from the states that the step has begun with: they are solved for
@@ -13,192 +13,203 @@ import math
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import exudyn
 import numpy as np
 
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
-from support_exudyn.mechanics.oil_column import LENGTHS
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.drives.drive import Drive
-from support_exudyn.model.hydraulic_cylinder import HydraulicCylinder, Inlet
-from support_exudyn.model.hydraulics.lines import PumpStation
+from support_exudyn.model.hydraulics.elements import PumpStation
+from support_exudyn.model.hydraulics.inlets import Inlet
+from support_exudyn.model.hydraulics.leg import OilColumn
 from support_exudyn.scene.hydraulics.fill import fill_legs, weigh_states
-from support_exudyn.scene.hydraulics.implicit import advance_legs
+from support_exudyn.scene.hydraulics.implicit import (
+    END,
+    END_RATE,
+    KNOWN,
+    START,
+    START_RATE,
+    WEIGHT,
+    powers_of_legs,
+    pull_of_leg,
+)
 from support_exudyn.scene.hydraulics.leg import evaluate_legs
-from support_exudyn.scene.hydraulics.records import BOOKED, RELIEF, YIELD, Matrix, Records
+from support_exudyn.scene.hydraulics.records import RELIEF, YIELD
 from support_exudyn.scene.hydraulics.rest import rest_legs
-from support_exudyn.scene.hydraulics.series import TOLD
+from support_exudyn.scene.hydraulics.series import INPUTS
 from user_forces.lawful import LawError
 
 CURRENT = exudyn.ConfigurationType.Current
-NAME = "springForceUserFunction"  # the engine's, of its springs
+OUTPUT = exudyn.OutputVariableType
+FORCE = "springForceUserFunction"  # the engine's name, of its springs
 ENERGY, PLAY = 1e3, 1e-3  # [J], [m] that states are weighed by
-AHEAD = 1e-5  # of a step, over which gaps are differenced
+LENGTHS = 4  # that are rounded, each by up to half a unit in its last place, until there is a force
+
+
+class Supply(NamedTuple):
+    """What lets oil in, at an instant: extension by a drive [m] and its rate [m/s], opening of an inlet."""
+
+    inflow: float
+    inflow_rate: float
+    opening: float
+
+
+def supply_at(source: Drive | Inlet, t: float, after: bool = False) -> Supply:
+    """What a drive or an inlet lets in at t [s], at the start just after it; after: just after a break.
+
+    Raises LawError if that is no number.
+    """
+    if isinstance(source, Inlet):
+        found = Supply(0.0, 0.0, source.opening(t) + (source.opening_jump(t) if after else 0.0))
+    elif t > 0.0:
+        speed = source.speed(t) + (source.speed_jump(t) if after else 0.0)
+        found = Supply(source.extension(t), speed, 0.0)
+    else:
+        found = Supply(source.extension(t), source.initial_speed, 0.0)
+    if not math.isfinite(sum(found)):
+        raise LawError(f"{type(source).__name__} is no finite number at {t:.9g} s")
+    return found
 
 
 @dataclass(frozen=True)
 class LegItem:
-    """A leg in the engine: what it is, markers of foot and head, its connector, and what lets oil in."""
+    """A leg in the engine.
 
+    mbs: the engine's system. preloaded: what it is. markers: of foot and head. object: its connector.
+    source: what lets oil in.
+    """
+
+    mbs: Any
     preloaded: PreloadedLeg
     markers: Sequence[Any]
     object: Any
     source: Drive | Inlet
 
     @property
+    def is_spring(self) -> bool:
+        """Whether the force is linear in the length, and only the drive changes it."""
+        model = self.preloaded.model
+        return isinstance(model, OilColumn) and not {*model.elements} - {"setting_pressure"}
+
+    @property
     def rounding(self) -> float:
         """Scatter of the force [N] that the rounding of the length causes."""
         model, actuator = self.preloaded.model, self.preloaded.actuator
-        assert isinstance(model, OilColumn | HydraulicCylinder)  # PreloadedLeg has looked
         stiffness = model.stiffness(0.0) + (model.end_stops.stiffness if model.end_stops else 0.0)
         size = max(actuator.start_length, *map(abs, (*actuator.foot_point, *actuator.head_point)))
         return float(LENGTHS * sys.float_info.epsilon * stiffness * size)
 
-    def told(self, t: float) -> tuple[float, float, float]:
-        """What a drive has let in at t [s], as an extension [m], its rate [m/s], and the inlet's opening."""
-        source = self.source
-        if isinstance(source, Inlet):
-            return 0.0, 0.0, source.opening(t)
-        # at the start the speed is the one just after it
-        return source.extension(t), source.speed(t) if t > 0.0 else source.initial_speed, 0.0
+    def motion(self, state: Any = CURRENT) -> tuple[float, float]:
+        """Length [m] of the leg and its rate [m/s].
 
-    def told_after(self, t: float) -> tuple[float, float, float]:
-        """What a drive has let in just after a break t [s]; values as of `told`."""
-        inflow, rate, opening = self.told(t)
-        source = self.source
-        if isinstance(source, Inlet):
-            return inflow, rate, opening + source.opening_jump(t)
-        return inflow, rate + (source.speed_jump(t) if t > 0.0 else 0.0), opening
+        By the markers: asked for them, the engine's connector would call the function that asks.
+        """
+        (x, y, z), (vx, vy, vz) = self._apart(OUTPUT.Position, state), self._apart(OUTPUT.Velocity, state)
+        length = math.sqrt(x * x + y * y + z * z)
+        return length, (x * vx + y * vy + z * vz) / length
 
-    def look(self, t: float) -> None:
-        """Raise LawError if what lets oil in is no number at t [s]."""
-        if not all(map(math.isfinite, self.told(t))):
-            raise LawError(
-                f"{self.preloaded.name}: {type(self.source).__name__} is no finite number at {t:.9g} s"
-            )
+    def _apart(self, what: Any, state: Any) -> tuple[float, float, float]:
+        foot, head = (self.mbs.GetMarkerOutput(marker, what, state).tolist() for marker in self.markers)
+        return head[0] - foot[0], head[1] - foot[1], head[2] - foot[2]
 
 
 class LegCircuit:
     """Legs that oil joins: one, or all that share a pump.
 
     Arguments:
-        mbs: the engine's system.
         items: legs. pump: that they share.
         weight: of the machine [N].
     """
 
-    def __init__(self, mbs: Any, items: Sequence[LegItem], pump: PumpStation | None, weight: float) -> None:
+    def __init__(self, items: Sequence[LegItem], pump: PumpStation | None, weight: float) -> None:
         self.items = tuple(items)
-        self._mbs = mbs
         legs = fill_legs([item.preloaded for item in items], pump, 0)
         self.records, self.pumps, self.gaps = legs.records, legs.pumps, legs.gaps
-        self.states = legs.start.copy()  # at the end of the last accepted step
-        self.rates = np.zeros_like(self.states)  # of them
-        self.solved = self.states.copy()  # at the end of the step that has been tried
-        self._slope = np.zeros_like(self.states)
-        self._weights = np.ones_like(self.states)
-        weigh_states(legs, self._weights, weight / float(legs.records["bore"].max()), ENERGY, PLAY)
-        booked = np.zeros(self.states.size, bool)
-        for record in legs.records:
-            booked[record["booked"] : record["booked"] + BOOKED] = True
+        self.known = np.zeros((KNOWN, legs.states))
+        self.known[WEIGHT], self.known[START], self.known[END] = 1.0, legs.start, legs.start
+        weigh_states(legs, self.known[WEIGHT], weight / float(legs.records["bore"].max()), ENERGY, PLAY)
+        integrals = np.zeros(legs.states, bool)
+        integrals[[place for record in legs.records for place in record["integrals"] if place >= 0]] = True
         for one in legs.pumps:
-            booked[one["state"] + 1] = True
-        self._places = np.concatenate([np.flatnonzero(~booked), np.flatnonzero(booked)])
-        free = int((~booked).sum())
+            integrals[one["state"] + 1] = True
+        self._places = np.concatenate([np.flatnonzero(~integrals), np.flatnonzero(integrals)])
+        free = int((~integrals).sum())
         self._rows = np.empty((free, free + 1))
-        self._records_ahead = self.records.copy()  # room
         self.step = 0.0  # that is being tried [s]
-        self._start: dict[str, Series] = {}  # what records were told at its start
+        self._start: dict[str, Series] = {}  # inputs of the legs at its start
         self.settles = False  # whether a static equilibrium is looked for
-        self.follow(0.0, after=True)
         for n, item in enumerate(items):
-            mbs.SetObjectParameter(item.object, NAME, self._pull(n))
+            item.mbs.SetObjectParameter(item.object, FORCE, self._pull(n))
 
     def _pull(self, n: int) -> Callable[..., float]:
         """The force with which a leg pulls its ends together, of the engine's signature."""
-        start = self.items[n].preloaded.actuator.start_length
+        start, alone = self.items[n].preloaded.actuator.start_length, len(self.items) == 1
 
         def pull(mbs: Any, t: float, itemNumber: int, stretch: float, rate: float, *others: Any) -> float:
-            if len(self.items) > 1:
+            if not alone:
                 self._tell()
-            record = self.records[n]
-            record["length"], record["rate"] = start + stretch, rate
             if self.settles:
-                return -self._at_rest(n)
-            if not self._advance():
-                return math.nan
-            return -float(self.records[n]["force"])
+                self.records[n]["length"], self.records[n]["rate"] = start + stretch, rate
+                rest_legs(self.records, self.pumps, self.gaps, self.known[START], self.known[END_RATE])
+                return -float(self.records[n]["force"])
+            return self._solve(n, start + stretch, rate)
 
         return pull
 
-    def follow(self, t: float, after: bool = False) -> None:
-        """Let drives and inlets be as they are at t [s], or just after it."""
-        for record, item in zip(self.records, self.items, strict=True):
-            told = item.told_after(t) if after else item.told(t)
-            record["inflow"], record["inflow_rate"], record["opening"] = told
-
-    def motion(self, n: int, state: Any = CURRENT) -> tuple[float, float]:
-        """Length [m] of a leg and its rate [m/s]."""
-        output = exudyn.OutputVariableType
-
-        def apart(what: Any) -> Any:
-            foot, head = (self._mbs.GetMarkerOutput(marker, what, state) for marker in self.items[n].markers)
-            return head - foot
-
-        between = apart(output.Position)
-        length = math.sqrt(float(between @ between))
-        return length, float(between @ apart(output.Velocity)) / length
-
-    def _tell(self, state: Any = CURRENT) -> None:
-        for n, record in enumerate(self.records):
-            record["length"], record["rate"] = self.motion(n, state)
-
-    def _advance(self) -> bool:
-        """States at the end of the step, with the lengths that the records tell; whether they were found."""
-        return bool(
-            advance_legs(
-                self.records, self.pumps, self.gaps, self.step, self._weights, self.states, self.rates,
-                self.solved, self._slope, self._places, self._rows,
+    def _solve(self, n: int, length: float, rate: float) -> float:
+        """Force of leg n that pulls its ends together [N], with the states at the end of the step."""
+        return float(
+            pull_of_leg(
+                self.records, self.pumps, self.gaps, self.step, self.known, self._places, self._rows,
+                n, length, rate,
             )
         )  # fmt: skip
 
+    def let_in(self, n: int, supply: Supply) -> None:
+        """Let a drive or an inlet let so much oil into leg n."""
+        record = self.records[n]
+        record["inflow"], record["inflow_rate"], record["opening"] = supply
+
+    def _tell(self, state: Any = CURRENT) -> tuple[float, float]:
+        """Write lengths [m] and rates [m/s] of all legs into their records; those of the last."""
+        motion = 0.0, 0.0
+        for record, item in zip(self.records, self.items, strict=True):
+            record["length"], record["rate"] = motion = item.motion(state)
+        return motion
+
     def solve(self) -> None:
         """Find the states at the end of the step that the engine has solved. Raises ArithmeticError if not."""
-        self._tell()
-        if not self._advance():
+        if math.isnan(self._solve(len(self.items) - 1, *self._tell())):
             raise ArithmeticError(
                 f"the pressures of {', '.join(i.preloaded.name for i in self.items)} not found"
             )
 
     def accept(self) -> None:
-        """Keep the states that `solve` has found, and what they change by."""
-        self.states[:], self.step = self.solved, 0.0
-        self.refresh()
+        """The step stands: the states at its end are those that the next begins with."""
+        self.known[START], self.known[START_RATE] = self.known[END], self.known[END_RATE]
+        self.step = 0.0
+
+    def keep_inputs(self) -> None:
+        """Keep the inputs of the legs as those at the start of a step, see `refresh_start`."""
+        self._start = {name: self.records[name].copy() for name in INPUTS}
 
     def refresh(self, state: Any = CURRENT) -> None:
         """The engine's velocities, a drive, an inlet or a valve have jumped: rates of the states anew."""
         self._tell(state)
-        self._start = {name: self.records[name].copy() for name in TOLD}
-        self._press()
-        self.rates[:], self.solved[:] = self._slope, self.states
+        self._evaluate()
 
-    def _press(self) -> None:
-        evaluate_legs(self.records, self.pumps, self.gaps, self.states, self._slope)
+    def refresh_start(self) -> None:
+        """A valve has opened or closed where the step begins that has been tried: begin anew from there."""
+        for name, values in self._start.items():
+            self.records[name] = values
+        self._evaluate()
 
-    def gap_rates(self, span: float) -> Matrix:
-        """Rates of all gaps [Pa/s], [m/s] where `gaps` were evaluated last; span: length of a step [s]."""
-        ahead, records, gaps = AHEAD * span, self._records_ahead, self.gaps.copy()
-        records.view(np.uint8)[:] = self.records.view(np.uint8)  # field by field it takes a fifth of a run
-        records["length"] += ahead * records["rate"]
-        records["inflow"] += ahead * records["inflow_rate"]
-        evaluate_legs(records, self.pumps.copy(), gaps, self.solved + ahead * self._slope, self._slope.copy())
-        rates: Matrix = np.zeros_like(gaps)
-        there = np.isfinite(gaps)  # those of what a leg does not have need not be
-        rates[there] = (gaps[there] - self.gaps[there]) / ahead
-        return rates
+    def _evaluate(self) -> None:
+        known = self.known
+        evaluate_legs(self.records, self.pumps, self.gaps, known[START], known[START_RATE])
+        known[END], known[END_RATE] = known[START], known[START_RATE]
 
     def pass_gap(self, n: int, k: int, positive: bool) -> None:
         """A gap of a leg has passed zero; valves remember."""
@@ -210,26 +221,16 @@ class LegCircuit:
         record = self.records[n]
         return bool((k == YIELD and record["jumps"]) or (k == RELIEF and record["rod_jumps"]))
 
-    def refresh_start(self) -> None:
-        """A valve has opened or closed where the step begins that has been tried: begin anew from there."""
-        for name, values in self._start.items():
-            self.records[name] = values
-        self._press()
-        self.rates[:], self.solved[:] = self._slope, self.states
+    def states(self) -> bytes:
+        """States at the end of the last step, as bytes."""
+        states: bytes = self.known[START].tobytes()
+        return states
 
     def slide(self, rest: float) -> None:
         """Move on by a time [s] that is not worth a step."""
-        self.states += rest * self.rates
+        self.known[START] += rest * self.known[START_RATE]
 
     def powers(self) -> tuple[float, float, float]:
         """Power [W] of pump, drive and tank, of what is lost in flows and dampers, and of seals, now."""
-        records: Records = self.records
-        work = float(records["work"].sum() + self.pumps["work"].sum())
-        return work, float(records["loss"].sum()), float(records["friction"].sum())
-
-    # --- static equilibrium ---
-
-    def _at_rest(self, n: int) -> float:
-        """Force [N] of a leg whose oil is closed inside, see `hydraulics.rest`."""
-        rest_legs(self.records, self.pumps, self.gaps, self.states, self._slope)
-        return float(self.records[n]["force"])
+        work, loss, friction = powers_of_legs(self.records, self.pumps)
+        return work, loss, friction

@@ -13,8 +13,9 @@ import numpy as np
 
 from support_exudyn.formulations.exudyn.scene.leg_circuit import LegCircuit
 from support_exudyn.mechanics.trajectory import OilEvent
+from support_exudyn.scene.hydraulics.flows import OPEN
 from support_exudyn.scene.hydraulics.gaps import begin_sides
-from support_exudyn.scene.hydraulics.leg import OPEN
+from support_exudyn.scene.hydraulics.implicit import WATCHED, passes_gap
 from support_exudyn.scene.hydraulics.records import GAP_NAMES, HIGH_2, LOW
 from user_forces.contact_events import BEYOND, SHARE
 from user_forces.roots import DepthPath, first_rise
@@ -32,22 +33,32 @@ class LegEvents:
     def __init__(self, circuit: LegCircuit) -> None:
         self.circuit = circuit
         self.found: list[list[OilEvent]] = [[] for _ in circuit.items]
-        shape = circuit.gaps.shape
-        self._near = np.full(shape, NEAR_PRESSURE)
+        self._watched = np.zeros((WATCHED, *circuit.gaps.shape))
+        self._sides, self._near, self._gaps, self._rates, self._rates_at_end = self._watched
+        self._near[:] = NEAR_PRESSURE
         self._near[:, LOW : HIGH_2 + 1] = NEAR_LENGTH
-        self._sides = np.zeros(shape)
-        self._gaps, self._rates = np.zeros(shape), np.zeros(shape)  # at the start of the step
         self._pending: list[tuple[int, int, float]] = []  # leg, gap, time: at the end of the tried step
-        self.landing, self.wants_cut = math.inf, False
+        self.landing, self.wants_cut, self.happens = math.inf, False, False
 
     def start(self) -> None:
         """The run begins: on which side of zero each gap is."""
         begin_sides(self.circuit.records, self.circuit.gaps, self._sides)
+        self.happens = bool(self._sides.any())
         self.keep()
 
     def keep(self) -> None:
         """Gaps are those at the start of a step from now on."""
-        self._gaps, self._rates = self.circuit.gaps.copy(), self.circuit.gap_rates(1.0)
+        if self.happens:
+            self._passes_any(1.0)
+            self._begin_step()
+
+    def _begin_step(self) -> None:
+        self._gaps[:], self._rates[:] = self.circuit.gaps, self._rates_at_end
+        self.circuit.keep_inputs()
+
+    def _passes_any(self, h: float) -> bool:
+        circuit = self.circuit
+        return bool(passes_gap(circuit.records, circuit.pumps, circuit.gaps, h, circuit.known, self._watched))
 
     def begin_try(self) -> None:
         """Begin to try a step: nothing has happened in it."""
@@ -55,8 +66,10 @@ class LegEvents:
 
     def judge(self, t: float) -> float | None:
         """Decide on a solved step that would end at t [s]: None if it may stand, else see `ClearanceJoint`."""
-        h, gaps, rates = self.circuit.step, self.circuit.gaps, self.circuit.gap_rates(self.circuit.step)
-        again: float | None = None
+        h = self.circuit.step
+        if not self.happens or not self._passes_any(h):
+            return None
+        gaps, rates, again = self.circuit.gaps.copy(), self._rates_at_end, None
         beyond = -self._sides * gaps > self._near
         turns = (self._sides * self._rates < 0.0) & (self._sides * rates > 0.0)
         for n, k in np.argwhere((self._sides != 0.0) & (beyond | turns)).tolist():
@@ -117,4 +130,9 @@ class LegEvents:
         self._pending = []
         if happened or not self.landing > t:
             self.landing = math.inf
+        if happened:
+            self.circuit.refresh()
+            self.keep()
+        elif self.happens:
+            self._begin_step()
         return happened

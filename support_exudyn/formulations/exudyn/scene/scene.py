@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.formulations.exudyn.scene.cylinder_item import CylinderItem
-from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts, OilColumnItem
+from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.engine_scene import (
     CURRENT,
@@ -45,15 +44,13 @@ class Scene(EngineScene):
     frictions: dict[str, JointFriction]  # of ideal pins and guides, "pins.NAME" and "guides.NAME"
     clearance_joints: dict[str, ContactConnector]
     rigid_actuators: dict[str, ActuatorItem]
-    oil_columns: dict[str, OilColumnItem]
-    cylinders: dict[str, CylinderItem]
     legs: EngineLegs
     cranks: dict[str, CrankItem]
     slides: dict[str, SlideItem]
     gears: tuple[str, ...]
     loads: dict[str, LoadItem]
     weights: dict[str, Any]  # loads of the engine, by body; none without gravity
-    driven: tuple[DrivenParts, ...]  # all actuators and cranks, by the drive that they follow
+    driven: tuple[DrivenParts, ...]  # rigid actuators and cranks, by the drive that they follow
 
     @cached_property
     def kinetics(self) -> Kinetics:

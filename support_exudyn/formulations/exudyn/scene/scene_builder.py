@@ -23,17 +23,14 @@ from exudyn.itemInterface import (
     ObjectRigidBody2D,
 )
 
-from support_exudyn.formulations.exudyn.scene.cylinder_item import CylinderItem
-from support_exudyn.formulations.exudyn.scene.driven_parts import OilColumnItem, by_drive
+from support_exudyn.formulations.exudyn.scene.driven_parts import by_drive
 from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
 from support_exudyn.formulations.exudyn.scene.load_item import add_load
 from support_exudyn.formulations.exudyn.scene.scene import Scene
 from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
-from support_exudyn.mechanics.cylinder_chambers import fill_cylinders
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
 from support_exudyn.mechanics.joint_friction import FrictionJoint, friction_joints
-from support_exudyn.mechanics.oil_column import fill
 from support_exudyn.model.linkage import GROUND, Body, Crank, Gear, Slide
 from support_exudyn.model.pins import ClearancePin, CompliantPin, IdealPin, Pin
 from support_exudyn.scenario.scenario import Scenario
@@ -202,7 +199,6 @@ class PlaneBuilder(EngineBuilder):
             self.add_pin(scenario.pin(name), name)
         rubbing = friction_joints(scenario).items()
         frictions = {name: self.add_friction(joint) for name, joint in rubbing}
-        oil = {name: self.add_oil_column(linkage.actuators[name]) for name in scenario.oil_columns}
         rigid = {
             name: self.add_rigid_actuator(actuator)
             for name, actuator in linkage.actuators.items()
@@ -218,11 +214,6 @@ class PlaneBuilder(EngineBuilder):
         for gear in linkage.gears.values():
             self.add_gear(gear)
         loads = {name: add_load(load, name, self) for name, load in scenario.elements.items()}
-        is_in_equilibrium = scenario.start == "settled"
-        cylinders = {
-            name: CylinderItem(mbs, preloaded, self.ends(linkage.actuators[name]), is_in_equilibrium)
-            for name, preloaded in fill_cylinders(linkage, scenario.cylinders, scenario.gravity).items()
-        }
         legs = [self.add_leg(one) for one in preloaded_legs(linkage, scenario.legs, scenario.gravity).values()]
         heavy = linkage.bodies if any(scenario.gravity) else {}
         weights = {name: self.add_weight(name, body) for name, body in heavy.items()}
@@ -232,9 +223,7 @@ class PlaneBuilder(EngineBuilder):
             name: replace(item, first=int(data.GetNodeLTGODE2(item.node)[0]))
             for name, item in self.bodies.items()
         }
-        preloaded = fill(linkage, scenario.oil_columns, scenario.gravity)
         rigid_actuators = {n: ActuatorItem(linkage.actuators[n], o, multiplier(o)) for n, o in rigid.items()}
-        oil_columns = {name: OilColumnItem(preloaded[name], o) for name, o in oil.items()}
         crank_items = {n: CrankItem(linkage.cranks[n], o, multiplier(o)) for n, o in cranks.items()}
         scene = Scene(
             scenario=scenario,
@@ -246,15 +235,13 @@ class PlaneBuilder(EngineBuilder):
             frictions=frictions,
             clearance_joints={},
             rigid_actuators=rigid_actuators,
-            oil_columns=oil_columns,
-            cylinders=cylinders,
             legs=self.join_legs(legs),
             cranks=crank_items,
             slides={name: SlideItem(o, multiplier(o)) for name, o in slides.items()},
             gears=tuple(linkage.gears),
             loads=loads,
             weights=weights,
-            driven=by_drive(mbs, scenario.drive_of, rigid_actuators, oil_columns, crank_items),
+            driven=by_drive(mbs, scenario.drive_of, rigid_actuators, crank_items),
         )
         for friction in frictions.values():
             friction.assembled(scene.multiplier_of(friction), bodies)
@@ -263,8 +250,6 @@ class PlaneBuilder(EngineBuilder):
             scene.clearance_joints[name] = self.contact_connector(scene, name, connector)
         scene.drive_to(0.0)
         scene.start_moving()
-        for cylinder in cylinders.values():
-            cylinder.assembled()
         scene.legs.begin()
         scene.start_rubbing()
         scene.reset_memory()

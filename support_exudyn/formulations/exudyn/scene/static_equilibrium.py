@@ -28,8 +28,6 @@ def find_static_equilibrium(scene: EngineScene) -> None:
     """
     data = scene.mbs.systemData
     with ExitStack() as for_a_while, quiet_engine():
-        for cylinder in scene.cylinders.values():
-            for_a_while.enter_context(cylinder.settling())
         for_a_while.enter_context(scene.legs.settling())
         balance = EngineBalance(scene)
         for_a_while.callback(balance.finish)
@@ -93,8 +91,6 @@ class EngineBalance:
         rows = self._rows(q)
         solver.ComputeAlgebraicEquations(mbs, False)
         gaps = solver.GetSystemResidual()[self._first :]
-        for cylinder in self.scene.cylinders.values():
-            cylinder.follow()
         try:
             solver.ComputeJacobianODE2RHS(mbs, 1.0, 0.0, 1.0, 1)
             solver.ComputeODE2RHS(mbs)  # last, for legs keep how they rest where they are asked

@@ -4,10 +4,8 @@ from array import array
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-import exudyn
 import numpy as np
 
-from support_exudyn.formulations.exudyn.scene.driven_parts import OilColumnItem
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
 from support_exudyn.formulations.exudyn.solver.within_steps import RunningIntegrals, StepEnd, between
 from support_exudyn.formulations.statistics.collected import RunStatistics
@@ -27,8 +25,8 @@ class History:
     """Raw states at the records, one row each; see `channels` for what they mean.
 
     time (n,); position, velocity (n, coordinates); memory (n, clearance pins, fields of PinMemory);
-    pressure (n, 2 cylinders) as the engine has it; legs (n, states) of legs with elements; deflection (n, ideal
-    joints with friction), states of their laws; work, damping_loss, friction_loss (n,) [J].
+    legs (n, states): of hydraulic legs; deflection (n, ideal joints with friction), states of their laws; work,
+    damping_loss, friction_loss (n,) [J].
     What was not to be kept has rows without columns; integrals that were not are zero.
     """
 
@@ -36,7 +34,6 @@ class History:
     position: np.ndarray
     velocity: np.ndarray
     memory: np.ndarray
-    pressure: np.ndarray
     legs: np.ndarray
     deflection: np.ndarray
     work: np.ndarray
@@ -50,7 +47,7 @@ class _StateRows:
     def __init__(self) -> None:
         self.time = array("d")
         self.states = tuple(array("d") for _ in STATE)
-        self.totals, self.pressures, self.legs, self.deflections = (array("d") for _ in range(4))
+        self.totals, self.legs, self.deflections = (array("d") for _ in range(3))
 
     def history(self) -> History:
         """What has been kept so far."""
@@ -64,7 +61,6 @@ class _StateRows:
             position,
             velocity,
             memory.reshape(time.size, pins, len(PinMemory._fields)),
-            np.array(self.pressures).reshape(time.size, -1 if self.pressures else 0),
             np.array(self.legs).reshape(time.size, -1 if self.legs else 0),
             np.array(self.deflections).reshape(time.size, -1 if self.deflections else 0),
             *np.array(self.totals).reshape(time.size, 3).T,
@@ -73,7 +69,7 @@ class _StateRows:
     def keep_ends(self) -> None:
         """Forget all but the first and the last row."""
         count = len(self.time)
-        for rows in (self.time, *self.states, self.totals, self.pressures, self.legs, self.deflections):
+        for rows in (self.time, *self.states, self.totals, self.legs, self.deflections):
             width = len(rows) // count
             if width:
                 rows[:] = rows[:width] + rows[-width:]
@@ -96,33 +92,25 @@ class Recorder:
     ) -> None:
         duration = scene.scenario.duration
         # rigid actuators that are held and ideal pins neither work nor lose anything
-        works = any(parts.oil or (parts.multipliers and parts.moves(duration)) for parts in scene.driven)
+        works = any(parts.multipliers and parts.moves(duration) for parts in scene.driven)
         self.integrates = DataNeeds.INTEGRALS in needs and bool(
-            works
-            or scene.clearance_joints
-            or scene.frictions
-            or scene.loads
-            or scene.cylinders
-            or scene.legs.names
+            works or scene.clearance_joints or scene.frictions or scene.loads or scene.legs.names
         )
         self._kept = tuple(part in needs for part in STATE)
         self.energies = RunningIntegrals(3)  # work of the drive, losses by damping and by friction
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.clearance_joints.items())
         self._looks = scene.scenario.solver.result_checks  # whether what is lost is
-        self._driven = tuple((parts, parts.multipliers, parts.oil) for parts in scene.driven)
+        self._driven = tuple((parts, parts.multipliers) for parts in scene.driven)
         self._frictions = tuple(scene.frictions.items())
         self._loads = tuple(scene.loads.items())
-        self._cylinders = tuple(scene.cylinders.values())
         self._legs = scene.legs
-        self._keeps_legs = bool(scene.legs.names) and DataNeeds.OIL in needs
-        self._mbs = scene.mbs
+        self._keeps_legs = scene.legs.states_count > 0 and DataNeeds.OIL in needs
         self._records, self._ends = _StateRows(), _StateRows()
         self._begins: list[bool] = []  # whether a piece begins with an end of a step, behind the first
         self._observe = observe
         self.statistics = RunStatistics(scene.scenario)
         self.follows = observe is not None and bool(self.statistics.wanted)  # whether ends of steps are kept
-        self._keeps_pressures = bool(self._cylinders) and DataNeeds.OIL in needs
         self._powers_now = (0.0, 0.0, 0.0)  # [W]
         self._start: StepEnd | None = None  # of the step going on
 
@@ -236,10 +224,8 @@ class Recorder:
             ),
             self.energies.totals,
         )
-        if self._keeps_pressures:
-            rows.pressures.frombytes(data.GetODE1Coordinates().tobytes())
         if self._keeps_legs:
-            rows.legs.frombytes(self._legs.states().tobytes())
+            rows.legs.frombytes(self._legs.states())
 
     def _keep(
         self, rows: _StateRows, t: float, state: Sequence[Series | None], totals: Sequence[float]
@@ -251,10 +237,6 @@ class Recorder:
                 numbers.frombytes(part.tobytes())
         rows.totals.extend(totals)
         rows.deflections.extend(friction.deflection for _, friction in self._frictions)
-
-    def _length(self, item: OilColumnItem) -> float:
-        """Length [m] of an oil column."""
-        return float(self._mbs.GetObjectOutput(item.object, exudyn.OutputVariableType.Distance))
 
     def history(self) -> History:
         """What has been recorded so far."""
@@ -270,24 +252,18 @@ class Recorder:
     def _powers(self, t: float) -> tuple[float, float, float]:
         """Power [W] of the drive, of damping and of friction at the end of a step."""
         driving = damping = friction = 0.0
-        for parts, struts, oil in self._driven:
-            extension, speed = parts.at(t)
+        for parts, struts in self._driven:
+            _, speed = parts.at(t)
             if speed != 0.0 and struts:
                 multipliers = self._data.GetAECoordinates()
                 # the multiplier of a distance is the tension, that of a crank's angle the moment against it
                 driving -= speed * sum(float(multipliers[n]) for n in struts)
-            for item in oil:
-                driving += item.preloaded.power(self._length(item), extension, speed)
         for name, load in self._loads:
             acting = load.acting(t)
             if self._looks and not acting.loss >= 0.0:
                 load.look(t, name)
             driving += acting.work
             damping += acting.loss
-        for cylinder in self._cylinders:
-            work, loss = cylinder.powers()
-            driving += work
-            damping += loss
         if self._legs.names:
             work, loss, rubbed = self._legs.powers()
             driving, damping, friction = driving + work, damping + loss, friction + rubbed

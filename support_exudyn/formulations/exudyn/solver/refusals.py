@@ -64,13 +64,12 @@ def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
         scene: at the last step that could be made.
         ahead: time that was to be reached [s].
     """
+    if pressed := past_ends(scene.scenario, scene.legs.lengths()):
+        return pressed, ENDS
     if empty := scene.legs.empty():
         return empty, EMPTY
-    lengths = {name: cylinder.motion()[0] for name, cylinder in scene.cylinders.items()}
-    if pressed := past_ends(scene.scenario, lengths):
-        return pressed, ENDS
     try:
-        scene.legs.look(ahead)
+        scene.legs.follow(ahead)
         for parts in scene.driven:
             parts.look(ahead)
         for name, load in scene.loads.items():

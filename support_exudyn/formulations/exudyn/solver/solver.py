@@ -28,7 +28,6 @@ from support_exudyn.formulations.exudyn.solver.refusals import (
     why,
 )
 from support_exudyn.formulations.exudyn.solver.step_growth import StepGrowth, step_growth
-from support_exudyn.mechanics.oil_column import force_rounding
 from support_exudyn.mechanics.trajectory import Counts, Impulse
 from support_exudyn.scene.contract import Failure, Progress, SimulationError
 from support_exudyn.scene.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
@@ -68,22 +67,18 @@ class SolverRun:
         self.solver: Any = exudyn.MainSolverImplicitSecondOrder()  # its stubs lack self
         self.impulses: list[Impulse] = []
         self.legs = scene.legs
-        self.cylinders = tuple(scene.cylinders.values())
         unknowns = int(self.data.ODE2Size() + self.data.ODE1Size() + self.data.AEsize())
         self.settings = engine_settings(
             scenario.solver,
             scenario.duration,
             unknowns,
-            force_rounding([item.preloaded for parts in scene.driven for item in parts.oil])
-            + sum(load.rounding for load in scene.loads.values())
-            + scene.legs.rounding,
-            bool(self.cylinders),
+            sum(load.rounding for load in scene.loads.values()) + scene.legs.rounding,
             scene.repeats,
         )
         self.impact_steps = scenario.solver.impact_steps
         # what a load does need not show in accelerations, and long steps would pass over where it begins
-        # and pressures and states of friction are not interpolated at records that a step passes over
-        states = scene.cylinders or scene.legs.names or any(one.law.has_state for one in self.frictions)
+        # and states of legs and friction are not interpolated at records that a step passes over
+        states = scene.legs.circuits or any(one.law.has_state for one in self.frictions)
         grows = scenario.solver.growth > 1.0 and not (scenario.acting_loads or states)
         self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
@@ -129,7 +124,7 @@ class SolverRun:
         """Have the engine call what has to see every step."""
         mbs = self.scene.mbs
         mbs.SetPreStepUserFunction(self._before_try)
-        if self.pins or self.legs.names:
+        if self.pins or self.legs.circuits:
             mbs.SetPostNewtonUserFunction(self._after_newton)
         mbs.SetPostStepUserFunction(self._after_step)
 
@@ -209,8 +204,6 @@ class SolverRun:
         if not breaks and self._is_to_be_cut(taken, goal - t):
             self.recorder.energies.totals[0] += self.scene.align(t)
             self.scene.refresh_memory()
-            for cylinder in self.cylinders:
-                cylinder.tell_rates()
             self.legs.refresh()
         if self.smooth is not None and self.plan.passes_record(t, goal):
             self.recorder.begin_step(t)
@@ -252,7 +245,7 @@ class SolverRun:
 
         It will if a clearance pin begins or ends a contact in it.
         """
-        if not (self.pins or self.legs.names):
+        if not (self.pins or self.legs.circuits):
             return False
         if following < taken / MUCH_SHORTER:
             return True
@@ -305,14 +298,10 @@ class SolverRun:
             self.scene.refresh_memory()
             for pin in self.pins:
                 pin.begin_impact()
-        for cylinder in self.cylinders:
-            for b in breaks:
-                cylinder.switch(b)
-            cylinder.tell_rates()
         for b in breaks:
             self.legs.switch(b)
         self.legs.refresh()
-        if (self.cylinders or self.legs.names) and not jumps:
+        if self.legs.circuits and not jumps:
             self.recorder.switch(t)
 
     def _longest_step(self, t: float) -> float:

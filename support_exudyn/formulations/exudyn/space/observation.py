@@ -14,7 +14,6 @@ from support_exudyn.formulations.exudyn.space.sections import SectionMotion, sec
 from support_exudyn.mechanics.acting_loads import add_load, load_series
 from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
 from support_exudyn.mechanics.drive_acceleration import accelerations_of
-from support_exudyn.mechanics.oil_column import OilSeries
 from support_exudyn.mechanics.space.accelerations import accelerations
 from support_exudyn.mechanics.space.constraints import TURNS, Constraint, direction_of
 from support_exudyn.mechanics.space.kinetics import inertias, weight
@@ -129,15 +128,10 @@ class SpatialObservation:
         return {name: load_series(load, name, self.motion, self.time) for name, load in acting}
 
     @cached_property
-    def oil(self) -> dict[str, OilSeries]:
-        """Every column of oil over time."""
-        return {name: self._oil(name) for name in self.scene.oil_columns}
-
-    @cached_property
     def legs(self) -> dict[str, LegSeries]:
-        """Every hydraulic leg with elements over time, and the pump."""
+        """Every hydraulic leg over time, and the pump; none if their states are not recorded."""
         legs = self.scene.legs
-        if not legs.names or not self.history.legs.shape[1]:
+        if self.history.legs.shape[1] < legs.states_count:
             return {}
         motion = {}
         for name in legs.names:
@@ -146,23 +140,10 @@ class SpatialObservation:
             motion[name] = length, np.einsum("ni,ni->n", apart, relative) / length
         return legs.series(self.time, motion, self.history.legs)
 
-    @cached_property
-    def on_oil(self) -> dict[str, OilSeries | LegSeries]:
-        """All actuators that oil holds, over time."""
-        return {**self.oil, **{name: self.legs[name] for name in self.scene.legs.names if name in self.legs}}
-
-    def _oil(self, name: str) -> OilSeries:
-        drive = self.scene.scenario.drive_of(name)
-        extension = np.array([drive.extension(t) for t in self.time.tolist()])
-        speed = np.array([drive.speed(t) for t in self.time.tolist()])
-        apart, _ = self.span(name)
-        length = np.linalg.norm(apart, axis=1)
-        preloaded = self.scene.oil_columns[name].preloaded
-        return OilSeries(
-            preloaded.force(length, extension),
-            preloaded.energy(length, extension),
-            preloaded.power(length, extension, speed),
-        )
+    @property
+    def oil(self) -> dict[str, LegSeries]:
+        """Every actuator on oil over time."""
+        return {name: self.legs[name] for name in self.scene.legs.names if name in self.legs}
 
     def span(self, actuator: str) -> tuple[Series, Series]:
         """The vector from foot to head of an actuator, and its rate, (n, 3) each."""
@@ -195,7 +176,7 @@ class SpatialObservation:
         """Weights and forces of oil, clearance bearings and loads on all bodies, (n, b, 6)."""
         weights = weight(self.scene.linkage, self.scene.gravity).reshape(1, -1, 6)
         forces = np.tile(weights, (self.motion.count, 1, 1))
-        for name, oil in self.on_oil.items():
+        for name, oil in self.oil.items():
             actuator = self.scene.linkage.actuators[name]
             along, _ = self.span(name)
             push = oil.force[:, None] * along / np.linalg.norm(along, axis=1)[:, None]
@@ -231,7 +212,7 @@ class SpatialObservation:
 
     def actuator_force(self, name: str) -> Series:
         """Force that pushes an actuator's ends apart (n,) [N]."""
-        return self.on_oil[name].force if name in self.on_oil else self.held[Constraint(name, "actuator")]
+        return self.legs[name].force if name in self.legs else self.held[Constraint(name, "actuator")]
 
     def bearing_load(self, name: str) -> tuple[Series, Series]:
         """Force of the first body on the second [N], moment about the bearing's middle [N m], (n, 3) each."""
@@ -276,7 +257,7 @@ class SpatialObservation:
     def stored(self) -> Series:
         """Energy stored in contacts, oil and loads [J]."""
         found = np.zeros_like(self.time)
-        for energy in (*(one.energy for one in self.oil.values()), *(one.energy for one in self.legs.values())):
+        for energy in (one.energy for one in self.legs.values()):
             found = found + energy
         for load in self.acting.values():
             found = found + load.stored

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.formulations.exudyn.scene.cylinder_item import CylinderItem
-from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts, OilColumnItem
+from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.engine_scene import (
     CURRENT,
@@ -69,14 +68,12 @@ class SpatialScene(EngineScene):
     clearance_joints: dict[str, ContactConnector]
     sections: dict[str, list[SectionPin]]  # of every clearance bearing
     rigid_actuators: dict[str, ActuatorItem]
-    oil_columns: dict[str, OilColumnItem]
     legs: EngineLegs
     driven: tuple[DrivenParts, ...]  # all actuators, by the drive that they follow
     frictions: dict[str, JointFriction] = field(default_factory=dict)  # of ideal pins: nor these
     loads: dict[str, LoadItem] = field(default_factory=dict)
     weights: dict[str, Any] = field(default_factory=dict)  # loads of the engine, by body
     faces: dict[str, BlockFace] = field(default_factory=dict)  # of falling blocks
-    cylinders: dict[str, CylinderItem] = field(default_factory=dict)  # are legs here
 
     @property
     def gravity(self) -> Vector3:

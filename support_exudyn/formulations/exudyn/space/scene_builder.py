@@ -16,7 +16,7 @@ from exudyn.itemInterface import (
     ObjectRigidBody,
 )
 
-from support_exudyn.formulations.exudyn.scene.driven_parts import OilColumnItem, by_drive
+from support_exudyn.formulations.exudyn.scene.driven_parts import by_drive
 from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
 from support_exudyn.formulations.exudyn.scene.load_item import add_load
 from support_exudyn.formulations.exudyn.space.block_face import BlockFace, places
@@ -25,7 +25,6 @@ from support_exudyn.formulations.exudyn.space.section_pin import SectionJournal,
 from support_exudyn.formulations.exudyn.space.sections import ends, marker_frame, sections
 from support_exudyn.mechanics.body_coordinates import ActuatorItem
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg, preloaded_legs
-from support_exudyn.mechanics.oil_column import PreloadedActuator, fill
 from support_exudyn.mechanics.space.constraints import (
     SHIFTS,
     BearingEnd,
@@ -36,7 +35,6 @@ from support_exudyn.mechanics.space.constraints import (
     matrix,
 )
 from support_exudyn.mechanics.space.motion import COORDINATES, motion_of, parameter_rates
-from support_exudyn.model.actuators import OilColumn
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
@@ -148,7 +146,6 @@ class _SpaceBuilder(EngineBuilder):
             name for name, bearing in linkage.bearings.items() if bearing.pin in scenario.clearance_pins
         ]
         actuators = linkage.actuators.items()
-        on_oil = [name for name, one in actuators if one.actuator in scenario.oil_columns]
         held = [name for name, one in actuators if one.actuator not in scenario.compliant_actuators]
         candidates = all_rows(linkage, list(scenario.clearance_pins), held)
         still = np.zeros(COORDINATES * len(linkage.bodies))
@@ -163,7 +160,6 @@ class _SpaceBuilder(EngineBuilder):
             for row in rows
             if row.kind == "actuator"
         }
-        oil = {name: self.add_oil_column(linkage.actuators[name]) for name in on_oil}
         legs = [self.add_leg(leg) for leg in self.legs()]
         connectors = {name: self.add_connectors(linkage.bearings[name]) for name in with_clearance}
         loads = {name: add_load(load, name, self) for name, load in scenario.elements.items()}
@@ -180,9 +176,6 @@ class _SpaceBuilder(EngineBuilder):
             name: ActuatorItem(linkage.actuators[name], item, self.multiplier(item))
             for name, item in rigid.items()
         }
-        oil_items = {
-            name: OilColumnItem(preloaded, oil[name]) for name, preloaded in self.preloaded(oil).items()
-        }
         scene = SpatialScene(
             scenario=scenario,
             linkage=linkage,
@@ -194,9 +187,8 @@ class _SpaceBuilder(EngineBuilder):
             clearance_joints={},
             sections={},
             rigid_actuators=rigid_items,
-            oil_columns=oil_items,
             legs=self.join_legs(legs),
-            driven=by_drive(self.mbs, scenario.drive_of, rigid_items, oil_items, {}),
+            driven=by_drive(self.mbs, scenario.drive_of, rigid_items, {}),
             loads=loads,
             weights=weights,
         )
@@ -212,19 +204,8 @@ class _SpaceBuilder(EngineBuilder):
         scene.reset_memory()
         return scene
 
-    def preloaded(self, oil: dict[str, Any]) -> dict[str, PreloadedActuator]:
-        """Oil columns that hold the machine: those of the plane, each side with its share of the area."""
-        plane = fill(self.scenario.linkage, self.scenario.oil_columns, self.scenario.gravity)
-        found = {}
-        for name in oil:
-            actuator = self.linkage.actuators[name]
-            whole = plane[actuator.actuator]
-            model: OilColumn = replace(whole.model, bore_area=actuator.share * whole.model.bore_area)
-            found[name] = replace(whole, model=model)
-        return found
-
     def legs(self) -> list[PreloadedLeg]:
-        """Hydraulic legs with elements: those of the plane, each side with its share of them."""
+        """Hydraulic legs: those of the plane, each side with its share of them."""
         plane = preloaded_legs(self.scenario.linkage, self.scenario.legs, self.scenario.gravity)
         return [
             PreloadedLeg(name, one, whole.model.share(one.share), one.share * whole.load)
