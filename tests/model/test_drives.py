@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from support_exudyn import CubicStep, Held, Reciprocating, Steady, UniformSpeed
+from support_exudyn import CubicStep, Reciprocating, Steady, UniformSpeed
 from tests.analytic import adams_step
 from tests.ranges import from_zero
 from user_forces import InputError
@@ -36,22 +36,13 @@ def test_speed_is_the_derivative_of_the_extension(
     assert chosen.speed(t) == pytest.approx(slope, abs=12.0 * 2.0 / length**3 * h**2 / 6.0 + 1e-10)
 
 
-@given(kind=kinds, stroke=strokes, start=starts, length=lengths, before=st.floats(0.0, 5.0))
-def test_actuators_rest_before_the_start(
-    kind: type[Stroke], stroke: float, start: float, length: float, before: float
+@given(kind=kinds, stroke=strokes, start=starts, length=lengths, beyond=st.floats(1e-6, 5.0))
+def test_actuators_rest_before_the_start_and_at_their_stroke_after_the_end(
+    kind: type[Stroke], stroke: float, start: float, length: float, beyond: float
 ) -> None:
     chosen = drive(kind, stroke, start, length)
-    assert chosen.extension(start - before) == 0.0
-    assert chosen.speed(start - before) == 0.0
-
-
-@given(kind=kinds, stroke=strokes, start=starts, length=lengths, after=st.floats(1e-6, 5.0))
-def test_actuators_rest_at_their_stroke_after_the_end(
-    kind: type[Stroke], stroke: float, start: float, length: float, after: float
-) -> None:
-    chosen = drive(kind, stroke, start, length)
-    assert chosen.extension(chosen.end + after) == stroke
-    assert chosen.speed(chosen.end + after) == 0.0
+    assert (chosen.extension(start - beyond), chosen.speed(start - beyond)) == (0.0, 0.0)
+    assert (chosen.extension(chosen.end + beyond), chosen.speed(chosen.end + beyond)) == (stroke, 0.0)
 
 
 @given(stroke=strokes, start=starts, length=lengths, t=times)
@@ -101,13 +92,6 @@ def test_extension_stays_within_the_span(
     assert lowest - 5e-16 <= chosen.extension(share * duration) <= highest + 5e-16
     # the whole stroke, also where the run ends before
     assert {lowest, highest} == {0.0, stroke}
-
-
-@given(t=times)
-def test_held_actuators_do_not_move(t: float) -> None:
-    assert (Held().extension(t), Held().speed(t)) == (0.0, 0.0)
-    assert Held().breaks == ()
-    assert Held().span(5.0) == (0.0, 0.0)
 
 
 # --- a crank that has been turning for long ---

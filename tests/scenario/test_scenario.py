@@ -144,16 +144,6 @@ def test_a_tolerance_is_refined_where_it_decides() -> None:
     assert finest.refined() == finest
 
 
-# --- good input ---
-
-
-def test_actuators_are_held_and_pins_ideal_unless_said_otherwise() -> None:
-    plain = scenario()
-    assert plain.drive == Held()
-    assert plain.clearance_pins == {}
-    assert plain.gravity == (0.0, -9.81)
-
-
 # --- the same run with all steps shorter ---
 
 
