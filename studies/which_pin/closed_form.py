@@ -151,9 +151,9 @@ def openings(
 def influence(stand: Stand, name: str) -> Matrix:
     """How tip and tilt of the canopy follow the opening of a pin, shape (3, 2) [1], [1], [rad/m]."""
     ways = np.linalg.solve(stand.constraints(), np.eye(stand.position.size)[:, _rows(stand, name)])
-    canopy, tip = stand.kinetics.bodies["canopy"], stand.kinetics.linkage.points["tip"].point
+    tip = stand.kinetics.linkage.points["tip"].point
     at_tip = stand.kinetics.point(stand.position, "canopy", tip)[1] @ ways
-    return np.vstack([at_tip, ways[canopy.first + 2]])
+    return np.vstack([at_tip, ways[stand.kinetics.first("canopy") + 2]])
 
 
 def shifts(stand: Stand, pins: Mapping[str, ClearancePin], presses: Sequence[Press] = ()) -> dict[str, Matrix]:
@@ -175,8 +175,8 @@ def _friction_angle(stand: Stand, name: str, pin: ClearancePin, size: float) -> 
 def _spin(stand: Stand, name: str) -> float:
     """Angular velocity of a pin's second body against its first [rad/s]."""
     place = stand.kinetics.linkage.pins[name]
-    turning = {body: stand.speed[item.first + 2] for body, item in stand.kinetics.bodies.items()}
-    return float(turning.get(place.second, 0.0) - turning.get(place.first, 0.0))
+    first, second = (stand.kinetics.turning(stand.speed.size, body) for body in (place.first, place.second))
+    return float((second - first) @ stand.speed)
 
 
 def _turn(stand: Stand, name: str, moment: float, moments: Matrix) -> None:
@@ -184,4 +184,4 @@ def _turn(stand: Stand, name: str, moment: float, moments: Matrix) -> None:
     place = stand.kinetics.linkage.pins[name]
     for body, sign in ((place.second, 1.0), (place.first, -1.0)):
         if body != GROUND:
-            moments[stand.kinetics.bodies[body].first + 2] += sign * moment
+            moments[stand.kinetics.first(body) + 2] += sign * moment

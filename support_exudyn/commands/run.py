@@ -112,7 +112,7 @@ def joint_warnings_of(result: Result) -> list[str]:
     }
     if linkage.slides and starts.keys() <= channels.keys():
         position = np.column_stack([result[name] - start for name, start in starts.items()])
-        found += guide_warnings(BodyMotion(linkage, position, np.zeros_like(position), np.zeros_like(position)))
+        found += guide_warnings(BodyMotion(linkage, position, np.zeros_like(position)))
     return found
 
 

@@ -12,10 +12,11 @@ import numpy as np
 from support_exudyn.machines.check.freedoms import in_line
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.closing import Conditions, repeated_count
+from support_exudyn.mechanics.constraints import matrix
 from support_exudyn.mechanics.kinetics import Matrix
+from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.postures import turn
-from support_exudyn.mechanics.reactions import HeldJoints, matrix
-from support_exudyn.mechanics.trajectory import Series, Trajectory
+from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scenario.scenario import Scenario
 
 SINGULAR = 1e-5  # of the largest singular value: below, a condition says nothing
@@ -36,16 +37,8 @@ ADVICE = (
 
 def values_of(conditions: Conditions, position: Series) -> Series:
     """Singular values of the conditions at positions (n, 3 bodies), as shares of the largest, (n, k)."""
-    linkage = conditions.linkage
-    motion = BodyMotion(linkage, position, position, position)
-    held = HeldJoints(
-        list(linkage.pins.values()),
-        list(linkage.actuators.values()),
-        list(linkage.cranks.values()),
-        list(linkage.slides.values()),
-        list(linkage.gears.values()),
-    )
-    rows = conditions.counts[:, None] * matrix(motion, held) / conditions.arms
+    motion = BodyMotion(conditions.linkage, position, position)
+    rows = conditions.counts[:, None] * matrix(motion, conditions.kinetics.constraints) / conditions.arms
     values: Series = np.asarray(np.linalg.svd(rows, compute_uv=False))
     return values / np.maximum(values[:, :1], math.ulp(0.0))
 
@@ -85,7 +78,7 @@ def passed(scenario: Scenario, run: Trajectory) -> tuple[float, str] | None:
     """
     if not run.position.size or not run.velocity.size:
         return None
-    motion, time = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration), run.time
+    motion, time = run.motion, run.time
     forces = {name: np.hypot(*force.T) for name, force in run.ideal_pins.items()}
     forces |= {name: slide[:, 0] for name, slide in run.slides.items()}
     conditions = scenario.held
@@ -94,10 +87,7 @@ def passed(scenario: Scenario, run: Trajectory) -> tuple[float, str] | None:
         return None
     driven = last == motion.position.shape[1] - 1
     some = slice(None, None, max(1, len(time) // SAMPLES))
-    time, motion = (
-        time[some],
-        BodyMotion(motion.linkage, motion.position[some], motion.velocity[some], motion.velocity),
-    )
+    time, motion = time[some], BodyMotion(motion.linkage, motion.position[some], motion.velocity[some])
     left = values_of(conditions, motion.position)[:, last]
     joints = np.array([force[some] for force in forces.values()])
     largest = joints.max(axis=0)

@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import Literal, Protocol, cast
 
 from support_exudyn.formulations.interruption import put_off
-from support_exudyn.mechanics.trajectory import Outcome
+from support_exudyn.mechanics.observed_run import Outcome
 from support_exudyn.scenario.scenario import EARLIER_NAMES, Scenario
 from support_exudyn.scene.contract import Progress
 from user_forces.values.value import InputError

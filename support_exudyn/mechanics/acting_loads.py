@@ -22,13 +22,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.channels import LOADED, ChannelDefinition, ChannelDefinitions
+from support_exudyn.mechanics.body_motion import BodyMotion, Motion, PointMotion
+from support_exudyn.mechanics.channels import LOADED, ChannelDefinitions, named, table
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.reactions import push, twist
-from support_exudyn.mechanics.space.motion import SpatialMotion, cross
 from support_exudyn.mechanics.trajectory import LoadSeries, Series
-from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.loads.load import ActingLoad, Load, MomentLoad, StretchLoad
 from support_exudyn.model.to_space import at
 from user_forces.kernel import compiled_or_plain, numbers
@@ -56,78 +54,21 @@ class Turning(NamedTuple):
     axis: Series
 
 
-class _Bodies(ABC):
-    """The motion of all bodies that strains are measured from; vectors (n, 2) in the plane, (n, 3) in space."""
-
-    @abstractmethod
-    def point(self, body: str, point: Vector2, lateral: float) -> Any:
-        """Position [m] and velocity [m/s] of a point of the start posture."""
-
-    @abstractmethod
-    def turning(self, body: str, other: str) -> Turning:
-        """How a body turns against another."""
-
-    @abstractmethod
-    def push(self, forces: Series, body: str, force: Series, point: Series) -> None:
-        """Add a force [N] on a body at points [m] to the forces on all bodies."""
-
-    @abstractmethod
-    def twist(self, forces: Series, body: str, moment: Series) -> None:
-        """Add a moment [N m] on a body, along the axis of its turning, to the forces on all bodies."""
+def _point(motion: Motion, body: str, point: Vector2, lateral: float) -> PointMotion:
+    """Motion of a point of the start posture; in the plane both sides are lumped."""
+    return motion.point(body, point if motion.SHIFTS == 2 else at(point, lateral))
 
 
-class _PlaneBodies(_Bodies):
-    """Bodies in the plane; forces on them have the shape (n, 3 b)."""
-
-    def __init__(self, motion: BodyMotion) -> None:
-        self.motion = motion
-
-    def point(self, body: str, point: Vector2, lateral: float) -> Any:
-        del lateral  # both sides are lumped
-        return self.motion.point(body, point)
-
-    def turning(self, body: str, other: str) -> Turning:
-        turn = self.motion.turn(body) - self.motion.turn(other)
-        return Turning(turn, self.motion.spin(body) - self.motion.spin(other), np.ones((len(turn), 1)))
-
-    def push(self, forces: Series, body: str, force: Series, point: Series) -> None:
-        push(forces, self.motion, body, force, point)
-
-    def twist(self, forces: Series, body: str, moment: Series) -> None:
-        twist(forces, self.motion, body, moment[:, 0])
-
-
-class _SpaceBodies(_Bodies):
-    """Bodies in space; forces on them have the shape (n, b, 6)."""
-
-    def __init__(self, motion: SpatialMotion) -> None:
-        self.motion = motion
-
-    def point(self, body: str, point: Vector2, lateral: float) -> Any:
-        return self.motion.point(body, at(point, lateral))
-
-    def turning(self, body: str, other: str) -> Turning:
-        motion = self.motion
-        frame = np.stack([motion.carried(other, np.eye(3)[k]) for k in range(3)], axis=-1)
-        forward = np.einsum("nij,ni->jn", frame, motion.carried(body, np.array([1.0, 0.0, 0.0])))
-        axis = np.einsum("nij,jn->ni", frame, np.array(turning_axis(*forward)))
-        rate = np.einsum("ni,ni->n", axis, motion.spin_of(body) - motion.spin_of(other))
-        return Turning(np.unwrap(np.arctan2(forward[1], forward[0])), rate, axis)
-
-    def push(self, forces: Series, body: str, force: Series, point: Series) -> None:
-        if body != GROUND:
-            n = self.motion.index(body)
-            centre = np.array(self.motion.linkage.bodies[body].centre) + self.motion.displacement[:, n]
-            forces[:, n, :3] += force
-            forces[:, n, 3:] += cross(point - centre, force)
-
-    def twist(self, forces: Series, body: str, moment: Series) -> None:
-        if body != GROUND:
-            forces[:, self.motion.index(body), 3:] += moment
-
-
-def _bodies(motion: BodyMotion | SpatialMotion) -> _Bodies:
-    return _PlaneBodies(motion) if isinstance(motion, BodyMotion) else _SpaceBodies(motion)
+def _turning(motion: Motion, body: str, other: str) -> Turning:
+    """How a body turns against another."""
+    if isinstance(motion, BodyMotion):
+        turn = motion.turn(body) - motion.turn(other)
+        return Turning(turn, motion.spin(body) - motion.spin(other), np.ones((len(turn), 1)))
+    frame = np.stack([motion.carried(other, np.eye(3)[k]) for k in range(3)], axis=-1)
+    forward = np.einsum("nij,ni->jn", frame, motion.carried(body, np.array([1.0, 0.0, 0.0])))
+    axis = np.einsum("nij,jn->ni", frame, np.array(turning_axis(*forward)))
+    rate = np.einsum("ni,ni->n", axis, motion.spin(body) - motion.spin(other))
+    return Turning(np.unwrap(np.arctan2(forward[1], forward[0])), rate, axis)
 
 
 class _Strain(ABC):
@@ -143,10 +84,10 @@ class _Strain(ABC):
 class _PointStrain(_Strain):
     """The way of a point against another, of a `Load`."""
 
-    def __init__(self, load: Load, name: str, bodies: _Bodies) -> None:
-        self.body, self.against, self.bodies = load.body, load.against(name), bodies
-        self.point = bodies.point(self.body, load.point, load.lateral)
-        self.origin = bodies.point(self.against, load.origin, load.origin_lateral)
+    def __init__(self, load: Load, name: str, motion: Motion) -> None:
+        self.body, self.against, self.motion = load.body, load.against(name), motion
+        self.point = _point(motion, self.body, load.point, load.lateral)
+        self.origin = _point(motion, self.against, load.origin, load.origin_lateral)
         way, velocity = self.point.position - self.origin.position, self.point.velocity - self.origin.velocity
         level = np.zeros((len(way), 3 - way.shape[1]))
         across = np.column_stack([way[:, 2:], level, velocity[:, 2:], level])
@@ -154,31 +95,31 @@ class _PointStrain(_Strain):
 
     def apply(self, total: Series, forces: Series) -> None:
         known = forces[:, : self.point.position.shape[1]]
-        self.bodies.push(total, self.body, known, self.point.position)
-        self.bodies.push(total, self.against, -known, self.origin.position)
+        push(total, self.motion, self.body, known, self.point.position)
+        push(total, self.motion, self.against, -known, self.origin.position)
 
 
 class _TurnStrain(_Strain):
     """The turn of a body against another, of a `MomentLoad`."""
 
-    def __init__(self, load: MomentLoad, name: str, bodies: _Bodies) -> None:
+    def __init__(self, load: MomentLoad, name: str, motion: Motion) -> None:
         del name
-        self.load, self.bodies = load, bodies
-        turn, rate, self.axis = bodies.turning(load.body, load.other)
+        self.load, self.motion = load, motion
+        turn, rate, self.axis = _turning(motion, load.body, load.other)
         self.numbers = np.column_stack([turn, rate])
 
     def apply(self, total: Series, forces: Series) -> None:
-        self.bodies.twist(total, self.load.body, forces * self.axis)
-        self.bodies.twist(total, self.load.other, -forces * self.axis)
+        twist(total, self.motion, self.load.body, forces * self.axis)
+        twist(total, self.motion, self.load.other, -forces * self.axis)
 
 
 class _StretchStrain(_Strain):
     """The ways up of both ends of a stretch, of a `StretchLoad`."""
 
-    def __init__(self, load: StretchLoad, name: str, bodies: _Bodies) -> None:
+    def __init__(self, load: StretchLoad, name: str, motion: Motion) -> None:
         del name
-        self.load, self.bodies = load, bodies
-        self.ends = [bodies.point(load.body, point, load.lateral) for point in load.points]
+        self.load, self.motion = load, motion
+        self.ends = [_point(motion, load.body, point, load.lateral) for point in load.points]
         ways = [end.position[:, 1] - point[1] for end, point in zip(self.ends, load.points, strict=True)]
         self.numbers = np.column_stack([*ways, *(end.velocity[:, 1] for end in self.ends)])
 
@@ -186,22 +127,21 @@ class _StretchStrain(_Strain):
         for end, size in zip(self.ends, forces.T, strict=True):
             up = np.zeros_like(end.position)
             up[:, 1] = size
-            self.bodies.push(total, self.load.body, up, end.position)
+            push(total, self.motion, self.load.body, up, end.position)
 
 
-def _strain(load: ActingLoad, name: str, motion: BodyMotion | SpatialMotion) -> _Strain:
+def _strain(load: ActingLoad, name: str, motion: Motion) -> _Strain:
     """The strain of a load of this name. Raises TypeError for a load of no strain kind."""
-    bodies = _bodies(motion)
     if isinstance(load, Load):
-        return _PointStrain(load, name, bodies)
+        return _PointStrain(load, name, motion)
     if isinstance(load, MomentLoad):
-        return _TurnStrain(load, name, bodies)
+        return _TurnStrain(load, name, motion)
     if isinstance(load, StretchLoad):
-        return _StretchStrain(load, name, bodies)
+        return _StretchStrain(load, name, motion)
     raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
 
 
-def load_series(load: ActingLoad, name: str, motion: BodyMotion | SpatialMotion, time: Series) -> LoadSeries:
+def load_series(load: ActingLoad, name: str, motion: Motion, time: Series) -> LoadSeries:
     """The load of this name at the records [s]."""
     known = np.column_stack([time, _strain(load, name, motion).numbers])
     forces, width = load.FORCES, load.FORCES + 3 + len(load.channels)
@@ -234,21 +174,19 @@ def _loop(
     return compiled_or_plain(loop, (np.empty((1, known)), np.empty(count)))
 
 
-def add_load(
-    forces: Series, motion: BodyMotion | SpatialMotion, name: str, load: ActingLoad, series: LoadSeries
-) -> None:
-    """Add what a load of this name does at the records to the forces on all bodies, (n, 3 b) or (n, b, 6)."""
+def add_load(forces: Series, motion: Motion, name: str, load: ActingLoad, series: LoadSeries) -> None:
+    """Add what a load of this name does at the records to the forces on all bodies, (n, freedoms)."""
     _strain(load, name, motion).apply(forces, series.forces)
 
 
 def load_channels(name: str, load: ActingLoad, stem: str | None = None) -> ChannelDefinitions:
     """The channels of a load of this name; stem: what their names begin with, by default its name."""
+    rows = [(what, *load.channels[what], _observed(what)) for what in load.channels]
+    return table(stem or name, LOADED, named("loads", name), rows)
 
-    def definition(what: str) -> ChannelDefinition:
-        unit, meaning = load.channels[what]
-        return ChannelDefinition(unit, meaning, LOADED, lambda context: context.acting[name].observed[what])
 
-    return {f"{stem or name}.{what}": definition(what) for what in load.channels}
+def _observed(what: str) -> Callable[[LoadSeries], Series]:
+    return lambda load: load.observed[what]
 
 
 def forces_at_rest(system: Kinetics, loads: Mapping[str, ActingLoad], position: Matrix) -> Matrix:
@@ -268,7 +206,7 @@ def largest_forces(system: Kinetics, loads: Mapping[str, ActingLoad], duration: 
 
     system: with coordinates in the order of its bodies. duration: of the run [s].
     """
-    found = np.zeros(3 * len(system.bodies))
+    found = np.zeros(3 * len(system.linkage.bodies))
     for name, load in loads.items():
         count = SAMPLES + duration / (FINEST * load.shortest_time)
         even = np.linspace(0.0, duration, int(min(count, MOST_SAMPLES)) + 1)
@@ -286,7 +224,7 @@ def strain_rates(system: Kinetics, name: str, load: ActingLoad) -> Matrix:
 
     That is the transpose of what turns its forces into those on all coordinates.
     """
-    count, size = load.FORCES, 3 * len(system.bodies)
+    count, size = load.FORCES, 3 * len(system.linkage.bodies)
     motion, forces = _at_rest(system, np.zeros((count, size))), np.zeros((count, size))
     _strain(load, name, motion).apply(forces, np.eye(count))
     return forces
@@ -294,4 +232,4 @@ def strain_rates(system: Kinetics, name: str, load: ActingLoad) -> Matrix:
 
 def _at_rest(system: Kinetics, position: Matrix) -> BodyMotion:
     """Bodies at rest at coordinates (n, 3 b) in the order of the linkage."""
-    return BodyMotion(system.linkage, position, np.zeros_like(position), np.zeros_like(position))
+    return BodyMotion(system.linkage, position, np.zeros_like(position))

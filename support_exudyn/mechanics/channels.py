@@ -1,30 +1,26 @@
-"""Channels by name: unit, meaning, what of a run they need, and how they follow from it.
+"""What a channel is: its unit, its meaning, what of a run it needs, and how it follows from that.
 
-They are known before a run, so that nothing is kept or computed that nobody asks for.
+Channels are known before a run, so that nothing is kept or computed that nobody asks for. `channel_table` has
+those of all parts of a linkage, by name.
 """
 
-from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import Flag, auto
 from fnmatch import fnmatchcase
-from functools import cached_property
 from typing import Any
 
-import numpy as np
-
-from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.trajectory import LoadSeries, Series, Trajectory
-from support_exudyn.model.linkage import Linkage
-from user_forces.values.value import Vector2
+from support_exudyn.mechanics.observed_run import ObservedRun
+from support_exudyn.mechanics.trajectory import Series
 
 
 class DataNeeds(Flag):
-    """Parts of a Trajectory.
+    """Parts of an `ObservedRun`.
 
-    JOINTS: forces of ideal pins, cranks, guides and rigid actuators; CONTACTS: pins with clearance and others
-    whose force follows from the motion; OIL: columns of oil; INTEGRALS: work and losses so far, which have to
-    be followed at every step; LOADS: what presses on it.
+    JOINTS: forces of ideal pins, cranks, guides and rigid actuators; CONTACTS: clearance joints and others
+    whose force follows from the motion; OIL: actuators on oil; INTEGRALS: work and losses so far, which have to
+    be followed at every step; LOADS: what acts on the machine besides its weight.
     """
 
     NOTHING = 0
@@ -43,94 +39,49 @@ MOTION = DataNeeds.POSITION | DataNeeds.VELOCITY
 CONTACT = MOTION | DataNeeds.CONTACTS
 OIL = MOTION | DataNeeds.OIL
 LOADED = MOTION | DataNeeds.LOADS
+FOLLOWING = DataNeeds.ACCELERATION | DataNeeds.JOINTS
 ALL_CHANNELS = ("*",)  # the pattern that asks for everything
 
 
-@dataclass(frozen=True)
-class EvaluationContext:
-    """A run at its records, from which channels are computed.
-
-    Arguments:
-        linkage: the mechanism.
-        gravity: [m/s^2].
-        run: with the parts that the channels need.
-    """
-
-    linkage: Linkage
-    gravity: Vector2
-    run: Trajectory
-    _paths: dict[str, Series] = field(default_factory=dict, repr=False, compare=False)
-
-    @cached_property
-    def motion(self) -> BodyMotion:
-        """The motion of all bodies."""
-        return BodyMotion(self.linkage, self.run.position, self.run.velocity, self.run.acceleration)
-
-    @property
-    def acting(self) -> Mapping[str, LoadSeries]:
-        """What acts by the motion, loads and those of compliant pins, by name."""
-        return self.run.loads
-
-    def path(self, name: str) -> Series:
-        """The path of a traced point (n, 2) [m]."""
-        if name not in self._paths:
-            point = self.linkage.points[name]
-            self._paths[name] = self.motion.place(point.body, point.point)
-        return self._paths[name]
-
-    def span(self, name: str) -> Series:
-        """The vector from foot to head of an actuator (n, 2) [m]."""
-        if name not in self._paths:
-            actuator = self.linkage.actuators[name]
-            foot = self.motion.place(actuator.foot, actuator.foot_point)
-            self._paths[name] = self.motion.place(actuator.head, actuator.head_point) - foot
-        return self._paths[name]
-
-    @cached_property
-    def kinetic(self) -> Series:
-        """Kinetic energy [J]."""
-        found = np.zeros_like(self.run.time)
-        for n, body in enumerate(self.linkage.bodies.values()):
-            vx, vy, spin = self.run.velocity[:, 3 * n : 3 * n + 3].T
-            found += 0.5 * body.mass * (vx**2 + vy**2) + 0.5 * body.inertia * spin**2
-        return found
-
-    @cached_property
-    def potential(self) -> Series:
-        """Potential energy of weight (n,) [J], zero in the start posture."""
-        found = np.zeros_like(self.run.time)
-        gx, gy = self.gravity
-        for n, body in enumerate(self.linkage.bodies.values()):
-            i = 3 * n
-            found -= body.mass * (gx * self.run.position[:, i] + gy * self.run.position[:, i + 1])
-        return found
-
-    @cached_property
-    def stored(self) -> Series:
-        """Energy stored in contacts, oil, loads and compliant pins (n,) [J]."""
-        run = self.run
-        found = run.oil_energy + sum(contact.stored for contact in run.contacts.values())
-        return found + sum(load.stored for load in run.loads.values())
-
-    @cached_property
-    def balance(self) -> Series:
-        """Gain of energy minus work plus loss (n,) [J]."""
-        total = self.kinetic + self.potential + self.stored
-        balance: Series = total - total[0] + (self.run.damping_loss + self.run.friction_loss) - self.run.work
-        return balance
+def with_causes(needed: DataNeeds) -> DataNeeds:
+    """What has to be known for parts of a run: also what accelerations and reactions follow from."""
+    return needed | CONTACT | OIL | LOADED if needed & FOLLOWING else needed
 
 
 @dataclass(frozen=True)
 class ChannelDefinition:
-    """A channel before its run: unit, meaning, the parts it needs, and its values (n,) from what was seen."""
+    """A channel before its run: unit, meaning, the parts of a run it needs, and its values (n,) from these."""
 
     unit: str
     meaning: str
     needs: DataNeeds
-    values: Callable[[Any], Series]
+    values: Callable[[ObservedRun], Series]
 
 
 ChannelDefinitions = dict[str, ChannelDefinition]
+Row = tuple[str, str, str, Callable[[Any], Series]]
+
+
+def table(
+    prefix: str, needs: DataNeeds, source: Callable[[Any], Any], rows: Iterable[Row]
+) -> ChannelDefinitions:
+    """Channels of a part of a run, "PREFIX.NAME".
+
+    Arguments:
+        prefix: what their names begin with.
+        needs: what all of them need.
+        source: gives the part of a run, such as a contact.
+        rows: name, unit, meaning, and what gives the values (n,) from that part.
+    """
+    return {
+        f"{prefix}.{name}": ChannelDefinition(unit, meaning, needs, lambda run, of=of: of(source(run)))  # type: ignore[misc]
+        for name, unit, meaning, of in rows
+    }
+
+
+def named(field: str, name: str) -> Callable[[Any], Any]:
+    """What gives the part of this name among those of a field of a run."""
+    return lambda run: getattr(run, field)[name]
 
 
 def chosen(names: Iterable[str], patterns: Iterable[str]) -> list[str]:

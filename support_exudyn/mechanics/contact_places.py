@@ -1,6 +1,7 @@
-"""Where a linkage may make contact and part: journals in their bores, corners of blocks between walls.
+"""Where a linkage may make contact and part: journals in bores, corners in slots, falling blocks.
 
-What integrates, records and judges contacts goes by these places, and does not ask of which kind they are.
+What integrates, records and judges contacts goes by these places, and does not ask of which kind they are. What
+a contact did at the records follows from the motion of its bodies and what it remembers.
 """
 
 from __future__ import annotations
@@ -9,21 +10,23 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.contact_history import PinForce, RelativeMotion, acting, contact_series, series
+from support_exudyn.mechanics.body_motion import BodyMotion, pairs
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.guides import Guide, GuideContact
 from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, Slide
+from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.pins import ClearancePin
-from support_exudyn.model.plane_geometry import plus, rotated
-from user_forces.contact import Contact
+from support_exudyn.model.plane_geometry import minus, plus, rotated
+from user_forces.contact import SHALLOWEST, Contact
 from user_forces.contact_state import PinMemory
 from user_forces.values.value import Vector2
+
+PLAY = 1e-3  # [m] of a falling block, as of a pin
 
 
 class HasValues(Protocol):
@@ -32,6 +35,53 @@ class HasValues(Protocol):
     @property
     def values(self) -> Series:
         """Its values at the records (n,)."""
+
+
+class RelativeMotion(NamedTuple):
+    """A journal in its bore over time, shape (n,) each, SI, ground's axes.
+
+    x, y, vx, vy: journal's centre minus bore's, and its rate. bore_spin, journal_spin: of their bodies.
+    """
+
+    x: Series
+    y: Series
+    vx: Series
+    vy: Series
+    bore_spin: Series
+    journal_spin: Series
+
+
+def series(contact: Contact, moving: RelativeMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
+    """The contact at every record from the journal's motion in its bore.
+
+    memories: what the contact remembers at each record, PinMemory's fields (n, 6).
+    """
+    remembered = np.asarray(memories, dtype=np.float64)
+    memory = dict(zip(PinMemory._fields, remembered.T, strict=True))
+    closed = memory["in_contact"] > 0.5
+    # the memory was taken at the same instant: no time has passed since
+    now = memory["impact_velocity"], memory["deflection"], memory["slip"], np.zeros(closed.size)
+    rows = np.column_stack([*moving, closed, *now])
+    result, stored = contact.forces(rows)
+    force: Any = result  # arrays in place of numbers
+    return ContactSeries(
+        force_x=force.force_x,
+        force_y=force.force_y,
+        normal_force=force.normal_force,
+        friction_force=force.friction_force,
+        depth=force.depth,
+        slip=force.slip,
+        impact_velocity=np.where(closed, memory["impact_velocity"], 0.0),
+        eccentricity_x=moving.x,
+        eccentricity_y=moving.y,
+        stored=stored,
+        deflection=force.deflection if contact.friction.has_state else None,
+    )
+
+
+def journal_arm(contact: Contact, depth: Series) -> Series:
+    """Distance of the contact point from the journal's centre [m]."""
+    return np.array([contact.bearing.contact_arms(d)[1] for d in depth.tolist()])
 
 
 class ContactPlace(ABC):
@@ -68,9 +118,13 @@ class ContactPlace(ABC):
     def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
         """The contact at every record, with the memory that it has there."""
 
-    @abstractmethod
-    def push(self, motion: BodyMotion, contact: ContactSeries) -> tuple[str, str, PinForce]:
-        """Which body pushes which, and with what force where."""
+    def push(self, motion: BodyMotion, contact: ContactSeries) -> tuple[Series, Series]:
+        """Force of the bore on the journal [N], and the contact point at which it acts [m], (n, 2) each."""
+        x, y = contact.eccentricity_x, contact.eccentricity_y
+        away = np.maximum(np.sqrt(x * x + y * y), SHALLOWEST)  # there is no force in the middle
+        arm = journal_arm(self.contact, contact.depth) / away
+        point = motion.place(self.journal, self.journal_point) + pairs(arm * x, arm * y)
+        return pairs(contact.force_x, contact.force_y), point
 
     @abstractmethod
     def depth(self, channels: Mapping[str, HasValues]) -> Series | None:
@@ -112,11 +166,10 @@ class PinContactPlace(ContactPlace):
 
     def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
         """The journal in its bore."""
-        return contact_series(motion, self.place, self.pin, memories)
-
-    def push(self, motion: BodyMotion, contact: ContactSeries) -> tuple[str, str, PinForce]:
-        """The first body of the pin pushes the second."""
-        return self.place.first, self.place.second, acting(motion, self.place, self.pin, contact)
+        bore, journal = motion.point(self.bore, self.bore_point), motion.point(self.journal, self.journal_point)
+        x, y = (journal.position - bore.position).T
+        vx, vy = (journal.velocity - bore.velocity).T
+        return series(self.contact, RelativeMotion(x, y, vx, vy, bore.spin, journal.spin), memories)
 
     @property
     def stem(self) -> str:
@@ -194,14 +247,6 @@ class GuideContactPlace(ContactPlace):
             eccentricity_y=y * across[:, 1],
         )
 
-    def push(self, motion: BodyMotion, contact: ContactSeries) -> tuple[str, str, PinForce]:
-        """The guide pushes the block, at the surface of the corner or the pin."""
-        corner = motion.place(self.journal, self.journal_point)
-        offset = np.column_stack([contact.eccentricity_x, contact.eccentricity_y])
-        away = np.maximum(np.linalg.norm(offset, axis=1), math.ulp(0.0))[:, None]
-        point = corner + self.part.contact.bearing.contact_arms(0.0)[1] * offset / away
-        return self.bore, self.journal, PinForce(np.column_stack([contact.force_x, contact.force_y]), point)
-
     @property
     def stem(self) -> str:
         """That of the corner."""
@@ -227,6 +272,30 @@ class GuideContactPlace(ContactPlace):
         return np.column_stack([c, s]), np.column_stack([-s, c])
 
 
+@dataclass(frozen=True)
+class BlockContactPlace(GuideContactPlace):
+    """The face of a falling block, which a point of the machine may meet: a slot with one wall.
+
+    The block is the bore. It has no play; that by which steps and errors go is the depth of its first blow, or
+    PLAY if that is less.
+    """
+
+    @property
+    def stem(self) -> str:
+        """The block's name."""
+        return self.name
+
+    def __post_init__(self) -> None:
+        """Tell of what load it is."""
+        super().__post_init__()
+        object.__setattr__(self, "of", f"loads.{self.name}")
+
+    def loads(self, reactions: Mapping[str, Series]) -> Series:
+        """Nothing: no joint stands in its place."""
+        del reactions
+        return np.zeros(2)
+
+
 def contact_places(
     linkage: Linkage, pins: Mapping[str, ClearancePin], guides: Mapping[str, Guide]
 ) -> dict[str, ContactPlace]:
@@ -246,3 +315,16 @@ def _of_guides(linkage: Linkage, guides: Mapping[str, Guide]) -> Iterator[tuple[
 def _dot(one: Series, other: Series) -> Series:
     found: Series = np.einsum("ni,ni->n", one, other)
     return found
+
+
+def block_places(blocks: Mapping[str, FallingBlock], gravity: Vector2) -> dict[str, BlockContactPlace]:
+    """The faces of blocks by the blocks' names, under gravity [m/s^2]."""
+    return {
+        name: BlockContactPlace(
+            name,
+            Slide(body=block.body, point=block.reference, direction=block.slope, against=name),
+            GuideContact(rotated(minus(block.point, block.reference), -block.slope), 0.0, block.contact),
+            min(block.first_depth(gravity) or PLAY, PLAY),
+        )
+        for name, block in blocks.items()
+    }

@@ -1,23 +1,37 @@
-"""Masses and constraints of a scene as matrices, for what happens at an instant.
+"""Masses and constraints of a linkage as matrices, for what happens at an instant.
 
-Mass matrix M and constraint Jacobian C (ideal pins, rigid actuators, cranks, slides, gears) give the change of
-velocities dv and the impulses L under generalised impulses b and a change c of the constraints' rates:
+Mass matrix M and constraint Jacobian C (see `constraints`) give the change of velocities dv and the impulses L
+under generalised impulses b and a change c of the constraints' rates:
 
     M dv + C^T L = b,    C dv = c
+
+Velocities are those of the centres of all bodies and their spins, in the ground's axes.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.mechanics.body_coordinates import BodyItem
-from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, Slide
+from support_exudyn.mechanics.body_motion import BodyMotion, Motion, SpatialMotion, cross
+from support_exudyn.mechanics.constraints import (
+    SAME,
+    TURNS,
+    Constraint,
+    Shift,
+    constraints_of,
+    frame_of,
+    matrix,
+    pin,
+)
+from support_exudyn.model.linkage import GROUND, Linkage, PinPlace
+from support_exudyn.model.spatial_linkage import BearingEnd, SpatialBody
 from user_forces.values.value import Vector2
 
 Matrix = npt.NDArray[np.float64]
@@ -26,29 +40,43 @@ REPEATED = 1e-9  # of the largest singular value: below, rows repeat each other
 
 
 def kinetics_of(
-    linkage: Linkage, ideal: Sequence[str] | None = None, rigid: Sequence[str] | None = None
+    linkage: Linkage, ideal: Iterable[str] | None = None, rigid: Iterable[str] | None = None
 ) -> Kinetics:
-    """Matrices of a linkage by itself, coordinates in the order of its bodies.
+    """Matrices of a linkage of the plane.
 
     ideal, rigid: names of the pins that are closed, and of the actuators that are rigid; all by default.
     """
-    bodies = {name: BodyItem(body, None, None, 3 * n) for n, (name, body) in enumerate(linkage.bodies.items())}
-    pins = tuple(linkage.pins) if ideal is None else ideal
-    return Kinetics(linkage, bodies, pins, tuple(linkage.actuators) if rigid is None else rigid)
+    actuators = tuple(linkage.actuators) if rigid is None else tuple(rigid)
+    return Kinetics(linkage, tuple(constraints_of(linkage, ideal, actuators)), actuators)
 
 
 @dataclass(frozen=True)
 class Kinetics:
-    """Matrices of a linkage, whose bodies stand in the engine or not.
+    """Matrices of a linkage of the plane, coordinates x, y and turn of each body in the order of the linkage.
 
-    linkage: the mechanism. bodies: where each body's coordinates stand. ideal, actuators: names of the pins
-    that are closed and of the actuators that are rigid, in the order of their rows.
+    linkage: the mechanism. constraints: what is held, in the order of their rows. actuators: names of those
+    that are rigid.
     """
 
     linkage: Linkage
-    bodies: dict[str, BodyItem]
-    ideal: Sequence[str]
+    constraints: Sequence[Constraint]
     actuators: Sequence[str]
+
+    @cached_property
+    def _columns(self) -> dict[str, int]:
+        return {name: 3 * n for n, name in enumerate(self.linkage.bodies)}
+
+    def first(self, body: str) -> int:
+        """Column of a body's x; y and turn follow."""
+        return self._columns[body]
+
+    def motion(self, position: Matrix) -> BodyMotion:
+        """All bodies at rest at a position (n,)."""
+        return BodyMotion(self.linkage, position[None], np.zeros((1, position.size)))
+
+    def instant(self, position: Matrix) -> Instant:
+        """Masses and constraints at a position (n,)."""
+        return Instant(self.motion(position), self.constraints, self.size)
 
     @cached_property
     def size(self) -> float:
@@ -60,128 +88,67 @@ class Kinetics:
     @cached_property
     def counts(self) -> Matrix:
         """Factor of each row (m,) [m]: angles count by the size of the linkage, and moments by one over it."""
-        rows = self.rows(np.zeros(3 * len(self.bodies)))
-        only_turns = ~np.any(np.delete(rows, np.s_[2::3], axis=1), axis=1)
-        return np.where(only_turns, self.size, 1.0)
+        return np.array([self.size if constraint.kind == "turn" else 1.0 for constraint in self.constraints])
 
     @cached_property
     def stand_in(self) -> Matrix:
         """What stands in for the inertia of point masses where one is divided by it (n,) [kg m^2], else 0."""
-        found = np.zeros(3 * len(self.bodies))
-        for name, item in self.bodies.items():
-            if item.body.inertia == 0.0:
-                arms = [
-                    math.dist(place, item.body.centre)
-                    for body, place in joints_of(self.linkage)
-                    if body == name
-                ]
-                found[item.first + 2] = STAND_IN * item.body.mass * (max(arms, default=0.0) or self.size) ** 2
+        found = np.zeros(3 * len(self.linkage.bodies))
+        for name, body in self.linkage.bodies.items():
+            if body.inertia == 0.0:
+                arms = [math.dist(at, body.centre) for joined, at in joints_of(self.linkage) if joined == name]
+                arm = max(arms, default=0.0) or self.size
+                found[self.first(name) + 2] = STAND_IN * body.mass * arm**2
         return found
 
     def mass(self) -> Matrix:
         """Diagonal of the mass matrix, shape (n,)."""
-        mass = np.zeros(3 * len(self.bodies))
-        for item in self.bodies.values():
-            body = item.body
-            mass[item.first : item.first + 3] = body.mass, body.mass, body.inertia
-        return mass
+        return np.ravel([(body.mass, body.mass, body.inertia) for body in self.linkage.bodies.values()])
 
     def weight(self, gravity: Vector2) -> Matrix:
         """Forces of gravity [m/s^2] on all coordinates [N], shape (n,)."""
-        along = np.zeros(3 * len(self.bodies))
-        for item in self.bodies.values():
-            along[item.first : item.first + 2] = gravity
-        return self.mass() * along
+        return np.asarray(self.mass() * np.tile([*gravity, 0.0], len(self.linkage.bodies)))
 
     def rows(self, position: Matrix) -> Matrix:
-        """Jacobian C, (m, n): two rows an ideal pin, one an actuator, crank or gear, one or two a slide."""
-        rows: list[Matrix] = []
-        for name in self.ideal:
-            rows += list(self.relative(position, self.linkage.pins[name])[1])
-        for actuator in (self.linkage.actuators[name] for name in self.actuators):
-            foot, foot_rate = self.point(position, actuator.foot, actuator.foot_point)
-            head, head_rate = self.point(position, actuator.head, actuator.head_point)
-            along = (head - foot) / np.linalg.norm(head - foot)
-            rows.append(along @ (head_rate - foot_rate))
-        rows += [self.turning(position.size, crank.body) for crank in self.linkage.cranks.values()]
-        for slide in self.linkage.slides.values():
-            rows += self._guided(position, slide)
-        for gear in self.linkage.gears.values():
-            wheels = gear.first, gear.second, gear.carrier or GROUND
-            first, second, carrier = (self.turning(position.size, body) for body in wheels)
-            rows.append(second - gear.ratio * first - (1.0 - gear.ratio) * carrier)
-        return np.array(rows).reshape(-1, position.size)
-
-    def _guided(self, position: Matrix, slide: Slide) -> list[Matrix]:
-        """Rows of a slide: rate of the point's distance from the line, which may turn, and of the angle."""
-        point, rate = self.point(position, slide.body, slide.point)
-        origin, origin_rate = self.point(position, slide.against, slide.point)
-        carrier = self.turning(position.size, slide.against)
-        turn = 0.0 if slide.against == GROUND else position[self.bodies[slide.against].first + 2]
-        angle = slide.direction + turn
-        along, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
-        # as the line turns, what is along it comes to lie across it
-        distance = across @ (rate - origin_rate) - (along @ (point - origin)) * carrier
-        turning = self.turning(position.size, slide.body) - carrier
-        return [distance, turning][: slide.conditions]
+        """Jacobian C, (m, n), see `constraints_of`."""
+        return self.instant(position).rows
 
     def owners(self) -> list[tuple[str, str]]:
         """Of each of the rows, the field of the linkage and the name of the part that it is of."""
-        owners = [("pins", name) for name in self.ideal for _ in range(2)]
-        owners += [("actuators", name) for name in self.actuators]
-        owners += [("cranks", name) for name in self.linkage.cranks]
-        for name, slide in self.linkage.slides.items():
-            owners += [("slides", name) for _ in range(slide.conditions)]
-        return [*owners, *(("gears", name) for name in self.linkage.gears)]
-
-    def joint_impulses(self, impulses: Matrix) -> dict[str, float]:
-        """Magnitudes of the impulses [N s] of pins and guides among those of all rows, see `Impulse.joints`."""
-        found: dict[str, float] = {}
-        for (part, name), impulse in zip(self.owners(), impulses.tolist(), strict=True):
-            if part == "pins":
-                found[f"pin.{name}"] = math.hypot(found.get(f"pin.{name}", 0.0), impulse)
-            elif part == "slides":
-                found.setdefault(name, abs(impulse))  # its second row is that of a moment
-        return found
+        return [(constraint.part, constraint.name) for constraint in self.constraints]
 
     def turning(self, size: int, body: str) -> Matrix:
         """The row that gives a body's angular velocity; that of the ground is none."""
         row = np.zeros(size)
         if body != GROUND:
-            row[self.bodies[body].first + 2] = 1.0
+            row[self.first(body) + 2] = 1.0
         return row
 
     def driven(self) -> slice:
         """Which of the rows can be driven: rigid actuators, then cranks."""
-        first = 2 * len(self.ideal)
+        first = sum(constraint.part == "pins" for constraint in self.constraints)
         return slice(first, first + len(self.actuators) + len(self.linkage.cranks))
 
     def rates(self, speed: Callable[[str], float]) -> Matrix:
-        """Rates of all rows, (m,): of rigid actuators and cranks as told by name [m/s], [rad/s], else 0."""
-        guided = sum(slide.conditions for slide in self.linkage.slides.values())
-        rates = np.zeros(self.driven().stop + guided + len(self.linkage.gears))
-        rates[self.driven()] = [speed(name) for name in (*self.actuators, *self.linkage.cranks)]
-        return rates
+        """Rates of all rows, (m,): of rigid actuators and cranks by name [m/s], [rad/s], else 0."""
+        return rates(self.constraints, speed)
 
     def point(self, position: Matrix, body: str, point: Vector2) -> tuple[Matrix, Matrix]:
         """Place of a point of a body (2,) and the matrix that turns all velocities into its own (2, n)."""
         rate = np.zeros((2, position.size))
         if body == GROUND:
             return np.array(point), rate
-        item = self.bodies[body]
-        i = item.first
-        angle = item.body.angle + position[i + 2]
-        x, y = item.local(point)
-        arm = np.array([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)])
-        rate[0, i : i + 3] = 1.0, 0.0, -arm[1]
-        rate[1, i : i + 3] = 0.0, 1.0, arm[0]
-        return np.array(item.body.centre) + position[i : i + 2] + arm, rate
+        motion, i = self.motion(position), self.first(body)
+        x, y = motion.arm(body, point)[0]
+        rate[0, i : i + 3] = 1.0, 0.0, -y
+        rate[1, i : i + 3] = 0.0, 1.0, x
+        return motion.place(body, point)[0], rate
 
     def relative(self, position: Matrix, place: PinPlace) -> tuple[Matrix, Matrix]:
         """Centre of a pin on its second body minus that on its first (2,), and its rate's matrix (2, n)."""
-        first, first_rate = self.point(position, place.first, place.first_point)
-        second, second_rate = self.point(position, place.second, place.second_point)
-        return second - first, second_rate - first_rate
+        motion = self.motion(position)
+        apart = motion.place(place.second, place.second_point) - motion.place(place.first, place.first_point)
+        return apart[0], matrix(motion, pin("", place))[0]
 
     def pin_rate(self, position: Matrix, place: PinPlace) -> Matrix:
         """The matrix that turns all velocities into the rates of a pin's deflection and of its turn (3, n)."""
@@ -194,28 +161,7 @@ class Kinetics:
         Where rows repeat others, L is the least of all that fit, in the sense of `counts`. Of several impulses
         at once, b (n, k) with c a number: (n, k) and (m, k).
         """
-        rows = self.rows(position)
-        again = self._repeats(rows)
-        size, count, border = position.size, len(rows), again.shape[1]
-        system = np.zeros((size + count + border, size + count + border))
-        system[:size, :size] = np.diag(self.mass())
-        system[:size, size : size + count] = rows.T
-        system[size : size + count, :size] = rows
-        system[size : size + count, size + count :] = again
-        system[size + count :, size : size + count] = again.T
-        right = np.zeros((len(system), *impulse.shape[1:]))
-        right[:size], right[size : size + count] = impulse, jump
-        solution = np.linalg.solve(system, right)
-        return solution[:size], solution[size : size + count]
-
-    def _repeats(self, rows: Matrix) -> Matrix:
-        """Shares (m, k) of rows with which impulses cancel each other, as columns; none if none repeats."""
-        scaled = self.counts[:, None] * rows
-        scaled[:, 2::3] /= self.size
-        left, values, _ = np.linalg.svd(scaled, full_matrices=len(rows) > rows.shape[1])
-        rank = np.count_nonzero(values > REPEATED * values.max(initial=0.0))
-        shares: Matrix = left[:, rank:] / self.counts[:, None]
-        return shares
+        return self.instant(position).respond(impulse, jump)
 
     def inverse_mass(self, position: Matrix, rate: Matrix) -> Matrix:
         """Answer of rates to impulses in them, J dv per impulse (k, k) [1/kg], J the rows of the rates (k, n).
@@ -224,19 +170,177 @@ class Kinetics:
 
         Of a clearance pin's eccentricity the inverse of n J dv n is the mass that an impact along n moves.
         """
-        answers: Matrix = (rate @ self.respond(position, rate.T, 0.0)[0]).T
-        return answers
+        return self.instant(position).answers(rate)
+
+
+@dataclass(frozen=True)
+class Instant:
+    """Masses and constraints of one instant, in the plane or in space.
+
+    motion: of that instant. held: the constraints. size: length [m] by which turns count where constraints
+    repeat each other.
+    """
+
+    motion: Motion
+    held: Sequence[Constraint]
+    size: float = 1.0
+
+    @cached_property
+    def rows(self) -> Matrix:
+        """C, (m, n)."""
+        return np.asarray(matrix(self.motion, self.held)[0])
+
+    @cached_property
+    def mass(self) -> Matrix:
+        """M, (n, n)."""
+        bodies = list(self.motion.linkage.bodies.values())
+        if not isinstance(self.motion, SpatialMotion):
+            return np.diag(np.ravel([(body.mass, body.mass, body.inertia) for body in bodies]))
+        found = np.zeros((6 * len(bodies), 6 * len(bodies)))
+        for n, (body, inertia) in enumerate(zip(bodies, inertias(self.motion)[0], strict=True)):
+            found[6 * n : 6 * n + 3, 6 * n : 6 * n + 3] = body.mass * np.eye(3)
+            found[6 * n + 3 : 6 * n + 6, 6 * n + 3 : 6 * n + 6] = inertia
+        return found
+
+    def respond(self, impulse: Matrix, jump: Matrix | float) -> tuple[Matrix, Matrix]:
+        """Change of velocities dv (n,) and impulses L (m,) under impulses b (n,) and a jump c (m,).
+
+        Where rows repeat others, L is the least of all that fit. Of several impulses at once, b (n, k) with c a
+        number: (n, k) and (m, k). At a dead centre dv and L are the least that fit.
+        """
+        shares = self._cancelling()
+        size, count, border = len(self.mass), len(self.rows), shares.shape[1]
+        system = np.zeros((size + count + border, size + count + border))
+        system[:size, :size] = self.mass
+        system[:size, size : size + count] = self.rows.T
+        system[size : size + count, :size] = self.rows
+        system[size : size + count, size + count :] = shares
+        system[size + count :, size : size + count] = shares.T
+        right = np.zeros((len(system), *impulse.shape[1:]))
+        right[:size], right[size : size + count] = impulse, jump
+        try:
+            solution = np.linalg.solve(system, right)
+        except np.linalg.LinAlgError:
+            solution = np.linalg.lstsq(system, right, rcond=None)[0]
+        return solution[:size], solution[size : size + count]
+
+    def _cancelling(self) -> Matrix:
+        """Shares (m, r) with which impulses of rows cancel each other; r = 0 if none repeats others."""
+        counts = np.array([self.size if constraint.kind in TURNS else 1.0 for constraint in self.held])
+        scaled = counts[:, None] * self.rows
+        freedoms = np.arange(scaled.shape[1]) % self.motion.FREEDOMS
+        scaled[:, freedoms >= self.motion.SHIFTS] /= self.size
+        left, values, _ = np.linalg.svd(scaled, full_matrices=len(scaled) > scaled.shape[1])
+        # in space rows repeat each other but for what positions miss the constraints by
+        least = SAME if isinstance(self.motion, SpatialMotion) else REPEATED
+        rank = np.count_nonzero(values > least * values.max(initial=0.0))
+        return np.asarray(left[:, rank:] / counts[:, None])
+
+    def answers(self, rate: Matrix) -> Matrix:
+        """Answer of rates to impulses in them (k, k) [1/kg], see `Kinetics.inverse_mass`; rate: rows (k, n)."""
+        found: Matrix = (rate @ self.respond(rate.T, 0.0)[0]).T
+        return found
+
+
+def bearing_rate(motion: SpatialMotion, bore: BearingEnd, journal: BearingEnd) -> Matrix:
+    """Rows that give the velocity of a journal's middle across its bore, in the bore's axes (2, 6 bodies)."""
+    ends = bore.body, bore.point, journal.body, journal.point
+    axes = [motion.carried(bore.body, frame_of(bore.axis)[:, k])[0].tolist() for k in (0, 1)]
+    across = [Shift("bearings", "", "across_1", *ends, tuple(axis), GROUND) for axis in axes]
+    return np.asarray(matrix(motion, across)[0])
+
+
+def rates(constraints: Iterable[Constraint], speed: Callable[[str], float]) -> Matrix:
+    """Rates of all rows, (m,): of rigid actuators and cranks by name [m/s], [rad/s], else 0."""
+    return np.array(
+        [
+            speed(constraint.name) if constraint.part in ("actuators", "cranks") else 0.0
+            for constraint in constraints
+        ]
+    )
+
+
+def joint_impulses(constraints: Sequence[Constraint], impulses: Matrix) -> dict[str, float]:
+    """Magnitudes of the impulses [N s] of pins and guides among those of all rows, see `Impulse.joints`."""
+    found: dict[str, float] = {}
+    ideal = [constraint.name for constraint in constraints if constraint.kind == "across_1"]
+    for constraint, impulse in zip(constraints, impulses.tolist(), strict=True):
+        if (
+            isinstance(constraint, Shift) and constraint.name in ideal
+        ):  # a loose bearing may be held along its axis
+            name = constraint.name if constraint.part == "slides" else f"pin.{constraint.name}"
+            found[name] = math.hypot(found.get(name, 0.0), impulse)
+    return found
+
+
+def tensor(body: SpatialBody) -> Matrix:
+    """Inertia about the centre of mass at the start, (3, 3) [kg m^2]."""
+    xx, yy, zz, yz, xz, xy = body.inertia
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def inertias(motion: SpatialMotion) -> Matrix:
+    """Inertia of all bodies in the ground's axes, (n, b, 3, 3)."""
+    own = np.array([tensor(body) for body in motion.linkage.bodies.values()])
+    return np.asarray(motion.rotations @ own @ np.swapaxes(motion.rotations, -1, -2))
+
+
+def weight_of(motion: Motion, gravity: Sequence[float]) -> Matrix:
+    """Forces of gravity [m/s^2] on all coordinates, (n, freedoms)."""
+    acting = np.zeros(motion.FREEDOMS)
+    acting[: motion.SHIFTS] = gravity
+    masses = [body.mass for body in motion.linkage.bodies.values()]
+    return np.tile(np.outer(masses, acting).ravel(), (motion.count, 1))
+
+
+def kinetic_energy(motion: Motion) -> Matrix:
+    """Kinetic energy of all bodies (n,) [J]."""
+    found = np.zeros(motion.count)
+    spinning = inertias(motion) if isinstance(motion, SpatialMotion) else None
+    for n, (name, body) in enumerate(motion.linkage.bodies.items()):
+        spin = motion.spin(name)
+        found += 0.5 * body.mass * (motion.centre(name)[1] ** 2).sum(axis=1)
+        if spinning is None:
+            found += 0.5 * body.inertia * spin**2
+        else:
+            found += 0.5 * np.einsum("ni,nij,nj->n", spin, spinning[:, n], spin)
+    return found
+
+
+def gyroscopic(motion: Motion) -> Matrix | float:
+    """Moments omega x J omega of all bodies as forces on all coordinates, (n, freedoms); 0 in the plane."""
+    if not isinstance(motion, SpatialMotion):
+        return 0.0
+    found = np.zeros((motion.count, len(motion.linkage.bodies), 6))
+    momentum = np.einsum("nbij,nbj->nbi", inertias(motion), motion.spins)
+    found[..., 3:] = cross(motion.spins, momentum)
+    return found.reshape(motion.count, -1)
+
+
+def lightness_of(motion: Motion, stand_in: Matrix | float) -> Callable[[Matrix], Matrix]:
+    """What gives M^-1 f for forces f on all coordinates, (n, ..., freedoms); stand_in: added to a plane's M."""
+    bodies: Sequence[Any] = list(motion.linkage.bodies.values())
+    if not isinstance(motion, SpatialMotion):
+        mass = np.ravel([(body.mass, body.mass, body.inertia) for body in bodies]) + stand_in
+        return lambda forces: np.asarray(forces / mass)
+    masses = np.array([body.mass for body in bodies])[:, None]
+    inverse = np.linalg.inv(inertias(motion))
+
+    def lightness(forces: Matrix) -> Matrix:
+        split = forces.reshape(motion.count, -1, len(masses), 6)
+        turned = np.einsum("nbij,nkbj->nkbi", inverse, split[..., 3:])
+        return np.concatenate([split[..., :3] / masses, turned], axis=-1).reshape(forces.shape)
+
+    return lightness
 
 
 def joints_of(linkage: Linkage) -> list[tuple[str, Vector2]]:
     """Bodies with the points at which something is joined to them, the ground among them."""
-    found = [(body, point) for one in linkage.pins.values() for body, point in _ends(one)]
+    found = []
+    for one in linkage.pins.values():
+        found += [(one.first, one.first_point), (one.second, one.second_point)]
     for actuator in linkage.actuators.values():
         found += [(actuator.foot, actuator.foot_point), (actuator.head, actuator.head_point)]
     for slide in linkage.slides.values():
         found += [(slide.body, slide.point), (slide.against, slide.point)]
     return found
-
-
-def _ends(pin: PinPlace) -> list[tuple[str, Vector2]]:
-    return [(pin.first, pin.first_point), (pin.second, pin.second_point)]

@@ -42,7 +42,7 @@ def guide_with_mass(guide: ClearanceGuide, name: str, linkage: Linkage, free: Ki
 
 def _mass(places: Iterable[ContactPlace], free: Kinetics) -> float:
     """The harmonic mean of the effective masses at places of contact in the start posture [kg]."""
-    still, found = np.zeros(3 * len(free.bodies)), []
+    still, found = np.zeros(3 * len(free.linkage.bodies)), []
     for place in places:
         inverse = free.inverse_mass(still, place.rate(free, still))
         along = place.axes(free.linkage)

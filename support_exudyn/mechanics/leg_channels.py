@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import NamedTuple
 
-from support_exudyn.mechanics.channels import OIL, ChannelDefinition, ChannelDefinitions
-from support_exudyn.mechanics.trajectory import LegSeries
+from support_exudyn.mechanics.channels import OIL, ChannelDefinitions, named, table
+from support_exudyn.mechanics.trajectory import LegSeries, Series
 from support_exudyn.model.hydraulics.leg import HydraulicCylinder, HydraulicLeg
 
 PUMP = "pump"  # the name of the pump's channels
@@ -64,25 +64,16 @@ PUMP_VALUES = (
 )
 
 
-def _of_run(context: Any) -> Mapping[str, LegSeries]:
-    """The legs of a run in the plane."""
-    found: Mapping[str, LegSeries] = context.run.legs
-    return found
-
-
-def leg_channels(
-    legs: Mapping[str, HydraulicLeg], pump: bool, known: Callable[[Any], Mapping[str, LegSeries]] = _of_run
-) -> ChannelDefinitions:
-    """The channels of legs by name; pump: whether they share one. known: their series, by what was seen."""
+def leg_channels(legs: Mapping[str, HydraulicLeg], pump: bool) -> ChannelDefinitions:
+    """The channels of legs by name; pump: whether they share one."""
+    known: dict[str, Iterable[LegValue]] = {name: leg_values(model) for name, model in legs.items()}
+    known |= {PUMP: PUMP_VALUES} if pump and legs else {}
     found: ChannelDefinitions = {}
-    for name, model in legs.items():
-        for one in leg_values(model):
-            found[f"{name}.{one.name}"] = _channel(name, one, known)
-    if pump and legs:
-        for one in PUMP_VALUES:
-            found[f"{PUMP}.{one.name}"] = _channel(PUMP, one, known)
+    for name, values in known.items():
+        rows = [(one.name, one.unit, one.meaning, _value(one.name)) for one in values]
+        found |= table(name, OIL, named("legs", name), rows)
     return found
 
 
-def _channel(leg: str, one: LegValue, known: Callable[[Any], Mapping[str, LegSeries]]) -> ChannelDefinition:
-    return ChannelDefinition(one.unit, one.meaning, OIL, lambda context: known(context)[leg].values[one.name])
+def _value(name: str) -> Callable[[LegSeries], Series]:
+    return lambda leg: leg.values[name]

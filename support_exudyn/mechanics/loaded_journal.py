@@ -5,9 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.constraints import constraints_of
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.mechanics.pin_stability import LoadedJournal
-from support_exudyn.mechanics.reactions import HeldJoints, equations
+from support_exudyn.mechanics.reactions import equations
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import Linkage
 
@@ -31,15 +32,8 @@ def loaded_journals(
         forces: on all coordinates (n, 3 bodies) [N], [N m].
     """
     pins = tuple(linkage.pins)
-    held = HeldJoints(
-        tuple(linkage.pins.values()),
-        tuple(linkage.actuators.values()),
-        tuple(linkage.cranks.values()),
-        tuple(linkage.slides.values()),
-        tuple(linkage.gears.values()),
-    )
-    motion = BodyMotion(linkage, position, velocity, np.zeros_like(position))
-    multipliers = equations(motion, held, driven).solve(forces)[1]
+    motion = BodyMotion(linkage, position, velocity)
+    multipliers = equations(motion, constraints_of(linkage), driven).solve(forces)[1]
     first = 2 * pins.index(name)
     sign = 1.0 if journal_is_second else -1.0
     loads = -sign * multipliers[:, first : first + 2]

@@ -79,7 +79,7 @@ def posture(
 
 def turn(closed: Kinetics, position: Matrix, body: str) -> float:
     """Angle by which a body has turned since the start [rad]."""
-    return 0.0 if body == GROUND else float(position[closed.bodies[body].first + 2])
+    return 0.0 if body == GROUND else float(position[closed.first(body) + 2])
 
 
 def laid_out(closed: Kinetics, position: Matrix) -> Linkage:

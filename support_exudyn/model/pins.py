@@ -1,6 +1,6 @@
 """The kinds of pins: ideal, with clearance, and whatever derives from `Pin`. A field of the scenario chooses.
 
-A kind is one class, which answers what every stage asks of a pin; its channels, see `mechanics.pin_channels`;
+A kind is one class, which answers what every stage asks of a pin; its channels, see `mechanics.joint_channels`;
 and what stands for it in the engine, see `formulations.exudyn.scene.scene_builder`.
 """
 

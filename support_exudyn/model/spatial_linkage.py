@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import field
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field, model_validator
 
@@ -101,6 +101,19 @@ class Bearing(Value):
             return f"its points on both bodies are {apart:.3g} m apart"
         turned = math.dist(self.first_axis, self.second_axis)
         return f"its axes on both bodies are tilted by {turned:.3g} rad" if turned > ROUNDING else ""
+
+
+class BearingEnd(NamedTuple):
+    """Bore or journal of a bearing: its body, its middle [m] and its axis, start posture."""
+
+    body: str
+    point: Vector3
+    axis: Vector3
+
+    def centre(self, place: float) -> Vector3:
+        """Centre of a section at a place along the axis [m]."""
+        (x, y, z), (u, v, w) = self.point, self.axis
+        return x + place * u, y + place * v, z + place * w
 
 
 @value

@@ -16,7 +16,7 @@ from support_exudyn.mechanics.acting_loads import add_load, load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.continuation import conditions_of, moved_on
 from support_exudyn.mechanics.drive_acceleration import accelerations
-from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
+from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of, weight_of
 from support_exudyn.mechanics.loaded_journal import loaded_journals
 from support_exudyn.mechanics.pin_stability import (
     LoadedJournal,
@@ -27,7 +27,6 @@ from support_exudyn.mechanics.pin_stability import (
     without_state,
 )
 from support_exudyn.mechanics.postures import posture
-from support_exudyn.mechanics.reactions import weight_of
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.drives.drive import Reciprocating
 from support_exudyn.model.pins import ClearancePin
@@ -203,7 +202,7 @@ class _Way:
         velocity = np.array(
             [self._velocity(at, t) for at, t in zip(position, self.times.tolist(), strict=True)]
         )
-        motion = BodyMotion(linkage, position, velocity, np.zeros_like(position))
+        motion = BodyMotion(linkage, position, velocity)
         forces = weight_of(motion, scenario.gravity) + _loaded(scenario, motion, self.times)
         return loaded_journals(linkage, name, second, position, velocity, self.driven, forces)
 

@@ -10,11 +10,11 @@ from support_exudyn.mechanics.channels import (
     EVERYTHING,
     ChannelDefinition,
     DataNeeds,
-    EvaluationContext,
     chosen,
 )
-from support_exudyn.mechanics.space.determined import UNDETERMINED
-from support_exudyn.mechanics.trajectory import ObservedRun, Series, Trajectory
+from support_exudyn.mechanics.observed_run import ObservedRun
+from support_exudyn.mechanics.reactions import UNDETERMINED
+from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scenario.scenario import Scenario
 
 
@@ -32,19 +32,13 @@ class Channel:
         return not self.meaning.endswith(UNDETERMINED)
 
 
-def evaluated(scenario: Scenario, run: Trajectory | ObservedRun) -> EvaluationContext | ObservedRun:
-    """What the channels of a run are computed from."""
-    return EvaluationContext(scenario.linkage, scenario.gravity, run) if isinstance(run, Trajectory) else run
-
-
-def channels(scenario: Scenario, run: Trajectory | ObservedRun | EvaluationContext) -> dict[str, Channel]:
+def channels(scenario: Scenario, run: ObservedRun) -> dict[str, Channel]:
     """The channels that a scenario asks for, by name; all if the result checks look at all of them."""
-    context = run if isinstance(run, EvaluationContext) else evaluated(scenario, run)
     channel_definitions = (
         scenario.channel_definitions if scenario.solver.result_checks else asked_definitions(scenario)
     )
     return {
-        name: Channel(definition.values(context), definition.unit, definition.meaning)
+        name: Channel(definition.values(run), definition.unit, definition.meaning)
         for name, definition in channel_definitions.items()
     }
 

@@ -10,18 +10,15 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from support_exudyn.mechanics.block_contact import block_places
+from support_exudyn.mechanics.channel_table import Parts, channel_definitions
 from support_exudyn.mechanics.channels import ALL_CHANNELS, ChannelDefinition
 from support_exudyn.mechanics.closing import Conditions
-from support_exudyn.mechanics.contact_places import ContactPlace, contact_places
+from support_exudyn.mechanics.contact_places import ContactPlace, block_places, contact_places
 from support_exudyn.mechanics.continuation import conditions_of
 from support_exudyn.mechanics.initial_eccentricity import eccentric
 from support_exudyn.mechanics.joint_friction import friction_joints
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.mechanics.law_masses import guide_with_mass, lacks_mass, with_mass
-from support_exudyn.mechanics.leg_channels import leg_channels
-from support_exudyn.mechanics.plane_channels import channel_definitions
-from support_exudyn.mechanics.space.channels import channel_definitions as spatial_channel_definitions
 from support_exudyn.model.actuators import (
     ActuatorModel,
     CylinderAndRod,
@@ -298,25 +295,21 @@ class ScenarioData(Value, ABC):
     @cached_property
     def channel_definitions(self) -> dict[str, ChannelDefinition]:
         """All channels that could be asked for, by name."""
+        linkage, legs = self.linkage if self.dimensions == 2 else self.space, self.legs
         if self.dimensions == 3:
-            found = spatial_channel_definitions(
-                self.space, self.clearance_pins, self.compliant_actuators, self.acting_loads, tuple(self.blocks)
-            )
-            sides = {
-                name: self.legs[one.actuator]
-                for name, one in self.space.actuators.items()
-                if one.actuator in self.legs
-            }
-            return found | leg_channels(sides, self.pump is not None, lambda context: context.legs)
+            sides = self.space.actuators.items()
+            legs = {name: legs[one.actuator] for name, one in sides if one.actuator in legs}
         return channel_definitions(
-            self.linkage,
-            self.pins,
-            self.compliant_actuators,
-            self.acting_loads,
-            self.guides,
-            self.legs,
-            self.pump is not None,
-            tuple(self.blocks),
+            linkage,
+            Parts(
+                pins=self.pins,
+                guides=self.guides,
+                oil=self.compliant_actuators,
+                legs=legs,
+                pump=self.pump is not None,
+                loads=self.acting_loads,
+                blocks=tuple(self.blocks),
+            ),
         )
 
     @property

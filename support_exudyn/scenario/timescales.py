@@ -204,7 +204,7 @@ def _running(scenario: ScenarioData, closed: Kinetics) -> float:
     fastest = max(map(abs, speeds.values()), default=0.0)
     if fastest == 0.0:
         return 0.0
-    size = 3 * len(closed.bodies)
+    size = 3 * len(closed.linkage.bodies)
     rates = closed.rates(lambda name: scenario.drive_of(name).initial_speed)
     velocity = closed.respond(np.zeros(size), np.zeros(size), rates)[0]
     return fastest * float(np.hypot(velocity[0::3], velocity[1::3]).max())

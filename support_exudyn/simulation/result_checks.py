@@ -10,7 +10,8 @@ import numpy as np
 
 from support_exudyn.formulations import change_points
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
+from support_exudyn.mechanics.observed_run import Outcome, Trajectory
+from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.contract import Failure
@@ -36,21 +37,12 @@ APART = 1e-4  # [m] that what is joined may be apart
 DRIFTED = "Take a smaller `step` or a smaller `solver.newton_tolerance`."
 
 
-def result_checks(
-    scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel], motion: BodyMotion | None = None
-) -> Failure | None:
-    """The first reason not to believe a run; None if there is none.
-
-    Arguments:
-        channels: all, whatever is asked for.
-        motion: of all bodies, where it is known already.
-    """
-    return next(_reasons(scenario, outcome, channels, motion), None)
+def result_checks(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Failure | None:
+    """The first reason not to believe a run; None if there is none. channels: all, whatever is asked for."""
+    return next(_reasons(scenario, outcome, channels), None)
 
 
-def _reasons(
-    scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel], motion: BodyMotion | None
-) -> Iterator[Failure]:
+def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channel]) -> Iterator[Failure]:
     time = channels["time"].values
     for name, channel in channels.items():
         if not np.isfinite(channel.values).all():
@@ -74,7 +66,7 @@ def _reasons(
     yield from _losses(scenario, outcome, channels)
     yield from _pistons_at_ends(scenario, outcome)
     yield from _slots_left(scenario, outcome)
-    if (gap := joints_apart(scenario, outcome, motion)) is not None and (gap > APART).any():
+    if (gap := joints_apart(scenario, outcome)) is not None and (gap > APART).any():
         first = int(np.argmax(gap > APART))
         reason = f"what is joined is {1e3 * gap.max():.3g} mm apart; allowed: {1e3 * APART:g} mm"
         yield Failure(reason, DRIFTED, float(time[first]), finer=True)
@@ -144,10 +136,9 @@ def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
     run = outcome.trajectory
     if not scenario.valved or not isinstance(run, Trajectory):
         return
-    motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
     for name, cylinder in scenario.valved.items():
         actuator = scenario.linkage.actuators[name]
-        extension = motion.lengthening(actuator)[0] - actuator.start_length
+        extension = run.motion.lengthening(actuator)[0] - actuator.start_length
         reasons = (cylinder.past_end(float(one), name) for one in extension)
         first, reason = next(((n, one) for n, one in enumerate(reasons) if one), (0, ""))
         if reason:
@@ -159,12 +150,11 @@ def _slots_left(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
     run, slides = outcome.trajectory, scenario.linkage.slides.items()
     if not isinstance(run, Trajectory):
         return
-    motion = BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
     for name, slide in slides:
-        beyond = motion.past_ends(slide)
+        beyond = run.motion.past_ends(slide)
         if slide.turns and beyond.any():
             first = int(np.argmax(beyond > 0.0))
-            x, y = 1e3 * motion.place(slide.body, slide.point)[first]
+            x, y = 1e3 * run.motion.place(slide.body, slide.point)[first]
             reason = (
                 f"guides.{name}: its pin leaves the slot at ({x:.4g}, {y:.4g}) mm and goes up to "
                 f"{1e3 * beyond.max():.4g} mm beyond the end; the slot is {1e3 * slide.length:.4g} mm long"
@@ -190,18 +180,17 @@ def turned_over(channels: Mapping[str, Channel]) -> float:
     return sum(float(np.abs(energy - energy[0]).max()) for energy in energies) + float(energies[0][0])
 
 
-def joints_apart(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None = None) -> Series | None:
+def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
     """Largest distance of what ideal pins, rigid actuators and guides hold together, at the records (n,) [m].
 
     That of a crank from where its drive wants it is counted at the size of the linkage.
 
-    None for runs in space. motion: of all bodies, where it is known already.
+    None for runs in space.
     """
     run = outcome.trajectory
     if not isinstance(run, Trajectory):
         return None
-    linkage, time = scenario.linkage, run.time
-    motion = motion or BodyMotion(linkage, run.position, run.velocity, run.acceleration)
+    linkage, time, motion = scenario.linkage, run.time, run.motion
     gaps = np.zeros_like(time)  # squared
     extensions: dict[int, Series] = {}  # of drives, which actuators share
     for name, pin in linkage.pins.items():

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from support_exudyn.formulations.registry import formulation
-from support_exudyn.mechanics.channels import EvaluationContext
-from support_exudyn.scenario.recorded_channels import asked, channels, evaluated
+from support_exudyn.scenario.recorded_channels import asked, channels
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.contract import Failure, Progress, SimulationError, first_line
 from support_exudyn.simulation.memory import check_room
@@ -31,16 +30,14 @@ def single_run(scenario: Scenario, progress: Progress) -> Result:
     try:
         with paused_collector():
             outcome = chosen.run(scenario, progress)
-            context = evaluated(scenario, outcome.trajectory)
-            found = channels(scenario, context)
+            found = channels(scenario, outcome.trajectory)
     except ArithmeticError as error:  # of a law or a drive, where nothing is computed step by step
         raise SimulationError(Failure(first_line(error), UNLAWFUL, 0.0)) from error
     warnings: list[str] = []
     if scenario.solver.result_checks:
-        motion = context.motion if isinstance(context, EvaluationContext) else None
-        if (failure := result_checks(scenario, outcome, found, motion)) is not None:
+        if (failure := result_checks(scenario, outcome, found)) is not None:
             raise SimulationError(failure)
-        warnings = friction_warnings(scenario, outcome, motion)
+        warnings = friction_warnings(scenario, outcome)
     return Result(
         scenario=scenario,
         channels=asked(scenario, found),

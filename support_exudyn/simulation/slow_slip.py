@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.joint_friction import joint_slips
-from support_exudyn.mechanics.trajectory import Outcome, Series, Trajectory
+from support_exudyn.mechanics.observed_run import Outcome, Trajectory
+from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.friction.law import FrictionLaw
 from user_forces.friction.laws import Frictionless
@@ -29,14 +29,14 @@ class _Rubbing(NamedTuple):
     loaded: np.ndarray
 
 
-def friction_warnings(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None) -> list[str]:
-    """A sentence or two for each pin and guide; motion: of all bodies of a plane, where it is known already."""
+def friction_warnings(scenario: Scenario, outcome: Outcome) -> list[str]:
+    """A sentence or two for each pin and guide."""
     time = outcome.trajectory.time
     weights = np.zeros_like(time)  # [s] that each record stands for
     weights[:-1] += 0.5 * np.diff(time)
     weights[1:] += 0.5 * np.diff(time)
     worst: dict[str, tuple[float, str]] = {}  # of all corners or sections of a joint
-    for one in _all_rubbing(scenario, outcome, motion):
+    for one in _all_rubbing(scenario, outcome):
         creep, sentence = _partial(one, weights)
         if sentence and creep > worst.get(one.where, (0.0, ""))[0]:
             worst[one.where] = creep, f"{one.where}: {sentence}"
@@ -62,7 +62,7 @@ def _partial(one: _Rubbing, weights: Series) -> tuple[float, str]:
     )
 
 
-def _all_rubbing(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None) -> Iterator[_Rubbing]:
+def _all_rubbing(scenario: Scenario, outcome: Outcome) -> Iterator[_Rubbing]:
     """Everything whose friction law has no state."""
     run = outcome.trajectory
     for name, place in scenario.contact_places.items():
@@ -73,10 +73,9 @@ def _all_rubbing(scenario: Scenario, outcome: Outcome, motion: BodyMotion | None
     pins, guides = scenario.friction_pins, scenario.friction_guides
     if not isinstance(run, Trajectory) or not (pins or guides):
         return
-    motion = motion or BodyMotion(scenario.linkage, run.position, run.velocity, run.acceleration)
     forces = [np.hypot(*run.ideal_pins[name].T) for name in pins]
     forces += [run.slides[name].max(axis=1) for name in guides]
-    laws, slips = scenario.friction_laws.items(), joint_slips(motion, scenario)
+    laws, slips = scenario.friction_laws.items(), joint_slips(run.motion, scenario)
     for (where, law), slip, force in zip(laws, slips, forces, strict=True):
         if not law.has_state:
             yield _Rubbing(where, law, slip, force > 0.0)

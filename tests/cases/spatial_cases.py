@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from support_exudyn import Body, LinearActuator, Linkage, Machine, PinPlace, Scenario
 from support_exudyn.formulations.exudyn.run import run
 from support_exudyn.formulations.exudyn.space.observation import SpatialObservation
-from support_exudyn.mechanics.trajectory import Outcome
+from support_exudyn.mechanics.observed_run import Outcome
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from user_forces import (
     Ambrosio,
@@ -98,8 +98,8 @@ def momenta(context: SpatialObservation, about: Vector = (0.0, 0.0, 0.0)) -> tup
     linear, angular = np.zeros((2, motion.count, 3))
     for n, body in enumerate(motion.linkage.bodies.values()):
         place = np.array(body.centre) + motion.displacement[:, n] - np.array(about)
-        momentum = body.mass * motion.velocity[:, n]
-        turn, spin = motion.turn[:, n], motion.spin[:, n]
+        momentum = body.mass * motion.centre_velocity[:, n]
+        turn, spin = motion.rotations[:, n], motion.spins[:, n]
         own = np.einsum("nij,jk,nlk,nl->ni", turn, matrix_of(body.inertia), turn, spin)
         linear += momentum
         angular += np.cross(place, momentum) + own

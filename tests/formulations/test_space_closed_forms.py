@@ -67,7 +67,7 @@ def test_a_free_top_keeps_energy_and_momenta(
         return np.linalg.solve(j, -np.cross(w, j @ w))
 
     found = solve_ivp(rate, (0.0, 0.2), spin, rtol=1e-10, atol=1e-12).y[:, -1]
-    own = context.motion.turn[-1, 0].T @ context.motion.spin[-1, 0]
+    own = context.motion.rotations[-1, 0].T @ context.motion.spins[-1, 0]
     np.testing.assert_allclose(own, found, atol=2e-3 * (1.0 + np.linalg.norm(spin)))  # as above
 
 
@@ -145,7 +145,7 @@ def pressed(sections: int, shift: float, tilt: float) -> tuple[np.ndarray, np.nd
         gravity=(0.0, 0.0),
     )
     context, _ = observed(replace(scenario, solver=replace(scenario.solver, sections=sections)))
-    force, moment = context.loads["pin"]
+    force, moment = context.bearing_load("pin")
     return force[0], moment[0]
 
 

@@ -94,18 +94,18 @@ def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
 ) -> None:
     scene = scenario(space, bore, friction, by_depth=False)
     context, _ = observed(replace(scene, duration=6e-3, record_period=RECORDS))
-    force, _ = context.loads["pin"]
+    force, _ = context.bearing_load("pin")
     largest = np.abs(force).max()
     assume(largest > 0.0)
     # Newton's law: the impulse of the first on the second so far
-    velocity = context.motion.velocity[:, context.motion.index("two")]
+    velocity = context.motion.centre("two")[1]
     gained = space.bodies["two"].mass * (velocity - velocity[0])
     impulse = np.concatenate([np.zeros((1, 3)), np.cumsum(force[1:] + force[:-1], axis=0) * 0.5 * RECORDS])
     # the error of the trapezoidal rule over records 5 us apart
     np.testing.assert_allclose(impulse, gained, atol=1e-3 * np.abs(gained).max())
     if not space.bearings["pin"].holds:  # all of it is in the sections
         sign = 1.0 if bore == "first" else -1.0
-        total = sign * sum(section.force for section in context.sections["pin"])
+        total = sign * sum(section.force for section in context.section_forces["pin"])
         np.testing.assert_allclose(force, total, atol=1e-9 * largest)  # rounding
 
 

@@ -349,11 +349,11 @@ def test_what_the_ground_carries_balances_a_load_beside_the_middle() -> None:
     linkage, rolling = context.scene.linkage, 0.0  # moments about x on what stands on the ground [N m]
     for name, bearing in linkage.bearings.items():
         if bearing.first == "ground":
-            force, moment = (part[-1] for part in context.loads[name])
+            force, moment = (part[-1] for part in context.bearing_load(name))
             rolling += moment[0] + np.cross(bearing.first_point, force)[0]
     for name, strut in linkage.actuators.items():
         if strut.foot == "ground":
-            along = context.span(name)[0][-1]
+            along = context.span(name)[-1]
             push = context.actuator_force(name)[-1] * along / np.linalg.norm(along)
             rolling += np.cross(strut.foot_point, push)[0]
     assert rolling == pytest.approx(-0.5 * 4e5, rel=1e-4)  # the weight is in the middle

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, OilColumn, Scenario, SolverSettings, bore_area, ravn_slider_crank
 from support_exudyn.mechanics.channels import EVERYTHING, ChannelDefinition, DataNeeds, chosen
-from support_exudyn.mechanics.trajectory import Trajectory
+from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.scenario.recorded_channels import channels, needs
 from tests.cases.machine_cases import contact, support
 from user_forces import InputError, Value
@@ -139,6 +139,8 @@ def test_what_is_needed_is_enough(name: str) -> None:
 
     integral = np.ones(rows if DataNeeds.INTEGRALS in part else 0)
     run = Trajectory(
+        linkage=linkage,
+        gravity=one.gravity,
         time=np.arange(rows, dtype=float),
         position=motion(DataNeeds.POSITION),
         velocity=motion(DataNeeds.VELOCITY),
@@ -148,7 +150,6 @@ def test_what_is_needed_is_enough(name: str) -> None:
         actuators=named(linkage.actuators, (rows,)),
         cranks={},
         slides={},
-        oil_energy=np.zeros(rows),
         work=integral,
         damping_loss=integral,
         friction_loss=integral,

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin
-from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
+from support_exudyn.mechanics.contact_places import RelativeMotion, journal_arm, series
 from tests.cases.run_cases import paper_contact
 from user_forces import Ambrosio, FrictionLaw, Frictionless, friction_law
 from user_forces.contact import SlipHistory

@@ -19,9 +19,8 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.constraints import constraints_of, turning
 from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.reactions import HeldJoints as HeldParts
-from support_exudyn.mechanics.reactions import matrix, turning
 from tests.cases.run_cases import loose_support, support
 
 STROKE = CubicStep(stroke=0.05, start=0.02, end=0.2)
@@ -32,34 +31,25 @@ def heavy() -> Scenario:
     return support(actuators=cylinders_and_rods(), duration=0.1)
 
 
-def test_rows_are_those_of_one_instant() -> None:
+def test_rows_turn_as_their_bodies_move() -> None:
     linkage = heavy().linkage
     random = np.random.default_rng(1)
     position, velocity = random.normal(scale=0.3, size=(2, 4, 3 * len(linkage.bodies)))
-    motion = BodyMotion(linkage, position, velocity, velocity)
-    held = HeldParts(
-        list(linkage.pins.values()),
-        list(linkage.actuators.values()),
-        list(linkage.cranks.values()),
-        list(linkage.slides.values()),
-    )
-    kinetics = kinetics_of(linkage)
-    here, h = matrix(motion, held), 1e-6
-    np.testing.assert_allclose(here, [kinetics.rows(one) for one in position], atol=1e-13)
+    motion = BodyMotion(linkage, position, velocity)
+    kinetics, h = kinetics_of(linkage), 1e-6
     later, earlier = (
         np.array([kinetics.rows(q + s * h * v) for q, v in zip(position, velocity, strict=True)])
         for s in (1, -1)
     )
     changed = np.einsum("nrk,nk->nr", later - earlier, velocity) / (2.0 * h)
-    np.testing.assert_allclose(turning(motion, held), changed, atol=1e-7)
+    np.testing.assert_allclose(turning(motion, constraints_of(linkage)), changed, atol=1e-7)
 
 
 @pytest.mark.parametrize("speed", [0.0, 5e-324, 1e-200, 1e-7])
 def test_rows_hardly_turn_with_bodies_that_hardly_move(speed: float) -> None:
     linkage = heavy().linkage
-    held = HeldParts(list(linkage.pins.values()), list(linkage.actuators.values()), [], [])
     still = np.zeros((1, 3 * len(linkage.bodies)))
-    found = turning(BodyMotion(linkage, still, still + speed, still), held)
+    found = turning(BodyMotion(linkage, still, still + speed), constraints_of(linkage))
     assert np.abs(found).max() <= 100.0 * speed**2  # of rows that are some metres long
 
 

@@ -13,25 +13,29 @@ from scipy.spatial.transform import Rotation
 
 from support_exudyn import ClearancePin, Scenario, reference_support
 from support_exudyn.formulations.exudyn.space.sections import half_way, lobatto, section_motion, sections
-from support_exudyn.mechanics.space.constraints import (
-    BearingEnd,
-    Constraint,
-    all_rows,
-    frame_of,
-    independent,
-    matrix,
-)
-from support_exudyn.mechanics.space.kinetics import SpatialKinetics, tensor
-from support_exudyn.mechanics.space.motion import (
+from support_exudyn.mechanics.body_motion import (
     UNTURNED,
     SpatialMotion,
-    motion_of,
     parameter_rates,
     rotation,
     turning_matrix,
 )
-from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
-from support_exudyn.model.spatial_linkage import Bearing, SpatialActuator, SpatialBody, SpatialLinkage
+from support_exudyn.mechanics.constraints import (
+    bearing_row,
+    constraints_in_space,
+    frame_of,
+    independent,
+    matrix,
+)
+from support_exudyn.mechanics.kinetics import Instant, gyroscopic, lightness_of, tensor
+from support_exudyn.mechanics.reactions import equations
+from support_exudyn.model.spatial_linkage import (
+    Bearing,
+    BearingEnd,
+    SpatialActuator,
+    SpatialBody,
+    SpatialLinkage,
+)
 from tests.cases.law_cases import NORMAL_LAWS
 from tests.cases.machine_cases import contact
 from user_forces import LankaraniNikravesh, LoadError, NormalLaw
@@ -124,7 +128,7 @@ def coordinate_rates(position: np.ndarray, velocity: np.ndarray) -> np.ndarray:
 
 
 def at(linkage: SpatialLinkage, position: np.ndarray) -> SpatialMotion:
-    return motion_of(linkage, position, np.zeros_like(position))
+    return SpatialMotion(linkage, position[None], np.zeros_like(position)[None])
 
 
 @given(linkage=machines(), state=states())
@@ -132,7 +136,7 @@ def test_rows_are_the_rates_of_what_is_held(
     linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray]
 ) -> None:
     position, velocity = state
-    rows = all_rows(linkage, (), ("k",))
+    rows = constraints_in_space(linkage, (), ("k",))
     shifts = [row for row in rows if not row.kind.startswith("tilt")]
 
     def held(q: np.ndarray) -> np.ndarray:
@@ -178,8 +182,8 @@ def test_tilt_rows_are_the_rates_of_one_axis_in_the_other(
     position, velocity = state
     position[10:] = position[3:7]
     motion = at(linkage, position)
-    tilts = [Constraint("p", "tilt_1"), Constraint("p", "tilt_2")]
-    frame = motion.turn[0, 0] @ frame_of(linkage.bearings["p"].first_axis)
+    tilts = [bearing_row("p", linkage.bearings["p"], kind) for kind in ("tilt_1", "tilt_2")]
+    frame = motion.rotations[0, 0] @ frame_of(linkage.bearings["p"].first_axis)
     drift = np.cross(velocity[9:12] - velocity[3:6], frame[:, 2])
     # turning about the first axis moves z against the second, about the second along the first; rounding
     expected = [-drift @ frame[:, 1], drift @ frame[:, 0]]
@@ -191,11 +195,11 @@ def test_independent_rows_are_as_many_as_the_rank(
     linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], seed: int
 ) -> None:
     motion = at(linkage, state[0])
-    rows = all_rows(linkage, (), ("k",))
+    rows = constraints_in_space(linkage, (), ("k",))
     # all of them twice, in any order: half say nothing new
     order = np.random.default_rng(seed).permutation(2 * len(rows))
     doubled = [(rows + rows)[n] for n in order]
-    kept = independent(doubled, matrix(motion, doubled)[0])
+    kept = [doubled[n] for n in independent(matrix(motion, doubled)[0])]
     values = matrix(motion, rows)[0]
     singular = np.linalg.svd(values / np.linalg.norm(values, axis=1)[:, None], compute_uv=False)
     assume(singular.min() > 1e-4)  # else it is a matter of taste
@@ -208,12 +212,14 @@ def test_reactions_are_the_smallest_that_do_it(
     linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], forces: list[float]
 ) -> None:
     motion = at(linkage, state[0])
-    rows = all_rows(linkage, (), ("k",))
+    rows = constraints_in_space(linkage, (), ("k",))
     doubled = rows + rows
     c = matrix(motion, doubled)[0]
     assume(np.linalg.svd(c[: len(rows)], compute_uv=False).min() > 0.05)
-    found = reactions(motion, doubled, np.array(forces).reshape(1, 2, 6))[0]
-    expected = np.linalg.pinv(c.T) @ np.array(forces)
+    system = equations(motion, doubled, np.zeros((1, 2)))
+    acceleration, multipliers = (found[0] for found in system.solve(np.array([forces])))
+    left = np.array(forces) - Instant(motion, doubled).mass @ acceleration
+    found, expected = multipliers, np.linalg.pinv(c.T) @ left
     # rounding, which a lift of 1e-9 multiplies, of rows with arms of 20 m; measured 2e-6
     np.testing.assert_allclose(found, expected, atol=3e-5)
     np.testing.assert_allclose(found[: len(rows)], found[len(rows) :], atol=3e-5)  # alike what is alike
@@ -224,13 +230,13 @@ def test_response_obeys_momentum_and_constraints(
     linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], impulse: list[float], jump: float
 ) -> None:
     motion = at(linkage, state[0])
-    rows = all_rows(linkage, (), ("k",))
+    rows = constraints_in_space(linkage, (), ("k",))
     c = matrix(motion, rows)[0]
     assume(np.linalg.svd(c, compute_uv=False).min() > 0.05)
-    system = SpatialKinetics(motion, rows)
+    system = Instant(motion, rows)
     change, multipliers = system.respond(np.array(impulse), jump)
     # rounding, of conditions up to 1e5
-    np.testing.assert_allclose(system.mass() @ change + c.T @ multipliers, impulse, atol=1e-9)
+    np.testing.assert_allclose(system.mass @ change + c.T @ multipliers, impulse, atol=1e-9)
     np.testing.assert_allclose(c @ change, np.full(len(rows), jump), atol=1e-9)
 
 
@@ -242,9 +248,12 @@ def test_inertia_forces_are_the_rate_of_momentum(
     linkage = SpatialLinkage(bodies={"a": body})
     w, alpha, turn = np.array(spin), np.array(rate), rotation(p)
     q = np.array([0.0, 0.0, 0.0, *(p - UNTURNED)])
-    motion = motion_of(linkage, q, np.array([0.0, 0.0, 0.0, *parameter_rates(p, w)]))
-    found = inertia_forces(motion, np.array([1.0, 2.0, 3.0, *alpha]).reshape(1, 1, 6))[0, 0]
+    motion = SpatialMotion(linkage, q[None], np.array([[0.0, 0.0, 0.0, *parameter_rates(p, w)]]))
+    acceleration = np.array([1.0, 2.0, 3.0, *alpha])
+    found = Instant(motion, ()).mass @ acceleration + gyroscopic(motion)[0]
     np.testing.assert_allclose(found[:3], [2.0, 4.0, 6.0])
+    light = lightness_of(motion, 0.0)(found[None] - gyroscopic(motion))[0]
+    np.testing.assert_allclose(light, acceleration, atol=1e-12)
     j = tensor(body)
     own = turn.T @ w
     # Euler's equations in the body's axes; rounding
@@ -326,7 +335,7 @@ def test_a_section_has_the_distance_and_the_rate_of_both_its_centres(
     linkage: SpatialLinkage, state: tuple[np.ndarray, np.ndarray], place: float, where: Attachment
 ) -> None:
     position, velocity = state
-    motion = motion_of(linkage, position, coordinate_rates(position, velocity))
+    motion = SpatialMotion(linkage, position[None], coordinate_rates(position, velocity)[None])
     bearing = linkage.bearings["p"]
     ends = (
         BearingEnd("a", bearing.first_point, bearing.first_axis),
@@ -338,7 +347,7 @@ def test_a_section_has_the_distance_and_the_rate_of_both_its_centres(
     assume(np.linalg.norm(axes[0] + axes[1]) > 0.1)
     found = section_motion(motion, *ends, place, where, False)
     x, y, vx, vy, bore_spin, journal_spin = (float(column[0]) for column in found[:6])
-    spins = motion.spin_of("a")[0], motion.spin_of("b")[0]
+    spins = motion.spin("a")[0], motion.spin("b")[0]
     along = axes[0] if where is not Attachment.MIDDLE else sum(axes) / np.linalg.norm(sum(axes))
     assert bore_spin == pytest.approx(spins[0] @ axes[0], abs=1e-12)
     assert journal_spin - bore_spin == pytest.approx((spins[1] - spins[0]) @ along, abs=1e-12)

@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
+from support_exudyn.mechanics.space.motion import SpatialMotion
 
 from support_exudyn import (
     AppliedForce,
@@ -43,7 +44,6 @@ from support_exudyn.files.toml.text import parsed
 from support_exudyn.mechanics.acting_loads import MANY, add_load, largest_forces, load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.space.motion import SpatialMotion
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel, MomentLoad, StretchLoad
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
 from support_exudyn.postprocessing.look import looks

@@ -28,8 +28,8 @@ from support_exudyn import (
     ravn_slider_crank,
     reference_support,
 )
-from support_exudyn.mechanics.space.constraints import frame_of
-from support_exudyn.mechanics.space.kinetics import tensor
+from support_exudyn.mechanics.constraints import frame_of
+from support_exudyn.mechanics.kinetics import tensor
 from support_exudyn.model.drives.drive import CubicStep
 from support_exudyn.model.linkage import bar, check_moments, lumped, pinned, turned_moments
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from support_exudyn.mechanics.space.motion import rotation
+from support_exudyn.mechanics.body_motion import rotation
 from support_exudyn.postprocessing.export.solution_file import euler_parameters
 from support_exudyn.postprocessing.look.poses import strut_axes as along
 from support_exudyn.postprocessing.viewer.view import checked_every, differing_versions

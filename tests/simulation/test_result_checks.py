@@ -23,7 +23,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.formulations.exudyn.run import run
-from support_exudyn.mechanics.trajectory import Outcome, Trajectory
+from support_exudyn.mechanics.observed_run import Outcome, Trajectory
 from support_exudyn.scenario.recorded_channels import Channel, channels
 from support_exudyn.scene.limits import DEEPEST
 from support_exudyn.simulation.result_checks import (

@@ -10,7 +10,9 @@ from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.joint_friction import friction_series
-from support_exudyn.mechanics.trajectory import OilEvent, Series, Trajectory
+from support_exudyn.mechanics.observed_run import Trajectory
+from support_exudyn.mechanics.reactions import joint_forces
+from support_exudyn.mechanics.trajectory import OilEvent, Series
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scene.arrays import LOSSES, MEMORY, Matrix
 from support_exudyn.scene.hydraulics.series import leg_series
@@ -59,7 +61,7 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
     """The run at its records."""
     scenario, linkage, found = model.scenario, model.scenario.linkage, _Records(model, rows)
     needed = needs(scenario)
-    motion = BodyMotion(linkage, found.position, found.velocity, found.acceleration)
+    motion = BodyMotion(linkage, found.position, found.velocity)
     still = np.zeros_like(found.time)
     course = {name: n for n, name in enumerate((*model.drives, *model.valves))}
 
@@ -67,24 +69,8 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         return found.courses[:, course[name], which] if name in course else still
 
     legs = leg_series(model.legs, found.time, _told(model, motion, driven), found.state, oil_events)
-    held, first = found.held, 0
-    pins: dict[str, Series] = {}
-    for name in scenario.held_pins:
-        # rows of pins are second minus first, so that what holds them acts on the second reversed
-        pins[name] = -held[:, first : first + 2]
-        first += 2
+    held = joint_forces(scenario.held.kinetics.constraints, found.held)
     actuators = {name: one.force for name, one in legs.items() if name in linkage.actuators}
-    rigid = [name for name in linkage.actuators if name not in scenario.compliant_actuators]
-    pushed: dict[str, Series] = {}
-    for name in (*rigid, *linkage.cranks):
-        pushed[name] = -held[:, first]
-        first += 1
-    slides: dict[str, Series] = {}
-    for name, slide in scenario.guided_linkage.slides.items():
-        slides[name] = np.zeros((len(held), 2))
-        slides[name][:, : slide.conditions] = np.abs(held[:, first : first + slide.conditions])
-        first += slide.conditions
-    gears = {name: -held[:, first + n] for n, name in enumerate(linkage.gears)}
     wanted = DataNeeds.CONTACTS in needed
     contacts = {
         name: place.series(motion, _memories(model, found, n))
@@ -98,18 +84,19 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
     }
     losses = found.state[:, -LOSSES:]
     return Trajectory(
+        linkage=linkage,
+        gravity=scenario.gravity,
         time=found.time,
         position=found.position,
         velocity=found.velocity,
         acceleration=found.acceleration,
-        ideal_pins=pins,
+        ideal_pins=held["pins"],
         contacts=contacts,
         **friction_series(scenario, dict(zip(scenario.friction_laws, found.friction.T, strict=True))),
-        actuators={**{name: pushed[name] for name in rigid}, **actuators},
-        cranks={name: pushed[name] for name in linkage.cranks},
-        slides=slides,
-        gears=gears,
-        oil_energy=sum((one.energy for one in legs.values()), still),
+        actuators={**held["actuators"], **actuators},
+        cranks=held["cranks"],
+        slides=held["slides"],
+        gears=held["gears"],
         work=losses[:, 2],
         damping_loss=losses[:, 0],
         friction_loss=losses[:, 1],

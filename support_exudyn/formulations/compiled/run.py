@@ -10,8 +10,9 @@ from support_exudyn.formulations.compiled.start import error_weights, first_stat
 from support_exudyn.formulations.statistics.collected import RunStatistics, within_steps
 from support_exudyn.formulations.statistics.steps import OF_STEP
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent, Outcome
+from support_exudyn.mechanics.kinetics import joint_impulses
+from support_exudyn.mechanics.observed_run import Outcome
+from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.hydraulics.inlets import Inlet
 from support_exudyn.scenario.scenario import Scenario
@@ -162,9 +163,8 @@ class _Run:
         """Keep the impulses by which velocities have jumped at t [s]."""
         found = {name: -float(self.room.impulses[row]) for name, row in self.model.driven_rows.items()}
         cranks = {name: found.pop(name) for name in self.scenario.linkage.cranks}
-        rigid = tuple(name for name in self.model.driven_rows if name not in cranks)
-        kinetics = kinetics_of(self.scenario.guided_linkage, self.scenario.held_pins, rigid)
-        joints = kinetics.joint_impulses(self.room.impulses[self.model.order])
+        held = self.scenario.held.kinetics.constraints
+        joints = joint_impulses(held, self.room.impulses[self.model.order])
         self.impulses.append(Impulse(t, found, float(self.report[JUMP_ENERGY]), cranks, joints))
 
 
@@ -256,7 +256,7 @@ def _pressed_through(going: _Run) -> str:
     """The message that a piston is beyond an end of its cylinder where the run stopped; empty: none is."""
     linkage, size = going.scenario.linkage, 3 * len(going.scenario.linkage.bodies)
     position, rates = going.y[None, :size], going.y[None, size : 2 * size]
-    motion = BodyMotion(linkage, position, rates, np.zeros_like(rates))
+    motion = BodyMotion(linkage, position, rates)
     lengths = {name: motion.lengthening(one)[0][0] for name, one in linkage.actuators.items()}
     return past_ends(going.scenario, lengths)
 

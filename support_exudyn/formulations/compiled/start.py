@@ -36,7 +36,7 @@ def _start_sliding(model: Model, y: Vector) -> None:
     """Write the states of friction laws of ideal joints that slide at the start."""
     scenario, count = model.scenario, 3 * model.scene.bodies.size
     still, rates = np.zeros((1, count)), y[count : 2 * count].reshape(1, -1)
-    motion = BodyMotion(scenario.linkage, still, rates, still)
+    motion = BodyMotion(scenario.linkage, still, rates)
     slips = joint_slips(motion, scenario)
     for record, law, slip in zip(model.scene.rubbing, scenario.friction_laws.values(), slips, strict=True):
         if record["state"] >= 0:

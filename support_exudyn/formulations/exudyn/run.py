@@ -4,20 +4,9 @@ It covers every scenario but friction in pins whose forces rigid bodies do not d
 for the others.
 """
 
-from collections.abc import Callable
-from typing import TypeVar
-
 import numpy as np
 
-from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
-from support_exudyn.formulations.exudyn.scene.record_forces import (
-    FOLLOWING,
-    Applied,
-    Following,
-    JointForces,
-    following,
-    with_causes,
-)
+from support_exudyn.formulations.exudyn.scene.record_forces import applied_forces, following
 from support_exudyn.formulations.exudyn.scene.scene import Scene
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.formulations.exudyn.scene.static_equilibrium import find_static_equilibrium
@@ -29,17 +18,16 @@ from support_exudyn.formulations.exudyn.space.scene_builder import build as buil
 from support_exudyn.machines.check.freedoms import FIELDS, repeated
 from support_exudyn.mechanics.acting_loads import load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.channels import DataNeeds
+from support_exudyn.mechanics.channels import FOLLOWING, DataNeeds, with_causes
 from support_exudyn.mechanics.joint_friction import friction_series
-from support_exudyn.mechanics.trajectory import LegSeries, Outcome, Series, Trajectory
+from support_exudyn.mechanics.observed_run import ObservedRun, Outcome, Trajectory
+from support_exudyn.mechanics.reactions import joint_forces
+from support_exudyn.mechanics.trajectory import LegSeries, Series
 from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.contract import Progress
-from user_forces.connector.contact_connector import ContactConnector
 from user_forces.values.value import InputError
 
-EDGES = {"left": 0, "right": -1}  # of bearings in space: the first and the last section
-AnyScene = TypeVar("AnyScene", bound=EngineScene)
 Model = Scene | SpatialScene
 
 
@@ -66,109 +54,67 @@ def check(scenario: Scenario) -> None:
 
 def run(scenario: Scenario, progress: Progress) -> Outcome:
     """Run a scenario. Raises SimulationError if it cannot be finished."""
-    if scenario.dimensions == 3:
-        return _run(build_in_space(scenario), progress, _outcome_in_space)
-    return _run(build(scenario), progress, _outcome)
+    scene, needed = model(scenario), with_causes(needs(scenario))
 
+    def observed(history: History) -> ObservedRun:
+        if isinstance(scene, SpatialScene):
+            return SpatialObservation(scene, history)
+        return trajectory(scene, history, needed)
 
-def _run(scene: AnyScene, progress: Progress, outcome: Callable[[AnyScene, Progress], Outcome]) -> Outcome:
     try:
-        if scene.scenario.start == "settled":
+        if scenario.start == "settled":
             find_static_equilibrium(scene)
-        return outcome(scene, progress)
+        recorder = Recorder(scene, needed, observed)
+        solving = SolverRun(scene, recorder, progress)
+        counts = solving.go()
+        contacts = scene.recorded_contacts()
+        return Outcome(
+            trajectory=observed(recorder.history()),
+            onsets={name: tuple(one.onsets) for name, one in contacts.items()},
+            largest_force={name: one.largest_force for name, one in contacts.items()},
+            largest_force_time={name: one.largest_force_time for name, one in contacts.items()},
+            impulses=tuple(solving.impulses),
+            counts=counts,
+            oil_events=scene.legs.events,
+            statistics=recorder.finished(),
+        )
     finally:
         scene.release()
 
 
-def _outcome(scene: Scene, progress: Progress) -> Outcome:
-    needed = with_causes(needs(scene.scenario))
-    recorder = Recorder(scene, needed, lambda history: trajectory(scene, history, needed))
-    solving = SolverRun(scene, recorder, progress)
-    counts = solving.go()
-    return Outcome(
-        trajectory=trajectory(scene, recorder.history(), needed),
-        onsets={name: tuple(pin.onsets) for name, pin in scene.clearance_joints.items()},
-        largest_force={name: pin.largest_force for name, pin in scene.clearance_joints.items()},
-        largest_force_time={name: pin.largest_force_time for name, pin in scene.clearance_joints.items()},
-        impulses=tuple(solving.impulses),
-        counts=counts,
-        oil_events=scene.legs.events,
-        statistics=recorder.finished(),
-    )
-
-
-def _outcome_in_space(scene: SpatialScene, progress: Progress) -> Outcome:
-    """Run a model in space. Raises SimulationError if it cannot be finished."""
-    recorder = Recorder(scene, needs(scene.scenario), lambda history: SpatialObservation(scene, history))
-    solving = SolverRun(scene, recorder, progress)
-    counts = solving.go()
-    groups = scene.sections.items()
-    edges = {
-        f"{name}.{side}": group[n] for name, group in groups for side, n in EDGES.items() if len(group) > 1
-    }
-    single: dict[str, ContactConnector] = {
-        **edges,
-        **{name: face.contact for name, face in scene.faces.items()},
-    }
-    return Outcome(
-        trajectory=SpatialObservation(scene, recorder.history()),
-        onsets={name: tuple(group[0].whole.onsets) for name, group in groups}
-        | {name: tuple(pin.onsets) for name, pin in single.items()},
-        largest_force={name: group[0].whole.largest_force for name, group in groups}
-        | {name: pin.largest_force for name, pin in single.items()},
-        largest_force_time={name: group[0].whole.largest_force_time for name, group in groups}
-        | {name: pin.largest_force_time for name, pin in single.items()},
-        impulses=tuple(solving.impulses),
-        counts=counts,
-        oil_events=scene.legs.events,
-        statistics=recorder.finished(),
-    )
-
-
 def trajectory(scene: Scene, history: History, needed: DataNeeds) -> Trajectory:
-    """What the records say, in the order of the linkage; what is not needed is left out."""
-    order = np.concatenate([np.arange(item.first, item.first + 3) for item in scene.bodies.values()])
-
-    def ordered(series: Series, part: DataNeeds) -> Series:
-        return series[:, order] if part in needed else series
-
-    position, velocity = (
-        ordered(history.position, DataNeeds.POSITION),
-        ordered(history.velocity, DataNeeds.VELOCITY),
-    )
-    motion = BodyMotion(scene.linkage, position, velocity, np.zeros_like(velocity))
+    """What the records say; what is not needed is left out."""
+    scenario, linkage = scene.scenario, scene.linkage
+    motion, time = BodyMotion(linkage, history.position, history.velocity), history.time
     legs: dict[str, LegSeries] = {}
     if scene.legs.names and DataNeeds.OIL in needed:
-        lengths = {name: motion.lengthening(scene.linkage.actuators[name]) for name in scene.legs.names}
-        legs = scene.legs.series(history.time, lengths, history.legs)
-    compliant_actuators = {name: one.force for name, one in legs.items() if name in scene.linkage.actuators}
-    contacts = {
-        name: scene.places[name].series(motion, history.memory[:, n])
-        for n, name in enumerate(scene.clearance_joints)
-        if DataNeeds.CONTACTS in needed
-    }
-    loads = {
-        name: load_series(load, name, motion, history.time)
-        for name, load in scene.scenario.elements.items()
-        if DataNeeds.LOADS in needed
-    }
-    found = Following(velocity[:, :0], JointForces(), {}, {})
+        lengths = {name: motion.lengthening(linkage.actuators[name]) for name in scene.legs.names}
+        legs = scene.legs.series(time, lengths, history.legs)
+    actuators = {name: one.force for name, one in legs.items() if name in linkage.actuators}
+    places = enumerate(scene.clearance_joints) if DataNeeds.CONTACTS in needed else ()
+    contacts = {name: scene.places[name].series(motion, history.memory[:, n]) for n, name in places}
+    acting = scenario.elements.items() if DataNeeds.LOADS in needed else ()
+    loads = {name: load_series(load, name, motion, time) for name, load in acting}
+    acceleration, held = history.velocity[:, :0], joint_forces((), history.velocity)
+    frictions: dict[str, Series] = {}
     if needed & FOLLOWING:
-        applied = Applied(contacts, compliant_actuators, loads)
-        found = following(scene, motion, history.time, applied, history.deflection)
+        applied = applied_forces(scene, motion, contacts, actuators, loads)
+        acceleration, multipliers, frictions = following(scene, motion, time, applied, history.deflection)
+        held = joint_forces(scenario.held.kinetics.constraints, multipliers)
     return Trajectory(
-        time=history.time,
-        position=position,
-        velocity=velocity,
-        acceleration=found.acceleration,
-        ideal_pins=found.joints.pins,
+        linkage=linkage,
+        gravity=scenario.gravity,
+        time=time,
+        position=history.position,
+        velocity=history.velocity,
+        acceleration=acceleration,
+        ideal_pins=held["pins"],
         contacts=contacts,
-        **friction_series(scene.scenario, found.frictions),
-        actuators={**found.actuators, **compliant_actuators},
-        cranks=found.joints.cranks,
-        slides=found.joints.slides,
-        gears=found.joints.gears,
-        oil_energy=sum((one.energy for one in legs.values()), np.zeros_like(history.time)),
+        **friction_series(scenario, frictions),
+        actuators={**held["actuators"], **actuators},
+        cranks=held["cranks"],
+        slides=held["slides"],
+        gears=held["gears"],
         work=history.work,
         damping_loss=history.damping_loss,
         friction_loss=history.friction_loss,

@@ -11,9 +11,10 @@ import numpy.typing as npt
 
 from support_exudyn.formulations.statistics.ends import between_ends
 from support_exudyn.formulations.statistics.steps import NODES, OF_STEP, add_steps
+from support_exudyn.mechanics.observed_run import ObservedRun
 from support_exudyn.mechanics.time_statistics import COLUMNS, LAST, TimeStatistics
-from support_exudyn.mechanics.trajectory import ObservedRun, Series, Trajectory
-from support_exudyn.scenario.recorded_channels import asked_definitions, evaluated
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.scenario.recorded_channels import asked_definitions
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.timescales import rounded
 
@@ -60,7 +61,7 @@ class RunStatistics:
         self.wanted = {name: one for name, one in asked_definitions(scenario).items() if name != "time"}
         self._steps = StepStatistics(intervals(scenario.duration))
 
-    def add(self, time: Series, run: Trajectory | ObservedRun) -> None:
+    def add(self, time: Series, run: ObservedRun) -> None:
         """Add steps that follow those before.
 
         Arguments:
@@ -69,7 +70,7 @@ class RunStatistics:
         """
         self._steps.add(time, self._values(run))
 
-    def add_ends(self, time: Series, begins: npt.NDArray[np.bool_], run: Trajectory | ObservedRun) -> None:
+    def add_ends(self, time: Series, begins: npt.NDArray[np.bool_], run: ObservedRun) -> None:
         """Add steps of which the ends are known, and follow those before.
 
         Arguments:
@@ -81,11 +82,11 @@ class RunStatistics:
             nodes = {name: np.ravel(between_ends(time, begins, one)[lasting]) for name, one in values.items()}
             self._steps.add((time[:-1, None] + np.diff(time)[:, None] * NODES)[lasting], nodes)
 
-    def _values(self, run: Trajectory | ObservedRun) -> dict[str, Series]:
+    def _values(self, run: ObservedRun) -> dict[str, Series]:
         """The channels at all times but the first (n,); angles go on from the last that has been added."""
-        context, values = evaluated(self._scenario, run), {}
+        values = {}
         for name, definition in self.wanted.items():
-            values[name] = definition.values(context)[1:]
+            values[name] = definition.values(run)[1:]
             if definition.unit == "rad" and not math.isnan(before := self._steps.last(name)):
                 values[name] = values[name] + TURN * round((before - float(values[name][0])) / TURN)
         return values

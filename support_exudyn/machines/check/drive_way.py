@@ -134,7 +134,7 @@ class DriveWay:
     def motion(self) -> BodyMotion:
         """The bodies in all postures."""
         still = np.zeros((len(self.moved), 3 * len(self.linkage.bodies)))
-        return BodyMotion(self.linkage, np.array([one.position for one in self.moved]), still, still)
+        return BodyMotion(self.linkage, np.array([one.position for one in self.moved]), still)
 
     def data(self) -> dict[str, Any]:
         """The way as plain data, SI and radians."""
@@ -344,7 +344,7 @@ def _outputs(conditions: Conditions, drives: tuple[str, ...]) -> dict[str, Matri
     for slide in linkage.slides.values():
         if slide.against == GROUND and slide.body not in rows:
             row = np.zeros(size)
-            first = conditions.kinetics.bodies[slide.body].first
+            first = conditions.kinetics.first(slide.body)
             row[first : first + 2] = math.cos(slide.direction), math.sin(slide.direction)
             rows[slide.body] = row
     return {body: conditions.size * row for body, row in rows.items() if body != own}

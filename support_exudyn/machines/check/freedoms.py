@@ -154,12 +154,11 @@ def movement(conditions: Conditions, moved: Matrix, rates: Matrix) -> Movement:
 
 def _how(conditions: Conditions, place: Matrix, rates: Matrix, body: str) -> str:
     """How a body moves: about a pin, about a point, or along a direction."""
-    item = conditions.kinetics.bodies[body]
-    i, size = item.first, conditions.size
+    i, size = conditions.kinetics.first(body), conditions.size
     speed, spin = rates[i : i + 2], float(rates[i + 2])
     if abs(spin) * size < SEEN * float(np.hypot(*speed)):
         return f"shifts along {math.degrees(math.atan2(speed[1], speed[0])):.4g} degrees"
-    centre = np.array(item.body.centre) + place[i : i + 2]
+    centre = np.array(conditions.linkage.bodies[body].centre) + place[i : i + 2]
     pole = centre + np.array([-speed[1], speed[0]]) / spin
     for name, pin in conditions.linkage.pins.items():
         if body in (pin.first, pin.second):
@@ -286,7 +285,7 @@ def _parallel(one: Places, other: Places) -> bool:
 
 def _across(conditions: Conditions, place: Matrix, line: Places, name: str) -> bool:
     slide = conditions.linkage.slides[name]
-    carried = 0.0 if slide.against == GROUND else place[conditions.kinetics.bodies[slide.against].first + 2]
+    carried = 0.0 if slide.against == GROUND else place[conditions.kinetics.first(slide.against) + 2]
     x, y = _direction(line)
     return bool(
         abs(x * math.cos(slide.direction + carried) + y * math.sin(slide.direction + carried)) < STRAIGHT

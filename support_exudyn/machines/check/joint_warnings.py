@@ -79,7 +79,7 @@ def of_joints(linkage: Linkage, moved: Sequence[Moved]) -> tuple[list[str], list
     if not moved:
         return facts, list(joint_warnings(linkage))
     still = np.zeros((len(moved), 3 * len(linkage.bodies)))
-    motion = BodyMotion(linkage, np.array([one.position for one in moved]), still, still)
+    motion = BodyMotion(linkage, np.array([one.position for one in moved]), still)
     for name, slide in linkage.slides.items():
         facts.append(f"guides.{name}: {moves_along(motion, slide)}")
     moments = {name: max(abs(one.forces.gears[name]) for one in moved) for name in linkage.gears}

@@ -138,7 +138,7 @@ def mobility(linkage: Linkage) -> DegreesOfFreedom:
 
 def _rank(rows: np.ndarray, kinetics: Kinetics) -> int:
     """Rank with turns counted by the path of a point at a typical distance, so that units do not matter."""
-    points = np.array([item.body.centre for item in kinetics.bodies.values()])
+    points = np.array([body.centre for body in kinetics.linkage.bodies.values()])
     points = np.vstack([points, *([pin.first_point] for pin in kinetics.linkage.pins.values())])
     size = max(float(np.ptp(points, axis=0).max()), 1e-9)
     scaled = rows.copy()

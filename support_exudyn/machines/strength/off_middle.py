@@ -29,9 +29,9 @@ from support_exudyn.machines.strength.results import OffMiddle
 from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, RoofStatics
 from support_exudyn.machines.strength.strength_data import StrengthData
 from support_exudyn.machines.strength.used_postures import UsedPosture
-from support_exudyn.mechanics.space.constraints import SAME, Constraint, all_rows, matrix
-from support_exudyn.mechanics.space.kinetics import weight
-from support_exudyn.mechanics.space.motion import COORDINATES, motion_of
+from support_exudyn.mechanics.body_motion import SpatialMotion
+from support_exudyn.mechanics.constraints import SAME, Constraint, constraints_in_space, matrix
+from support_exudyn.mechanics.kinetics import weight_of
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.model.to_space import FILE_KEYS, Width
@@ -65,9 +65,8 @@ class SpatialStatics:
 
     def __init__(self, linkage: SpatialLinkage, canopy: str, height: float) -> None:
         self.linkage, self.canopy, self.height = linkage, canopy, height
-        still = np.zeros(COORDINATES * len(linkage.bodies))
-        self.motion = motion_of(linkage, still, still)
-        self.weight = weight(linkage, (*GRAVITY, 0.0))
+        self.motion = SpatialMotion.at_start(linkage)
+        self.weight = weight_of(self.motion, (*GRAVITY, 0.0))[0]
 
     def roof(self, x: float, z: float) -> Array:
         """What a vertical roof force of 1 N at x, z does to all coordinates (6 bodies,)."""
@@ -89,11 +88,11 @@ class SpatialStatics:
         Raises InputError if the cylinders do not hold the roof force.
         """
         one = self.linkage.actuators
-        driven = [Constraint(name, "actuator") for name in one]
+        driven = [row for row in constraints_in_space(self.linkage, (), one) if row.kind == "actuator"]
         forces = np.array([part.share * pushes[part.actuator] for part in one.values()])
         given = self.weight + roof.force * self.roof(roof.x, aside)
         given = given + matrix(self.motion, driven)[0].T @ forces
-        rows = all_rows(self.linkage, (), ())
+        rows = constraints_in_space(self.linkage)
         c = matrix(self.motion, rows)[0].T
         found = np.linalg.lstsq(c, -given, rcond=None)[0]
         open_ways = null_space(c, rcond=SAME)  # loads that bearings put on each other
@@ -117,7 +116,7 @@ class SpatialStatics:
         """
         rows = [
             row
-            for row in all_rows(self.linkage, (), list(self.linkage.actuators))
+            for row in constraints_in_space(self.linkage, (), self.linkage.actuators)
             if not (row.kind == "tilt_1" and self._on_canopy(row.name))
         ]
         size = max(1.0, *(abs(bound) for limit in limits.values() for bound in limit))

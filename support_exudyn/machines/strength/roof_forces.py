@@ -108,7 +108,7 @@ class RoofStatics:
                 "or it stands in a dead centre, so statics does not give its forces; allowed: machines whose "
                 "driven actuators just hold them"
             )
-        i = kinetics.bodies[canopy].first
+        i = kinetics.first(canopy)
         centre = linkage.bodies[canopy].centre
         press, shift = np.zeros(still.size), np.zeros(still.size)
         arm = self.contact.height - centre[1]

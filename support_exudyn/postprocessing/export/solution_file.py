@@ -21,8 +21,8 @@ from support_exudyn.files.free_memory import available
 from support_exudyn.files.whole_file import check_is_file, whole_file
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.formulations.exudyn.run import Model, model
+from support_exudyn.mechanics.body_motion import UNTURNED, parameter_rates
 from support_exudyn.mechanics.channels import chosen
-from support_exudyn.mechanics.space.motion import UNTURNED, parameter_rates
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.look.poses import WHY, Poses
 from support_exudyn.scenario.scenario import Scenario

@@ -194,7 +194,7 @@ def _guides(drawn: _Posture) -> None:
     axes, kinetics, report, position = drawn.axes, drawn.kinetics, drawn.report, drawn.position
     size, colour, strong = drawn.size, drawn.colour, drawn.strong
     for name, slide in report.linkage.slides.items():
-        turned = 0.0 if slide.against == GROUND else position[kinetics.bodies[slide.against].first + 2]
+        turned = 0.0 if slide.against == GROUND else position[kinetics.first(slide.against) + 2]
         angle = slide.direction + turned
         along = np.array([math.cos(angle), math.sin(angle)])
         across = np.array([-along[1], along[0]])
@@ -231,7 +231,7 @@ def _used(kinetics: Kinetics, report: CheckReport, name: str) -> Iterator[float]
     """Where along its guide something stands in all postures, from where it is at the start [mm]."""
     slide = report.linkage.slides[name]
     for one in (report.start, *(moved for way in report.ways for moved in way.moved)):
-        turned = 0.0 if slide.against == GROUND else one.position[kinetics.bodies[slide.against].first + 2]
+        turned = 0.0 if slide.against == GROUND else one.position[kinetics.first(slide.against) + 2]
         ends = (kinetics.point(one.position, body, slide.point)[0] for body in (slide.body, slide.against))
         x, y = np.subtract(*ends)
         angle = slide.direction + turned
@@ -294,7 +294,7 @@ def _word(axes: Axes, corners: Series, name: str) -> None:
 
 def _load(axes: Axes, kinetics: Kinetics, name: str, load: ActingLoad, size: float) -> None:
     """A spring as a zigzag between its ends, another force as an arrow at its point, in the start posture."""
-    still = np.zeros(3 * len(kinetics.bodies))
+    still = np.zeros(3 * len(kinetics.linkage.bodies))
     if not isinstance(load, Load):
         return
     end = 1e3 * kinetics.point(still, load.body, load.point)[0]

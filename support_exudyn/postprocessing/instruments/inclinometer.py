@@ -15,7 +15,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from support_exudyn.mechanics.space.motion import cross, rotation
+from support_exudyn.mechanics.body_motion import cross, rotation
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.spatial_linkage import SpatialLinkage

@@ -5,11 +5,19 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from support_exudyn.mechanics.body_coordinates import ActuatorItem, CrankItem
 from support_exudyn.model.drives.drive import Drive
 from user_forces.lawful import LawError
 
 Item = TypeVar("Item")
+
+
+@dataclass(frozen=True)
+class HeldItem:
+    """What constraints of the engine hold: a pin, guide, crank or actuator, its object and first multiplier."""
+
+    part: Any
+    object: Any
+    first: int
 
 
 @dataclass
@@ -22,15 +30,15 @@ class DrivenParts:
 
     mbs: Any
     drive: Drive
-    rigid: tuple[ActuatorItem, ...]
-    cranks: tuple[CrankItem, ...]
+    rigid: tuple[HeldItem, ...]
+    cranks: tuple[HeldItem, ...]
     state: tuple[float, float] | None = None
     time: float = math.nan
 
     @property
     def multipliers(self) -> tuple[int, ...]:
         """The multipliers of rigid actuators and cranks."""
-        return (*(item.multiplier for item in self.rigid), *(item.multiplier for item in self.cranks))
+        return tuple(item.first for item in (*self.rigid, *self.cranks))
 
     def moves(self, duration: float) -> bool:
         """Whether anything moves within this time [s]."""
@@ -67,7 +75,7 @@ class DrivenParts:
     def _set(self, extension: float) -> None:
         put = self.mbs.SetObjectParameter
         for rigid in self.rigid:
-            put(rigid.object, "distance", rigid.actuator.start_length + extension)
+            put(rigid.object, "distance", rigid.part.start_length + extension)
         for crank in self.cranks:
             put(crank.object, "offset", extension)
 
@@ -75,8 +83,8 @@ class DrivenParts:
 def by_drive(
     mbs: Any,
     drive_of: Callable[[str], Drive],
-    rigid: Mapping[str, ActuatorItem],
-    cranks: Mapping[str, CrankItem],
+    rigid: Mapping[str, HeldItem],
+    cranks: Mapping[str, HeldItem],
 ) -> tuple[DrivenParts, ...]:
     """All that can be driven, by the drive that it follows; drive_of: gives that of a name."""
     drives: list[Drive] = []

@@ -14,6 +14,7 @@ from exudyn.itemInterface import (
     ObjectGround,
 )
 
+from support_exudyn.formulations.exudyn.scene.driven_parts import HeldItem
 from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.leg_circuit import LegItem
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
@@ -97,6 +98,10 @@ class EngineBuilder(ABC):
             self.marker(actuator.foot, actuator.foot_point),
             self.marker(actuator.head, actuator.head_point),
         ]
+
+    def held_items(self, parts: Mapping[str, Any], objects: Mapping[str, Any]) -> dict[str, HeldItem]:
+        """Items of constraints, from parts of the linkage and objects of the engine by name."""
+        return {name: HeldItem(parts[name], item, self.multiplier(item)) for name, item in objects.items()}
 
     def multiplier(self, item: Any) -> int:
         """The first multiplier of a constraint, once all is assembled."""

@@ -1,15 +1,19 @@
 """The model of a scenario in the engine as the solver sees it, be it in the plane or in space."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import exudyn
+import numpy as np
 
 from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
 from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
+from support_exudyn.mechanics.constraints import Constraint
+from support_exudyn.mechanics.kinetics import Instant, joint_impulses, rates
 from support_exudyn.mechanics.trajectory import Impulse, Series
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.connector.contact_connector import ContactConnector
@@ -17,6 +21,16 @@ from user_forces.contact import ContactForce
 
 INITIAL = exudyn.ConfigurationType.Initial
 CURRENT = exudyn.ConfigurationType.Current
+
+
+@dataclass(frozen=True)
+class BodyItem:
+    """A moving body in the engine: its data, node, object and first coordinate."""
+
+    body: Any
+    node: Any
+    object: Any
+    first: int
 
 
 class EngineScene(ABC):
@@ -32,7 +46,7 @@ class EngineScene(ABC):
     scenario: Scenario
     container: Any
     mbs: Any
-    bodies: Mapping[str, Any]
+    bodies: Mapping[str, BodyItem]
     clearance_joints: Mapping[str, ContactConnector]
     frictions: Mapping[str, JointFriction]
     loads: Mapping[str, LoadItem]
@@ -59,15 +73,55 @@ class EngineScene(ABC):
             parts.move_to(t)
         self.legs.follow(t)
 
+    @property
     @abstractmethod
+    def held(self) -> Sequence[Constraint]:
+        """What holds the bodies; clearance joints and actuators on oil are free."""
+
+    @property
+    @abstractmethod
+    def closed(self) -> Sequence[Constraint]:
+        """What would hold them if all pins were ideal and all actuators rigid."""
+
+    @abstractmethod
+    def instant(self, held: Sequence[Constraint], state: Any = CURRENT) -> Instant:
+        """Masses and some constraints in a state of the engine."""
+
+    @abstractmethod
+    def set_velocities(self, velocities: Series, state: Any = CURRENT) -> None:
+        """Give the bodies velocities, see `Motion.velocities`."""
+
+    def start_moving(self) -> None:
+        """Give the bodies the velocities that the drives have at the start, with ideal pins."""
+        wanted = rates(self.closed, lambda name: self.scenario.drive_of(name).initial_speed)
+        if wanted.any():
+            closed = self.instant(self.closed, INITIAL)
+            before = closed.motion.velocities[0]
+            change, _ = closed.respond(np.zeros_like(before), wanted - closed.rows @ before)
+            self.set_velocities(before + change, INITIAL)
+
     def jump(self, time: float) -> Impulse | None:
         """Give the bodies the velocities that belong to drives whose speed has jumped at a break [s].
 
         With rigid actuators the bodies' velocities jump too, see `kinetics`. Clearance pins and oil columns
         transmit no impulse: their force is finite. None if all that jumps is compliant.
         """
+        wanted = rates(self.held, lambda name: self.scenario.drive_of(name).speed_jump(time))
+        if not wanted.any():
+            return None
+        instant = self.instant(self.held)
+        before, mass = instant.motion.velocities[0], instant.mass
+        change, impulses = instant.respond(np.zeros_like(before), wanted)
+        after = before + change
+        self.set_velocities(after)
+        driven: dict[str, dict[str, float]] = {"actuators": {}, "cranks": {}}
+        for constraint, impulse in zip(self.held, (-impulses).tolist(), strict=True):
+            if constraint.part in driven:
+                driven[constraint.part][constraint.name] = impulse
+        energy = float(0.5 * after @ mass @ after - 0.5 * before @ mass @ before)
+        joints = joint_impulses(self.held, impulses)
+        return Impulse(time, driven["actuators"], energy, driven["cranks"], joints)
 
-    @abstractmethod
     def align(self, time: float) -> float:
         """Give the bodies velocities that the constraints have at a time [s]; work of the drives in it [J].
 
@@ -75,10 +129,20 @@ class EngineScene(ABC):
         it. A short step that follows would make up for it within itself, by accelerations a thousand times too
         large.
         """
+        wanted = rates(self.held, lambda name: self.scenario.drive_of(name).speed(time))
+        instant = self.instant(self.held)
+        before = instant.motion.velocities[0]
+        change, impulses = instant.respond(np.zeros_like(before), wanted - instant.rows @ before)
+        self.set_velocities(before + change)
+        return -float(impulses @ wanted)
 
     @abstractmethod
     def reset_memory(self) -> None:
         """Give every clearance pin the memory that belongs to the initial state of the bodies."""
+
+    def recorded_contacts(self) -> Mapping[str, Any]:
+        """Whose onsets and largest forces are reported, by name."""
+        return self.clearance_joints
 
     def refresh_memory(self, rest: float = 0.0) -> None:
         """Tell every clearance pin that velocities have jumped; contacts that go on go on.

@@ -1,28 +1,28 @@
 """The model of a scenario in the engine, ready for the solver; `scene_builder` makes it."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts
+from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts, HeldItem
 from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.engine_scene import (
     CURRENT,
     INITIAL,
+    BodyItem,
     EngineScene,
 )
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
 from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
-from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.closing import repeated_count
+from support_exudyn.mechanics.constraints import Constraint, constraints_of
 from support_exudyn.mechanics.contact_places import ContactPlace
-from support_exudyn.mechanics.kinetics import Kinetics, Matrix
-from support_exudyn.mechanics.trajectory import Impulse
+from support_exudyn.mechanics.kinetics import Instant, Kinetics, Matrix, kinetics_of
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.connector.contact_connector import ContactConnector
@@ -40,13 +40,13 @@ class Scene(EngineScene):
     container: Any  # owns the system: must live as long as it
     mbs: Any
     bodies: dict[str, BodyItem]
-    ideal_pins: dict[str, IdealItem]
+    ideal_pins: dict[str, HeldItem]
     frictions: dict[str, JointFriction]  # of ideal pins and guides, "pins.NAME" and "guides.NAME"
     clearance_joints: dict[str, ContactConnector]
-    rigid_actuators: dict[str, ActuatorItem]
+    rigid_actuators: dict[str, HeldItem]
     legs: EngineLegs
-    cranks: dict[str, CrankItem]
-    slides: dict[str, SlideItem]
+    cranks: dict[str, HeldItem]
+    slides: dict[str, HeldItem]
     gears: tuple[str, ...]
     loads: dict[str, LoadItem]
     weights: dict[str, Any]  # loads of the engine, by body; none without gravity
@@ -56,12 +56,17 @@ class Scene(EngineScene):
     def kinetics(self) -> Kinetics:
         """Masses and constraints as matrices; clearance pins and oil columns are free."""
         held = self.scenario.guided_linkage
-        return Kinetics(held, self.bodies, tuple(self.ideal_pins), tuple(self.rigid_actuators))
+        return kinetics_of(held, self.ideal_pins, self.rigid_actuators)
 
-    @cached_property
-    def closed_kinetics(self) -> Kinetics:
-        """Masses and constraints as matrices with all pins ideal and all actuators rigid."""
-        return Kinetics(self.linkage, self.bodies, tuple(self.linkage.pins), tuple(self.linkage.actuators))
+    @property
+    def held(self) -> Sequence[Constraint]:
+        """See `EngineScene`."""
+        return self.kinetics.constraints
+
+    @property
+    def closed(self) -> Sequence[Constraint]:
+        """See `EngineScene`."""
+        return constraints_of(self.linkage)
 
     @property
     def repeats(self) -> bool:
@@ -90,47 +95,15 @@ class Scene(EngineScene):
         """Rotation [rad] of a body since the start posture, or its rate, from the vector of all."""
         return 0.0 if body == GROUND else float(coordinates[self.bodies[body].first + 2])
 
-    def start_moving(self) -> None:
-        """Give the bodies the velocities that the drive has at the start, with ideal pins."""
-        if all(drive.initial_speed == 0.0 for drive in self.scenario.drives_in_use):
-            return
-        closed = self.closed_kinetics
+    def instant(self, held: Sequence[Constraint], state: Any = CURRENT) -> Instant:
+        """See `EngineScene`."""
         data = self.mbs.systemData
-        position, velocity = data.GetODE2Coordinates(INITIAL), data.GetODE2Coordinates_t(INITIAL)
-        rates = closed.rates(lambda name: self.scenario.drive_of(name).initial_speed)
-        missing = rates - closed.rows(position) @ velocity
-        change, _ = closed.respond(position, np.zeros_like(velocity), missing)
-        data.SetODE2Coordinates_t(velocity + change, INITIAL)
+        position, velocity = data.GetODE2Coordinates(state), data.GetODE2Coordinates_t(state)
+        return Instant(BodyMotion(self.linkage, position[None], velocity[None]), held, self.kinetics.size)
 
-    def jump(self, time: float) -> Impulse | None:
+    def set_velocities(self, velocities: Matrix, state: Any = CURRENT) -> None:
         """See `EngineScene`."""
-        data, kinetics = self.mbs.systemData, self.kinetics
-        jump = kinetics.rates(lambda name: self.scenario.drive_of(name).speed_jump(time))
-        if not jump.any():
-            return None
-        position, before = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
-        mass = kinetics.mass()
-        change, impulses = kinetics.respond(position, np.zeros_like(before), jump)
-        after = before + change
-        data.SetODE2Coordinates_t(after)
-        driven = (-impulses[kinetics.driven()]).tolist()
-        return Impulse(
-            time,
-            dict(zip(self.rigid_actuators, driven, strict=False)),
-            float(0.5 * (mass * after) @ after - 0.5 * (mass * before) @ before),
-            dict(zip(self.cranks, driven[len(self.rigid_actuators) :], strict=True)),
-            kinetics.joint_impulses(impulses),
-        )
-
-    def align(self, time: float) -> float:
-        """See `EngineScene`."""
-        data, kinetics = self.mbs.systemData, self.kinetics
-        position, before = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
-        rates = kinetics.rates(lambda name: self.scenario.drive_of(name).speed(time))
-        missing = rates - kinetics.rows(position) @ before
-        change, impulses = kinetics.respond(position, np.zeros_like(before), missing)
-        data.SetODE2Coordinates_t(before + change)
-        return -float(impulses @ rates)
+        self.mbs.systemData.SetODE2Coordinates_t(velocities, state)
 
     def spins(self) -> dict[str, float]:
         """See `EngineScene`."""
@@ -160,8 +133,7 @@ class Scene(EngineScene):
         later, earlier = (kinetics.rows(position + h * velocity) for h in (small, -small))
         turning = (earlier - later) @ velocity / (2.0 * small)  # accelerations that the constraints ask for
         owners = kinetics.owners()
-        still = np.zeros((1, velocity.size))
-        motion = BodyMotion(self.linkage, still, velocity[None], still)
+        motion = BodyMotion(self.linkage, np.zeros((1, velocity.size)), velocity[None])
         for friction in self.frictions.values():
             friction.start(motion)
         force = kinetics.weight(self.scenario.gravity)

@@ -25,14 +25,15 @@ from exudyn.itemInterface import (
 
 from support_exudyn.formulations.exudyn.scene.driven_parts import by_drive
 from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
+from support_exudyn.formulations.exudyn.scene.engine_scene import BodyItem
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
 from support_exudyn.formulations.exudyn.scene.load_item import add_load
 from support_exudyn.formulations.exudyn.scene.scene import Scene
-from support_exudyn.mechanics.body_coordinates import ActuatorItem, BodyItem, CrankItem, IdealItem, SlideItem
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
 from support_exudyn.mechanics.joint_friction import FrictionJoint, friction_joints
 from support_exudyn.model.linkage import GROUND, Body, Crank, Gear, Slide
 from support_exudyn.model.pins import ClearancePin, CompliantPin, IdealPin, Pin
+from support_exudyn.model.plane_geometry import minus, rotated
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.connector.item import JointItem, Mount, frame
@@ -75,9 +76,16 @@ class PlaneBuilder(EngineBuilder):
         place = self.linkage.pins[name]
         return [self.marker(place.first, place.first_point), self.marker(place.second, place.second_point)]
 
+    def local(self, body: str, point: Vector2) -> Vector2:
+        """A point of the start posture in a body's own axes, from its centre of mass [m]."""
+        if body == GROUND:
+            return point
+        data = self.linkage.bodies[body]
+        return rotated(minus(point, data.centre), -data.angle)
+
     def new_marker(self, body: str, point: Vector2) -> Any:
         """See `EngineBuilder`."""
-        place = point if body == GROUND else self.bodies[body].local(point)
+        place = self.local(body, point)
         return MarkerBodyRigid(bodyNumber=self.item(body), localPosition=[*place, 0.0])
 
     def place(self, point: Vector2, lateral: float) -> Vector2:
@@ -89,8 +97,8 @@ class PlaneBuilder(EngineBuilder):
         """See `EngineBuilder`."""
         local, turn = point or (0.0, 0.0), 0.0
         if body != GROUND:
-            item = self.bodies[body]
-            local, turn = item.local(point or item.body.centre), -item.body.angle
+            data = self.linkage.bodies[body]
+            local, turn = self.local(body, point or data.centre), -data.angle
         return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=self.item(body), localHT=frame(local, turn)))
 
     @singledispatchmethod
@@ -129,7 +137,7 @@ class PlaneBuilder(EngineBuilder):
     def mount(self, body: str, point: Vector2, axes: float) -> Mount:
         """Where a bore or a journal is, at a point of the start posture, with axes at an angle [rad]."""
         ground = body == GROUND
-        place = point if ground else self.bodies[body].local(point)
+        place = self.local(body, point)
         turn = axes if ground else axes - self.bodies[body].body.angle
         return Mount(self.item(body), frame(place, turn), ground)
 
@@ -218,26 +226,26 @@ class PlaneBuilder(EngineBuilder):
         heavy = linkage.bodies if any(scenario.gravity) else {}
         weights = {name: self.add_weight(name, body) for name, body in heavy.items()}
         mbs.Assemble()
-        data, multiplier = mbs.systemData, self.multiplier
+        data, held = mbs.systemData, self.held_items
         bodies = {
             name: replace(item, first=int(data.GetNodeLTGODE2(item.node)[0]))
             for name, item in self.bodies.items()
         }
-        rigid_actuators = {n: ActuatorItem(linkage.actuators[n], o, multiplier(o)) for n, o in rigid.items()}
-        crank_items = {n: CrankItem(linkage.cranks[n], o, multiplier(o)) for n, o in cranks.items()}
+        rigid_actuators = held(linkage.actuators, rigid)
+        crank_items = held(linkage.cranks, cranks)
         scene = Scene(
             scenario=scenario,
             linkage=linkage,
             container=self.container,
             mbs=mbs,
             bodies=bodies,
-            ideal_pins={name: IdealItem(o, multiplier(o)) for name, o in self.ideal.items()},
+            ideal_pins=held(linkage.pins, self.ideal),
             frictions=frictions,
             clearance_joints={},
             rigid_actuators=rigid_actuators,
             legs=self.join_legs(legs),
             cranks=crank_items,
-            slides={name: SlideItem(o, multiplier(o)) for name, o in slides.items()},
+            slides=held(linkage.slides, slides),
             gears=tuple(linkage.gears),
             loads=loads,
             weights=weights,

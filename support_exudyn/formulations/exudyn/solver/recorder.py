@@ -11,8 +11,9 @@ from support_exudyn.formulations.exudyn.solver.within_steps import RunningIntegr
 from support_exudyn.formulations.statistics.collected import RunStatistics
 from support_exudyn.formulations.statistics.ends import beside_jumps
 from support_exudyn.mechanics.channels import EVERYTHING, DataNeeds
+from support_exudyn.mechanics.observed_run import ObservedRun
 from support_exudyn.mechanics.time_statistics import TimeStatistics
-from support_exudyn.mechanics.trajectory import ObservedRun, Series, Trajectory
+from support_exudyn.mechanics.trajectory import Series
 from user_forces.contact_state import PinMemory
 
 # of a StepEnd after its time
@@ -88,7 +89,7 @@ class Recorder:
         self,
         scene: EngineScene,
         needs: DataNeeds = EVERYTHING,
-        observe: Callable[[History], Trajectory | ObservedRun] | None = None,
+        observe: Callable[[History], ObservedRun] | None = None,
     ) -> None:
         duration = scene.scenario.duration
         # rigid actuators that are held and ideal pins neither work nor lose anything

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from support_exudyn.mechanics.space.constraints import BearingEnd
-from support_exudyn.mechanics.space.kinetics import SpatialKinetics
+from support_exudyn.mechanics.body_motion import SpatialMotion
+from support_exudyn.mechanics.kinetics import bearing_rate
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.loads.falling_block import FallingBlock
-from support_exudyn.model.spatial_linkage import ACROSS
+from support_exudyn.model.spatial_linkage import ACROSS, BearingEnd
 from support_exudyn.model.to_space import at
 from user_forces.connector.contact_connector import ContactConnector
 from user_forces.values.value import Vector3
@@ -38,10 +38,10 @@ class BlockFace:
         reference, point = places(self.block)
         return BearingEnd(self.name, reference, ACROSS), BearingEnd(self.block.body, point, ACROSS)
 
-    def rate(self, kinetics: SpatialKinetics) -> Series:
+    def rate(self, motion: SpatialMotion) -> Series:
         """Rows that give the point's velocity against the block, along the face and across, (2, 6 bodies)."""
         c, s = math.cos(self.block.slope), math.sin(self.block.slope)
-        return np.array([[c, s], [-s, c]]) @ kinetics.bearing_rate(*self.ends)
+        return np.array([[c, s], [-s, c]]) @ bearing_rate(motion, *self.ends)
 
 
 def places(block: FallingBlock) -> tuple[Vector3, Vector3]:

@@ -1,6 +1,7 @@
 """A run in space at its records: motion, contacts, reactions, energies, each computed when it is asked for."""
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -10,66 +11,52 @@ from support_exudyn.formulations.exudyn.solver.recorder import History
 from support_exudyn.formulations.exudyn.space.block_face import BlockFace
 from support_exudyn.formulations.exudyn.space.scene import SpatialScene
 from support_exudyn.formulations.exudyn.space.section_pin import SectionPin
-from support_exudyn.formulations.exudyn.space.sections import SectionMotion, section_motion
+from support_exudyn.formulations.exudyn.space.sections import section_motion
 from support_exudyn.mechanics.acting_loads import add_load, load_series
-from support_exudyn.mechanics.contact_history import RelativeMotion, journal_arm, series
+from support_exudyn.mechanics.body_motion import SpatialMotion, cross
+from support_exudyn.mechanics.contact_places import RelativeMotion, journal_arm, series
 from support_exudyn.mechanics.drive_acceleration import accelerations_of
-from support_exudyn.mechanics.space.accelerations import accelerations
-from support_exudyn.mechanics.space.constraints import TURNS, Constraint, direction_of
-from support_exudyn.mechanics.space.kinetics import inertias, weight
-from support_exudyn.mechanics.space.motion import SpatialMotion, cross, motion_of
-from support_exudyn.mechanics.space.reactions import inertia_forces, reactions
+from support_exudyn.mechanics.kinetics import weight_of
+from support_exudyn.mechanics.observed_run import ObservedRun
+from support_exudyn.mechanics.reactions import bearing_load, equations, push, push_apart
 from support_exudyn.mechanics.trajectory import ContactSeries, LegSeries, LoadSeries, Series
-from support_exudyn.model.linkage import GROUND
 from user_forces.friction.laws import Frictionless
 
 
 @dataclass(frozen=True)
-class SectionSeries:
+class SectionForce:
     """A section of a clearance bearing over time.
 
-    motion: of its journal. contact: depths and forces in the axes of the bore. force: of the bore on the
-    journal (n, 3) [N], ground's axes. point: where it acts (n, 3) [m].
+    contact: depths and forces in the axes of the bore. force: of the bore on the journal (n, 3) [N], ground's
+    axes. point: where it acts (n, 3) [m].
     """
 
-    motion: SectionMotion
     contact: ContactSeries
     force: Series
     point: Series
 
-    @property
-    def eccentricity(self) -> tuple[Series, Series]:
-        """The journal's centre from the bore's, along both axes across (n,) [m]."""
-        return self.motion.x, self.motion.y
 
+class SpatialObservation(ObservedRun):
+    """A finished run. scene: that has been run. history: its records."""
 
-@dataclass(frozen=True)
-class SpatialObservation:
-    """A finished run.
-
-    Arguments:
-        scene: that has been run.
-        history: its records.
-    """
-
-    scene: SpatialScene
-    history: History
-
-    @property
-    def time(self) -> Series:
-        """The time of the records [s]."""
-        return self.history.time
+    def __init__(self, scene: SpatialScene, history: History) -> None:
+        self.scene, self.history = scene, history
+        self.gravity, self.time = scene.gravity, history.time
+        self.work = history.work
+        self.damping_loss, self.friction_loss = history.damping_loss, history.friction_loss
 
     @cached_property
     def motion(self) -> SpatialMotion:
-        """The motion of all bodies; velocities are zero if they have not been kept."""
+        """See `ObservedRun`; velocities are zero if they have not been kept."""
         order, history = self.scene.order, self.history
         position = history.position[:, order]
         velocity = history.velocity[:, order] if history.velocity.shape[1] else np.zeros_like(position)
-        return motion_of(self.scene.linkage, position, velocity)
+        return SpatialMotion(self.scene.linkage, position, velocity)
+
+    # --- contacts ---
 
     @cached_property
-    def sections(self) -> dict[str, list[SectionSeries]]:
+    def section_forces(self) -> Mapping[str, Sequence[SectionForce]]:
         """The sections of every clearance bearing."""
         memories = iter(np.moveaxis(self.history.memory, 1, 0))
         return {
@@ -78,14 +65,18 @@ class SpatialObservation:
         }
 
     @cached_property
-    def faces(self) -> dict[str, ContactSeries]:
-        """The contacts of all falling blocks; forces on the machine, in the ground's axes."""
-        first = sum(map(len, self.scene.sections.values()))
-        memories = np.moveaxis(self.history.memory, 1, 0)[first:]
-        return {
-            name: self._face(face, memory)
-            for (name, face), memory in zip(self.scene.faces.items(), memories, strict=False)
-        }
+    def sections(self) -> Mapping[str, Sequence[ContactSeries]]:
+        """See `ObservedRun`; of bearings in the axes of the bore, of blocks in the ground's."""
+        bearings = {name: [one.contact for one in group] for name, group in self.section_forces.items()}
+        memories = np.moveaxis(self.history.memory, 1, 0)[sum(map(len, self.scene.sections.values())) :]
+        faces = zip(self.scene.faces.items(), memories, strict=False)
+        return {**bearings, **{name: [self._face(face, memory)] for (name, face), memory in faces}}
+
+    def contacts_of(self, place: str) -> Sequence[ContactSeries]:
+        """See `ObservedRun`: a pin has the sections of all its bearings."""
+        bearings = self.scene.linkage.bearings
+        names = [name for name in self.scene.sections if bearings[name].pin == place]
+        return [contact for name in names or [place] for contact in self.sections.get(name, ())]
 
     def _face(self, face: BlockFace, memory: Series) -> ContactSeries:
         (first, reference, _), (second, point, _) = face.ends
@@ -98,13 +89,7 @@ class SpatialObservation:
         found = series(face.block.contact, moving, memory)
         return replace(found, force_x=-s * found.force_y, force_y=c * found.force_y)
 
-    def contacts_of(self, pin: str) -> list[ContactSeries]:
-        """The contacts of all sections of the bearings that make up a clearance pin."""
-        bearings = self.scene.linkage.bearings
-        groups = [group for name, group in self.sections.items() if bearings[name].pin == pin]
-        return [section.contact for group in groups for section in group]
-
-    def _section(self, pin: SectionPin, memory: Series) -> SectionSeries:
+    def _section(self, pin: SectionPin, memory: Series) -> SectionForce:
         bore, journal = pin.ends
         moving = section_motion(self.motion, bore, journal, pin.section.place, pin.item.at, pin.slides)
         relative = RelativeMotion(
@@ -119,173 +104,96 @@ class SpatialObservation:
             plane = np.column_stack([contact.force_x, contact.force_y, np.zeros(self.motion.count)])
             force = np.einsum("nij,nj->ni", moving.axes, plane)
         arm = journal_arm(pin.contact, contact.depth)
-        return SectionSeries(moving, contact, force, moving.centre + arm[:, None] * outward)
+        return SectionForce(contact, force, moving.centre + arm[:, None] * outward)
+
+    # --- loads and oil ---
 
     @cached_property
-    def acting(self) -> dict[str, LoadSeries]:
-        """What acts on the machine besides its weight, by name."""
+    def loads(self) -> Mapping[str, LoadSeries]:  # type: ignore[override]
+        """See `ObservedRun`."""
         acting = self.scene.scenario.elements.items()
         return {name: load_series(load, name, self.motion, self.time) for name, load in acting}
 
     @cached_property
-    def legs(self) -> dict[str, LegSeries]:
-        """Every hydraulic leg over time, and the pump; none if their states are not recorded."""
-        legs = self.scene.legs
+    def legs(self) -> Mapping[str, LegSeries]:  # type: ignore[override]
+        """See `ObservedRun`; none if their states are not recorded."""
+        legs, actuators = self.scene.legs, self.scene.linkage.actuators
         if self.history.legs.shape[1] < legs.states_count:
             return {}
-        motion = {}
-        for name in legs.names:
-            apart, relative = self.span(name)
-            length = np.linalg.norm(apart, axis=1)
-            motion[name] = length, np.einsum("ni,ni->n", apart, relative) / length
+        motion = {name: self.motion.lengthening(actuators[name]) for name in legs.names}
         return legs.series(self.time, motion, self.history.legs)
 
-    @property
-    def oil(self) -> dict[str, LegSeries]:
-        """Every actuator on oil over time."""
-        return {name: self.legs[name] for name in self.scene.legs.names if name in self.legs}
-
-    def span(self, actuator: str) -> tuple[Series, Series]:
-        """The vector from foot to head of an actuator, and its rate, (n, 3) each."""
-        strut = self.scene.linkage.actuators[actuator]
-        foot = self.motion.point(strut.foot, strut.foot_point)
-        head = self.motion.point(strut.head, strut.head_point)
-        return head.position - foot.position, head.velocity - foot.velocity
+    # --- accelerations and reactions ---
 
     @cached_property
-    def accelerations(self) -> Series:
-        """Accelerations of centres and rates of spins of all bodies, (n, b, 6) [m/s^2], [rad/s^2]."""
-        scenario = self.scene.scenario
-        driven = np.zeros((self.motion.count, len(self.scene.rows)))
-        places = [n for n, row in enumerate(self.scene.rows) if row.kind == "actuator"]
-        drives = [scenario.drive_of(self.scene.rows[n].name) for n in places]
-        for place, rates in zip(places, accelerations_of(drives, self.time, scenario.duration), strict=True):
-            driven[:, place] = rates
-        turning = inertia_forces(self.motion, np.zeros_like(self._applied))
-        return accelerations(self.motion, self.scene.rows, driven, self._applied - turning)
+    def _solved(self) -> tuple[Series, Series]:
+        """Accelerations (n, 6 b) and multipliers of all that is held (n, rows), see `reactions`."""
+        scene, scenario = self.scene, self.scene.scenario
+        drives = [
+            scenario.drive_of(constraint.name) for constraint in scene.all_rows if constraint.kind == "actuator"
+        ]
+        driven = np.array(accelerations_of(drives, self.time, scenario.duration))
+        system = equations(self.motion, scene.all_rows, driven.reshape(-1, len(self.time)).T)
+        return system.solve(self._applied)
 
     @cached_property
-    def held(self) -> dict[Constraint, Series]:
-        """Force of everything that is held, (n,) each; see `reactions`."""
-        left = inertia_forces(self.motion, self.accelerations) - self._applied
-        rows = self.scene.all_rows
-        return dict(zip(rows, reactions(self.motion, rows, left).T, strict=True))
+    def acceleration(self) -> Series:  # type: ignore[override]
+        """See `ObservedRun`."""
+        return self._solved[0]
 
     @cached_property
     def _applied(self) -> Series:
-        """Weights and forces of oil, clearance bearings and loads on all bodies, (n, b, 6)."""
-        weights = weight(self.scene.linkage, self.scene.gravity).reshape(1, -1, 6)
-        forces = np.tile(weights, (self.motion.count, 1, 1))
-        for name, oil in self.oil.items():
-            actuator = self.scene.linkage.actuators[name]
-            along, _ = self.span(name)
-            push = oil.force[:, None] * along / np.linalg.norm(along, axis=1)[:, None]
-            self._push(
-                forces, actuator.head, push, self.motion.point(actuator.head, actuator.head_point).position
-            )
-            self._push(
-                forces, actuator.foot, -push, self.motion.point(actuator.foot, actuator.foot_point).position
-            )
-        for name, group in self.sections.items():
+        """Weights and forces of oil, clearance bearings and loads on all coordinates, (n, 6 b)."""
+        forces, linkage = weight_of(self.motion, self.gravity), self.scene.linkage
+        for name, leg in self.legs.items():
+            if name in linkage.actuators:
+                push_apart(forces, self.motion, linkage.actuators[name], leg.force)
+        for name, group in self.section_forces.items():
             bore, journal = self.scene.ends_of(name)
             for section in group:
-                self._push(forces, journal.body, section.force, section.point)
-                self._push(forces, bore.body, -section.force, section.point)
-        for name, contact in self.faces.items():
-            push = np.column_stack([contact.force_x, contact.force_y, np.zeros(self.motion.count)])
-            (block, *_), (body, place, _) = self.scene.faces[name].ends
-            point = self.motion.point(body, place).position
-            self._push(forces, body, push, point)
-            self._push(forces, block, -push, point)
+                push(forces, self.motion, journal.body, section.force, section.point)
+                push(forces, self.motion, bore.body, -section.force, section.point)
+        for name, face in self.scene.faces.items():
+            (contact,) = self.sections[name]
+            force = np.column_stack([contact.force_x, contact.force_y, np.zeros(self.motion.count)])
+            (block, *_), (body, place, _) = face.ends
+            point = self.motion.place(body, place)
+            push(forces, self.motion, body, force, point)
+            push(forces, self.motion, block, -force, point)
         for name, load in self.scene.scenario.elements.items():
-            add_load(forces, self.motion, name, load, self.acting[name])
+            add_load(forces, self.motion, name, load, self.loads[name])
         return forces
 
-    def _push(self, forces: Series, body: str, force: Series, point: Series) -> None:
-        """Add a force on a body (n, 3) at points (n, 3) to the forces on all bodies."""
-        if body == GROUND:
-            return
-        n = self.motion.index(body)
-        centre = np.array(self.scene.linkage.bodies[body].centre) + self.motion.displacement[:, n]
-        forces[:, n, :3] += force
-        forces[:, n, 3:] += cross(point - centre, force)
-
     def actuator_force(self, name: str) -> Series:
-        """Force that pushes an actuator's ends apart (n,) [N]."""
-        return self.legs[name].force if name in self.legs else self.held[Constraint(name, "actuator")]
+        """See `ObservedRun`."""
+        if name in self.legs:
+            return self.legs[name].force
+        rows = [constraint.kind == "actuator" and constraint.name == name for constraint in self.scene.all_rows]
+        return -self._solved[1][:, rows.index(True)]
+
+    @cached_property
+    def _bearing_loads(self) -> dict[str, tuple[Series, Series]]:
+        return {}
 
     def bearing_load(self, name: str) -> tuple[Series, Series]:
         """Force of the first body on the second [N], moment about the bearing's middle [N m], (n, 3) each."""
-        bearing = self.scene.linkage.bearings[name]
-        force, moment = np.zeros((2, self.motion.count, 3))
-        middle = self.motion.point(bearing.second, bearing.second_point).position
-        for row, value in self.held.items() if self._is_held(name) else ():
-            if row.name == name:
-                part = moment if row.kind in TURNS else force
-                part += value[:, None] * direction_of(self.motion, bearing, row.kind)
-        sign = 1.0 if name in self.sections and self.scene.ends_of(name)[1].body == bearing.second else -1.0
-        for section in self.sections.get(name, ()):
-            force += sign * section.force
-            moment += cross(section.point - middle, sign * section.force)
-        return force, moment
+        if name not in self._bearing_loads:
+            bearing, sections = self.scene.linkage.bearings[name], self.section_forces.get(name, ())
+            force, moment = np.zeros((2, self.motion.count, 3))
+            if any(constraint.name == name for constraint in self.scene.all_rows):
+                force, moment = bearing_load(self.motion, self.scene.all_rows, self._solved[1], name)
+            middle = self.motion.place(bearing.second, bearing.second_point)
+            sign = 1.0 if sections and self.scene.ends_of(name)[1].body == bearing.second else -1.0
+            for section in sections:
+                force += sign * section.force
+                moment += cross(section.point - middle, sign * section.force)
+            self._bearing_loads[name] = force, moment
+        return self._bearing_loads[name]
 
-    def _is_held(self, name: str) -> bool:
-        return any(row.name == name for row in self.scene.all_rows)
+    def pin_force(self, name: str) -> Series:
+        """See `ObservedRun`."""
+        return self.bearing_load(name)[0]
 
-    @cached_property
-    def loads(self) -> dict[str, tuple[Series, Series]]:
-        """Force and moment in every bearing, see `bearing_load`."""
-        return {name: self.bearing_load(name) for name in self.scene.linkage.bearings}
-
-    # --- energy ---
-
-    @cached_property
-    def kinetic(self) -> Series:
-        """Kinetic energy [J]."""
-        motion = self.motion
-        mass = np.array([body.mass for body in motion.linkage.bodies.values()])
-        spinning = np.einsum("nbi,nbij,nbj->n", motion.spin, inertias(motion), motion.spin)
-        return np.asarray(0.5 * (np.einsum("b,nbi,nbi->n", mass, motion.velocity, motion.velocity) + spinning))
-
-    @cached_property
-    def potential(self) -> Series:
-        """Potential energy of weight [J], zero in the start posture."""
-        forces = weight(self.scene.linkage, self.scene.gravity).reshape(-1, 6)[:, :3]
-        return np.asarray(-np.einsum("bi,nbi->n", forces, self.motion.displacement))
-
-    @cached_property
-    def stored(self) -> Series:
-        """Energy stored in contacts, oil and loads [J]."""
-        found = np.zeros_like(self.time)
-        for energy in (one.energy for one in self.legs.values()):
-            found = found + energy
-        for load in self.acting.values():
-            found = found + load.stored
-        for face in self.faces.values():
-            found = found + face.stored
-        for group in self.sections.values():
-            for section in group:
-                found = found + section.contact.stored
-        return found
-
-    @property
-    def damping_loss(self) -> Series:
-        """Energy dissipated by damping so far (n,) [J]."""
-        return self.history.damping_loss
-
-    @property
-    def friction_loss(self) -> Series:
-        """Energy dissipated by friction so far (n,) [J]."""
-        return self.history.friction_loss
-
-    @property
-    def work(self) -> Series:
-        """Work of the drives so far (n,) [J]."""
-        return self.history.work
-
-    @cached_property
-    def balance(self) -> Series:
-        """Gain minus work plus loss (n,) [J]."""
-        total = self.kinetic + self.potential + self.stored
-        found: Series = total - total[0] + (self.damping_loss + self.friction_loss) - self.work
-        return found
+    def guide_force(self, name: str) -> Series:
+        """See `ObservedRun`."""
+        return np.array([np.linalg.norm(load, axis=1) for load in self.bearing_load(name)]).T

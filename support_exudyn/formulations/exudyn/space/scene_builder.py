@@ -18,26 +18,25 @@ from exudyn.itemInterface import (
 
 from support_exudyn.formulations.exudyn.scene.driven_parts import by_drive
 from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
+from support_exudyn.formulations.exudyn.scene.engine_scene import BodyItem
 from support_exudyn.formulations.exudyn.scene.load_item import add_load
 from support_exudyn.formulations.exudyn.space.block_face import BlockFace, places
-from support_exudyn.formulations.exudyn.space.scene import SpatialBodyItem, SpatialScene
+from support_exudyn.formulations.exudyn.space.scene import SpatialScene
 from support_exudyn.formulations.exudyn.space.section_pin import SectionJournal, SectionPin, part_of
 from support_exudyn.formulations.exudyn.space.sections import ends, marker_frame, sections
-from support_exudyn.mechanics.body_coordinates import ActuatorItem
-from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg, preloaded_legs
-from support_exudyn.mechanics.space.constraints import (
+from support_exudyn.mechanics.body_motion import UNTURNED, SpatialMotion, parameter_rates
+from support_exudyn.mechanics.constraints import (
     SHIFTS,
-    BearingEnd,
     Kind,
-    all_rows,
+    constraints_in_space,
     frame_of,
     independent,
     matrix,
 )
-from support_exudyn.mechanics.space.motion import COORDINATES, motion_of, parameter_rates
+from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg, preloaded_legs
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.loads.falling_block import FallingBlock
-from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
+from support_exudyn.model.spatial_linkage import Bearing, BearingEnd, SpatialBody, SpatialLinkage
 from support_exudyn.model.to_space import at
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.connector.contact_connector import ContactConnector
@@ -53,8 +52,8 @@ class _SpaceBuilder(EngineBuilder):
         self.linkage = linkage
         self.bodies = {name: self.add_body(body) for name, body in linkage.bodies.items()}
 
-    def add_body(self, body: SpatialBody) -> SpatialBodyItem:
-        rates = parameter_rates(np.array([1.0, 0.0, 0.0, 0.0]), np.array(body.spin))
+    def add_body(self, body: SpatialBody) -> BodyItem:
+        rates = parameter_rates(UNTURNED, np.array(body.spin))
         node = self.mbs.AddNode(
             NodeRigidBodyEP(
                 referenceCoordinates=[*body.centre, 1.0, 0.0, 0.0, 0.0],
@@ -62,7 +61,7 @@ class _SpaceBuilder(EngineBuilder):
             )
         )
         item = self.mbs.AddObject(ObjectRigidBody(mass=body.mass, inertia=body.inertia, nodeNumber=node))
-        return SpatialBodyItem(body, node, item, first=-1)
+        return BodyItem(body, node, item, first=-1)
 
     def centre(self, body: str) -> Vector3:
         return (0.0, 0.0, 0.0) if body == GROUND else self.linkage.bodies[body].centre
@@ -147,10 +146,9 @@ class _SpaceBuilder(EngineBuilder):
         ]
         actuators = linkage.actuators.items()
         held = [name for name, one in actuators if one.actuator not in scenario.compliant_actuators]
-        candidates = all_rows(linkage, list(scenario.clearance_pins), held)
-        still = np.zeros(COORDINATES * len(linkage.bodies))
-        start = motion_of(linkage, still, still)
-        rows = independent(candidates, matrix(start, candidates)[0])
+        candidates = constraints_in_space(linkage, scenario.clearance_pins, held)
+        start = matrix(SpatialMotion.at_start(linkage), candidates)[0]
+        rows = [candidates[n] for n in independent(start)]
         for name, bearing in linkage.bearings.items():
             kinds: set[Kind] = {row.kind for row in rows if row.name == name}
             if kinds:
@@ -172,10 +170,7 @@ class _SpaceBuilder(EngineBuilder):
             name: replace(item, first=int(data.GetNodeLTGODE2(item.node)[0]))
             for name, item in self.bodies.items()
         }
-        rigid_items: dict[str, ActuatorItem] = {
-            name: ActuatorItem(linkage.actuators[name], item, self.multiplier(item))
-            for name, item in rigid.items()
-        }
+        rigid_items = self.held_items(linkage.actuators, rigid)
         scene = SpatialScene(
             scenario=scenario,
             linkage=linkage,

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from support_exudyn.formulations.exudyn.space.sections import Section
-from support_exudyn.mechanics.space.constraints import BearingEnd
+from support_exudyn.model.spatial_linkage import BearingEnd
 from support_exudyn.scenario.solver_settings import SolverSettings
 from user_forces.connector.attachment import Attachment
 from user_forces.connector.contact_connector import ContactConnector, FindMass

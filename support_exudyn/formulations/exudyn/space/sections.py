@@ -13,14 +13,12 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.space.constraints import BearingEnd, frame_of
-from support_exudyn.mechanics.space.motion import SpatialMotion, cross
+from support_exudyn.mechanics.body_motion import SpatialMotion, cross
+from support_exudyn.mechanics.constraints import frame_of
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.spatial_linkage import Bearing
+from support_exudyn.model.spatial_linkage import Bearing, BearingEnd
 from user_forces.connector.attachment import Attachment
 from user_forces.values.value import Vector3
-
-# where the force depends on the distance of both centres, which stands for that across the axis
 
 
 class Section(NamedTuple):
@@ -93,7 +91,7 @@ def section_motion(
     b = motion.point(bore.body, bore.centre(place))
     j = motion.point(journal.body, journal.centre(place))
     displacement, velocity = j.position - b.position, j.velocity - b.velocity
-    bore_spin, journal_spin = motion.spin_of(bore.body), motion.spin_of(journal.body)
+    bore_spin, journal_spin = motion.spin(bore.body), motion.spin(journal.body)
     along, own = axes[:, :, 2], motion.carried(journal.body, journal.axis)
     spin = np.einsum("ni,ni->n", bore_spin, along)
     if at is Attachment.MIDDLE:

@@ -1,0 +1,294 @@
+"""All channels of a linkage by name, in the plane and in space.
+
+Names are the same where they mean the same. A pin or actuator that there are two of in space has the channels
+of each, and under the planar name the force of both, and the mean of lengths and angles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from operator import attrgetter
+from typing import Any
+
+import numpy as np
+
+from support_exudyn.mechanics.acting_loads import load_channels
+from support_exudyn.mechanics.channels import (
+    CONTACT,
+    LOADED,
+    MOTION,
+    OIL,
+    ChannelDefinition,
+    ChannelDefinitions,
+    DataNeeds,
+    Row,
+    named,
+    table,
+)
+from support_exudyn.mechanics.joint_channels import (
+    AXES,
+    IMPACT,
+    TOWARDS,
+    bearing_channels,
+    column,
+    force_channels,
+    guide_channels,
+    pin_channels,
+    sizes,
+)
+from support_exudyn.mechanics.leg_channels import leg_channels
+from support_exudyn.mechanics.observed_run import ObservedRun
+from support_exudyn.mechanics.reactions import UNDETERMINED, Loads
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.guides import Guide, IdealGuide
+from support_exudyn.model.hydraulics.leg import HydraulicLeg
+from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.loads.load import ActingLoad
+from support_exudyn.model.pins import CompliantPin, IdealPin, Pin
+from support_exudyn.model.spatial_linkage import SpatialLinkage
+from user_forces.values.value import InputError
+
+APART = "pushes its ends apart if positive"
+POSITION, VELOCITY, JOINTS = DataNeeds.POSITION, DataNeeds.VELOCITY, DataNeeds.JOINTS
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What a linkage has besides ideal joints and rigid actuators, by name.
+
+    Arguments:
+        pins, guides: all of the plane that are not ideal.
+        oil: actuators of the plane that no constraint holds.
+        legs: actuators of the linkage on oil. pump: whether they share one.
+        loads: what acts on the machine besides its weight.
+        blocks: that fall on the machine.
+    """
+
+    pins: Mapping[str, Pin] = field(default_factory=dict)
+    guides: Mapping[str, Guide] = field(default_factory=dict)
+    oil: Collection[str] = ()
+    legs: Mapping[str, HydraulicLeg] = field(default_factory=dict)
+    pump: bool = False
+    loads: Mapping[str, ActingLoad] = field(default_factory=dict)
+    blocks: Collection[str] = ()
+
+
+def channel_definitions(linkage: Linkage | SpatialLinkage, parts: Parts) -> ChannelDefinitions:
+    """All channels of a linkage by name.
+
+    Raises InputError if two parts have a channel of the same name.
+    """
+    axes = 3 if isinstance(linkage, SpatialLinkage) else 2
+    groups = [
+        {"time": ChannelDefinition("s", "time", DataNeeds.NOTHING, attrgetter("time"))},
+        *(_body(name, linkage, axes) for name in linkage.bodies),
+        *(_point(name, axes) for name in linkage.points),
+        *_actuators(linkage, parts),
+        leg_channels(parts.legs, parts.pump),
+        *_joints(linkage, parts),
+        *(load_channels(name, load) for name, load in parts.loads.items()),
+        *(table(name, CONTACT, named("sections", name), _BLOCK_ROWS) for name in parts.blocks),
+        _energy(parts, axes),
+    ]
+    # a traced centre of mass may have the name of its body, as its place is the same
+    centres = {name for name in linkage.points if _is_centre(linkage, name)}
+    same = {f"{name}.{axis}" for name in centres for axis in AXES}
+    found: ChannelDefinitions = {}
+    for group in groups:
+        if twice := (found.keys() & group.keys()) - same:
+            raise InputError(f"{min(twice)}: two parts have a channel of this name; allowed: names that differ")
+        found |= group
+    return found
+
+
+def _is_centre(linkage: Linkage | SpatialLinkage, name: str) -> bool:
+    """Whether a traced point is the centre of mass of the body of the same name."""
+    point = linkage.points[name]
+    return point.body == name and point.point == linkage.bodies[name].centre
+
+
+def _body(name: str, linkage: Linkage | SpatialLinkage, axes: int) -> ChannelDefinitions:
+    body, towards = linkage.bodies[name], list(zip(AXES[:axes], TOWARDS, strict=False))
+    # in space, velocities follow from the rates of Euler parameters and these
+    velocity, about = (MOTION, " about z") if axes == 3 else (VELOCITY, "")
+    spin = 3 * (axes - 1) * (list(linkage.bodies).index(name) + 1) - 1  # that about z among all velocities
+
+    def centre(run: ObservedRun) -> Series:
+        return np.asarray(body.centre) + run.motion.centre(name)[0]
+
+    places: list[Row] = [
+        (axis, "m", f"centre of mass, {to}", column(k)) for k, (axis, to) in enumerate(towards)
+    ]
+    rates: list[Row] = [
+        (f"velocity_{axis}", "m/s", f"velocity of the centre of mass, {to}", column(k))
+        for k, (axis, to) in enumerate(towards)
+    ]
+    turns: list[Row] = [
+        ("angle", "rad", f"orientation{about} from +x", lambda motion: body.angle + motion.turn(name))
+    ]
+    spins: list[Row] = [("angular_velocity", "rad/s", f"angular velocity{about}", np.asarray)]
+    if axes == 3:
+        turns += [
+            ("roll", "rad", "turn about x, the right side down", lambda motion: motion.turn(name, 0)),
+            ("yaw", "rad", "turn about y, to the left", lambda motion: motion.turn(name, 1)),
+        ]
+        spins = [
+            ("angular_velocity", "rad/s", "angular velocity about z", column(2)),
+            ("angular_velocity_x", "rad/s", "angular velocity about x", column(0)),
+            ("angular_velocity_y", "rad/s", "angular velocity about y", column(1)),
+        ]
+    turning: list[Row] = [("angular_acceleration", "rad/s^2", f"angular acceleration{about}", column(spin))]
+    return {
+        **table(name, POSITION, centre, places),
+        **table(name, velocity, lambda run: run.motion.centre(name)[1], rates),
+        **table(name, POSITION, attrgetter("motion"), turns),
+        **table(name, velocity, lambda run: run.motion.spin(name), spins),
+        **table(name, DataNeeds.ACCELERATION, attrgetter("acceleration"), turning),
+    }
+
+
+def _point(name: str, axes: int) -> ChannelDefinitions:
+    rows: list[Row] = [(AXES[k], "m", f"position, {TOWARDS[k]}", column(k)) for k in range(axes)]
+    return table(name, POSITION, lambda run: run.path(name), rows)
+
+
+# --- actuators ---
+
+
+def _actuator(name: str, oil: bool, axes: int) -> ChannelDefinitions:
+    angle = f"direction from foot to head{' in the plane,' if axes == 3 else ','} from +x"
+    rows: list[Row] = [
+        ("angle", "rad", angle, lambda span: np.arctan2(span[:, 1], span[:, 0])),
+        ("length", "m", "distance of its ends", sizes),
+    ]
+    force: list[Row] = [("force", "N", APART, lambda run: run.actuator_force(name))]
+    found = table(name, POSITION, lambda run: run.span(name), rows)
+    return found | table(name, OIL if oil else JOINTS, lambda run: run, force)
+
+
+def _actuators(linkage: Linkage | SpatialLinkage, parts: Parts) -> Iterable[ChannelDefinitions]:
+    if isinstance(linkage, SpatialLinkage):
+        yield from _actuators_in_space(linkage, parts)
+        return
+    yield from (_actuator(name, name in parts.oil, 2) for name in linkage.actuators)
+
+
+def _actuators_in_space(linkage: SpatialLinkage, parts: Parts) -> Iterable[ChannelDefinitions]:
+    loads = _loads_of(linkage, parts)
+    single: ChannelDefinitions = {}
+    for name, actuator in linkage.actuators.items():
+        single |= _marked(_actuator(name, actuator.actuator in parts.oil, 3), ".force", loads.actuators([name]))
+    yield single
+    for whole in dict.fromkeys(actuator.actuator for actuator in linkage.actuators.values()):
+        each = linkage.parts_of_actuator(whole)
+        if each != (whole,):
+            pair = _together(whole, each, single, "angle", np.mean, "direction from foot to head, mean of both")
+            pair |= _together(whole, each, single, "length", np.mean, "distance of its ends, mean of both")
+            pair |= _together(whole, each, single, "force", np.sum, f"{APART}, both together")
+            yield _marked(pair, ".force", loads.actuators(each))
+
+
+def _together(
+    whole: str, parts: Iterable[str], known: ChannelDefinitions, what: str, unite: Any, meaning: str
+) -> ChannelDefinitions:
+    """A channel of a pair, from those of each."""
+    each = [known[f"{part}.{what}"] for part in parts]
+
+    def united(run: ObservedRun) -> Series:
+        return np.asarray(unite([one.values(run) for one in each], axis=0))
+
+    return table(whole, each[0].needs, lambda run: run, [(what, each[0].unit, meaning, united)])
+
+
+# --- joints ---
+
+
+def _joints(linkage: Linkage | SpatialLinkage, parts: Parts) -> Iterable[ChannelDefinitions]:
+    if isinstance(linkage, SpatialLinkage):
+        yield from _joints_in_space(linkage, parts)
+        return
+    of_crank: list[Row] = [("moment", "N m", "of the drive on the crank", np.asarray)]
+    of_gear: list[Row] = [("moment", "N m", "of the gear on its second body", np.asarray)]
+    yield from (table(name, JOINTS, named("cranks", name), of_crank) for name in linkage.cranks)
+    for name, slide in linkage.slides.items():
+        yield guide_channels(parts.guides.get(name, IdealGuide()), name, slide)
+    yield from (table(name, JOINTS, named("gears", name), of_gear) for name in linkage.gears)
+    for name, place in linkage.pins.items():
+        pin = parts.pins.get(name, IdealPin())
+        if isinstance(pin, CompliantPin):  # its channels are those of its loads
+            for load_name, load in pin.named_loads(name, place).items():
+                yield load_channels(load_name, load, f"pin.{name}")
+        else:
+            yield pin_channels(pin, name)
+
+
+def _joints_in_space(linkage: SpatialLinkage, parts: Parts) -> Iterable[ChannelDefinitions]:
+    loads, loose = _loads_of(linkage, parts), _loose(parts)
+    for name, bearing in linkage.bearings.items():
+        channels = bearing_channels(name, with_clearance=bearing.pin in loose, is_guide=bearing.is_guide)
+        yield _marked(_marked(channels, ".force", loads.forces([name])), ".moment", loads.moment(name))
+    for pin in dict.fromkeys(b.pin for b in linkage.bearings.values() if not b.is_guide):
+        each = tuple(linkage.parts_of_pin(pin))
+        if each != (pin,):
+            together = force_channels(pin, JOINTS, _sum_of_bearings(each), axes=3)
+            yield _marked(together, ".force", loads.forces(each))
+
+
+def _loose(parts: Parts) -> list[str]:
+    return [name for name, pin in parts.pins.items() if not pin.holds]
+
+
+def _loads_of(linkage: SpatialLinkage, parts: Parts) -> Loads:
+    return Loads(linkage, _loose(parts), parts.oil)
+
+
+def _sum_of_bearings(parts: Iterable[str]) -> Callable[[ObservedRun], Series]:
+    return lambda run: np.asarray(np.sum([run.pin_force(part) for part in parts], axis=0))
+
+
+def _marked(channels: ChannelDefinitions, what: str, determined: bool) -> ChannelDefinitions:
+    """Channels, those whose names go on with `what` marked if rigid bodies do not determine them."""
+    if determined:
+        return channels
+    return {
+        name: replace(one, meaning=one.meaning + UNDETERMINED) if what in name else one
+        for name, one in channels.items()
+    }
+
+
+# --- loads and energy ---
+
+
+_BLOCK_ROWS: tuple[Row, ...] = (
+    ("force", "N", "of the block, along the normal of its face", lambda faces: faces[0].normal_force),
+    ("gap", "m", "between block and point, along that normal; negative: depth", lambda faces: -faces[0].depth),
+    ("impact_velocity", "m/s", f"{IMPACT}; 0 during separation", lambda faces: faces[0].impact_velocity),
+)
+
+
+def _energy(parts: Parts, axes: int) -> ChannelDefinitions:
+    loaded, pumped = bool(parts.loads), bool(parts.legs)
+    movers = ["the drives" if loaded else "the drive"] + ["pumps"] * pumped + ["what moves loads"] * loaded
+    lost = "damping" + " and valves" * pumped
+    places = "contacts, oil and loads" if loaded else "contacts and oil"
+    compliant = not all(pin.holds for pin in parts.pins.values()) or bool(parts.guides) or bool(parts.blocks)
+    gives_way = any(isinstance(pin, CompliantPin) for pin in parts.pins.values())
+    stored = DataNeeds.NOTHING
+    for there, part in ((compliant, CONTACT), (bool(parts.oil), OIL), (loaded or gives_way, LOADED)):
+        stored |= part if there else DataNeeds.NOTHING
+    integrals, moving = DataNeeds.INTEGRALS, MOTION if axes == 3 else VELOCITY
+    balance = "gain minus work plus loss; zero if computed exactly"
+    rows: dict[str, tuple[DataNeeds, str, str]] = {
+        "kinetic": (moving, "kinetic energy of all bodies", "kinetic"),
+        "potential": (POSITION, "of weight, zero in the machine's start posture", "potential"),
+        "elastic": (stored, f"stored in {places}", "stored"),
+        "damping_loss": (integrals, f"dissipated by {lost} in {places} so far", "damping_loss"),
+        "friction_loss": (integrals, "dissipated by friction so far", "friction_loss"),
+        "work": (integrals, f"work of {' and of '.join(movers)} so far", "work"),
+        "balance": (MOTION | stored | integrals, balance, "balance"),
+    }
+    return {
+        f"energy.{name}": ChannelDefinition("J", meaning, needs, attrgetter(what))
+        for name, (needs, meaning, what) in rows.items()
+    }

@@ -1,0 +1,252 @@
+"""What joints hold, as rows of a matrix: rates of what is held from the velocities of all bodies.
+
+In the plane and in space there are three kinds of rows only:
+
+- `Distance` of two points: a rigid actuator,
+- `Shift` of a point of the second body from one of the first, along a direction: pins, bearings and guides,
+- `Turn` of bodies about a direction, each by its share: guides, bearings, cranks and gears.
+
+Machines are often held more than they need: the second of two parallel links, or a fourth actuator under a
+rigid canopy, repeats other rows. `independent` leaves such rows out, by which no motion changes. How loads are
+shared among rows that repeat each other is beyond rigid bodies; see `reactions`.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Collection, Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache, lru_cache
+from typing import Any, Literal
+
+import numpy as np
+
+from support_exudyn.mechanics.body_motion import Motion, cross
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.model.linkage import GROUND, Gear, LinearActuator, Linkage, PinPlace, Slide
+from support_exudyn.model.plane_geometry import rotated
+from support_exudyn.model.spatial_linkage import Bearing, SpatialActuator, SpatialLinkage
+from user_forces.values.value import Vector3
+
+SAME = 1e-6  # share of a row that must be new, else it repeats others
+SHIFT = 1e-5  # [m], [rad] by which bodies move on, at most, to compute how rows turn with them
+STILL = 1e-6  # [m/s], [rad/s] below which they move on by less: what is left then is far below rounding
+Kind = Literal["actuator", "across_1", "across_2", "along", "tilt_1", "tilt_2", "turn"]
+SHIFTS: tuple[Kind, ...] = ("across_1", "across_2", "along")
+TURNS: tuple[Kind, ...] = ("tilt_1", "tilt_2", "turn")  # what holds turns about directions, not shifts
+FindArm = Callable[[str, Any], Series]
+
+
+@dataclass(frozen=True)
+class Constraint(ABC):
+    """One constraint.
+
+    part: field of the linkage that has its joint, such as "pins". name: of the joint. kind: what it holds.
+    """
+
+    part: str
+    name: str
+    kind: Kind
+
+    @abstractmethod
+    def fill(self, motion: Motion, arm: FindArm, row: Series) -> None:
+        """Add the rate of what is held to a row of zeros (n, freedoms). arm: see `Motion.arm`."""
+
+
+@dataclass(frozen=True)
+class Distance(Constraint):
+    """The distance of foot and head of an actuator."""
+
+    ends: LinearActuator | SpatialActuator
+
+    def fill(self, motion: Motion, arm: FindArm, row: Series) -> None:
+        """See `Constraint`."""
+        along, ends = direction(motion, self.ends), self.ends
+        _add_point(motion, ends.head, arm(ends.head, ends.head_point), along, row)
+        _add_point(motion, ends.foot, arm(ends.foot, ends.foot_point), -along, row)
+
+
+@dataclass(frozen=True)
+class Shift(Constraint):
+    """A point of the second body from one of the first along a direction, which turns with the carrier."""
+
+    first: str
+    first_point: Any
+    second: str
+    second_point: Any
+    direction: tuple[float, ...]
+    carrier: str
+
+    def fill(self, motion: Motion, arm: FindArm, row: Series) -> None:
+        """See `Constraint`."""
+        along = motion.carried(self.carrier, self.direction)
+        _add_point(motion, self.second, arm(self.second, self.second_point), along, row)
+        _add_point(motion, self.first, arm(self.first, self.first_point), -along, row)
+        if self.carrier != GROUND:
+            apart = motion.place(self.second, self.second_point) - motion.place(self.first, self.first_point)
+            _add_turn(motion, self.carrier, motion.moment(along, apart), row)
+
+
+@dataclass(frozen=True)
+class Turn(Constraint):
+    """The sum of the turns of bodies, each times its share, about a direction that turns with the carrier.
+
+    In the plane it has no direction, and no carrier is needed.
+    """
+
+    shares: tuple[tuple[str, float], ...]
+    direction: tuple[float, ...] = ()
+    carrier: str = GROUND
+
+    def fill(self, motion: Motion, arm: FindArm, row: Series) -> None:
+        """See `Constraint`."""
+        del arm
+        about = motion.carried(self.carrier, self.direction) if self.direction else np.ones((motion.count, 1))
+        for body, share in self.shares:
+            _add_turn(motion, body, share * about, row)
+
+
+def direction(motion: Motion, actuator: LinearActuator | SpatialActuator) -> Series:
+    """The unit vector from foot to head of an actuator (n, d)."""
+    span = motion.span(actuator)
+    return np.asarray(span / np.linalg.norm(span, axis=1)[:, None])
+
+
+def _add_point(motion: Motion, body: str, arm: Series, along: Series, row: Series) -> None:
+    """Add the rate of a point of a body in a direction (n, d)."""
+    if body != GROUND:
+        i = motion.first(body)
+        row[:, i : i + motion.SHIFTS] += along
+        row[:, i + motion.SHIFTS : i + motion.FREEDOMS] += motion.moment(arm, along)
+
+
+def _add_turn(motion: Motion, body: str, about: Series, row: Series) -> None:
+    """Add the angular velocity of a body about a direction (n, 1 or 3)."""
+    if body != GROUND:
+        i = motion.first(body)
+        row[:, i + motion.SHIFTS : i + motion.FREEDOMS] += about
+
+
+def matrix(motion: Motion, held: Sequence[Constraint]) -> Series:
+    """C: the rows of all that is held at every instant, (n, rows, freedoms)."""
+    found = np.zeros((motion.count, len(held), motion.FREEDOMS * len(motion.linkage.bodies)))
+    arm = cache(motion.arm)  # the rows of a joint ask for the same
+    for place, constraint in enumerate(held):
+        constraint.fill(motion, arm, found[:, place])
+    return found
+
+
+def turning(motion: Motion, held: Sequence[Constraint]) -> Series:
+    """C' v at every instant, (n, rows): by how much the rows change as the bodies move on."""
+    velocities = motion.velocities
+    time = SHIFT / np.maximum(np.abs(velocities).max(axis=1, initial=0.0), STILL)
+    changed = matrix(motion.later(time), held) - matrix(motion.later(-time), held)
+    found: Series = np.einsum("nrk,nk->nr", changed, velocities) / (2.0 * time)[:, None]
+    return found
+
+
+def independent(rows: Series) -> list[int]:
+    """Indices of rows (m, k) that say something that those before them do not.
+
+    Rotations count as shifts at 1 m.
+    """
+    basis: list[Series] = []
+    kept = []
+    for n, row in enumerate(rows):
+        rest = row / np.linalg.norm(row)
+        for _ in range(2):  # twice is enough for orthogonality to rounding
+            for known in basis:
+                rest = rest - (known @ rest) * known
+        length = float(np.linalg.norm(rest))
+        if length > SAME:
+            basis.append(rest / length)
+            kept.append(n)
+    return kept
+
+
+def joints_held(held: Sequence[Constraint]) -> dict[tuple[str, str], slice]:
+    """The rows of every joint, by the field of the linkage and its name; they stand together in the plane."""
+    owners = [(constraint.part, constraint.name) for constraint in held]
+    return {owner: slice(owners.index(owner), owners.index(owner) + owners.count(owner)) for owner in owners}
+
+
+# --- in the plane ---
+
+
+def constraints_of(
+    linkage: Linkage, ideal: Iterable[str] | None = None, rigid: Iterable[str] | None = None
+) -> list[Constraint]:
+    """What is held in the plane: rows of pins (two each), rigid actuators, cranks, guides (one or two), gears.
+
+    ideal, rigid: names of the pins that are closed, and of the actuators that are rigid; all by default.
+    """
+    pins, actuators = linkage.pins if ideal is None else ideal, linkage.actuators if rigid is None else rigid
+    found = [row for name in pins for row in pin(name, linkage.pins[name])]
+    found += [Distance("actuators", name, "actuator", linkage.actuators[name]) for name in actuators]
+    found += [Turn("cranks", name, "turn", ((one.body, 1.0),)) for name, one in linkage.cranks.items()]
+    found += [row for name, one in linkage.slides.items() for row in _guide(name, one)]
+    return found + [_gear(name, one) for name, one in linkage.gears.items()]
+
+
+def pin(name: str, place: PinPlace) -> list[Constraint]:
+    """A pin of the plane: its centre on the second body against that on the first, forward and up."""
+    ends = place.first, place.first_point, place.second, place.second_point
+    return [
+        Shift("pins", name, "across_1", *ends, direction=(1.0, 0.0), carrier=GROUND),
+        Shift("pins", name, "across_2", *ends, direction=(0.0, 1.0), carrier=GROUND),
+    ]
+
+
+def _guide(name: str, slide: Slide) -> list[Constraint]:
+    """A guide: distance of its point from the line, which may turn, and the angle of a block."""
+    ends = slide.against, slide.point, slide.body, slide.point
+    across = rotated((0.0, 1.0), slide.direction)
+    rows: list[Constraint] = [
+        Shift("slides", name, "across_1", *ends, direction=across, carrier=slide.against),
+        Turn("slides", name, "turn", ((slide.body, 1.0), (slide.against, -1.0))),
+    ]
+    return rows[: slide.conditions]
+
+
+def _gear(name: str, gear: Gear) -> Constraint:
+    """A gear: the turn of its second wheel less the ratio of that of the first, both against the carrier."""
+    carrier = gear.carrier or GROUND
+    shares = (gear.second, 1.0), (gear.first, -gear.ratio), (carrier, gear.ratio - 1.0)
+    return Turn("gears", name, "turn", shares)
+
+
+# --- in space ---
+
+
+@lru_cache
+def frame_of(axis: Vector3) -> Series:
+    """Axes (3, 3), in columns: two across an axis, and the axis; those of the ground if it is z."""
+    along = np.asarray(axis, dtype=np.float64)
+    helper = np.array([1.0, 0.0, 0.0] if abs(along[0]) < 0.9 else [0.0, 1.0, 0.0])
+    first = helper - (helper @ along) * along
+    first /= np.linalg.norm(first)
+    frame: Series = np.column_stack([first, cross(along, first), along])
+    frame.setflags(write=False)  # every bearing with this axis has it
+    return frame
+
+
+def bearing_row(name: str, bearing: Bearing, kind: Kind) -> Constraint:
+    """A row of a bearing; its direction turns with the first body."""
+    axis = {"across_1": 0, "across_2": 1, "along": 2, "tilt_1": 0, "tilt_2": 1, "turn": 2}[kind]
+    direction = tuple(frame_of(bearing.first_axis)[:, axis].tolist())
+    if kind in TURNS:
+        bodies = (bearing.second, 1.0), (bearing.first, -1.0)
+        return Turn("bearings", name, kind, bodies, direction, bearing.first)
+    ends = bearing.first, bearing.first_point, bearing.second, bearing.second_point
+    return Shift("bearings", name, kind, *ends, direction=direction, carrier=bearing.first)
+
+
+def constraints_in_space(
+    linkage: SpatialLinkage, with_clearance: Collection[str] = (), rigid: Iterable[str] = ()
+) -> list[Constraint]:
+    """What is held in space, if these planar pins have clearance and these actuators are rigid."""
+    bearings = linkage.bearings.items()
+    closed = [(name, one) for name, one in bearings if one.pin not in with_clearance]
+    rows = [bearing_row(name, one, kind) for name, one in closed for kind in SHIFTS[:2]]
+    rows += [bearing_row(name, one, "along") for name, one in bearings if "along" in one.holds]
+    rows += [bearing_row(name, one, kind) for name, one in closed if "tilt" in one.holds for kind in TURNS[:2]]
+    rows += [bearing_row(name, one, "turn") for name, one in bearings if "turn" in one.holds]
+    return rows + [Distance("actuators", name, "actuator", linkage.actuators[name]) for name in rigid]
