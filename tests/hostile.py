@@ -13,8 +13,6 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.files.temporary import MARK, OWNER, PREFIX
-
 posix_only = pytest.mark.skipif(os.name == "nt", reason="signals and limits of POSIX")
 DISKS = ("full disk", "limit of size")
 
@@ -45,34 +43,7 @@ def little_room(folder: Path, size: int, kind: str) -> Iterator[Path]:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
-def left_behind(folder: Path, name: str = "abc") -> Path:
-    """A temporary folder as a killed process leaves it."""
-    left = folder / f"{PREFIX}{name}"
-    left.mkdir(parents=True)
-    (left / OWNER).write_bytes(MARK)
-    (left / "x.json").write_text("half", encoding="utf-8")
-    return left
-
-
 # a user's own files and folders with names as of temporary ones, of this program or of earlier versions of it
-OWN_FILES = (
-    *(".backup-2023-notes.txt", ".table-99999999-abc.parquet", ".a-1-b", f"{PREFIX}notes.txt"),
-    *(
-        ".export_2019_letters/a.txt",
-        ".frames_2019_holiday/a.png",
-        f"{PREFIX}mine/a.txt",
-        f"{PREFIX}like/{OWNER}",
-    ),
-)
-
-
-def with_own_files(folder: Path) -> list[Path]:
-    """Such files of a user's in a folder."""
-    made = [folder / name for name in OWN_FILES]
-    for path in made:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text("of the user", encoding="utf-8")
-    return made
 
 
 class Interruption:

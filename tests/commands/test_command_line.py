@@ -24,25 +24,6 @@ def test_help_tells_of_every_command_and_exit_code(capsys: pytest.CaptureFixture
     assert [code for code in ("0", "1", "2", "130") if f"\n  {code} " not in told] == []
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_help_of_a_command_fits_a_terminal(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as end:
-        main([name, "--help"])
-    lines = capsys.readouterr().out.splitlines()
-    assert end.value.code == 0
-    assert NAMES[name][1:20] in " ".join(lines)
-    assert max(map(len, lines)) <= 80  # what argparse folds to without a terminal
-
-
-def test_versions_are_those_of_what_makes_the_numbers(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as end:
-        main(["--version"])
-    told = dict(line.split() for line in capsys.readouterr().out.splitlines())
-    assert end.value.code == 0
-    assert told["python"] == ".".join(map(str, sys.version_info[:3]))
-    assert {"support-exudyn", "exudyn", "numpy"} <= told.keys()
-
-
 def test_the_installed_command_is_the_module() -> None:
     installed = Path(sys.executable).with_name("support-exudyn")
     answers = [

@@ -4,23 +4,15 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import importlib
 import io
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import studies.__main__ as all_studies
-from studies import report
-from studies.benchmarking import benchmark
-from studies.catalogue import STUDIES
-from studies.common import study as study_module
 from studies.common.options import Options, add_options, read_options
-from studies.common.study import Study
 from support_exudyn.commands.command_line import Parser
 from support_exudyn.commands.parser import NAMES
 from support_exudyn.commands.parser import parser as program_parser
@@ -91,62 +83,6 @@ def test_options_of_a_study_are_taken_or_refused(argv: list[str]) -> None:
     check(None, code, said)
     if chosen is not None:
         check_options(chosen)
-
-
-PLACES = (*(f"{name}.run" for name in STUDIES), "benchmarking.benchmark", "report")
-
-
-@pytest.fixture
-def noted(monkeypatch: pytest.MonkeyPatch) -> list[Options]:
-    """Studies that only note with what they would run, and write nothing."""
-    found: list[Options] = []
-
-    @contextlib.contextmanager
-    def nothing(*_: object) -> Iterator[None]:
-        yield
-
-    monkeypatch.setattr(Study, "__call__", lambda _, chosen: found.append(chosen))
-    monkeypatch.setattr(benchmark, "study", lambda out: found.append(Options(out)))
-    for module in (study_module, all_studies):
-        monkeypatch.setattr(module, "output_folder", nothing)
-    for module in (study_module, all_studies):
-        monkeypatch.setattr(module, "say_short", lambda *_: None)
-    for module in (all_studies, report):
-        monkeypatch.setattr(module, "rebuild", lambda *_: 0)
-    monkeypatch.setattr(all_studies, "worker_pool", nothing)
-    return found
-
-
-def test_every_study_takes_its_command_line_or_refuses_it(noted: list[Options]) -> None:
-    mains = [importlib.import_module(f"studies.{name}").main for name in PLACES]
-    ran = set()
-
-    @given(argv=command_lines, main=st.sampled_from((all_studies.main, *mains)))
-    @some.tried("all studies")
-    def holds(argv: list[str], main: Callable[[Sequence[str]], int]) -> None:
-        noted.clear()
-        check(*outcome(lambda: main(argv)))
-        for chosen in noted:
-            check_options(chosen)
-            ran.add(main)
-
-    holds()
-    assert ran  # the words are not all refused
-
-
-@pytest.mark.parametrize("out", ["\x00", "a\x00b", "\ud800", "x" * 300, "/dev/null/x", "/proc/nothing"])
-def test_a_folder_that_cannot_be_is_refused_in_a_sentence(
-    out: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(Study, "__call__", lambda *_: pytest.fail("ran"))
-    given_back, code, said = outcome(lambda: STUDIES["contact_laws"].main(["--out", out]))
-    if code == 2:
-        return is_usage_and_a_line(said)
-    assert (given_back, code) == (1, None)
-    assert said.startswith("error: --out ")
-    assert "allowed: " in said
-    return None
 
 
 # --- the program's own commands ---

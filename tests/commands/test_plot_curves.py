@@ -44,20 +44,3 @@ def test_any_readable_file_is_drawn_beside_a_run(
     said = capsys.readouterr().out
     assert "run_and_measured.parquet_and_measured.csv_overview.png" in said
     assert len(list((tmp_path / "figures").glob("*.png"))) == 1
-
-
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["measured.csv"], "measured.csv: is no run; allowed: a run beside which it is drawn"),
-        (["run.h5", "measured.csv", "measured.csv"], "measured.csv: is given twice; allowed: every file"),
-        (["run.h5", "none.csv"], "none.csv: no such file; allowed: files of series"),
-        (["run.h5", "measured.csv", "--difference"], "needs a second run, and no curves of others"),
-    ],
-)
-def test_what_cannot_be_drawn_is_said(
-    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
-) -> None:
-    paths = [word if word.startswith("--") else str(tmp_path / word) for word in words]
-    assert main(["plot", *paths, "--out", str(tmp_path / "figures")]) != 0
-    assert message in " ".join(capsys.readouterr().err.split())

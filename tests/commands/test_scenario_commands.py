@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -27,10 +24,8 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.__main__ import main
-from support_exudyn.files import read_scenario
 from user_forces import CubicCoulomb
 
-EXAMPLES = Path(__file__).parents[2] / "support_exudyn" / "files" / "examples"
 STROKE = CubicStep(stroke=0.005, start=0.01, end=0.04)
 BASE = Scenario(
     machine=reference_support(), drive=STROKE, duration=0.05, pins={"rear_base": clearance_joint(1.5, 0.25)}
@@ -97,31 +92,6 @@ def test_a_run_with_errors_is_made_again_with_them(tmp_path: Path) -> None:
     same(again(result, tmp_path), result)
 
 
-def test_a_run_tells_what_came_out_and_where_it_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for one in EXAMPLES.glob("columns_apart.*"):
-        shutil.copy(one, tmp_path)
-    assert main(["run", str(tmp_path / "columns_apart.toml")]) == 0
-    told = capsys.readouterr()
-    assert told.err == ""  # no bar where there is no terminal
-    lines = told.out.splitlines()
-    assert lines[0] == "columns driven apart, 0 to 2 s (± estimated numerical error)"
-    assert lines[-1] == str(tmp_path / "columns_apart.h5")
-    for word in ("pin.rear_base.force.mean", "tip.y", "formulation"):
-        assert any(line.strip().startswith(word) for line in lines)
-    result = Result.load(tmp_path / "columns_apart.h5")
-    asked = read_scenario(tmp_path / "columns_apart.toml")
-    chosen = {"formulation": "compiled", "step": result.scenario.step, "solver": result.scenario.solver}
-    assert result.scenario == replace(asked, **chosen, accuracy=None)
-    assert result.met
-    # which formulation ran, and why
-    assert "compiled (auto: the cheapest, and it covers this scene)" in told.out
-    assert main(["show", str(tmp_path / "columns_apart.h5")]) == 0
-    assert "compiled (auto: the cheapest" in " ".join(capsys.readouterr().out.split())
-    # the actuators' lengths are 160 and 150 mm more than at the start, within what oil gives: 1.5 mm at 300 kN
-    ends = {name: float(np.ptp(result[f"{name}.length"])) for name in ("front_column", "rear_column")}
-    assert ends == pytest.approx({"front_column": 0.16, "rear_column": 0.15}, abs=1.5e-3)
-
-
 def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     assert main(arguments) == 1
     told = capsys.readouterr()
@@ -139,66 +109,3 @@ def test_what_cannot_be_run_is_said_in_a_line(tmp_path: Path, capsys: pytest.Cap
     (tmp_path / "folder").mkdir()
     assert "irectory" in refused(["run", str(path), "--out", str(tmp_path / "folder")], capsys)
     assert [one.name for one in sorted(tmp_path.iterdir())] == ["a.toml", "folder"]
-
-
-OWN = '''
-from support_exudyn import ImpactStand
-from user_forces import NormalLaw
-from user_forces.normal.power_laws import Hertz
-from user_forces.values.value import value
-
-@value
-class Twice(Hertz):
-    """Hertz's law, twice as stiff."""
-    @staticmethod
-    def force(depth, rate, impact_velocity, stiffness, exponent):
-        return 2.0 * stiffness * depth**exponent
-    @staticmethod
-    def elastic(depth, stiffness, exponent):
-        return 2.0 * stiffness * depth**exponent
-    @staticmethod
-    def energy(depth, stiffness, exponent):
-        return 2.0 * stiffness / (exponent + 1.0) * depth ** (exponent + 1.0)
-'''
-FALL = """
-duration_s = 0.01
-record_period_ms = 1
-[machine]
-type = "ImpactStand"
-bore_mass_kg = 3
-journal_mass_kg = 1
-speed_m_per_s = 1
-[pins.pin]
-clearance_mm = 1
-bore_radius_mm = 60
-law = "Twice"
-"""
-
-
-def program(*arguments: str, folder: Path) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "support_exudyn", *arguments]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-
-
-def test_laws_of_ones_own(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "my_laws.py").write_text(OWN)
-    (tmp_path / "a.toml").write_text(FALL)
-    assert "pins.pin.law = 'Twice': allowed: " in refused(["run", "a.toml"], capsys)
-    assert program("--import", "my_laws.py", "run", "a.toml", folder=tmp_path).returncode == 0
-    moved = (tmp_path / "my_laws.py").rename(tmp_path / "laws_of_mine.py")  # the run knows where it was
-    shown = program("show", "a.h5", folder=tmp_path)
-    assert shown.returncode == 0
-    assert shown.stderr.startswith(
-        f"warning: a.h5: 'Twice' is a class of {tmp_path / 'my_laws.py'}, which is not"
-    )
-    assert shown.stderr.count("\n") == 1
-    assert "Twice (" in shown.stdout
-    told = program("show", "a.h5", "--import", str(moved), folder=tmp_path)
-    assert (told.returncode, told.stderr) == (0, "")
-    assert "peak pressure" not in shown.stdout
-    assert "peak pressure" in told.stdout
-    before = shown.stdout.partition("\n\nclearance pins")[0].partition("\n\nfirst impacts")[0]
-    assert told.stdout.startswith(before)  # the same numbers

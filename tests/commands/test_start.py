@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import json
 import subprocess
 import sys
@@ -10,11 +9,6 @@ from pathlib import Path
 
 import pytest
 
-import support_exudyn
-import support_exudyn.files
-import support_exudyn.machines.check
-import support_exudyn.sweeps
-import user_forces
 from support_exudyn import ClearancePin, CubicStep, Scenario, machine, simulate
 from support_exudyn.commands.parser import NAMES
 from tests.processes import environment
@@ -66,27 +60,3 @@ def test_a_run_is_shown_without_engine_compiler_and_figures(run: Path, more: lis
     assert packages & HEAVY <= {"scipy"}
     assert packages >= BASIC - {"rich"}
     assert commands & NAMES.keys() == {"show"}
-
-
-@pytest.mark.parametrize(
-    "module",
-    [support_exudyn, support_exudyn.files, support_exudyn.machines.check, support_exudyn.sweeps, user_forces],
-    ids=lambda module: module.__name__,
-)
-def test_what_a_package_offers_is_what_it_is_declared_to_offer(module: object) -> None:
-    path = Path(module.__file__)  # type: ignore[attr-defined]
-    for_types = [
-        item
-        for item in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(item, ast.If) and isinstance(item.test, ast.Name) and item.test.id == "TYPE_CHECKING"
-    ]
-    declared = {
-        (one.name, item.module) for block in for_types for item in block.body
-        if isinstance(item, ast.ImportFrom) for one in item.names
-    }  # fmt: skip
-    assert {name for name, _ in declared} >= set(getattr(module, "__all__", ()))
-    assert {name for name, _ in declared} <= set(dir(module))
-    assert len(declared) > 2
-    for name, place in declared:
-        assert place is not None
-        assert getattr(module, name) is getattr(sys.modules[place], name)

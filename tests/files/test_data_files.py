@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import CylinderAndRod, Drive, Part, Width
+from support_exudyn import Drive, Part, Width
 from support_exudyn.files import parsed, read_value, table_of, toml_text
 from tests import strategies as some
 from user_forces import InputError, JournalBearing, JournalContact, LuGre, NormalLaw, Value
@@ -52,13 +52,6 @@ def test_values_of_every_class_are_read_as_they_were_written(data: st.DataObject
     assert same(read(type(written), text), written)
 
 
-@pytest.mark.parametrize("kind", some.kinds(), ids=lambda kind: kind.__name__)
-def test_every_class_has_a_form(kind: type[Value]) -> None:
-    known = some.examples_of(kind)
-    for one in known:
-        assert same(read(type(one), toml_text(table_of(one))), one)
-
-
 @value
 class Sheave(Value):
     """A test's own class with one of everything.
@@ -79,35 +72,6 @@ class Sheave(Value):
     tags: frozenset[str] = frozenset()
     law: NormalLaw | None = None
     whole: bool = False
-
-
-def test_a_new_class_needs_no_further_code() -> None:
-    text = """
-        radius_m = 0.5
-        lengths_mm = {left = 1.5, right = 2500}
-        times_ms = [-1, 2]
-        force_mm = 3
-        grooves = [1, 2]
-        tags = ["b", "a"]
-        whole = true
-    """
-    expected = Sheave(
-        radius=0.5,
-        lengths={"left": 0.0015, "right": 2.5},
-        times=(-0.001, 0.002),
-        force=0.003,
-        grooves=(1, 2),
-        tags=frozenset("ab"),
-        whole=True,
-    )
-    assert read(Sheave, text) == expected
-    assert read(Sheave, toml_text(table_of(expected))) == expected
-
-
-@pytest.mark.parametrize("mark", ["\x85", "\u2028", "\x0b", "\x1c"], ids=ascii)
-def test_a_name_in_a_list_keeps_every_mark_that_looks_like_the_end_of_a_line(mark: str) -> None:
-    named = {"bodies": ["ground", mark, f"a{mark}b"]}
-    assert parsed(toml_text(named), "a.toml") == named
 
 
 def test_numbers_are_rounded_once() -> None:
@@ -162,17 +126,3 @@ def test_what_is_wrong_is_said_with_file_key_value_and_range(cls: type[Value], t
     told = refusal(cls, text)
     assert told.startswith(before + allowed)
     assert first.rstrip(", ") in told  # there may be classes of other tests before it
-
-
-def test_all_that_is_wrong_is_told_at_once() -> None:
-    lines = refusal(
-        CylinderAndRod,
-        "cylinder_mass_kg = -1\ncylinder_centre_mm = -2\nrod_mass = 3\n"
-        "rod_centre_mm = 1\nrod_inertia_kg_m2 = 1",
-    ).splitlines()
-    assert lines == [
-        "a.toml: cylinder_mass_kg = -1: allowed: > 0",
-        "a.toml: cylinder_centre_mm = -2: allowed: >= 0",
-        "a.toml: rod_mass: is written with its unit; allowed: rod_mass_kg, rod_mass_t",
-        "a.toml: cylinder_inertia_kg_m2: missing; it has no default",
-    ]

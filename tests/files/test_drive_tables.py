@@ -76,12 +76,6 @@ def test_what_is_wrong_is_said_with_file_line_and_column(tmp_path: Path, text: s
     assert str(caught.value).removeprefix(f"{tmp_path}/").startswith(said)
 
 
-def test_tables_as_windows_and_spreadsheets_write_them(tmp_path: Path) -> None:
-    """Byte-order mark, carriage returns, lines of nothing but commas, quotation marks."""
-    text = "\ufeff" + GOOD.replace("\n\n", "\n,,\n").replace("100", '"100"').replace("\n", "\r\n")
-    assert drives(tmp_path, text) == drives(tmp_path, GOOD)
-
-
 @given(text=some.mangled(st.just(GOOD)) | st.text(max_size=40))
 @some.tried("drive tables")
 def test_any_text_is_a_table_or_refused(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import Result, cylinders_and_rods, load_support, recommend, simulate
+from support_exudyn import cylinders_and_rods, load_support
 from tests import strategies as some
 from tests.sound import sound, taken_or_refused
 
@@ -49,30 +49,3 @@ def test_a_machine_file_whose_tree_was_changed_is_read_or_refused(folder: Path, 
     path = folder / "machine.toml"
     path.write_text(some.toml(tree), encoding="utf-8", errors="surrogatepass")
     read_or_refused(path)
-
-
-# --- advice ---
-
-
-@given(question=some.scraps | some.oddities)
-@some.tried("recommend")
-def test_a_question_that_is_none_is_refused(question: Any) -> None:
-    assert taken_or_refused(lambda: recommend(question)) is None
-
-
-# --- results ---
-
-
-@pytest.fixture(scope="module")
-def result() -> Result:
-    """A short run of a stand to an accuracy, so that it has estimates and coarser runs."""
-    return simulate(some.seeds()[5], accuracy="draft")
-
-
-@given(after=some.scraps | some.oddities, until=some.scraps | some.oddities, whole=st.booleans())
-@some.tried("asked of results")
-def test_numbers_between_any_times_are_given_or_refused(
-    result: Result, after: Any, until: Any, whole: bool
-) -> None:
-    found = taken_or_refused(lambda: result.numbers(after) if whole else result.numbers(after, until))
-    assert found is None or all(str(number) for number in found.values())

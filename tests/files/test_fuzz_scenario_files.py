@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from support_exudyn import Scenario
-from support_exudyn.files import parsed, read_scenario, scenario_of, scenario_text, table_of
+from support_exudyn.files import parsed, scenario_of, scenario_text, table_of
 from tests import strategies as some
 from user_forces import InputError
 
@@ -73,17 +73,3 @@ def test_any_text_is_a_scenario_or_refused(text: str) -> None:
             raise
         return
     taken_or_refused(table)
-
-
-@given(data=st.binary(max_size=60))
-@some.tried("scenario text")
-def test_any_bytes_are_refused_by_name(tmp_path_factory: Any, data: bytes) -> None:
-    path = tmp_path_factory.getbasetemp() / "any.toml"
-    path.write_bytes(data)
-    try:
-        read_scenario(path)
-    except InputError as error:
-        if not str(error).startswith(f"{path}: "):
-            raise
-    else:
-        raise AssertionError("60 bytes are no scenario")

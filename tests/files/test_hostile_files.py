@@ -11,11 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.files import whole_file as writing
 from support_exudyn.files.temporary import remove_leftovers
 from support_exudyn.files.whole_file import LOCK, whole_file, writing_alone
 from tests.hostile import DISKS, little_room, posix_only
-from tests.processes import ROOT, environment, wait_until
+from tests.processes import ROOT, environment
 
 
 def names(folder: Path) -> list[str]:
@@ -102,18 +101,6 @@ def test_a_full_disk_leaves_the_old_file_and_says_which_could_not_be_written(tmp
         assert names(folder) == ["run.json"]
 
 
-def test_a_file_is_on_the_disk_before_it_takes_its_place(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    context: list[str] = []
-    sync, replace = os.fsync, Path.replace
-    monkeypatch.setattr(writing.os, "fsync", lambda handle: (context.append("on the disk"), sync(handle)))
-    monkeypatch.setattr(Path, "replace", lambda *paths: (context.append("in its place"), replace(*paths)))
-    with whole_file(tmp_path / "run.json") as temporary:
-        temporary.write_text("new", encoding="utf-8")
-    assert context == ["on the disk", "in its place"]
-
-
 # --- several processes ---
 
 HOLD = """
@@ -145,75 +132,3 @@ def test_a_folder_has_one_writer_and_is_free_when_that_is_killed(tmp_path: Path)
         remove_leftovers(tmp_path)
         assert names(tmp_path) == [LOCK]
     assert names(tmp_path) == []
-
-
-@posix_only
-def test_a_lock_is_left_and_taken_again_and_keeps_out_the_same_process_too(tmp_path: Path) -> None:
-    (tmp_path / LOCK).write_text("12345\n", encoding="utf-8")
-    for _ in range(3):
-        with writing_alone(tmp_path):
-            with pytest.raises(BlockingIOError, match=rf"\({os.getpid()}\)"), writing_alone(tmp_path):
-                pytest.fail("both write")
-            (tmp_path / "deeper").mkdir(exist_ok=True)
-            with writing_alone(tmp_path / "deeper"):
-                assert names(tmp_path / "deeper") == [LOCK]
-    assert names(tmp_path) == ["deeper"]
-
-
-@posix_only
-@pytest.mark.parametrize("kind", ["text", "link", "folder", "pipe"])
-def test_what_only_has_the_name_of_a_lock_is_kept(tmp_path: Path, kind: str) -> None:
-    lock, notes = tmp_path / LOCK, tmp_path / "notes.txt"
-    notes.write_text("of the user", encoding="utf-8")
-    make = {
-        "text": lambda: lock.write_text("of the user", encoding="utf-8"),
-        "link": lambda: lock.symlink_to(notes),
-        "folder": lock.mkdir,
-        "pipe": lambda: os.mkfifo(lock),
-    }
-    make[kind]()
-    with pytest.raises(FileExistsError, match="is no lock of this program"), writing_alone(tmp_path):
-        pytest.fail("the work is begun")
-    assert names(tmp_path) == sorted([LOCK, "notes.txt"])
-    assert notes.read_text(encoding="utf-8") == "of the user"
-    assert kind != "text" or lock.read_text(encoding="utf-8") == "of the user"
-
-
-# --- what is read ---
-
-
-TAKE = """
-import os, sys
-from pathlib import Path
-from support_exudyn.files.whole_file import writing_alone
-folder, mark = Path(sys.argv[1]), Path(sys.argv[1]) / "mark"
-taken = 0
-print("ready", flush=True)
-input()  # both begin together
-while taken < 500:
-    try:
-        with writing_alone(folder):
-            os.close(os.open(mark, os.O_CREAT | os.O_EXCL))  # fails if another is inside
-            mark.unlink()
-            taken += 1
-    except BlockingIOError:
-        pass
-print(taken)
-"""
-
-
-@posix_only
-def test_no_two_processes_that_hurry_are_ever_in_a_folder_together(tmp_path: Path) -> None:
-    command = [sys.executable, "-c", TAKE, str(tmp_path)]
-    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
-    running = [
-        subprocess.Popen(command, cwd=ROOT, env=environment(), text=True, **pipes)  # type: ignore[call-overload]
-        for _ in range(2)
-    ]
-    for process in running:
-        assert process.stdout.readline() == "ready\n"
-    for process in running:
-        process.stdin.write("\n")
-        process.stdin.flush()
-    assert [process.communicate(timeout=120) for process in running] == 2 * [("500\n", "")]
-    assert wait_until(lambda: names(tmp_path) == [], 0.0)

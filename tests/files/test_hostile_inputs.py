@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import os
 import threading
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +12,11 @@ import h5py
 import numpy as np
 import pyarrow as pa
 import pytest
-from pyarrow import parquet
 
 from support_exudyn import Held, Result, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.files.hdf5 import BLOCK, with_checksum
-from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.simulation.result import FORMAT
-from support_exudyn.sweeps import read_table
 from support_exudyn.sweeps.table import OWN
 from tests.cases.run_cases import loose_support
 from tests.cases.sweep_cases import speeds, write_sweep
@@ -108,26 +103,6 @@ def test_a_result_gives_nothing_but_what_it_has(
 
 # --- what is printed ---
 
-STEERING = "m\x1b[2J\x1b]0;gone\x07\u202e\x9b"
-
-
-def test_a_unit_with_terminal_escapes_is_printed_as_letters(
-    result: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    values = result["tip.x"]
-    more = {"tip.x": Channel(values, STEERING, STEERING), f"tip.{STEERING}": Channel(values, "m", "")}
-    made = replace(result, channels=dict(result.channels) | more, statistics=None)
-    path = str(made.save(tmp_path / "run.h5"))
-    for words in (["show", path, "--all"], ["show", path, "tip*"], ["compare", path, path, "tip*"]):
-        assert main(words) == 0
-        said = capsys.readouterr()
-        assert r"\x1b[2J" in said.out
-        assert all(one.isprintable() or one == "\n" for one in said.out + said.err)
-    assert main(["show", path, "tip*", "--json"]) == 0
-    said = capsys.readouterr()
-    assert all(one.isprintable() or one == "\n" for one in said.out)
-    assert f"tip.{STEERING}" in json.loads(said.out)["channels"]
-
 
 def test_errors_print_no_letters_that_steer(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "run.toml"
@@ -190,24 +165,6 @@ def test_what_has_no_end_is_refused_wherever_it_is_read(
     assert "no regular file" in error or "has more than" in error
 
 
-# --- files that others name ---
-
-
-@pytest.mark.parametrize(
-    "text", [f"{SECRET}\n{SECRET}\n", f"password={SECRET}\n", "hunter2", "hunter2,hunter2\n1,2\n"]
-)
-@pytest.mark.parametrize("kind", ["a scenario in a sweep", "a table", "a machine"])
-def test_lines_of_a_file_that_another_names_are_not_repeated(
-    tmp_path: Path, kind: str, text: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "foreign.toml"
-    path.write_text(text, encoding="utf-8")
-    assert READERS[kind](path) == 1
-    error = capsys.readouterr().err
-    assert "foreign.toml: line 1: " in error
-    assert "hunter2" not in error
-
-
 # --- tables of sweeps ---
 
 
@@ -235,24 +192,8 @@ def damaged(table: pa.Table, how: str) -> pa.Table:
     return table.set_column(0, field, table.column(0))
 
 
-DAMAGES = ["no json", "no text", "no table", "deep", "no column", "twice", "no numbers", "steering", "bytes"]
-
-
 @pytest.fixture(scope="module")
 def store(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("store")
     main(["sweep", str(write_sweep(folder, speeds(2))), "--workers", "1"])
     return folder / "sweep_sweep"
-
-
-@pytest.mark.parametrize("how", DAMAGES)
-def test_the_chart_of_a_damaged_table_is_a_line(
-    store: Path, tmp_path: Path, how: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "table.parquet"
-    parquet.write_table(damaged(read_table(store), how), path)
-    assert main(["chart", str(path), "machine.speed_m_per_s", "pin.pin.force.mean"]) == 1
-    error = capsys.readouterr().err
-    assert f"error: {path}: not a table of a sweep, or damaged (" in error
-    assert error.count("\n") == 1
-    assert error[:-1].isprintable()

@@ -23,7 +23,6 @@ from support_exudyn import (
 )
 from support_exudyn.files.machines import shipped
 from support_exudyn.files.scenarios.scenario_file import scenario_text
-from support_exudyn.machines.check.statics import mobility
 from tests.cases.linkage_text import linkage_text
 from user_forces import InputError
 
@@ -214,15 +213,6 @@ def test_every_shipped_machine_can_be_written_as_a_linkage(name: str, tmp_path: 
         np.testing.assert_allclose(other, one, atol=1e-7 * np.abs(one).max() + 1e-9)
 
 
-def test_pins_know_their_bores_and_lengths(tmp_path: Path) -> None:
-    (tmp_path / "machine.toml").write_text(CRANK_ROCKER, encoding="utf-8")
-    text = 'machine = "machine.toml"\nduration_s = 0.01\n[drive]\ntype = "Steady"\nrate_rad_per_s = 60\n'
-    (tmp_path / "run.toml").write_text(f"{text}[pins.B]\nclearance_mm = 0.5\n", encoding="utf-8")
-    pin = read_scenario(tmp_path / "run.toml").clearance_pins["B"]
-    assert pin.contact.bearing.bore_radius == 0.01
-    assert pin.contact.normal.length == 0.03  # along its length, as steel is
-
-
 # --- what is refused ---
 
 
@@ -382,12 +372,3 @@ def test_drives_that_the_linkage_cannot_follow_are_refused(tmp_path: Path) -> No
     text = text.replace("{ crank = 0 }", "{ crank = 90 }").replace("length_mm = 400", "length_mm = 200")
     with pytest.raises(InputError, match="drive"):
         Scenario(machine=built(tmp_path, text), drive=Steady(rate=-60.0), duration=0.1)
-
-
-def test_a_strut_is_no_drive(tmp_path: Path) -> None:
-    strut = '\n[actuators.strut]\nbodies = ["ground", "rocker"]\nat = ["O", "B"]\ndriven = false\n'
-    found = mobility(built(tmp_path, CRANK_ROCKER.replace('[cranks]\nmotor = "crank"\n', "") + strut).linkage())
-    assert (found.struts, found.driven, found.counted, found.free, found.left) == (1, 0, 0, 0, 0)
-    assert "- 1 struts = 0" in found.said()
-    said = refusal(tmp_path, "[start]", strut + "\n[start]")
-    assert said.startswith("cranks.motor: one drive too many, 1 driven parts fight over 0 degrees of freedom")

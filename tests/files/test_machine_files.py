@@ -3,35 +3,24 @@
 from __future__ import annotations
 
 import math
-import re
 import sys
 from importlib import resources
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 
 from support_exudyn import HydraulicSupport, SliderCrank, load_support, reference_support
-from support_exudyn.files.machines import SHIPPED, load_machine, machine_schema, read_machine, shipped
+from support_exudyn.files.machines import SHIPPED, load_machine, machine_schema, read_machine
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.linkage import lumped
 from tests.machine_files import OURS, written
-from tests.often import often
 from user_forces import InputError
 
 if sys.version_info >= (3, 11):
     import tomllib
 else:
     import tomli as tomllib
-
-
-def refusal(folder: Path, old: str, new: str, text: str = OURS) -> str:
-    path = written(folder, old, new, text)
-    with pytest.raises(InputError, match=re.escape(str(path))) as caught:
-        load_machine(path)
-    return str(caught.value).removeprefix(f"{path}: ")
 
 
 def text_of(name: str) -> str:
@@ -56,14 +45,6 @@ def test_shipped_machines_are_of_their_kind_and_say_where_they_come_from(name: s
     assert data.sources
     assert data.bore_radii
     assert data.name
-
-
-def test_the_reference_is_what_it_was() -> None:
-    data = read_machine("reference")
-    assert data.machine == reference_support()
-    assert data.stroke == 0.5
-    assert data.bore_radii["rear_base"] == 0.0655  # implied by the paper's Table 2
-    assert "assumed" in data.sources["bores"]
 
 
 def test_the_full_size_support_has_the_published_pivots() -> None:
@@ -107,13 +88,6 @@ def test_the_reference_is_the_full_size_support_times_0_65() -> None:
     for body, parts in small.parts.items():
         for one, other in zip(large.parts[body], parts, strict=True):
             assert one.mass == pytest.approx(other.mass / 0.65**3, abs=5.001)  # rounded to 10 kg
-
-
-def test_a_name_that_nobody_has_is_told_the_others() -> None:
-    with pytest.raises(InputError, match=r"'zf1800'.*ends in \.toml.*zf18000.*did you mean 'zf18000'"):
-        read_machine("zf1800")
-    with pytest.raises(InputError, match=", ".join(SHIPPED)):
-        shipped("x")
 
 
 # --- a pivot table and some masses make a machine ---
@@ -165,46 +139,6 @@ MISTAKES = {
     ),
     "metres": ("[3900, 2650]", "[3900000, 2650]", "tip = (3900.0, 2.65) m"),
 }
-
-
-@pytest.mark.parametrize("mistake", MISTAKES)
-def test_mistakes_are_told_by_key_value_and_what_is_allowed(tmp_path: Path, mistake: str) -> None:
-    old, new, said = MISTAKES[mistake]
-    assert refusal(tmp_path, old, new).startswith(said)
-
-
-@pytest.mark.parametrize("name", SHIPPED)
-@given(data=st.data())
-@settings(max_examples=often(40), deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-def test_changed_files_are_read_or_refused(tmp_path: Path, name: str, data: st.DataObject) -> None:
-    lines = text_of(name).splitlines()
-    at = data.draw(st.integers(0, len(lines) - 1))
-    odd = ["1e999999999", "nan", "-0", "[]", "{}", '"x"', "true", "9" * 5000, "1979-05-27", "[[1]]", "-1e-400"]
-    key = lines[at].split("=")[0]
-    lines[at] = data.draw(
-        st.sampled_from([f"{key}= {data.draw(st.sampled_from(odd))}", "", lines[at] * 2, "[x]"])
-    )
-    path = tmp_path / "changed.toml"
-    path.write_text("\n".join(lines), encoding="utf-8")
-    try:
-        load_machine(path)
-    except InputError as error:
-        assert str(path) in str(error)  # noqa: PT017  # either is right
-
-
-def test_files_as_windows_writes_them(tmp_path: Path) -> None:
-    """With a byte-order mark and carriage returns."""
-    path = written(tmp_path, text="\ufeff" + text_of("reference").replace("\n", "\r\n"))
-    assert load_machine(path).machine == read_machine("reference").machine
-
-
-def test_what_is_no_machine_is_told(tmp_path: Path) -> None:
-    path = written(tmp_path, text='machine = "reference"\nduration_s = 1\n')
-    with pytest.raises(InputError, match=r"machine = 'reference': is a key of scenarios"):
-        load_machine(path)
-    path.write_bytes(b"name = '\xfc'")
-    with pytest.raises(InputError, match=r"ours\.toml: byte 8 is not UTF-8"):
-        load_machine(path)
 
 
 # --- schema ---

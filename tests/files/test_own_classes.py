@@ -79,13 +79,6 @@ def test_a_law_is_named_by_its_file_or_module(tmp_path: Path, place: str) -> Non
     assert pin.contact.friction.to_data() == {"type": f"{prefix}Friction", "mu": 0.2}
 
 
-def test_a_law_of_its_own_in_full(tmp_path: Path) -> None:
-    lines = 'friction = {type = "own_laws_full.py:FullFriction", mu = 0.3}'
-    pin = read_scenario(write(tmp_path, lines, "own_laws_full", "Full")).pins["rear_base"]
-    assert isinstance(pin, ClearancePin)
-    assert pin.contact.friction.to_data() == {"type": "FullFriction", "mu": 0.3}
-
-
 @pytest.mark.parametrize(
     ("lines", "message"),
     [

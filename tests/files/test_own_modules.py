@@ -10,13 +10,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from scipy.io import savemat
 
 from support_exudyn import Result, read_scenario, simulate, trusted
 from support_exudyn.__main__ import main
 from support_exudyn.files.own_modules import modules_of
 from support_exudyn.files.scenarios.scenario_file import read_machine_in
-from support_exudyn.files.series.apart import read_apart
 from support_exudyn.sweeps import read_sweep
 from user_forces import InputError
 from user_forces.values.value import Value, kinds_of
@@ -206,28 +204,3 @@ def test_what_cannot_be_imported_is_said(
         (tmp_path / name).write_text(text)
     with pytest.raises(InputError, match=told):
         trusted(tmp_path / name)
-
-
-def test_no_file_beside_a_trusted_module_stands_for_a_library(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sys, "path", [*sys.path])
-    (tmp_path / "trusted_laws.py").write_text(LAW.format(name="TrustedLaw"))
-    (tmp_path / "wave.py").write_text("raise SystemExit")
-    monkeypatch.delitem(sys.modules, "wave", raising=False)
-    trusted(tmp_path / "trusted_laws.py")
-    import wave
-
-    assert wave.__file__ != str(tmp_path / "wave.py")
-
-
-def test_reading_in_another_process_imports_nothing_from_the_working_directory(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    savemat(tmp_path / "a.mat", {"time": [0.0, 1.0]})
-    (tmp_path / "scipy.py").write_text(f"open('{RAN}', 'w').close()")
-    assert read_apart(
-        "support_exudyn.files.series.matlab_arrays:matlab_arrays", tmp_path / "a.mat", "MATLAB file"
-    )
-    assert not (tmp_path / RAN).exists()

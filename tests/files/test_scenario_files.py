@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from studies.common.paper_machine import bearing, clearance_joint, clearance_rise, ideal_rise
+from studies.common.paper_machine import bearing, clearance_joint, clearance_rise
 from support_exudyn import (
     CubicStep,
     IdealPin,
@@ -19,14 +19,11 @@ from support_exudyn import (
     TableDrive,
     UniformSpeed,
     cylinders_and_rods,
-    reference_support,
 )
 from support_exudyn.files import (
     parsed,
     read_drives,
     read_scenario,
-    read_scenario_file,
-    save_scenario,
     scenario_of,
     scenario_text,
 )
@@ -35,7 +32,6 @@ from tests import strategies as some
 from user_forces import (
     STEEL,
     CubicCoulomb,
-    Flores,
     Hertz,
     InputError,
     internal_contact_stiffness,
@@ -84,15 +80,6 @@ def test_the_papers_rise_in_short_is_that_of_the_studies() -> None:
 def test_a_pin_in_short_is_that_of_the_studies() -> None:
     text = 'friction = 0.25\nrestitution = 0.9\nstiffness = "paper"'
     assert scenario(TOP + WITH_CLEARANCE + text).pins["rear_base"] == clearance_joint(1.5, 0.25)
-
-
-def test_nothing_but_machine_and_duration_has_to_be_said() -> None:
-    assert scenario(TOP) == Scenario(machine=reference_support(), duration=5.0)
-
-
-def test_a_law_that_needs_a_restitution_only() -> None:
-    found = normal('law = "Flores"\nrestitution = 0.5\nstiffness_N_per_m_to_n = 1e10')
-    assert found == Flores(stiffness=1e10, restitution=0.5)
 
 
 def test_stiffness_of_materials_inside() -> None:
@@ -190,13 +177,6 @@ def test_scenarios_are_read_as_they_were_written(data: st.DataObject) -> None:
         assert list(getattr(found, name)) == list(getattr(written, name))
 
 
-def test_files_are_written_whole(tmp_path: Path) -> None:
-    path = save_scenario(ideal_rise(5e-4), tmp_path / "new" / "a.toml", name="rise", errors=True)
-    file = read_scenario_file(path)
-    assert (file.scenario, file.name, file.errors) == (ideal_rise(5e-4), "rise", True)
-    assert [one.name for one in path.parent.iterdir()] == ["a.toml"]
-
-
 # --- what is said of mistakes ---
 
 
@@ -270,38 +250,6 @@ def test_a_column_of_the_file_and_a_drive_of_the_table_are_one_too_many(tmp_path
     (tmp_path / "a.csv").write_text("time_s,front_column_mm\n0,0\n1,100\n")
     said = refusal(TOP + "[drives]\ntable = 'a.csv'\nfront_column = {mode = 1}", tmp_path)
     assert said == "a.toml: drives.front_column: is a column of a.csv too; allowed: one of them"
-
-
-def test_what_the_csv_lacks_is_said_of_it(tmp_path: Path) -> None:
-    (tmp_path / "a.csv").write_text("time_s,front_column_mm\n0,0\n1,x\n")
-    said = refusal(TOP + "drive.table = 'a.csv'", tmp_path)
-    assert said == f"{tmp_path}/a.csv: line 3, column front_column_mm: 'x': allowed: a number such as 12.5"
-
-
-def test_all_mistakes_are_told_at_once() -> None:
-    text = TOP + WITH_CLEARANCE.replace("1.5", "-1") + "[drive]\nmode = 3\n[solver]\nimpact_steps = 1"
-    assert len(refusal(text).splitlines()) == 3
-
-
-@pytest.mark.parametrize(
-    ("data", "said"),
-    [
-        (b"\xff\xfe", "byte 0 is not UTF-8"),
-        (b'machine = "reference', "Unterminated string .at line 1, the last"),
-        (b"a = 1\nb = [\n", "at line 2, the last"),
-        (b"a = 1\na = 2\n", r"line 2: 'a = 2': its key has been given before; allowed: once"),
-        (b"[a.b]\n[a.b]\n", r"line 2: '\[a\.b\]': the table a\.b has been begun before; allowed: once"),
-        (b"a = 1,5 # mm\n", r"line 1: 'a = 1,5 # mm': .*; allowed: decimals after a point, as in 1\.5"),
-        (b'kind = "slider_crank"\n', r"is the file of a machine; allowed: a scenario"),
-        (b"[instruments]\n", r"is a file of instruments; allowed: a scenario; or `measure RUN` with it"),
-        (b"a = " + b"[" * 5000, "is nested too deep"),
-    ],
-)
-def test_what_is_no_toml_is_said_with_its_line(tmp_path: Path, data: bytes, said: str) -> None:
-    (tmp_path / "a.toml").write_bytes(data)
-    with pytest.raises(InputError, match=said) as caught:
-        read_scenario(tmp_path / "a.toml")
-    assert str(caught.value).startswith(f"{tmp_path}/a.toml: ")
 
 
 @pytest.mark.parametrize(

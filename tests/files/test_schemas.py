@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,6 @@ import pytest
 from jsonschema import Draft7Validator, Draft202012Validator
 
 from support_exudyn import Scenario
-from support_exudyn.__main__ import main
 from support_exudyn.files import load_toml, parsed, scenario_of, scenario_schema, scenario_text
 from support_exudyn.files.own_modules import OURS
 from tests import strategies as some
@@ -126,24 +124,3 @@ def test_every_field_of_every_class_is_described() -> None:
         if key != "type" and not one.get("description")
     ]
     assert bare == []
-
-
-def test_the_command_writes_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["schema", "scenario", "--out", str(tmp_path / "a.json")]) == 0
-    assert main(["schema", "scenario"]) == 0
-    said = capsys.readouterr().out.partition("\n")[2]
-    assert json.loads((tmp_path / "a.json").read_text("utf-8")) == json.loads(said) == scenario_schema()
-
-
-def test_the_command_lists_keys_in_words(capsys: pytest.CaptureFixture[str]) -> None:
-    for kind, key in (("scenario", "duration_s"), ("machine", "rod_length_mm")):
-        assert main(["schema", kind, "--list"]) == 0
-        text = capsys.readouterr().out
-        line = next(line for line in text.splitlines() if line.strip().startswith(key))
-        assert "needed" in line
-        assert "a number > 0" in line
-        assert key.rpartition("_")[0] + "_" in line.partition("Also ")[2]
-        assert "](#" not in text
-        assert max(map(len, text.splitlines())) <= 170
-    assert main(["schema", "scenario", "--list", "--out", "a.json"]) == 1
-    assert "allowed with --list" in capsys.readouterr().err

@@ -11,7 +11,7 @@ from support_exudyn import Scenario, ravn_slider_crank
 from support_exudyn.files import parsed, scenario_of
 from support_exudyn.files.scenarios.short_joints import ShortGuide
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.model.guides import ClearanceGuide, IdealGuide
+from support_exudyn.model.guides import ClearanceGuide
 from user_forces import Ambrosio, CubicCoulomb, Exact, Flores, InputError
 from user_forces.materials import STEEL, STEEL_35CRMO, plane_contact_stiffness
 
@@ -46,11 +46,6 @@ def test_all_can_be_said() -> None:
         friction=CubicCoulomb(sliding_coefficient=0.1),
         block=SHAPE,
     )
-
-
-@pytest.mark.parametrize("text", ["ideal = true\n", "clearance_mm = 0\n", f"clearance_mm = [0, 0]\n{BLOCK}"])
-def test_an_ideal_guide_can_be_said(text: str) -> None:
-    assert read(f"[guides.guide]\n{text}").guides == {"guide": IdealGuide()}
 
 
 def test_a_block_is_that_of_the_machines_file() -> None:

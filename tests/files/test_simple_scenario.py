@@ -15,8 +15,6 @@ from support_exudyn import (
     simple_scenario,
 )
 from user_forces import (
-    Anagnostopoulos,
-    Hertz,
     InputError,
     JournalBearing,
     external_contact_stiffness,
@@ -67,19 +65,6 @@ def test_a_simple_pin_has_usual_values() -> None:
     assert pin.contact.normal.to_data()["restitution"] == 0.9
     assert pin.contact.normal.elastic_force(1e-5) == pytest.approx(stiffness * 1e-5**1.5)
     assert pin.contact.friction(0.1, 1e3) == 0.0
-
-
-def test_what_a_simple_pin_would_not_use_is_refused() -> None:
-    with pytest.raises(InputError, match=r"restitution = 0.9: Hertz has none"):
-        ClearancePin.simple(clearance=1e-3, bore_radius=0.06, law=Hertz, restitution=0.9)
-    with pytest.raises(InputError, match=r"stiffness = 'paper': is of K depth\^1.5, and Anagnostopoulos"):
-        ClearancePin.simple(clearance=1e-3, bore_radius=0.06, law=Anagnostopoulos)
-    with pytest.raises(InputError, match=r"law = .*: allowed: a class of normal laws"):
-        ClearancePin.simple(clearance=1e-3, bore_radius=0.06, law=Hertz(stiffness=1e9))  # type: ignore[arg-type]
-    with pytest.raises(
-        InputError, match=r"stiffness = 'outer': allowed: 'cylinders', 'paper', 'internal' or a number"
-    ):
-        ClearancePin.simple(clearance=1e-3, bore_radius=0.06, stiffness="outer")  # type: ignore[arg-type]
 
 
 def test_machines_are_taken_by_name_and_by_path(tmp_path: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from decimal import Decimal
 from importlib import resources
 from pathlib import Path
@@ -17,9 +16,8 @@ from support_exudyn.files import ScenarioFile, scenario_file_of, scenario_schema
 from support_exudyn.files.machines import SHIPPED, load_machine, machine_schema, read_machine
 from support_exudyn.files.machines.read import _of_text
 from support_exudyn.files.toml.text import parsed, toml_text
-from support_exudyn.machines.check import check_machine
 from tests.files.test_schemas import plain
-from tests.machine_files import OURS, written
+from tests.machine_files import written
 from user_forces import InputError
 from user_forces.values.sourced import SourcedNumber
 
@@ -91,12 +89,6 @@ def test_what_is_wrong_is_told_by_its_key(new: str, said: str, tmp_path: Path) -
     assert all(bool(list(validator.iter_errors(table))) is not ordered for validator in VALIDATORS)
 
 
-def test_a_source_may_be_one_of_the_file(tmp_path: Path) -> None:
-    text = OURS.replace("rear_link = 900", 'rear_link = { value = 900, source = "weighed" }')
-    path = written(tmp_path, "[pivots_mm]", '[sources]\nweighed = "by us, in spring"\n[pivots_mm]', text)
-    assert load_machine(path).sourced["masses_kg.rear_link"].source == "by us, in spring"
-
-
 SCENE = """
 machine = "reference"
 duration_s = 1
@@ -158,20 +150,3 @@ def test_what_is_wrong_with_a_number_of_a_scenario_is_told(old: str, new: str, s
         scene(text)
     assert said in str(caught.value)
     assert "a.toml: " in str(caught.value)
-
-
-def test_check_tells_each_with_range_and_source(tmp_path: Path) -> None:
-    text = OURS.replace("rear_link = 900", "rear_link = { value = 900, from = 800, to = 1000, source = 'a' }")
-    path = written(tmp_path, "tip = [3900,", "tip = [{ value = 3900, from = 3800.5, to = 4000 },", text)
-    report = check_machine(load_machine(path))
-    lines = [" ".join(line.split()) for line in report.lines()]
-    assert lines[lines.index("numbers of the file: a") + 2] == "masses_kg.rear_link 900 800 1000"
-    unsaid = lines.index("numbers of the file: their source is not said")
-    assert lines[unsaid + 2] == "pivots_mm.tip.0 3900 3800.5 4000"
-    assert report.data()["file_numbers"]["masses_kg.rear_link"] == {
-        "value": 900.0,
-        "from": 800.0,
-        "to": 1000.0,
-        "source": "a",
-    }
-    assert any(re.match(r"- assumed: canopy: its 5200 kg are a uniform bar", line) for line in lines)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import OilColumn, RigidActuator, cylinders_and_rods, load_support, reference_support
+from support_exudyn import RigidActuator, cylinders_and_rods, load_support, reference_support
 from support_exudyn.model.linkage import lumped
 from tests.cases.machine_cases import PARTS, PIVOTS, PIVOTS_MM, support
 from user_forces import InputError
@@ -68,10 +68,6 @@ def test_reference_support_has_the_published_pivots(name: str) -> None:
     assert getattr(reference_support(), name) == pytest.approx(PIVOTS[name], abs=1e-15)
 
 
-def test_reference_support_starts_at_the_published_height() -> None:
-    assert reference_support().start_hinge_height == 1.8
-
-
 @pytest.mark.parametrize("body", PARTS)
 def test_reference_support_has_the_published_parts(body: str) -> None:
     got, expected = lumped(reference_support().parts[body]), lumped(PARTS[body])
@@ -104,11 +100,6 @@ def test_a_part_with_a_length_is_a_bar_about_its_centre(tmp_path: Path) -> None:
     assert part.centre == (1.369, 2.317)
     # rounding
     assert part.inertia == pytest.approx(3000.0 * 3.3**2 / 12.0, rel=1e-14)
-
-
-def test_a_part_with_a_centre_only_is_a_point_mass(tmp_path: Path) -> None:
-    part = load_support(written(tmp_path)).parts["canopy"][1]
-    assert (part.mass, part.centre, part.inertia) == (200.0, (0.899, 2.252), 0.0)
 
 
 # --- refusals: each names the file and the key ---
@@ -167,11 +158,6 @@ def test_rods_have_the_mass_that_they_have_on_the_canopy() -> None:
     canopy = {part.name: part.mass for part in reference_support().parts["canopy"]}
     for name, column in cylinders_and_rods().items():
         assert canopy[f"{name}_rods"] == column.rod_mass
-
-
-def test_columns_take_the_drive_they_are_given() -> None:
-    oil = OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1e9)
-    assert all(column.drive == oil and column.hydraulic == oil for column in cylinders_and_rods(oil).values())
 
 
 def test_columns_are_read_from_a_file(tmp_path: Path) -> None:

@@ -10,7 +10,6 @@ import pytest
 from support_exudyn import Onset, Result
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.channels import error_over_time, over_time
-from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.figures.units import readable
 from tests import figure_checks, synthetic
 from tests.cases.run_cases import loose_support
@@ -51,14 +50,6 @@ def test_units_are_those_that_are_read_best(unit: str, size: float, expected: tu
     assert readable(unit, size) == (expected[0], pytest.approx(expected[1]))
 
 
-def test_patterns_are_those_of_a_shell() -> None:
-    names = ["time", "pin.a.force", "pin.b.force", "tip.x"]
-    assert matching(names, ["tip.*", "pin.?.force", "pin.a.*"]) == ["tip.x", "pin.a.force", "pin.b.force"]
-    assert matching(names, ["*"]) == names[1:]
-    with pytest.raises(InputError, match=r"'pin.c.force': no such channel.*pin.a.force"):
-        matching(names, ["pin.c.force"])
-
-
 def test_channels_of_a_unit_share_a_panel_and_are_shown_in_it() -> None:
     drawing = over_time(run(), ["*_column.force", "tip.*", "canopy.*"])
     forces, places, angles, accelerations = drawing.axes
@@ -75,21 +66,6 @@ def test_channels_of_a_unit_share_a_panel_and_are_shown_in_it() -> None:
         "tip.y: meaning of tip.y",
     ]
     assert accelerations.get_xlabel() == "time [s]"
-
-
-def test_curves_of_a_panel_differ_in_colour_and_in_dashes() -> None:
-    curves = over_time(run(), ["*_column.force", "pin.*.force"]).axes[0].lines[:3]
-    assert len({line.get_color() for line in curves}) == 3
-    assert len({line.get_linestyle() for line in curves}) > 1
-    assert curves[2].get_color() == style.CONTACT
-
-
-def test_ranges_that_differ_a_hundredfold_have_axes_of_their_own() -> None:
-    def made(range_: float) -> Result:
-        places = {"tip__x": (3.0 + 0.1 * WAVE, "m"), "tip__y": (3.0 + range_ * WAVE, "m")}
-        return synthetic.journal(SCENARIO, TIME, 0.0 * TIME, 0.0 * TIME, [], **places)
-
-    assert [len(over_time(made(share * 0.1), ["tip.*"]).axes) for share in (0.011, 0.009, 0.0)] == [1, 2, 1]
 
 
 def test_a_piece_is_chosen_and_touches_are_marked() -> None:

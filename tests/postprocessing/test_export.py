@@ -79,13 +79,6 @@ def pins(exported: Exported, request: pytest.FixtureRequest) -> list[Read]:
 # --- VTK's readers, and the channels ---
 
 
-def test_steps_are_records_with_their_times(exported: Exported, machine: list[Read], pins: list[Read]) -> None:
-    times = exported.result.time[exported.records].tolist()
-    assert len(times) >= 3
-    assert [step.time for step in machine] == times
-    assert [step.time for step in pins] == times
-
-
 def test_bodies_are_where_the_channels_say(exported: Exported, machine: list[Read]) -> None:
     result, names = exported.result, exported.names("body")
     scenario = result.scenario
@@ -220,15 +213,6 @@ def test_pins_are_on_their_bodies(exported: Exported) -> None:
             assert np.hypot(*(journal - bore)[:2]) == pytest.approx(eccentricity, abs=tolerance)
 
 
-def test_both_formats_hold_the_same(exported: Exported) -> None:
-    for one, other in zip(exported.indexes("xdmf"), exported.indexes("pvd"), strict=True):
-        for here, there in zip(by_vtk(one), by_vtk(other), strict=True):
-            np.testing.assert_array_equal(here.points, there.points)
-            assert set(here.point_data) == set(there.point_data)
-            for name, values in here.point_data.items():
-                np.testing.assert_array_equal(values, there.point_data[name])
-
-
 @pytest.mark.parametrize("bore", ["first", "second"])
 def test_a_loose_pin_is_at_its_journal_and_pressed_back_into_its_bore(bore: str) -> None:
     """Whichever body has the bore: the eccentricity that was recorded lies between both bodies' points."""
@@ -296,38 +280,6 @@ def test_meshio_reads_xdmf_back(exported: Exported) -> None:
 
 
 # --- files ---
-
-
-def test_a_shorter_export_leaves_no_step_of_a_longer_one(tmp_path: Path) -> None:
-    to_vtu(run("plane"), tmp_path, Sampling(every=20))
-    (tmp_path / "mine.vtu").write_text("mine", encoding="utf-8")
-    files = to_vtu(run("plane"), tmp_path, Sampling(every=50))
-    assert set(tmp_path.iterdir()) == {*files, tmp_path / "mine.vtu"}
-    assert len(by_vtk(files[0])) == 3
-
-
-@pytest.mark.parametrize("kind", ["xdmf", "vtu"])
-def test_an_interruption_leaves_what_was_there(kind: str, tmp_path: Path) -> None:
-    result = run("plane")
-
-    def interrupted(share: float) -> None:
-        if share > 0.5:
-            raise KeyboardInterrupt
-
-    def write(every: int, **progress: object) -> None:
-        if kind == "xdmf":
-            to_xdmf(result, tmp_path / "out" / "run.xdmf", Sampling(every=every), **progress)  # type: ignore[arg-type]
-        else:
-            to_vtu(result, tmp_path / "out", Sampling(every=every), **progress)  # type: ignore[arg-type]
-
-    with pytest.raises(KeyboardInterrupt):
-        write(20, progress=interrupted)
-    assert list(tmp_path.iterdir()) == []
-    write(20)
-    before = {path: path.read_bytes() for path in (tmp_path / "out").iterdir()}
-    with pytest.raises(KeyboardInterrupt):
-        write(10, progress=interrupted)
-    assert {path: path.read_bytes() for path in (tmp_path / "out").iterdir()} == before
 
 
 def test_a_run_is_not_overwritten_by_its_export(tmp_path: Path) -> None:

@@ -20,11 +20,6 @@ def test_one_in_so_many_from_the_first_that_lies_inside() -> None:
     assert Sampling(every=40, after=0.095).records(TIME) == [10, 50, 90]
 
 
-def test_both_ends_are_inside() -> None:
-    assert Sampling(after=float(TIME[3]), until=float(TIME[5])).records(TIME) == [3, 4, 5]
-    assert Sampling(after=float(TIME[3]), until=float(TIME[3]), frames_per_second=25.0).records(TIME) == [3]
-
-
 def test_frames_are_the_nearest_records() -> None:
     assert Sampling(frames_per_second=25.0).records(TIME) == list(range(0, 101, 4))
     assert Sampling(frames_per_second=3.0).records(TIME) == [0, 33, 67, 100]

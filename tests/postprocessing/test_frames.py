@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 from PIL.ImageColor import getrgb
@@ -16,17 +14,14 @@ from PIL.ImageColor import getrgb
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
-from support_exudyn.postprocessing.render import movie, panels
-from support_exudyn.postprocessing.render.movie import moments
+from support_exudyn.postprocessing.render import panels
 from support_exudyn.postprocessing.render.panels import (
     Bore,
     Inset,
     PinView,
-    Strip,
     pin_view,
 )
-from support_exudyn.postprocessing.render.sheet import INK, Canvas
-from support_exudyn.postprocessing.render.stage import fitted
+from support_exudyn.postprocessing.render.sheet import Canvas
 from tests import synthetic
 from tests.cases.run_cases import PIN, loose_support
 
@@ -70,40 +65,9 @@ def test_a_frame_shows_the_record_next_to_it() -> None:
     assert found.tolist() == [0, 0, 1, 2, 2, 3, 3]
 
 
-@pytest.mark.parametrize(
-    ("speed", "frames", "pace"), [(1.0, 11, ""), (0.5, 21, "2 \u00d7 slower"), (4.0, 3, "4 \u00d7 faster")]
-)
-def test_speed_is_seconds_of_the_run_in_one_of_the_movie(speed: float, frames: int, pace: str) -> None:
-    found = moments(TIME, 0.2, 0.6, 25.0, speed)
-    assert found.times == pytest.approx(0.2 + 0.04 * speed * np.arange(frames))
-    assert TIME[found.records] == pytest.approx(found.times)
-    assert found.pace == pace
-
-
-# --- scales ---
-
-
 # --- camera ---
 
 place = st.tuples(*(st.floats(-3.0, 3.0) for _ in "xyz"))
-
-
-@given(st.lists(place, min_size=2, max_size=8), st.tuples(*(st.integers(0, 60) for _ in "ltrb")))
-def test_all_points_are_within_the_margins_as_large_as_they_can_be(
-    points: list[tuple[float, float, float]], margins: tuple[int, int, int, int]
-) -> None:
-    camera = fitted(np.array(points), 640, 360, margins)
-    context = camera.pixels(np.array(points))
-    left, top, right, bottom = margins
-    box = np.array([[left, top], [640 - right, 360 - bottom]])
-    low, high = context.min(axis=0), context.max(axis=0)
-    # 1e-6 pixels: rounding where all points are one, and the scale is 1e11 pixels to a metre
-    margin = 1e-6 * max(1.0, camera.scale * 1e-8)
-    assert (low >= box[0] - margin).all()
-    assert (high <= box[1] + margin).all()
-    assert 0.5 * (low + high) == pytest.approx(box.mean(axis=0), abs=margin)
-    if np.ptp(points, axis=0).max() > 1e-3:
-        assert ((high - low) / (box[1] - box[0])).max() == pytest.approx(1.0)
 
 
 # --- the journal and the force on it ---
@@ -174,73 +138,3 @@ def test_the_arrow_goes_from_the_wall_that_is_touched_into_the_bore(x: float, y:
     assert ahead[ahead > 27.0].min() == pytest.approx(RADIUS - 60.0, abs=4.0)
     aside = (pixels_of(picture, CONTACT) - found.centre) @ np.array([-towards[1], towards[0]])
     assert np.abs(aside[ahead > RADIUS - 55.0]).max() < 12.0
-
-
-# --- force over time ---
-
-AXES = (60, 30, 560, 130)
-
-
-def shown_strip(force: np.ndarray, closed: np.ndarray, start: float, end: float) -> tuple[Strip, Canvas]:
-    known = view(0.0, 0.0, (0.0, 0.0))
-    assert known.bore is not None
-    pin = replace(known, force=np.column_stack([force, 0.0 * force]), bore=replace(known.bore, closed=closed))
-    sheet, found = Canvas(600, 160), Strip(AXES, TIME, pin, start, end, 1.0)
-    found.draw_still(sheet)
-    sheet.hold()
-    return found, sheet
-
-
-def test_force_is_drawn_over_the_time_that_is_shown() -> None:
-    force = np.where(TIME > 0.495, 10e3, 0.0)
-    _, sheet = shown_strip(force, TIME > 0.495, 0.2, 0.7)
-    inside = sheet.frame()[AXES[1] : AXES[3] + 4, AXES[0] : AXES[2]]
-    part = Image.fromarray(inside)
-    contact, flight = pixels_of(part, CONTACT), pixels_of(part, FLIGHT)
-    # in contact from 0.5 s on, which is at 3/5 of the axis, from the record before on; a pixel of rounding
-    assert contact[:, 0].min() == pytest.approx(0.58 * 500, abs=2.0)
-    assert contact[:, 0].max() == pytest.approx(500, abs=2.0)
-    assert flight[:, 0].max() == pytest.approx(0.58 * 500, abs=2.0)
-    assert flight[:, 0].min() == pytest.approx(0.0, abs=2.0)
-    # the axis goes to 1.08 of the largest
-    assert contact[:, 1].min() == pytest.approx(100.0 * (1.0 - 1.0 / 1.08), abs=2.0)
-    assert np.median(flight[:, 1]) == pytest.approx(100.0, abs=2.0)
-
-
-# --- arrows, and the movie ---
-
-
-@pytest.mark.parametrize(("x", "y"), [(1.0, 0.0), (0.0, 1.0), (-0.6, 0.8)])
-def test_an_arrow_goes_from_tail_to_tip(x: float, y: float) -> None:
-    sheet = Canvas(200, 200)
-    sheet.hold()
-    sheet.arrow((100.0, 100.0), (100.0 + 80.0 * x, 100.0 + 80.0 * y), CONTACT, 8.0)
-    picture = sheet.frame()
-    # the outermost pixels of the thin tip are not filled by its colour alone, but by more than half
-    rows, columns = np.nonzero(np.abs(picture - np.array(getrgb(CONTACT))).max(axis=-1) < 127)
-    reached = (np.column_stack((columns, rows)) - 99.5) @ np.array([x, y])
-    assert (reached.min(), reached.max()) == (pytest.approx(0.0, abs=1.5), pytest.approx(80.0, abs=2.0))
-    found = pixels_of(Image.fromarray(picture), CONTACT) - 100.0
-    along, aside = found @ np.array([x, y]), found @ np.array([-y, x])
-    head = along > 80.0 - 4.2 * 8.0
-    assert np.abs(aside[~head]).max() == pytest.approx(4.0, abs=1.0)  # half of its thickness
-    assert np.abs(aside[head]).max() > 10.0
-    assert aside.mean() == pytest.approx(0.0, abs=0.3)
-
-
-def test_colours_with_a_meaning_are_the_same_in_a_gif(tmp_path: Path) -> None:
-    frames = []
-    for n in range(2):
-        pixels = np.random.default_rng(n).integers(0, 255, (40, 160, 3), dtype=np.uint8)
-        for k, colour in enumerate((CONTACT, FLIGHT, INK, "#ffffff")):
-            pixels[10:30, 40 * k + 10 : 40 * k + 30] = getrgb(colour)
-        frames.append(tmp_path / f"frame_{n:04d}.png")
-        Image.fromarray(pixels).save(frames[-1])
-    movie.write("gif", tmp_path / "a.gif", frames, 10.0, lambda share: None)
-    with Image.open(tmp_path / "a.gif") as read:
-        for n in range(2):
-            read.seek(n)
-            picture = np.asarray(read.convert("RGB"))
-            assert read.info["duration"] == 100
-            for k, colour in enumerate((CONTACT, FLIGHT, INK, "#ffffff")):
-                assert (picture[12:28, 40 * k + 12 : 40 * k + 28] == getrgb(colour)).all()

@@ -11,9 +11,7 @@ import pytest
 from support_exudyn import ClearanceGuide, IdealGuide, Scenario, Slide, simulate
 from support_exudyn.__main__ import main
 from support_exudyn.postprocessing import summary
-from support_exudyn.postprocessing.look.plain import look
 from support_exudyn.postprocessing.look.slots import sliding_block, slot_walls
-from support_exudyn.postprocessing.render.frame import title
 from support_exudyn.simulation.reported_numbers import measures
 from tests.cases.guide_cases import BLOCK, slider_crank
 
@@ -37,14 +35,6 @@ def test_walls_and_block_are_drawn_where_they_are() -> None:
     upright = replace(SLIDE, direction=1.5707963267948966)
     assert next(sliding_block(upright, GUIDE)).bounds == pytest.approx((0.975, 1.95, 1.025, 2.05))
     assert slot_walls(SLIDE, IdealGuide(), 0.3) == list(sliding_block(SLIDE, IdealGuide())) == []
-
-
-def test_the_plain_look_has_the_block_in_its_body(scene: Scenario) -> None:
-    solids = {solid.name: solid for solid in look(scene).solids}
-    across = solids["slider"].mesh.vertices[:, 1]
-    assert across.max() >= 0.5 * BLOCK[1] - 1e-9
-    assert across.min() <= -0.5 * BLOCK[1] + 1e-9
-    assert title(scene, None).endswith("guide: play \u00b11 mm")
 
 
 def test_impacts_are_told_by_corner(

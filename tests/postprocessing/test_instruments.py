@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 
@@ -273,18 +272,3 @@ def test_the_command_writes_the_table(tmp_path: Path, capsys: pytest.CaptureFixt
     assert next(iter(series.values())).time[0] == 0.25
     assert main(["measure", str(run), "--json"]) == 1
     assert "'rear_column.length': was not recorded" in capsys.readouterr().err
-
-
-def test_the_command_tells_what_it_leaves_out(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    from support_exudyn import simulate
-
-    run = simulate(Scenario(machine=reference_support(), duration=0.02)).save(tmp_path / "run.h5")
-    assert main(["measure", str(run), "--json", "--out", str(tmp_path / "out.csv")]) == 0
-    printed = capsys.readouterr()
-    told = json.loads(printed.out)
-    assert list(told["left_out"]) == ["front_column.pressure", "rear_column.pressure"]
-    assert told["samples"]["canopy.tilt"] == 1
-    assert "front_column.pressure: left out:" in printed.err
-    assert (tmp_path / "out.csv").read_text().startswith("time_s,front_column.extension_mm,")
-    assert main(["measure", str(run), "--out", str(run)]) == 1
-    assert "is a run, which would be lost" in capsys.readouterr().err

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,14 +16,12 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.page.live import (
     MOST_POINTS,
     Drawn,
-    LiveFigure,
     live_panel,
     of_drawing,
     thinned,
 )
 from support_exudyn.postprocessing.page.live_html import html
 from tests.often import often
-from user_forces import InputError
 
 MOST = 60
 VALUES = st.floats(-1e6, 1e6) | st.just(float("nan"))
@@ -88,35 +85,6 @@ def test_curves_of_a_drawing_are_its_labelled_lines_from_the_undermost() -> None
     assert max(v for v in under.y if v is not None) == 30.0
 
 
-def test_a_figure_is_read_back_as_it_was_written(tmp_path: Path) -> None:
-    time = np.array([0.0, 1.0, 2.0])
-    broken = live_panel("y [m]", [Drawn("a", time, np.array([1.0, np.nan, 3.0]), "#000000")])
-    for number, figure in enumerate((of_drawing(drawing(), [0, 1]), LiveFigure("time [s]", (broken,)))):
-        path = tmp_path / f"{number}.live.json"
-        figure.save(path)
-        assert LiveFigure.load(path) == figure
-
-
-@pytest.mark.parametrize(
-    ("text", "fault"),
-    [
-        ("{", "Invalid JSON"),
-        ('{"x_label": "t", "panels": []}', "at least one panel"),
-        (
-            '{"x_label": "t", "panels": [{"label": "y", "curves": [{"label": "a", "x": [1.0], "y": [1.0, 2.0],'
-            ' "colour": "#000000"}]}]}',
-            r"panels\.0\.curves\.0: .*1 x and 2 y",
-        ),
-    ],
-)
-def test_a_broken_file_is_told_by_name_and_fault(tmp_path: Path, text: str, fault: str) -> None:
-    path = tmp_path / "fig.live.json"
-    path.write_text(text)
-    with pytest.raises(InputError, match=fault) as told:
-        LiveFigure.load(path)
-    assert str(path) in str(told.value)
-
-
 def test_a_page_holds_the_library_once_and_loads_nothing() -> None:
     figure = of_drawing(drawing(), [0, 1])
     found = html({"one": figure, "other": figure})
@@ -125,10 +93,3 @@ def test_a_page_holds_the_library_once_and_loads_nothing() -> None:
     assert not re.search(r"<(script|link|img|iframe)[^>]*\b(src|href)=", found.scripts)
     assert 1e6 < len(found.scripts) < 1.6e6
     assert html({}).scripts == ""
-
-
-def test_names_cannot_leave_the_script() -> None:
-    time = np.array([0.0, 1.0])
-    bad = "</script><script>alert(1)</script>"
-    figure = LiveFigure("time [s]", (live_panel(bad, [Drawn(bad, time, time, "#000000")]),))
-    assert "alert(1)</script>" not in html({"a": figure}).scripts

@@ -15,7 +15,7 @@ from support_exudyn.postprocessing.figures.machine import MARK, machine_drawing
 from support_exudyn.postprocessing.figures.outlines import shapes
 from support_exudyn.postprocessing.look.looks import look
 from tests import figure_checks
-from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, paper_contact, slider_crank, support
+from tests.cases.run_cases import loose_slider_crank, loose_support, paper_contact, slider_crank, support
 
 COLUMN = CylinderAndRod(
     cylinder_mass=300.0, cylinder_centre=0.45, cylinder_inertia=20.0,
@@ -74,28 +74,3 @@ def test_a_machine_is_drawn_whole_and_fits_a_page(name: str) -> None:
         a, b, c, d = shape.outline.bounds
         assert left < a < c < right
         assert low < b < d < high
-
-
-@pytest.mark.parametrize("name", ["support", "zf18000", "tail beam, in space", "slider-crank, ideal"])
-def test_words_do_not_lie_upon_another(name: str) -> None:
-    with style.look():
-        assert not figure_checks.overlapping(machine_drawing(SCENES[name]))
-
-
-def test_the_ring_is_at_the_pin_and_the_detail_says_its_data() -> None:
-    drawing = machine_drawing(SCENES["support"])
-    assert rings(drawing)[0].get_center() == SCENES["support"].linkage.pins[PIN].second_point
-    with style.look():
-        words = [text for text, _ in figure_checks.texts(drawing)]
-    for said in ("rear base pin", "radial clearance c = 1.5 mm", "bore diameter 131 mm", "1 m", "tip"):
-        assert said in words
-    assert "(clearance drawn 10 times larger)" in words
-
-
-def test_ideal_pins_are_marked_by_name_alone() -> None:
-    drawing = machine_drawing(SCENES["support, ideal"], ["rear_shield", "front_base"])
-    assert len(rings(drawing)) == 2
-    with style.look():
-        words = [text for text, _ in figure_checks.texts(drawing)]
-    assert "rear shield pin" in words
-    assert not [text for text in words if "clearance" in text]

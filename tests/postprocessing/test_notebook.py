@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from collections.abc import Mapping
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -78,65 +77,6 @@ def test_xarray_has_every_channel_with_unit_and_meaning(runs: Mapping[str, Resul
     assert found[FORCE].attrs == {"units": "N", "long_name": run.channels[FORCE].meaning}
     assert found["time"].attrs["units"] == "s"
     assert found.attrs["machine"] == "SliderCrank"
-
-
-@pytest.mark.parametrize(("name", "ask"), [("pandas", Result.to_pandas), ("xarray", Result.to_xarray)])
-def test_a_library_that_is_missing_is_named_with_the_way_to_have_it(
-    runs: Mapping[str, Result], name: str, ask: object, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, name, None)
-    with pytest.raises(InputError, match=rf"to_{name}: needs {name}, .* pip install 'support-exudyn\[data\]'"):
-        ask(runs["ideal"])  # type: ignore[operator]
-
-
-# --- in a notebook ---
-
-
-def test_a_plot_is_a_figure_that_notebooks_show_without_pyplot(runs: Mapping[str, Result]) -> None:
-    figure = runs["loose"].plot(FORCE, "slider.x", after=0.001, until=0.003)
-    assert [axes.get_ylabel() for axes in figure.axes] == ["force [kN]", "length [mm]"]
-    drawn = figure.axes[1].lines[0].get_xdata()
-    assert math.isclose(float(np.ptp(np.asarray(drawn))), 2.0)  # ms
-    assert figure._repr_png_().startswith(b"\x89PNG")  # type: ignore[attr-defined]
-    drawn_by_default = runs["ideal"].plot().get_suptitle()
-    assert "SliderCrank" in drawn_by_default
-    with pytest.raises(InputError, match="no such channel"):
-        runs["loose"].plot("pim.*")
-
-
-def test_a_result_shows_what_was_run_and_what_came_out(runs: Mapping[str, Result]) -> None:
-    rows = Cells(runs["ideal"]._repr_html_()).rows
-    assert ["machine", "SliderCrank, in the plane"] in rows
-    assert ["number", "value", "±", "unit"] in rows
-    told = {row[0]: row for row in rows}
-    mean = runs["ideal"].numbers()[f"{FORCE}.mean"]
-    assert float(told[f"{FORCE}.mean"][1]) * 1e3 == pytest.approx(mean.value, rel=1e-3)
-    without = Cells(runs["loose"]._repr_html_()).rows
-    assert ["number", "value", "unit"] in without  # no column that is empty
-    assert any(row[:2] == [SLIDER_PIN, f"1 of {len(runs['loose'].onsets[SLIDER_PIN])}"] for row in without)
-
-
-def test_a_scenario_shows_what_is_run(runs: Mapping[str, Result]) -> None:
-    rows = dict(Cells(runs["loose"].scenario._repr_html_()).rows)  # type: ignore[arg-type]
-    assert rows["formulation"] == "compiled"
-    assert rows[f"pin {SLIDER_PIN}"].startswith("0.5 mm clearance in a bore of 10 mm radius")
-
-
-@pytest.mark.parametrize(
-    ("ask", "said"),
-    [
-        (lambda run: run["pin.slider_pin.forc"], "no such channel; there are .* pin.slider_pin.force"),
-        (lambda run: run.channels["slider.z"], "no such channel; did you mean 'slider.y' or 'slider.x'"),
-        (lambda run: run.numbers()[f"{FORCE}.maen"], rf"no such number; did you mean '{FORCE}.mean'"),
-        (lambda run: run.largest_force["main"], "no such clearance pin; there are none"),
-    ],
-)
-def test_a_wrong_name_is_told_with_those_that_look_like_it(
-    runs: Mapping[str, Result], ask: object, said: str
-) -> None:
-    with pytest.raises(KeyError, match=said) as caught:
-        ask(runs["ideal"])  # type: ignore[operator]
-    assert str(caught.value)[0] in "'p"  # a sentence, not one in quotes
 
 
 # --- side by side ---

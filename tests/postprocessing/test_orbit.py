@@ -86,42 +86,6 @@ def test_a_parting_is_where_the_records_around_it_are() -> None:
     assert here[separation] == pytest.approx(-CLEARANCE, rel=1e-4)
 
 
-def test_contact_is_deep_and_said_so() -> None:
-    drawing = orbit(bouncing())
-    depths = {line.get_color(): np.array(line.get_ydata()) for line in drawing.axes[1].lines}
-    assert np.nanmin(depths[style.CONTACT]) > -1e-9
-    assert np.nanmax(depths[style.CONTACT]) == pytest.approx(0.3)
-    assert "Deepest record: 0.3 mm" in figure_checks.words_below(drawing)
-    marks = {line.get_label(): line.get_markerfacecolor() for line in drawing.axes[0].lines}
-    assert (marks["start"], marks["end"]) == ("white", style.IDEAL)
-
-
-@pytest.mark.parametrize(
-    ("away", "words"),
-    [(0.5e-3, "no impact"), (CLEARANCE + 1e-5, "in contact throughout")],
-    ids=["flight", "contact"],
-)
-def test_runs_without_a_touch_say_so(away: float, words: str) -> None:
-    drawing = orbit(synthetic.journal(SCENARIO, TIME, np.full_like(TIME, away), 1e-4 * TIME))
-    assert words in [text.get_text() for text in drawing.axes[2].texts]
-    names = lines(drawing.axes[0])
-    assert ("contact" in names, "free flight" in names) == (away > CLEARANCE, away < CLEARANCE)
-
-
-@pytest.mark.parametrize(
-    "window",
-    [
-        {},
-        pytest.param({"after": 10e-3}, marks=pytest.mark.slow),
-        pytest.param({"until": 12e-3}, marks=pytest.mark.slow),
-        {"after": 16e-3, "until": 24e-3},
-    ],
-)
-def test_nothing_is_cut_off_or_overlaps(window: dict[str, float]) -> None:
-    with style.look():
-        figure_checks.check(orbit(bouncing(), **window))
-
-
 def test_what_cannot_be_drawn_is_refused() -> None:
     ideal = synthetic.result(support(), TIME, {"pin.rear_base.force": (TIME, "N")})
     assert clearance_joints(ideal) == ()

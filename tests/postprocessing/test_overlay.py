@@ -9,11 +9,9 @@ import pytest
 
 from support_exudyn import Result
 from support_exudyn.files.series.read import read_series
-from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.overlay import difference, overlay
-from tests import figure_checks, synthetic
+from tests import synthetic
 from tests.cases.run_cases import loose_support
-from user_forces.values.value import InputError
 
 SCENARIO = loose_support(1.5)
 TIME = np.linspace(0.0, 2.0, 201)
@@ -52,37 +50,3 @@ def test_curves_of_files_are_read_by_their_units(tmp_path: Path, title: str, sca
     line = drawing.axes[0].lines[1]
     assert line.get_xdata() == pytest.approx([0.0, 0.5])
     assert line.get_ydata() == pytest.approx([1e3 * scale, 2e3 * scale])
-
-
-def test_measured_points_are_markers_and_those_beyond_the_run_are_told(tmp_path: Path) -> None:
-    path = tmp_path / "a.csv"
-    path.write_text("time_s,tip.x_mm\n0,1\n1,2\n2.5,3\n3,3\n", encoding="utf-8")
-    drawing = overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_series(path)})
-    line = drawing.axes[0].lines[1]
-    assert (line.get_marker(), line.get_linestyle()) == ("o", "None")
-    said = " ".join(drawing.get_supxlabel().split())
-    assert "2 points of b beyond the end of the run, 2 s, are not drawn" in said
-    assert "Nothing is said of the errors of b" in said
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("time_s,pin_mm\n0,1\n1,2\n", "has a series of none of these channels; allowed: .*tip.x; it has pin"),
-        ("time_s,tip.x\n0,1\n1,2\n", r"tip.x: its file gives no unit, and m is asked for; .*'tip.x \[m\]'"),
-        ("time_s,tip.x_kN\n0,1\n1,2\n", "tip.x: is in kN, which cannot be given in m"),
-        ("time_s,tip.x_mm\n5,1\n6,2\n", "its times, 5 to 6 s, have no number between 0 and 2 s"),
-    ],
-)
-def test_each_fault_of_a_file_has_a_sentence_of_its_own(tmp_path: Path, text: str, message: str) -> None:
-    path = tmp_path / "a.csv"
-    path.write_text(text, encoding="utf-8")
-    with pytest.raises(InputError, match=message):
-        overlay({"a": run(0.1)}, ["tip.x"], curves={"b": read_series(path)})
-
-
-def test_nothing_is_cut_off() -> None:
-    with style.look():
-        runs = {"a first run with a long name": run(0.1), "a second one": run(0.2)}
-        figure_checks.check(overlay(runs, ["tip.x", "pin.rear_base.depth"]))
-        figure_checks.check(difference(runs, ["tip.x"]))

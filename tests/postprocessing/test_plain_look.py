@@ -7,10 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies.slider_crank.run import scenarios
 from support_exudyn import ClearancePin, HydraulicSupport, Scenario, TwoLegShield
 from support_exudyn.machines.free_impact import ImpactStand
-from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look.looks import look, look_of
 from support_exudyn.postprocessing.look.poses import planar_pins
 from support_exudyn.postprocessing.look.solid import Look
@@ -23,18 +21,6 @@ STAND = Scenario(
     pins={"pin": ClearancePin(contact=JournalContact(bearing=BEARING, normal=LAW, friction=Frictionless()))},
     duration=0.1,
 )
-SCENES = {**scenarios(), "stand": STAND}
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_every_body_and_the_ground_are_closed_surfaces(name: str) -> None:
-    scenario = SCENES[name]
-    shown = look(scenario)
-    bodies = set(scenario.linkage.bodies)
-    assert bodies <= {solid.body for solid in shown.solids} <= {*bodies, GROUND}
-    for solid in shown.solids:
-        assert solid.mesh.is_watertight, solid.name
-        assert solid.mesh.volume > 0.0, solid.name
 
 
 def test_a_journal_fits_its_bore() -> None:

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -55,32 +52,6 @@ def test_without_a_wish_an_overview_is_drawn(runs: Path, capsys: pytest.CaptureF
     assert (out / "with_clearance_overview.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_what_a_run_has_none_of_is_left_out_of_the_overview_in_a_sentence(
-    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["plot", str(runs / "space.h5"), "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("space_overview", "space_orbit_rear_base")
-    said = capsys.readouterr().err
-    assert "space_poincare_rear_base: left out" in said
-    assert "space_spectrum_rear_base: left out" in said
-
-
-def test_where_pins_shake_is_drawn_and_told(
-    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    run = str(runs / "crank.h5")
-    assert main(["plot", run, "--stability", "--pin", "slider_pin", "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("crank_stability")
-    capsys.readouterr()
-    assert main(["show", run, "--json"]) == 0
-    (told,) = json.loads(capsys.readouterr().out)["pin_stability"]
-    assert told["pin"] == "slider_pin"
-    assert told["stable"] is (told["growth_rate_per_s"] < 1e-4 * 2.0 * math.pi * told["frequency_Hz"])
-    assert "do loaded pins shake as they slide?" in shown(Path(run), capsys)
-    assert main(["plot", run, "--stability", "--orbit", "--out", str(tmp_path)]) == 1
-    assert "--stability: is drawn by itself" in capsys.readouterr().err
-
-
 def test_one_kind_of_one_pin_is_drawn(runs: Path, tmp_path: Path) -> None:
     args = ["plot", str(runs / "crank.h5"), "--spectrum", "--after", "0.01", "--pin", "main"]
     assert main([*args, "--out", str(tmp_path)]) == 0
@@ -102,22 +73,6 @@ def test_several_runs_are_drawn_one_upon_another(runs: Path, tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (["ideal.h5", "--difference"], "needs a second run"),
-        (["ideal.h5", "with_clearance.h5", "--orbit"], "are of one run, and 2 are given"),
-        (["ideal.h5", "crank.h5", "--difference", "tip.x"], "in common"),
-        (["ideal.h5", "ideal.h5", "tip.x"], "is given twice"),
-    ],
-)
-def test_what_several_runs_cannot_show_is_said(
-    runs: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
-) -> None:
-    assert main(["plot", *(str(runs / word) if word.endswith(".h5") else word for word in words)]) == 1
-    assert message in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
     ("run", "args", "message"),
     [
         ("with_clearance", ["pin.rear_base.forse"], "pin.rear_base.force"),
@@ -136,16 +91,6 @@ def test_what_cannot_be_drawn_is_said_in_a_sentence(
     assert said.startswith("error: ")
     assert message in said
     assert not (tmp_path / "new").exists()
-
-
-@pytest.mark.parametrize(
-    "args", [["--from", "nan"], ["--until", "x"], ["--phase", "2"], ["--section", "tip.x"]]
-)
-def test_wrong_words_are_refused(runs: Path, capsys: pytest.CaptureFixture[str], args: list[str]) -> None:
-    with pytest.raises(SystemExit) as stop:
-        main(["plot", str(runs / "with_clearance.h5"), *args])
-    assert stop.value.code == 2
-    assert "usage: " in capsys.readouterr().err
 
 
 # --- show ---
@@ -178,73 +123,6 @@ def test_show_tells_what_was_run_how_and_what_came_out(runs: Path, capsys: pytes
     assert row[3] == "kN"
 
 
-@pytest.mark.parametrize("run", ["with_clearance", "ideal", "space", "crank"])
-def test_all_channels_are_shown_with_their_whole_names(
-    runs: Path, capsys: pytest.CaptureFixture[str], run: str
-) -> None:
-    said = shown(runs / f"{run}.h5", capsys, "--all")
-    first = {line.split()[0] for line in said.splitlines() if line.strip()}
-    assert set(Result.load(runs / f"{run}.h5").channels) - {"time"} <= first
-    assert "…" not in said
-    assert "\x1b" not in said  # plain where it is not a terminal
-    assert max(map(len, said.splitlines())) <= 150
-
-
-def test_some_channels_are_shown_by_pattern(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    said = shown(runs / "crank.h5", capsys, "slider.*x", "pin.slider_pin.depth")
-    rows = [line.split() for line in said.splitlines() if line.startswith((" slider.", " pin."))]
-    assert [row[0] for row in rows] == ["slider.velocity_x", "slider.x", "pin.slider_pin.depth"]
-    x = Result.load(runs / "crank.h5").window("slider.x")
-    # six digits are shown
-    assert [float(cell) for cell in rows[1][2:5]] == pytest.approx(
-        [1e3 * x.least[0], 1e3 * x.mean, 1e3 * x.greatest[0]], rel=1e-5
-    )
-
-
-def test_show_ends_quietly_when_nobody_reads_on(runs: Path) -> None:
-    command = [sys.executable, "-m", "support_exudyn", "show", str(runs / "space.h5"), "--all"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        assert process.stdout is not None
-        process.stdout.close()
-        assert process.stderr is not None
-        assert process.stderr.read() == b""
-        assert process.wait() == 0
-
-
-@pytest.mark.parametrize("words", [[], ["tip.*"], ["--all"]])
-def test_the_narrowest_terminals_cut_no_number(
-    runs: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, words: list[str]
-) -> None:
-    wide = shown(runs / "with_clearance.h5", capsys, *words)
-    monkeypatch.setattr("support_exudyn.commands.tables.PIPED", 30)
-    narrow = shown(runs / "with_clearance.h5", capsys, *words)
-
-    def rows(said: str) -> list[list[str]]:
-        found = [line.split() for line in said.splitlines()]
-        return [row[:5] for row in found if row and row[0].startswith(("tip.", "pin.", "energy."))]
-
-    assert rows(narrow) == rows(wide)
-
-
-def test_numbers_are_shown_by_the_names_that_they_are_printed_with(
-    runs: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    said = shown(runs / "with_clearance.h5", capsys, "*largest_force*")
-    largest = Result.load(runs / "with_clearance.h5").largest_force["rear_base"]
-    (row,) = [line.split() for line in said.splitlines() if "rear_base.largest_force," in line]
-    assert float(row[3]) == pytest.approx(1e-3 * largest, rel=1e-2)
-    assert "energy" not in said
-    both = shown(runs / "with_clearance.h5", capsys, "pin.rear_base.force.largest", "tip.x")
-    assert "pin.rear_base.force.largest" in both
-    assert "\n tip.x " in both
-    assert main(["show", str(runs / "with_clearance.h5"), "*largest_torce*"]) == 1
-    assert "no such channel or number" in capsys.readouterr().err
-    assert main(["show", str(runs / "with_clearance.h5"), "*largest_force*", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["channels"] == {}
-    assert "pin.rear_base.largest_force" in told["numbers"]
-
-
 def test_all_impacts_are_shown_when_asked_for(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     result = Result.load(runs / "with_clearance.h5")
     count = len(result.onsets["rear_base"])
@@ -271,14 +149,3 @@ def test_show_for_scripts_has_what_the_tables_have(runs: Path, capsys: pytest.Ca
     assert [one["time_s"] for one in told["impacts"]["rear_base"]] == [
         o.time for o in result.onsets["rear_base"]
     ]
-
-
-def test_plot_and_export_name_their_files_for_scripts(
-    runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["plot", str(runs / "ideal.h5"), "tip.x", "--out", str(tmp_path), "--json"]) == 0
-    figures = json.loads(capsys.readouterr().out)["figures"]
-    assert {Path(path) for path in figures["ideal_tip.x"]} == set(tmp_path.iterdir())
-    assert main(["export", str(runs / "ideal.h5"), "--to", "csv", "--out", str(tmp_path), "--json"]) == 0
-    written = json.loads(capsys.readouterr().out)
-    assert written == {"written": {"csv": [str(tmp_path / "ideal.csv")]}, "left_out": {}}

@@ -10,10 +10,9 @@ import pytest
 
 from support_exudyn import CubicStep, Held, Onset, Reciprocating, Result
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.poincare import period, periodic_times, poincare, stroboscopic
+from support_exudyn.postprocessing.figures.poincare import period, poincare, stroboscopic
 from tests import figure_checks, synthetic
 from tests.cases.run_cases import CRANK_SPEED, loose_slider_crank, loose_support
-from user_forces import InputError
 
 PERIOD = 0.5  # [s]
 SCENARIO = loose_support(1.5, drive=Reciprocating(stroke=0.2, period=PERIOD), duration=5.0)
@@ -53,12 +52,6 @@ def test_a_motion_of_n_periods_is_n_points(share: float, points: int) -> None:
     assert section.time == pytest.approx(np.arange(10) * PERIOD + 0.25 * PERIOD)
 
 
-def test_a_piece_of_the_run_keeps_the_phase() -> None:
-    run = swinging(1.0)
-    assert periodic_times(run, 0.5, after=1.1, until=2.3) == pytest.approx([1.25, 1.75, 2.25])
-    assert periodic_times(run, 0.0, after=1.0, until=2.0) == pytest.approx([1.0, 1.5, 2.0])
-
-
 def test_the_section_is_drawn_in_the_bore_and_of_two_channels() -> None:
     drawing = poincare(swinging(1.0 / 3.0))
     bore, pair = drawing.axes[:2]
@@ -70,15 +63,6 @@ def test_the_section_is_drawn_in_the_bore_and_of_two_channels() -> None:
     assert pair.get_xlabel() == "rear_link.angle [deg]"
     assert "once in a period" in drawing.get_suptitle()
     assert "(0.5 s)" in figure_checks.words_below(drawing)
-
-
-def test_channels_can_be_chosen() -> None:
-    names = ("pin.rear_base.depth", "pin.rear_base.eccentricity_x")
-    assert poincare(swinging(0.4), channels=names).axes[1].get_ylabel() == "pin.rear_base.eccentricity_x [mm]"
-    with pytest.raises(InputError, match="two names"):
-        poincare(swinging(0.4), channels=names[:1])
-    with pytest.raises(InputError, match="2 periods"):
-        poincare(swinging(0.4), channels=names, after=4.2)
 
 
 def closed(speeds: list[float]) -> Result:
@@ -98,9 +82,3 @@ def test_without_a_period_touches_make_the_section() -> None:
     assert places.lines[1].get_xdata() == pytest.approx([0.0] * 4)  # deg
     assert returns.get_xlabel() == "initial impact velocity of an impact [mm/s]"
     assert "by impacts" in drawing.get_suptitle()
-
-
-@pytest.mark.parametrize("share", [1.0, 0.5, 0.37, 1e-4])
-def test_nothing_is_cut_off_or_overlaps(share: float) -> None:
-    with style.look():
-        figure_checks.check(poincare(swinging(share)))

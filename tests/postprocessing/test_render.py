@@ -25,7 +25,6 @@ from support_exudyn.postprocessing.render.scene import RenderedScene
 from support_exudyn.postprocessing.render.sheet import INK, Canvas
 from support_exudyn.postprocessing.render.sheet import Image as Picture
 from support_exudyn.postprocessing.render.stage import Camera, MeshItem, Stage, direction_of_view
-from tests.hostile import DISKS, little_room
 from user_forces import InputError
 
 SIZE = (320, 180)
@@ -119,18 +118,6 @@ def test_the_arrow_is_there_in_contact_and_not_in_flight(bouncing: Result) -> No
     assert not len(pixels_of(closed, FLIGHT))
 
 
-def test_the_mark_is_on_the_pin(bouncing: Result) -> None:
-    size = (640, 360)
-    flying = part(still(bouncing, float(bouncing.time[3]), size=size), size)
-    row, column = pixels_of(flying, FLIGHT).mean(axis=0)
-    scene = RenderedScene(bouncing)
-    camera = scene.camera(flying.shape[1], flying.shape[0])
-    pin = next(solid for solid in scene.look.solids if solid.name == f"pin_{WITH_CLEARANCE}")
-    x, y = bouncing.scenario.linkage.pins[WITH_CLEARANCE].first_point
-    place = camera.pixels(np.array([[x, y, pin.mesh.bounds[1, 2]]]))[0]
-    assert (column, row) == pytest.approx(place, abs=1.5)  # pixels; the mark's middle is rounded
-
-
 def test_surfaces_are_put_where_the_exported_mesh_has_them(bouncing: Result, spatial: Result) -> None:
     for run in (bouncing, spatial):
         scene, record = RenderedScene(run), run.time.size - 1
@@ -202,34 +189,6 @@ def test_arrows_are_the_force_on_the_journal_in_the_scale_that_is_shown(
     assert "the arrow is cut short" not in words
 
 
-def test_the_arrow_of_a_force_beyond_the_scale_is_cut_and_says_so(
-    bouncing: Result, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    force = bouncing[f"pin.{WITH_CLEARANCE}.force"]
-    record = int(force.argmax())
-    beyond = replace(  # a hit ten times as hard
-        bouncing,
-        channels={
-            name: replace(one, values=np.where(np.arange(force.size) == record, 10.0, 1.0) * one.values)
-            if name.startswith(f"pin.{WITH_CLEARANCE}.force")
-            else one
-            for name, one in bouncing.channels.items()
-        },
-    )
-    (_, machine, bore), words = painted(beyond, float(bouncing.time[record]), (640, 360), monkeypatch)
-    assert machine.cut
-    assert bore.cut
-    assert f"{force[record] / 100.0:.1f} kN" in words
-    assert "the arrow is cut short" in words
-
-
-def test_a_run_in_space_is_shown(spatial: Result) -> None:
-    picture = still(spatial, 0.02, size=SIZE)
-    assert picture.shape == (180, 320, 3)
-    assert picture.dtype == np.uint8
-    assert np.ptp(picture) > 200
-
-
 # --- files ---
 
 
@@ -267,35 +226,6 @@ def test_an_mp4_has_all_frames(bouncing: Result, tmp_path: Path) -> None:
     assert apart < 8.0  # of 255: compression
 
 
-def test_earlier_frames_are_replaced_and_nothing_else(bouncing: Result, tmp_path: Path) -> None:
-    folder = tmp_path / "f"
-    render(bouncing, folder, until=0.04, size=SIZE, movie="none", speed=0.5)
-    assert len(list(folder.iterdir())) > 2
-    for name in ("frame_0044.png", "frame_best.png", "notes.txt"):
-        (folder / name).write_text("mine")
-    render(bouncing, folder, until=0.04, size=SIZE, movie="none")
-    assert sorted(path.name for path in folder.iterdir()) == [
-        *("frame_0000.png", "frame_0001.png", "frame_0044.png", "frame_best.png", "notes.txt")
-    ]
-    assert (folder / "notes.txt").read_text() == "mine"
-    assert (folder / "frame_0000.png").read_bytes().startswith(b"\x89PNG")
-
-
-@pytest.mark.parametrize("share", [pytest.param(0.2, marks=pytest.mark.slow), 0.9])
-def test_an_interruption_leaves_all_as_it_was(bouncing: Result, tmp_path: Path, share: float) -> None:
-    render(bouncing, tmp_path / "run_frames", until=0.04, size=SIZE)
-    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
-
-    def interrupt(done: float) -> None:
-        if done > share:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        render(bouncing, tmp_path / "run_frames", until=0.08, size=SIZE, progress=interrupt)
-    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
-    assert len(list(tmp_path.iterdir())) == 2
-
-
 # --- what is refused ---
 
 
@@ -321,21 +251,6 @@ def test_what_cannot_be_is_refused_before_anything_is_written(
     assert not list(tmp_path.iterdir())
 
 
-def test_a_run_that_has_not_recorded_its_bodies_is_refused(tmp_path: Path) -> None:
-    run = simulate(replace(clearance_rise(1.5, 0.0, 1e-3), duration=0.01, channels=("pin.*",)))
-    with pytest.raises(InputError, match=r"was not recorded.*channels = \('\*',\)"):
-        render(run, tmp_path / "f", size=SIZE)
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize("kind", DISKS)
-def test_a_full_disk_is_told_by_the_folder_of_the_frames(bouncing: Result, tmp_path: Path, kind: str) -> None:
-    with little_room(tmp_path, 12_000, kind) as place:
-        with pytest.raises(OSError, match=r"it cannot be written: '.*frames'"):
-            render(bouncing, place / "frames", until=0.1, size=SIZE, movie="none")
-        assert list(place.iterdir()) == []
-
-
 # --- command line ---
 
 
@@ -353,26 +268,3 @@ def test_the_command_writes_beside_the_run(
         *("frame_0000.png", "frame_0001.png")
     ]
     assert "2 frames" in capsys.readouterr().out
-
-
-def test_the_command_writes_a_still(
-    bouncing: Result, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = bouncing.save(tmp_path / "with_clearance.h5")
-    assert main(["render", str(path), "--size", "320x180", "--still", "0.1"]) == 0
-    with Image.open(tmp_path / "with_clearance_0.1s.png") as picture:
-        assert picture.size == SIZE
-    assert main(["render", str(path), "--still", "0.1", "--out", str(tmp_path / "a.jpg")]) == 1
-    assert ".png" in capsys.readouterr().err
-    assert main(["render", str(path), "--still", "7"]) == 1
-    assert "time = 7 s: allowed: 0 to 0.2 s" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    "words", [["--size", "big"], ["--size", "320"], ["--speed", "slow"], ["--until", "inf"], ["--movie", "avi"]]
-)
-def test_the_command_refuses_in_a_line(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as ended:
-        main(["render", "run.h5", *words])
-    assert ended.value.code == 2
-    assert "allowed" in capsys.readouterr().err or words[0] == "--movie"

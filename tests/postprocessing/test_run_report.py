@@ -62,15 +62,6 @@ def test_the_page_has_all_its_parts_and_loads_nothing(page: Path) -> None:
     assert elements.count("data:image/png") == 3  # machine, print of the channels, still
 
 
-def test_one_run_of_another_machine_beside_its_file(runs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["report", str(runs / "crank.h5"), "pin.slider_pin.*", "slider.x"]) == 0
-    path = Path(capsys.readouterr().out.strip())
-    assert path == runs / "crank_report.html"
-    text = path.read_text(encoding="utf-8")
-    assert "slider.x [" in text
-    assert "rod.angular_velocity [" not in text
-
-
 def test_a_folder_takes_report_html_and_scripts_are_told_where(
     runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -137,15 +128,6 @@ def opened(browser: Any, page: Path, width: int) -> None:
     while not browser.execute_script(script):
         assert time.monotonic() < until, "the live figures do not appear"
         time.sleep(0.05)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("width", [400, 1000, 1400])
-def test_nothing_overflows_and_nothing_complains(chromium: Any, page: Path, width: int) -> None:
-    opened(chromium, page, width)
-    wide, inner = chromium.execute_script("return [document.documentElement.scrollWidth, innerWidth]")
-    assert wide <= inner
-    assert [entry for entry in chromium.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")] == []
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import Result
-from support_exudyn.postprocessing.figures.selection import inside, said, spacing
+from support_exudyn.postprocessing.figures.selection import inside
 from tests import synthetic
 from tests.cases.run_cases import support
 from user_forces import InputError
@@ -25,11 +25,3 @@ def test_both_ends_lie_inside_though_times_were_summed_up() -> None:
     assert np.flatnonzero(inside(less, 0.3, 0.5)).tolist() == [1, 2]
     with pytest.raises(InputError, match="1 records lie between"):
         inside(sums, 0.15, 0.25)
-
-
-def test_a_piece_is_said_as_far_as_the_run_goes() -> None:
-    whole = run(np.linspace(1.0, 5.0, 9))
-    assert said(whole, 0.0, np.inf) == "1 to 5 s"
-    assert said(whole, 2.0, 3.0) == "2 to 3 s"
-    assert spacing(whole) == 0.5
-    assert spacing(run(np.array([0.0, 0.1, 0.2, 0.9]))) == pytest.approx(0.1)

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from support_exudyn.postprocessing import summary as summary
-from support_exudyn.postprocessing.run_report import _tiles
-from support_exudyn.postprocessing.shown_numbers import hardest_first, label, ranking, shown
+from support_exudyn.postprocessing.shown_numbers import hardest_first, shown
 from support_exudyn.simulation.estimate import Estimate
 from tests import synthetic
 from tests.cases.run_cases import loose_support
@@ -45,19 +44,6 @@ def test_the_hardest_hit_pin_comes_first_and_its_records_do_not_contradict() -> 
     assert "pin.a.force.mean" in found
 
 
-def test_pins_are_ranked_in_a_line_by_the_largest_force_at_any_step() -> None:
-    assert ranking(TWO) == "hits hardest: b, 130 kN at 0.51 s; then a, 100 kN at 0.51 s"
-    assert ranking(of_pins(a=(90e3, 100e3), b=(99e3, math.nan))) == ""
-
-
-def test_of_a_piece_both_are_told_by_names_that_say_of_what() -> None:
-    (found,) = shown([RUN], [TWO], 0.3, math.inf)
-    assert set(found) == set(TWO)
-    assert label("pin.a.force.largest") == "pin.a.force.largest"
-    assert label("pin.a.largest_force") == "pin.a.largest_force, whole run"
-    assert label("front_column.force.largest") == "front_column.force.largest"
-
-
 @pytest.mark.parametrize(
     ("error", "after", "stays"),
     [(0.09, 0.0, True), (0.11, 0.0, False), (0.09, 0.5, False), (math.inf, 0.0, False), (math.nan, 0.0, True)],
@@ -66,18 +52,3 @@ def test_a_time_that_may_be_of_another_peak_is_not_printed(error: float, after: 
     name = "front_column.force.largest_time"
     (found,) = shown([RUN], [{name: Estimate(0.6, error, "s")}], after, math.inf)
     assert (name in found) == stays
-
-
-def test_the_ranking_tells_no_time_of_several_alike_peaks() -> None:
-    vague = {**TWO, "pin.b.largest_force_time": Estimate(0.51, 0.5, "s")}
-    (found,) = shown([RUN], [vague], 0.0, math.inf)
-    assert ranking(found) == "hits hardest: b, 130 kN; then a, 100 kN at 0.51 s"
-
-
-def test_the_tiles_of_a_report_are_of_the_hardest_hit_pin() -> None:
-    names = [tile.name for tile in _tiles({"run": TWO}, [*TWO])]
-    assert names == [
-        "pin.b.largest_force", "pin.b.largest_force_time", "pin.b.force.mean", "pin.a.largest_force",
-    ]  # fmt: skip
-    before = _tiles({"ideal": of_pins(b=(7e3, math.nan)), "loose": TWO}, [*TWO])
-    assert (before[0].before, before[0].value.partition(" ")[0]) == ("7.0 ± 0.5", "130")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import errno
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -30,11 +29,8 @@ from support_exudyn.postprocessing.export.solution_file import read_solution, ro
 from support_exudyn.postprocessing.look.poses import Poses, strut_pose
 from support_exudyn.postprocessing.look.solid import solids_of
 from support_exudyn.postprocessing.viewer import viewer_model
-from support_exudyn.postprocessing.viewer.view import open_viewer
 from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, model_for_viewer
 from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, support
-from tests.hostile import little_room, posix_only
-from user_forces import InputError
 
 STROKE, TIME = 0.02, 0.05  # [m], [s]
 RISE: dict[str, Any] = {"drive": CubicStep(stroke=STROKE, start=0.0, end=TIME), "duration": TIME}
@@ -166,71 +162,6 @@ def test_channels_that_it_needs_are_asked_for_before_the_run(
     assert run_command(scenario, tmp_path, tmp_path / "run.txt") == 1  # at once, not after a day
     assert "'rear_link.x'" in capsys.readouterr().err
     assert [one.name for one in tmp_path.iterdir()] == ["a.toml"]
-
-
-def test_the_command_keeps_it_beside_the_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run_command(loose_support(1.5, 0.25, duration=0.002), tmp_path, tmp_path / "run.sol") == 0
-    assert capsys.readouterr().out.splitlines()[-2:] == [str(tmp_path / "a.h5"), str(tmp_path / "run.sol")]
-    assert np.array_equal(load(tmp_path / "run.sol")["data"][:, 0], Result.load(tmp_path / "a.h5").time)
-    assert main(["run", str(tmp_path / "a.toml"), "--solution", str(tmp_path / "a.h5")]) == 1
-    assert "is the file of the run" in capsys.readouterr().err
-
-
-def test_a_run_without_them_says_so(tmp_path: Path) -> None:
-    result = simulate(loose_support(1.5, 0.25, duration=0.002, channels=("tip.*",)))
-    with pytest.raises(InputError, match="was not recorded"):
-        save_solution(result, tmp_path / "run.txt")
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_run_that_fails_leaves_an_older_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = tmp_path / "run.txt"
-    path.write_text("older")
-    scenario = loose_support(1.5, 0.25, duration=1.0)
-    scenario = dataclasses.replace(scenario, solver=dataclasses.replace(scenario.solver, most_steps=100))
-    assert run_command(scenario, tmp_path, path) == 1
-    assert "more than 100 steps" in capsys.readouterr().err
-    assert path.read_text() == "older"
-    assert sorted(one.name for one in tmp_path.iterdir()) == ["a.toml", "run.txt"]
-
-
-@posix_only
-@pytest.mark.parametrize("ending", ["txt", "sol"])
-def test_a_full_disk_leaves_an_older_file(run: Result, ending: str, tmp_path: Path) -> None:
-    path = tmp_path / f"solution.{ending}"
-    path.write_text("older")
-    with (
-        little_room(tmp_path, 4096, "limit of size"),
-        pytest.raises(OSError, match="could not write") as caught,
-    ):
-        save_solution(run, path)
-    assert "the engine could not write all of it" in str(caught.value)
-    assert (caught.value.errno, caught.value.filename) == (errno.EIO, str(path))
-    assert path.read_text() == "older"
-    assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
-
-
-# --- reading ---
-
-
-EVIL = "#\n#\n#\n#\n#number of written coordinates [n] = [print('evil'),0,0,0,0,0,0]\n0,0\n"
-
-
-@pytest.mark.parametrize("text", ["", "not a file of numbers\n", EVIL, "#\n" * 9, "EXUBIN", "\0" * 300])
-def test_what_is_not_a_solution_file_is_refused(
-    text: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "no.txt"
-    path.write_text(text)
-    with pytest.raises(InputError, match="not a solution file"):
-        read_solution(path)
-    assert "evil" not in capfd.readouterr().out  # the engine's reader would evaluate it
-
-
-def test_a_solution_file_of_another_model_is_not_shown(run: Result, tmp_path: Path) -> None:
-    save_solution(risen("crank"), tmp_path / "crank.txt")
-    with pytest.raises(InputError, match=r"crank\.txt.* 9 coordinates; allowed: of the run's, with 12"):
-        open_viewer(run, solution=tmp_path / "crank.txt")
 
 
 # --- what is drawn changes nothing of the model ---

@@ -13,7 +13,6 @@ from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.spectrum import equally_spaced, force_spectrum, spectrum
 from tests import figure_checks, synthetic
 from tests.cases.run_cases import FORCE, support
-from user_forces import InputError
 
 SPACING = 1e-3  # [s]
 TIME = np.arange(4000) * SPACING
@@ -62,12 +61,6 @@ def test_one_piece_is_the_fourier_transform_of_what_the_window_leaves() -> None:
     assert found.averaged == 1
 
 
-def test_peaks_are_the_highest_that_stand_out() -> None:
-    found = spectrum(TIME, tone(20.0, 5.0) + tone(64.0, 9.0) + tone(200.0, 1.0) + 1e-3 * tone(400.0, 1.0))
-    assert [round(frequency) for frequency, _ in found.peaks()] == [64, 20, 200]
-    assert spectrum(TIME, np.zeros_like(TIME)).peaks() == []
-
-
 def test_records_off_the_grid_are_interpolated_and_a_last_one_left_out() -> None:
     values, spacing, resampled = equally_spaced(np.append(TIME, TIME[-1] + 0.3e-3), np.append(TIME, 7.0))
     assert (spacing, resampled) == (pytest.approx(SPACING), False)
@@ -111,18 +104,3 @@ def test_over_time_a_tone_of_half_the_amplitude_is_six_decibels_lower() -> None:
     assert 2.0 < times[0] < 2.1
     assert row[times < 2.9] == pytest.approx(0.0, abs=0.1)
     assert row[times > 3.1] == pytest.approx(20.0 * np.log10(0.5), abs=0.1)
-
-
-def test_too_few_records_and_unknown_pins_are_refused() -> None:
-    with pytest.raises(InputError, match="at least 64 records"):
-        force_spectrum(run(TIME), until=0.03)
-    with pytest.raises(InputError, match="allowed: rear_base"):
-        force_spectrum(run(TIME), "rear_bas")
-    with pytest.raises(InputError, match="segments = 0"):
-        spectrum(TIME, TIME, 0)
-
-
-@pytest.mark.parametrize("values", [tone(64.0, 3e3), np.zeros_like(TIME), tone(8.0, 1.0) + tone(11.0, 0.9)])
-def test_nothing_is_cut_off_or_overlaps(values: np.ndarray) -> None:
-    with style.look():
-        figure_checks.check(force_spectrum(run(values)))

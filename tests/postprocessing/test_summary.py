@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Literal
 
 import numpy as np
 import pytest
@@ -12,10 +11,8 @@ import pytest
 from support_exudyn import Onset, Result
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.simulation.estimate import Estimate
-from support_exudyn.simulation.provenance import FORMULATION_ASKED
 from tests import synthetic
 from tests.cases.run_cases import FORCE, PIN, loose_support
-from tests.formulations.test_formulations import SCENES
 from user_forces import InputError
 
 TIME = np.arange(11) * 0.1
@@ -46,15 +43,6 @@ def test_numbers_are_of_the_piece_that_was_asked_for() -> None:
         summary.came_out(run(), 7.0, 8.0)
 
 
-def test_touches_are_told_with_what_followed() -> None:
-    assert summary.impacts(run()) == [
-        (PIN, "1 of 3", "0.1 s", "2.5 ms", "200 mm/s", "180 mm/s", "1 kN"),
-        (PIN, "2 of 3", "0.3 s", "to the next impact", "50 mm/s", "", "1 kN"),
-        (PIN, "3 of 3", "0.6 s", "to the end", "2 m/s", "", "4 kN"),
-    ]
-    assert summary.impacts(replace(run(), onsets={PIN: ()})) == [(PIN, "none", "", "", "", "", "")]
-
-
 def test_channels_have_their_least_mean_and_largest_value_in_the_piece() -> None:
     found = run(canopy__angle=(np.radians(10.0) * (TIME - 0.5), "rad"), tip__x=(-3.0 + 0.0 * TIME, "m"))
     angle, x = summary.of_channels(found, ["canopy.angle", "tip.x"], 0.0, math.inf)
@@ -75,36 +63,3 @@ def test_channels_have_their_least_mean_and_largest_value_in_the_piece() -> None
 )
 def test_a_number_has_the_digits_of_its_error(found: Estimate, row: summary.Row) -> None:
     assert summary.with_error(found) == row
-
-
-def test_whether_an_accuracy_was_met_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert dict(summary.how(run()))["accuracy"].startswith("none was asked for")
-    monkeypatch.setattr(Result, "worst_error", 0.004)
-    said = dict(summary.how(replace(run(), coarser=run())))  # errors = true
-    assert said["accuracy"].startswith("errors were asked for, no accuracy: 0.004 estimated")
-    assert "all runs that the errors took" in said["wall time"]
-    for error, word in ((0.004, "met"), (0.04, "NOT met")):
-        monkeypatch.setattr(Result, "worst_error", error)
-        said = dict(summary.how(replace(run(), goal=0.01, coarser=run())))
-        assert said["accuracy"] == f"0.01 asked for, {error:g} estimated: {word}"
-        assert "all runs" in said["wall time"]
-
-
-@pytest.mark.parametrize(
-    ("scene", "ran", "said"),
-    [
-        (
-            "a law that numba cannot compile",
-            "exudyn",
-            "exudyn (auto: compiled does not cover pins.rear_base.contact",
-        ),
-        ("clearance support", "exudyn", "exudyn (auto: compiled would need too many steps"),
-        ("clearance support", "compiled", "compiled (auto: the cheapest, and it covers this scene)"),
-    ],
-)
-def test_why_a_formulation_was_chosen_is_told(
-    scene: str, ran: Literal["exudyn", "compiled"], said: str
-) -> None:
-    scenario = replace(SCENES[scene], formulation=ran)
-    found = replace(run(), scenario=scenario, goal=0.01, coarser=run(), provenance={FORMULATION_ASKED: "auto"})
-    assert summary._formulation(found).startswith(said)

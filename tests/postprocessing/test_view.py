@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-from typing import Any
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,31 +11,8 @@ from scipy.spatial.transform import Rotation
 from support_exudyn.mechanics.body_motion import rotation
 from support_exudyn.postprocessing.export.solution_file import euler_parameters
 from support_exudyn.postprocessing.look.poses import strut_axes as along
-from support_exudyn.postprocessing.viewer.view import checked_every, differing_versions
-from support_exudyn.simulation.provenance import provenance
-from user_forces import InputError
 
 small = st.floats(-1.0, 1.0)
-
-
-def made_with(**versions: str) -> Any:
-    return SimpleNamespace(provenance=provenance() | versions)
-
-
-def test_a_run_of_the_installed_versions_is_not_warned_of() -> None:
-    assert differing_versions(made_with()) == []
-
-
-@pytest.mark.parametrize("package", ["exudyn", "support-exudyn"])
-def test_other_versions_are_named(package: str) -> None:
-    (sentence,) = differing_versions(made_with(**{package: "0.0.1"}))
-    assert f"made with {package} 0.0.1" in sentence
-
-
-@pytest.mark.parametrize("every", [0, -1, 201, True, 1.5, "2", None])
-def test_rows_from_frame_to_frame_are_a_number_of_the_viewers_slider(every: Any) -> None:
-    with pytest.raises(InputError, match="allowed: a whole number from 1 to 200"):
-        checked_every(every, 1000)
 
 
 # rounding: a few units of the last place of numbers about 1

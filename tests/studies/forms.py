@@ -27,7 +27,6 @@ from tests.at_once import at_once
 ROUGH, WHOLE = "rough", "whole"
 FORMS = [ROUGH, pytest.param(WHOLE, marks=pytest.mark.slow)]
 ONLY_WHOLE = FORMS[1:]
-on_the_whole_form = pytest.mark.parametrize("out", ONLY_WHOLE, indirect=True)  # where errors are looked at
 ROUGH_ACCURACY = "standard"  # of runs to an accuracy
 COARSER = {"drive_mode": 4.0, "contact_laws": 2.0}  # times as long rough steps and records
 SHORT = {  # strokes of scene_detail, in which pins still bounce

@@ -14,9 +14,8 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from studies.__main__ import main
-from studies.adams.dataset import adams_dataset, solver_commands
+from studies.adams.dataset import adams_dataset
 from studies.adams.run import paper_rise, write
-from studies.adams.statements import number, numbers
 from studies.common.paper_machine import ideal_rise, oil_columns
 from support_exudyn import (
     AppliedForce,
@@ -107,19 +106,6 @@ def test_the_degrees_of_freedom_are_those_of_the_machine(pins: tuple[str, ...], 
     assert 6 * len(model.parts) - taken(data) == freedoms  # Gruebler
     rows, _, _ = model.constraints(model.start())
     assert np.linalg.matrix_rank(rows) == len(rows) == 3 * len(model.parts) - freedoms  # none repeats another
-
-
-def test_the_drive_is_ours() -> None:
-    motions = READ.of("MOTION").values()
-    assert [one.arguments["FUNCTION"] for one in motions] == ["STEP(TIME,3.0,0,5.0,0.5)"] * 2
-    for t in np.linspace(2.5, 5.5, 31):
-        names = {"TIME": t}
-        assert evaluated("STEP(TIME,3.0,0,5.0,0.5)", names) == pytest.approx(RISE.drive.extension(t), abs=1e-15)
-
-
-def test_the_commands_run_to_the_end() -> None:
-    text = solver_commands(RISE, "rise")
-    assert text == "\nfile/model=rise\nsimulate/dynamics, end=5.0, dtout=0.001\nstop\n"
 
 
 # --- the contact ---
@@ -376,10 +362,3 @@ LOOSE = RISE.pins[PIN]
 def test_what_has_no_statements_is_refused(scenario: Scenario, said: str) -> None:
     with pytest.raises(InputError, match=said.replace("(", r"\(")):
         adams_dataset(scenario, "model")
-
-
-@given(st.floats(allow_nan=False, allow_infinity=False))
-def test_numbers_read_back_as_the_same_bits(value: float) -> None:
-    assert float(number(value)) == value
-    assert "." in number(value)
-    assert numbers(value, 1.0).endswith(", 1.0")

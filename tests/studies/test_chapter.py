@@ -8,10 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from rich.console import Console
 
-from studies.common.chapter import Chapter, JudgedClaim, Picture, Tile, without_references
-from studies.common.study import save_table
+from studies.common.chapter import Chapter, JudgedClaim, Picture, Tile
 from support_exudyn.postprocessing.page.pieces import Sheet
 from user_forces.values.value import InputError
 
@@ -46,26 +44,6 @@ def test_a_chapter_is_read_back_as_it_was(tmp_path: Path) -> None:
     assert Chapter.load(tmp_path) == replace(CHAPTER, claims=())
 
 
-def test_a_chapter_is_written_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    CHAPTER.save(tmp_path)
-
-    def half(path: Path, text: str, **_: str) -> None:
-        path.write_bytes(text[: len(text) // 2].encode())
-        raise KeyboardInterrupt
-
-    with monkeypatch.context() as patch:
-        patch.setattr(Path, "write_text", half)
-        with pytest.raises(KeyboardInterrupt):
-            replace(CHAPTER, title="Other").save(tmp_path)
-    assert Chapter.load(tmp_path) == CHAPTER
-    assert [path.name for path in tmp_path.iterdir()] == ["chapter.json"]
-
-
-def test_a_missing_chapter_names_the_file(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"forces[/\\]chapter\.json: no such file"):
-        Chapter.load(tmp_path / "forces")
-
-
 @pytest.mark.parametrize(
     ("change", "complaint"),
     [
@@ -84,42 +62,3 @@ def test_a_wrong_chapter_says_file_and_place(tmp_path: Path, change: dict[str, o
     path.write_text(json.dumps(json.loads(path.read_text(encoding="utf-8")) | change), encoding="utf-8")
     with pytest.raises(InputError, match=f"{re.escape(str(path))}: {complaint}"):
         Chapter.load(tmp_path)
-
-
-def test_a_torn_chapter_says_so(tmp_path: Path) -> None:
-    path = CHAPTER.save(tmp_path)
-    path.write_bytes(path.read_bytes()[:100])
-    with pytest.raises(InputError, match=f"{re.escape(str(path))}: Invalid JSON"):
-        Chapter.load(tmp_path)
-
-
-def test_a_sheet_refuses_rows_of_other_lengths() -> None:
-    with pytest.raises(ValueError, match="row 1 has 1 cells; allowed: 2"):
-        Sheet("t", ("a", "b"), (("1", "2"), ("3",)))
-    with pytest.raises(ValueError, match="header"):
-        Sheet("t", (), ())
-
-
-def test_the_terminal_shows_cells_as_they_are() -> None:
-    console = Console(width=300)
-    with console.capture() as shown:
-        console.print(SHEET.rich())
-    assert "<script>alert('x')</script> | [red]no[/red] *a* `b`" in shown.get()
-    assert "[n]" in shown.get()  # not taken for a style
-
-
-def test_a_terminal_is_told_names_of_files_in_place_of_links() -> None:
-    assert (
-        without_references("It grows [@force], see [@other/table.1] [@].")
-        == "It grows force, see other/table.1 [@]."
-    )
-
-
-def test_the_files_of_a_table_have_names_of_files_in_place_of_links(tmp_path: Path) -> None:
-    linked = Sheet("Title [@force]", ("case", "n"), (("a [@other/table.1]", "1"),), "See [@force].")
-    save_table(tmp_path / "table", linked, 100)
-    assert (tmp_path / "table.csv").read_text(encoding="utf-8").split() == ["case,n", "a", "other/table.1,1"]
-    text = (tmp_path / "table.txt").read_text(encoding="utf-8")
-    assert "[@" not in text
-    for part in ("Title force", "a other/table.1", "See force."):
-        assert part in text

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import csv
 import json
-import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from studies.claims import run as study
-from studies.claims.claim_list import CLAIMS, Claim
+from studies.claims.claim_list import CLAIMS
 from studies.claims.verdicts import BOUNDS, KINDS, Count, Ruling
 from studies.common.chapter import Chapter
 from studies.common.options import Options
@@ -99,15 +98,6 @@ def test_every_machine_is_a_row_with_its_data_and_judgements(out: Path, form: st
         assert machine["failure"] or {machine[name] for name in judged} <= {"holds", "fails", "undecided"}
 
 
-def test_every_claim_is_told_with_its_reason_and_what_shows_it(out: Path) -> None:
-    claims = Chapter.load(out).claims
-    assert [claim.number for claim in claims] == [str(n) for n in range(1, len(CLAIMS) + 1)]
-    for claim in claims:
-        assert claim.verdict in KINDS
-        assert claim.why[0].isupper()
-        assert claim.why.endswith(".")
-
-
 @pytest.mark.slow  # the hypercube alone is started again in test_hypercube.py
 def test_a_finished_hypercube_is_not_run_again(out: Path, form: str) -> None:
     before = {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()}
@@ -115,14 +105,6 @@ def test_a_finished_hypercube_is_not_run_again(out: Path, form: str) -> None:
     written("claims", form, out, MACHINES[form])
     assert {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()} == before
     assert (out / "table.txt").read_text(encoding="utf-8") == text
-
-
-@pytest.mark.parametrize("wrong", ["0", "-3", "many"])
-def test_a_wrong_number_of_machines_is_refused(wrong: str, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as stop:
-        study.main(["--machines", wrong])
-    assert stop.value.code == 2
-    assert "allowed" in capsys.readouterr().err
 
 
 class Drawn:
@@ -151,14 +133,3 @@ def test_machines_are_drawn_until_few_statements_need_more(
     found = Drawn(monkeypatch, needs_more)
     study.draw(Options(tmp_path, **options))
     assert found.numbers == [1 + number + number // 2 for number in drawn]
-
-
-@pytest.mark.parametrize("claim", CLAIMS, ids=[f"no. {n}" for n in range(1, len(CLAIMS) + 1)])
-def test_what_shows_a_claim_is_in_a_study(claim: Claim) -> None:
-    for shown, heading in ((claim.figure, "- {}:"), (claim.table, "### {}")):
-        if shown:
-            name, _, stem = shown.partition("/")
-            text = (Path(study.__file__).parents[1] / name / "words.md.j2").read_text(encoding="utf-8")
-            made = re.fullmatch(r"table_mu[0-9p]+", stem)  # one a friction coefficient
-            assert (heading.format("{{ name }}") if made else heading.format(stem)) in text
-    assert claim.table

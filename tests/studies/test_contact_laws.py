@@ -11,15 +11,13 @@ from typing import Any
 import pytest
 
 import user_forces
-from studies.common.chapter import Chapter
-from studies.common.subject import own_subject, paper_subject
+from studies.common.subject import paper_subject
 from studies.contact_laws import cases as contact_law_cases
 from studies.contact_laws import catalogue
 from studies.contact_laws import run as study
 from studies.contact_laws.free_impact import delivered_restitution, free_impact
-from support_exudyn import Result, simulate
-from support_exudyn.files import machines
-from tests.studies.forms import ONLY_WHOLE, ROUGH, written
+from support_exudyn import simulate
+from tests.studies.forms import ONLY_WHOLE, written
 from user_forces import FrictionLaw, Frictionless, NormalLaw
 from user_forces.values.value import only_groups
 
@@ -119,45 +117,3 @@ def test_with_friction_the_choice_of_a_law_changes_more(numbers: dict[tuple[str,
     assert between("std_pin_force", study.RUBBING, "gharib_hurmuzlu") < 0.015
     # 0.001 % and 0.005 %
     assert all(between("mean_pin_force", end) < 1e-4 for end in ("", study.RUBBING))
-
-
-def test_every_file_is_there(out: Path) -> None:
-    for stem in (
-        "laws_at_a_glance",
-        "delivered_restitution",
-        "force_depth_loops",
-        "rise_under_each_law",
-        "permanent_contact",
-    ):
-        assert (out / f"{stem}.png").read_bytes().startswith(b"\x89PNG")
-    assert "Lankarani-Nikravesh" in (out / "restitution_table.txt").read_text(encoding="utf-8")
-    assert "clamped steps" in (out / "rise_table.txt").read_text(encoding="utf-8")
-    laws_of_joint = contact_law_cases.Joint(paper_subject(), 5e4).laws
-    assert len(list((out / "runs").iterdir())) == len(laws_of_joint) + len(contact_law_cases.REST)
-    assert Result.load(out / "runs" / "exact.h5").time[-1] == 5.0
-
-
-def test_the_chapter_says_what_was_computed(out: Path, numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
-    chapter = Chapter.load(out)
-    assert chapter.study == study.study.name
-    assert all((out / f"{picture.stem}.png").is_file() for picture in chapter.pictures)
-    delivered = numbers["delivered_restitution", "lankarani_nikravesh e=0.1"]["value"]
-    assert any(f"{delivered:.3f} for 0.1" in text for text in chapter.findings)
-    key, restitution, rise, rest = chapter.sheets
-    assert len(restitution.rows) == len({case.split(" ")[0] for name, case in numbers if "restitution" in name})
-    forces = {case for name, case in numbers if name == "mean_pin_force"}
-    assert len(rest.rows) == len(contact_law_cases.REST)
-    assert len(rise.rows) == len(forces) - len(rest.rows) - len(catalogue.POWER_LAWS)
-    assert [row[0] for row in key.rows][:2] == ["Exact", "Lankarani-Nikravesh"]
-    assert len(key.rows) <= 8
-
-
-@pytest.mark.slow
-def test_ones_own_machine_is_spoken_of_and_the_paper_is_left_out(tmp_path: Path) -> None:
-    subject = own_subject(Path(machines.__file__).parent / "zf18000.toml", "front_base")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(contact_law_cases, "ASKED", ASKED)
-        out = written("contact_laws", ROUGH, tmp_path, subject=subject)
-    chapter = Chapter.load(out)
-    assert "zf18000" in chapter.title
-    assert "paper" not in json.dumps(json.loads((out / "chapter.json").read_text(encoding="utf-8"))).lower()

@@ -158,17 +158,6 @@ def test_motion_on_cylinders_is_known_well(numbers: Numbers) -> None:
             assert found["numerical_error"] < 1e-3 * found["value"]
 
 
-def test_the_chapter_says_what_cannot_converge(out: Path) -> None:
-    chapter = Chapter.load(out)
-    assert any("Fig. 13 c and d" in text for text in chapter.findings)
-    for picture in chapter.pictures:
-        assert (out / f"{picture.stem}.png").read_bytes().startswith(b"\x89PNG")
-    assert "N s" in (out / "table_rigid.txt").read_text(encoding="utf-8")
-    assert len(list((out / "runs").iterdir())) == 12
-    assert any("cavitate" in text for text in chapter.findings)
-    assert "l/min" in (out / "table_valves.txt").read_text(encoding="utf-8")
-
-
 # --- machines of one's own ---
 
 OWN = """

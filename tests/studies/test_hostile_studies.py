@@ -4,36 +4,24 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
-import matplotlib.pyplot as plt
 import pytest
 
 from studies import __main__ as all_studies
 from studies import report
-from studies.catalogue import DEFAULT, STUDIES
-from studies.claims import hypercube
-from studies.claims.plausible import REFERENCE
 from studies.common.chapter import Chapter
-from studies.common.numbers import Number, write_summary
 from studies.common.options import Options
-from studies.common.study import Study, StudyOutcome, save_figures, say_short, work_in_folder
-from studies.common.subject import paper_subject
+from studies.common.study import StudyOutcome, work_in_folder
 from studies.common.witness import Witness
-from support_exudyn.files.whole_file import writing_alone
-from support_exudyn.postprocessing.figures import style
-from support_exudyn.sweeps.workers import ProcessEndedError, Workers
-from tests.hostile import DISKS, left_behind, little_room, posix_only
+from tests.hostile import posix_only
 from tests.processes import ROOT, environment, linux_only, session_of, wait_until
 from tests.studies import hostile_main
 from user_forces.values.value import InputError
@@ -150,25 +138,6 @@ def test_a_folder_that_cannot_be_made_is_said_before_the_work(
     assert capsys.readouterr().err.startswith("error: ")
 
 
-def test_a_folder_whose_name_no_folder_can_have_is_said_before_the_work(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    out = tmp_path / "a\0b"
-    assert work_in_folder(nothing, out) == 1
-    assert "allowed: a folder" in capsys.readouterr().err
-    with pytest.raises(SystemExit):
-        all_studies.main(["--out", str(out)])
-    assert "allowed: a name that a folder can have" in capsys.readouterr().err
-
-
-@posix_only
-def test_all_studies_wait_for_one_that_writes_all(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    with writing_alone(tmp_path):
-        assert all_studies.main(["--out", str(tmp_path)]) == 1
-    assert f"another process ({os.getpid()}) is writing there" in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
-
-
 WITH_WITNESS = "judged"  # the name of a study that has a witness
 
 
@@ -207,21 +176,6 @@ def test_a_witness_is_computed_after_the_papers_studies_and_before_others(
     monkeypatch.setattr(all_studies, "DEFAULT", names[:2])
     assert all_studies.main(["--all", "--workers", "1", "--out", str(tmp_path)]) == 0
     assert ran == [WITH_WITNESS, "two", f"witness of {WITH_WITNESS}", "three"]
-
-
-def test_an_interruption_ends_all_studies(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    ran: list[str] = []
-
-    def interrupted(chosen: Options) -> None:
-        ran.append(chosen.out.name)
-        left_behind(chosen.out)
-        raise KeyboardInterrupt
-
-    put_studies(monkeypatch, {"one": lambda o: ran.append(o.out.name), "two": interrupted, "three": nothing})
-    with pytest.raises(SystemExit, match="130"):
-        all_studies.main(["--workers", "1", "--out", str(tmp_path)])
-    assert ran == ["one", "two"]
-    assert sorted(path.name for path in tmp_path.rglob("*")) == ["one", "two"]
 
 
 @pytest.mark.parametrize("error", [InputError("wrong: allowed: right"), RuntimeError("a bug")])
@@ -268,113 +222,3 @@ def test_studies_are_run_by_name_and_unknown_ones_refused(
     assert all_studies.main(["four", *place]) == 1
     assert "'four': no such study; allowed: one, two, three" in capsys.readouterr().err
     assert all_studies.main(["one", "--all", *place]) == 1
-
-
-def test_all_studies_are_told_with_question_and_time(capsys: pytest.CaptureFixture[str]) -> None:
-    assert all_studies.main(["--list"]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines] == [*STUDIES, "benchmark", "adams"]
-    for line, study in zip(lines, STUDIES.values(), strict=False):  # the last two are none
-        assert study.question in line
-        assert re.search(r"\d+ (s|min)\b", line)
-        assert ("takes --machine" in line) == study.own_machine
-    assert [line.split()[0] for line in lines if "the paper's answer" in line] == list(DEFAULT)
-
-
-def test_what_a_study_says_in_the_terminal_has_ten_lines(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    chapter = Chapter(
-        "name", "Title", "What does it do? " * 8, (), (), (), (), answer="It does this, see [@fig]. " * 8,
-        numbers=("force: 1 N", "path: 2 mm", "angle: 3 deg"),
-    )  # fmt: skip
-    say_short(chapter, tmp_path)
-    said = capsys.readouterr().out
-    assert len(said.strip().splitlines()) <= 10
-    assert "[@" not in said
-    assert str(tmp_path) in said
-
-
-def test_a_study_of_the_papers_machine_alone_refuses_another(tmp_path: Path) -> None:
-    about = Study("only", "Why?", lambda chosen: pytest.fail("it is begun"))
-    mine = replace(paper_subject(), name="mine")
-    with pytest.raises(InputError, match="--machine: only is about the paper's machine alone"):
-        about(Options(tmp_path, subject=mine))
-
-
-# --- disks ---
-
-
-@pytest.mark.parametrize("kind", DISKS)
-def test_a_study_on_a_full_disk_says_which_file_and_leaves_the_old_ones(
-    tmp_path: Path, kind: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    drawing, axes = plt.subplots()
-    axes.plot([0.0, 1.0], [0.0, 1.0])
-    with little_room(tmp_path, 65536, kind) as folder:
-        chosen = Options(folder / "out")
-
-        def numbers(count: int) -> Callable[[Options], None]:
-            many = [Number("n", str(n), 1.0, "1", 0.0) for n in range(count)]
-            return lambda chosen: (write_summary(chosen.out, "study", many, 0.0), None)[1]
-
-        def figure(chosen: Options) -> None:
-            with style.look():
-                (chosen.out / "figure.png").write_bytes(b"old")
-                (chosen.out / "filler").write_bytes(bytes(50000))
-                save_figures(chosen, {"figure": drawing})
-
-        assert work_in_folder(lambda out: numbers(1)(chosen), chosen.out) == 0
-        old = (chosen.out / "summary.json").read_bytes()
-        capsys.readouterr()
-        assert work_in_folder(lambda out: numbers(2000)(chosen), chosen.out) == 1
-        (line,) = capsys.readouterr().err.splitlines()
-        assert line.startswith(f"error: {chosen.out / 'summary.json'}: ")
-        assert line.endswith("it cannot be written")
-        assert (chosen.out / "summary.json").read_bytes() == old
-        if kind == "full disk":  # the figure alone is smaller than the limit
-            assert work_in_folder(lambda out: figure(chosen), chosen.out) == 1
-            (line,) = capsys.readouterr().err.splitlines()
-            assert line.startswith(f"error: {chosen.out / 'figure.png'}: ")
-            assert line.endswith("it cannot be written")
-            assert (chosen.out / "figure.png").read_bytes() == b"old"
-        assert not [path for path in chosen.out.iterdir() if path.name.startswith(".")]
-    plt.close(drawing)
-
-
-# --- the hypercube ---
-
-
-def cheap(number: int, place: Path, sample: dict[str, object]) -> None:
-    """In place of a machine's run, which takes seconds."""
-    place.write_text(json.dumps({"sample": sample, "measures": {}, "failure": None}), encoding="utf-8")
-
-
-class OneIsKilled(Workers):
-    """Does the work here, and has the process of the second job killed."""
-
-    def __init__(self) -> None:
-        super().__init__(ThreadPoolExecutor(1), None)
-
-    def run(self, jobs: Any, work: Any, progress: Any, ended: Any = None) -> list[Any]:
-        return [
-            ended(ProcessEndedError(place, 0.5, -9)) if place == 1 else work(place, *job)
-            for place, job in enumerate(jobs)
-        ]
-
-
-def test_a_machine_whose_process_is_killed_is_a_row_that_is_not_kept(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(hypercube, "_run_one", cheap)
-    monkeypatch.setattr(hypercube, "warm_up", lambda: None)
-    machines = [REFERENCE | {"scale": scale} for scale in (0.7, 0.8, 0.9)]
-    rows = hypercube.run(machines, tmp_path, OneIsKilled(), lambda done, of: None)
-    assert [row.sample["scale"] for row in rows] == [0.7, 0.8, 0.9]
-    assert [row.failure for row in rows] == [
-        None,
-        "the process that computed it ended: signal 9 (SIGKILL, out of memory?)",
-        None,
-    ]
-    assert rows[1].measures is None
-    assert len(list((tmp_path / hypercube.FOLDER).iterdir())) == 2  # it is tried again next time

@@ -139,26 +139,6 @@ def test_no_complaint_and_nothing_is_loaded(opened: Opened, made: Path, name: st
     assert [url for url in asked if not url.startswith(("data:", "blob:", (made / name).as_uri()))] == []
 
 
-@pytest.mark.parametrize(("width", "height"), [(1000, 800), (1400, 900), (1400, 800)])
-def test_the_first_screen_holds_the_answer(opened: Opened, width: int, height: int) -> None:
-    browser = opened(width=width, height=height)
-    header = browser.find_element(By.ID, "answer")
-    tiles = header.find_elements(By.CSS_SELECTOR, ".tiles > div")
-    assert len(tiles) == 4
-    for shown in (*tiles, header.find_element(By.CSS_SELECTOR, ".live"), header):
-        assert shown.size["height"] > 0
-        assert shown.rect["y"] + shown.rect["height"] <= height
-    assert "8 times" in header.text
-
-
-@pytest.mark.parametrize(("width", "height"), [(1000, 800), (1400, 900)])
-def test_the_page_has_at_most_fourteen_screens(opened: Opened, width: int, height: int) -> None:
-    browser = opened(width=width, height=height)
-    assert browser.execute_script("return document.documentElement.scrollHeight") <= 14 * height
-    for name in STUDIES:
-        assert browser.find_element(By.ID, name).size["height"] <= height
-
-
 @pytest.mark.parametrize("name", ["report.html", "appendix.html"])
 @pytest.mark.parametrize("width", WIDTHS)
 def test_nothing_overflows(opened: Opened, name: str, width: int) -> None:
@@ -204,16 +184,6 @@ def test_the_pointer_tells_the_value_that_the_file_holds(opened: Opened) -> None
     assert str(FORCES[TIMES.index(2.0)]) in text
 
 
-@pytest.mark.parametrize("width", WIDTHS)
-def test_what_the_paper_says_can_be_read_at_every_width(opened: Opened, width: int) -> None:
-    browser = opened(width=width)
-    summaries = browser.find_elements(By.CSS_SELECTOR, "#claims-list summary")
-    assert len(summaries) == 5
-    for one in summaries:
-        assert one.size["width"] >= 0.5 * width
-        assert one.size["height"] > 0
-
-
 def test_claims_can_be_filtered_and_unfolded(opened: Opened) -> None:
     browser = opened()
 
@@ -249,27 +219,3 @@ def test_tables_sort_by_value(opened: Opened) -> None:
 
 def press(browser: webdriver.Chrome, selector: str) -> None:
     browser.execute_script("arguments[0].click()", browser.find_element(By.CSS_SELECTOR, selector))
-
-
-def test_contents_stay_in_sight(opened: Opened) -> None:
-    for width, bar in ((1000, "nav.bar"), (1400, "nav.side")):
-        browser = opened(width=width)
-        browser.execute_script("window.scrollTo(0, 3000)")
-        rect = browser.execute_script(
-            "const r = document.querySelector(arguments[0]).getBoundingClientRect(); return [r.top, r.height]",
-            bar,
-        )
-        assert rect[0] == 0.0
-        assert rect[1] > 20.0
-
-
-def test_without_scripts_all_is_there(opened: Opened, browser: webdriver.Chrome) -> None:
-    browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
-    try:
-        opened()
-        assert browser.find_element(By.CSS_SELECTOR, "#answer .printed img").is_displayed()
-        assert not browser.find_element(By.CSS_SELECTOR, "#answer .live").is_displayed()
-        rows = browser.find_elements(By.CSS_SELECTOR, "#claims-list tbody tr")
-        assert [row.is_displayed() for row in rows] == [True] * 5
-    finally:
-        browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})

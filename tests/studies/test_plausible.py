@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -36,7 +35,6 @@ from support_exudyn.model.pin_surroundings import links_stiffness
 from user_forces import STEEL, STEEL_35CRMO, InputError, LankaraniNikravesh, PinInBore
 from user_forces.backing import pin_stiffness
 
-BY_NAME = {factor.name: factor for factor in FACTORS}
 RANGES = [factor for factor in FACTORS if not factor.choices]
 LISTS = [factor for factor in FACTORS if factor.choices]
 PIVOTS = (
@@ -155,43 +153,6 @@ def test_the_ideal_pin_has_the_friction_of_the_pin_with_clearance() -> None:
             assert ideal.radius == with_clearance.contact.bearing.bore_radius
 
 
-@pytest.mark.parametrize("number", [0, -1])
-def test_no_machines_at_all_are_refused(number: int) -> None:
-    with pytest.raises(InputError, match=rf"machines = {number}: allowed: at least 1"):
-        samples(number, 1)
-
-
-@given(place=st.integers(0, len(FACTORS) - 1), share=st.floats(0.0, 1.0))
-def test_a_share_of_a_factor_is_one_of_its_values(place: int, share: float) -> None:
-    factor = FACTORS[place]
-    value = factor.at(share)
-    if factor.second_only:
-        assert value == factor.reference
-    elif factor.choices:
-        assert value in factor.choices
-    else:
-        # rounding at the upper end
-        assert factor.low <= value <= factor.high * (1 + EXACT) + EXACT * abs(factor.low)
-
-
-def test_powers_have_their_middle_at_the_geometric_mean() -> None:
-    factor = BY_NAME["dynamic_speed"]
-    assert factor.at(0.5) == pytest.approx(math.sqrt(factor.low * factor.high), rel=EXACT)
-    assert BY_NAME["sliding_coefficient"].at(0.5) == pytest.approx(0.2, rel=EXACT)
-    assert BY_NAME["bore"].at(0.49) == "base"
-    assert BY_NAME["bore"].at(0.51) == BY_NAME["bore"].at(1.0) == "rear link"
-
-
-def test_the_data_are_named_with_reasons() -> None:
-    assert len(BY_NAME) == len(FACTORS)
-    assert set(REFERENCE) == {*BY_NAME, CONTACT}
-    fixed = {factor.name for factor in FACTORS if factor.second_only}
-    assert fixed == {"law", "rest_velocity", "backing", "stroke_time"}
-    for factor in FACTORS:
-        assert factor.meaning
-        assert factor.reason
-
-
 @pytest.mark.parametrize("factor", FACTORS, ids=lambda f: f.name)
 def test_the_reference_support_is_one_of_the_plausible_machines(factor: Factor) -> None:
     value = REFERENCE[factor.name]
@@ -267,11 +228,6 @@ def test_a_centre_is_shifted_across_its_member(body: str, scale: float) -> None:
     assert (b - a)[0] * shift[1] - (b - a)[1] * shift[0] > 0.0  # to the left of its direction
 
 
-def test_the_start_height_is_a_share_of_the_assumed() -> None:
-    height = machine(changed(scale=0.8, start_height=0.95)).start_hinge_height
-    assert height == pytest.approx(0.95 * 0.8 / REFERENCE_SCALE * 1.8, rel=EXACT)
-
-
 def test_nearly_every_sample_can_be_built() -> None:
     built = sum(can_be_built(sample) for sample in samples(64, 5))
     assert built >= 60  # ranges that leave out more were ill chosen
@@ -280,14 +236,6 @@ def test_nearly_every_sample_can_be_built() -> None:
 def test_a_machine_that_cannot_be_closed_is_refused() -> None:
     with pytest.raises(InputError, match=r"start_hinge_height = .*cannot bring the hinge there; allowed:"):
         machine(changed(start_height=5.0))
-
-
-@pytest.mark.parametrize("name", ["scale", "restitution"])
-def test_words_for_a_number_are_refused(name: str) -> None:
-    with pytest.raises(InputError, match=f"{name} = 'large': allowed: a number"):
-        pin(changed(**{name: "large"}), 1.5, reference_support()) if name == "restitution" else machine(
-            changed(**{name: "large"})
-        )
 
 
 # --- the pin of a sample ---
@@ -345,23 +293,3 @@ def test_columns_of_oil_are_as_large_as_the_machine() -> None:
     assert column.oil_length == pytest.approx(2.0 * ours.oil_length, rel=EXACT)
     assert column.bulk_modulus == 2e9
     assert column.line == Line(volume=5e-3, nominal_flow=200e-3 / 60.0, nominal_drop=5e5)
-
-
-# --- words ---
-
-
-def test_factors_are_said_in_words() -> None:
-    assert BY_NAME["sliding_coefficient"].label == "mu_d"
-    assert BY_NAME["mass_tail_beam"].label == "mass tail beam"
-    assert BY_NAME["mass_tail_beam"].span(second=True) == "0.6 to 2.5, even in powers"
-    assert BY_NAME["scale"].span(second=False) == "0.6 to 1"
-    assert BY_NAME["static_speed"].span(second=False) == "1e-05 to 0.001 m/s, even in powers"
-    assert BY_NAME["stroke_time"].span(second=False) == "2.0 s"
-    assert BY_NAME["bore"].span(second=False) == "base, rear link"
-    assert BY_NAME["bore"].chosen("base") == "the bore in the base"
-    assert BY_NAME["dynamic_speed"].bound("below", 0.012) == "v_d below 0.012 m/s"
-    assert BY_NAME["sliding_coefficient"].bound("above", 0.2) == "mu_d above 0.2"
-    phrases = [factor.chosen(choice) for factor in LISTS for choice in factor.choices]
-    assert len(set(phrases)) == len(phrases)
-    said = sorted(factor.label for factor in FACTORS)
-    assert all(one != other for one, other in pairwise(said))

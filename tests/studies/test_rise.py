@@ -59,16 +59,6 @@ def test_masks_take_in_both_ends(period: float) -> None:
     assert whole.size == round(2.0 / period) + 1
 
 
-def test_the_stages_lie_in_the_rise_and_leave_the_edges_out() -> None:
-    times = [time for stage in rise.STAGES.values() for time in stage]
-    assert list(rise.STAGES) == ["early", "middle", "late"]
-    assert times == sorted(times)
-    assert times[0] >= BEGIN
-    assert times[-1] <= END
-    # of one length, so that RMS fluctuations can be compared; rounding of the differences
-    assert [b - a for a, b in rise.STAGES.values()] == pytest.approx([0.5] * 3, abs=1e-12)
-
-
 # --- trend and RMS fluctuation ---
 
 
@@ -99,28 +89,6 @@ def test_a_bend_leaves_a_known_rest(period: float) -> None:
     )  # mean of the squares of a window's times, by the trapezoidal rule
     # rounding of the moving sum over values of 3
     assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(rest, abs=1e-12)
-
-
-@pytest.mark.parametrize("period", PERIODS)
-@given(value=st.floats(-1e6, 1e6), slope=st.floats(-1e3, 1e3))
-def test_nothing_fluctuates_if_nothing_shakes(period: float, value: float, slope: float) -> None:
-    size = abs(value) + 5.0 * abs(slope)
-    run = Record(period, {"still": lambda t: np.full_like(t, value), "x": lambda t: value + slope * t})
-    # rounding of the moving sum: a unit in the last place for each of up to 2001 records that it passed
-    for begin in (rise.START, BEGIN):
-        assert rise.rms_fluctuation(run, run["still"], begin) <= 2001 * 2.3e-16 * size
-    assert rise.rms_fluctuation(run, run["x"]) <= 2001 * 2.3e-16 * size
-
-
-@pytest.mark.parametrize("begin", [rise.START, BEGIN])
-def test_what_was_before_the_rise_does_not_enter(begin: float) -> None:
-    def course(time: Series) -> Series:
-        return np.sin(40.0 * time) * time
-
-    calm = Record(courses={"x": lambda t: np.where(t < 3.0, 0.0, course(t))})
-    wild = Record(courses={"x": lambda t: np.where(t < 3.0, 1e3 * np.cos(50.0 * t), course(t))})
-    assert rise.rms_fluctuation(calm, calm["x"], begin) == rise.rms_fluctuation(wild, wild["x"], begin)
-    assert rise.likeness(calm, wild, "x") == pytest.approx(1.0, abs=1e-12)  # rounding
 
 
 def test_only_what_is_between_the_times_counts() -> None:

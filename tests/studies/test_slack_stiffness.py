@@ -15,7 +15,7 @@ from studies.common.options import Options
 from studies.slack_stiffness import cases as plan
 from studies.slack_stiffness import run as study
 from studies.slack_stiffness.cases import FRICTION, PushedSupport
-from studies.slack_stiffness.measures import Loop, kinematic_slack, participation, pin_shares
+from studies.slack_stiffness.measures import Loop, kinematic_slack, pin_shares
 from support_exudyn import simulate
 
 CASE = PushedSupport("reference", 0.5, 0.3, FRICTION)
@@ -65,11 +65,6 @@ def test_the_slack_of_a_support_is_that_of_virtual_work() -> None:
     lengths = machine.column_lengths(machine.start())
     weight = 9.81 * sum(body.mass for body in machine.linkage().bodies.values())
     assert loop.within == pytest.approx(-(CASE.roof_load + 0.5 * weight) / np.mean(lengths), rel=0.1)
-
-
-def test_what_is_left_of_the_linkage() -> None:
-    assert participation(0.01, 0.02) == pytest.approx(0.75)
-    assert participation(0.01, 0.004) == 0.0
 
 
 @pytest.mark.slow

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import math
 import shutil
 from collections.abc import Callable
@@ -28,14 +27,11 @@ from studies.common.numbers import (
 )
 from studies.common.options import Options, add_options, read_options
 from studies.common.rise import Series
-from studies.common.runs import halvings, run_cases, run_with_errors, save_run
-from studies.common.study import output_folder
+from studies.common.runs import halvings, run_cases, run_with_errors
 from support_exudyn import CubicStep, IdealPin, Result, Scenario, Steady, ravn_slider_crank
-from support_exudyn.commands.command_line import Parser, count
+from support_exudyn.commands.command_line import Parser
 from support_exudyn.files import save_scenario
-from support_exudyn.files.temporary import PREFIX
 from tests.cases.run_cases import loose_support
-from tests.hostile import left_behind, posix_only, with_own_files
 from user_forces.values.value import InputError
 
 MACHINES = Path(str(resources.files("support_exudyn.files.machines")))
@@ -122,17 +118,6 @@ def test_the_error_of_records_covers_what_lies_between_them() -> None:
 # --- options ---
 
 
-@pytest.mark.parametrize(("text", "number"), [("1", 1), ("256", 256), (" 8 ", 8)])
-def test_a_count_is_a_whole_number_from_one_on(text: str, number: int) -> None:
-    assert count(text) == number
-
-
-@pytest.mark.parametrize("text", ["0", "-3", "1.5", "many", "", "1e3", "nan"])
-def test_what_is_no_count_is_refused_with_what_is_allowed(text: str) -> None:
-    with pytest.raises(argparse.ArgumentTypeError, match=r"allowed: (a whole number )?from 1 on"):
-        count(text)
-
-
 def read(*words: str) -> Options:
     parser = Parser()
     add_options(parser, Path("results"))
@@ -149,17 +134,6 @@ def test_options_have_defaults() -> None:
     assert plain.workers >= 1
     given = read("--workers", "3", "--machines", "9", "--runs", "5", "--out", "x")
     assert (given.workers, given.machines, given.runs, given.out.parts) == (3, 9, 5, ("x",))
-
-
-def test_there_is_no_quick_form_any_more_which_is_said(capsys: pytest.CaptureFixture[str]) -> None:
-    assert read("--quick") == read()
-    assert capsys.readouterr().err.startswith("--quick has no effect")
-
-
-def test_no_machines_are_refused_with_the_reason(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        read("--machines", "0")
-    assert "--machines: 0: allowed: from 1 on" in capsys.readouterr().err
 
 
 # --- one's own machine ---
@@ -220,11 +194,6 @@ def test_a_bore_that_is_said_nowhere_is_asked_for(tmp_path: Path) -> None:
         InputError, match=r"mine\.toml: rear_base: the radius of its bore is missing; allowed: "
     ):
         read("--machine", str(tmp_path / "mine.toml"), "--pin", "rear_base")
-
-
-def test_a_machine_that_is_neither_a_file_nor_shipped_is_told_those_that_are() -> None:
-    with pytest.raises(InputError, match=r"allowed: .*zf18000"):
-        read("--machine", "zf1800")
 
 
 def test_a_pin_that_the_machine_does_not_have_is_refused(tmp_path: Path) -> None:
@@ -293,17 +262,6 @@ def test_a_number_has_the_error_that_accuracies_estimate(runs: dict[str, Result]
     assert found.value == last
 
 
-@posix_only
-def test_of_hidden_files_in_its_folder_a_study_removes_those_that_are_known_for_its_own(tmp_path: Path) -> None:
-    own = with_own_files(tmp_path) + with_own_files(tmp_path / "which_pin")
-    left = [left_behind(tmp_path, "a"), left_behind(tmp_path / "which_pin", "b")]
-    with output_folder(tmp_path):
-        assert not any(path.exists() for path in left)
-        left_behind(tmp_path / "which_pin" / "runs")
-    assert not list(tmp_path.rglob(f"{PREFIX}abc"))
-    assert all(path.read_text(encoding="utf-8") == "of the user" for path in own)
-
-
 def test_errors_of_both_runs_add_up_in_a_comparison(runs: dict[str, Result]) -> None:
     fast, slow = runs["fast"], runs["slow"]
     found = compared("more", "fast", "N m", fast, slow, lambda run, other: moment(run) - moment(other))
@@ -320,9 +278,3 @@ def test_a_count_is_off_by_as_much_as_its_coarser_runs_are(runs: dict[str, Resul
     assert counted("steps", "slow", runs["slow"], lambda run: run.counts.steps) == Number(
         "steps", "slow", steps[-1], "1", steps[-1] - steps[0]
     )
-
-
-def test_a_kept_run_has_no_coarser_ones(runs: dict[str, Result], tmp_path: Path) -> None:
-    (tmp_path / "runs").mkdir()
-    save_run(runs["slow"], tmp_path, "slow")
-    assert Result.load(tmp_path / "runs" / "slow.h5").coarser is None

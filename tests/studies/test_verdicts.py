@@ -13,10 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from studies.claims.claim_list import CLAIMS, Claim, Varied
-from studies.claims.conditions import dependence
 from studies.claims.evidence import Evidence, Measured, Verdict
 from studies.claims.plausible import Choice, samples
-from studies.claims.verdicts import KINDS, Count, Ruling, independent, rule, wilson
+from studies.claims.verdicts import KINDS, Count, Ruling, independent, rule
 from tests.cases.evidence_cases import right, wrong
 
 Sample = Mapping[str, Choice]
@@ -122,11 +121,6 @@ def test_a_closed_form_asks_no_machine() -> None:
     assert ruling([True] * 100, False, alone).kind == "fails"
 
 
-def test_a_statement_without_a_judge_is_not_measurable() -> None:
-    found = ruling([True] * 100, claim=Claim("section 0", "It is good.", "not measurable: no measure"))
-    assert (found.kind, found.reference, found.first, found.ours) == ("not measurable", None, Count(), "")
-
-
 def test_both_hypercubes_are_judged_and_compared() -> None:
     first, second = (
         [(MACHINES[0], evidence(v)) for v in verdicts] for verdicts in ([True] * 100, [False] * 100)
@@ -175,12 +169,6 @@ def test_the_datum_on_which_a_verdict_depends_is_named(judged: Callable[[Sample]
     assert re.fullmatch(text, ruling([judged(machine) for machine in MACHINES]).depends)
 
 
-def test_chance_is_no_dependence() -> None:
-    coin = random.Random(1)
-    named = [dependence([(machine, coin.random() < 0.6) for machine in MACHINES[:80]]) for _ in range(40)]
-    assert sum(map(bool, named)) <= 2  # by 1 % each
-
-
 def test_the_error_is_the_largest_of_the_numbers_told() -> None:
     evidence = Evidence(
         {"ideal": {"a": Measured(100.0, 1.0), "b": Measured(1.0, 0.02), "c": Measured(1.0, 0.5)}}
@@ -219,7 +207,3 @@ def test_a_verdict_hangs_on_a_threshold_that_changes_it(
     assert [at.counted.kind for at in found.thresholds] == kinds
     assert found.hangs is hangs
     assert set(kinds) <= set(KINDS)
-
-
-def test_the_interval_of_no_machines_is_all() -> None:
-    assert wilson(0, 0) == (0.0, 1.0)

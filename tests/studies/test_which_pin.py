@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from studies.common.chapter import Chapter
 from studies.common.subject import own_subject, paper_subject, without_clearance
 from studies.which_pin import cases as which_pin_cases
 from studies.which_pin import closed_form as clearance
@@ -83,11 +82,6 @@ def test_friction_makes_the_shaking_and_hardly_moves_the_tip(numbers: Numbers) -
         assert np.ptp(list(shift)) < 0.2  # [mm] of 17
         shaken, still = (numbers["rms_pin_forces", one]["value"] for one in (case, smooth))
         assert shaken > 4.0 * still  # 6
-
-
-def test_order_joins_what_is_alike() -> None:
-    effects = dict.fromkeys(PINS, 1.0) | {"shield_canopy": -2.0, "rear_base": 0.97}
-    assert in_order(effects) == "shield_canopy > rear_base = front_base = rear_shield = front_shield"
 
 
 # --- the closed form ---
@@ -178,21 +172,6 @@ def test_the_closed_form_knows_inertia() -> None:
 
 
 # --- what is written ---
-
-
-def test_every_file_is_there_and_the_chapter_can_be_read(out: Path) -> None:
-    chapter = Chapter.load(out)
-    assert len(chapter.pictures) == 4
-    for picture in chapter.pictures:
-        assert (out / f"{picture.stem}.png").read_bytes().startswith(b"\x89PNG")
-    tables = ("position", "forces", "shaking")
-    for table in (
-        *(f"{kind}_mu{mu}" for kind in tables for mu in ("0p25", "0")),
-        "together",
-        "closed_form",
-    ):
-        assert "all five" in (out / f"table_{table}.txt").read_text(encoding="utf-8")
-    assert len(list((out / "runs").glob("*.h5"))) == 44
 
 
 def test_the_peak_over_ideal_has_the_error_of_the_peaks_that_it_is_made_of(numbers: Numbers) -> None:

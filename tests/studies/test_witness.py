@@ -17,7 +17,7 @@ from studies.common.numbers import Number, measured_all
 from studies.common.options import Options
 from studies.common.rise import FORCE
 from studies.common.subject import paper_subject
-from studies.common.witness import Witness, is_within, run_on_exudyn, verdict, with_errors, witness_table
+from studies.common.witness import Witness, is_within, run_on_exudyn, with_errors
 from support_exudyn import CubicStep, Result, Scenario
 from tests.at_once import at_once
 from tests.studies.forms import WHOLE, written
@@ -79,16 +79,6 @@ def test_errors_have_floors() -> None:
     middle = witness.ALIKE * witness.SAFETY * 0.5  # of shares of the largest number
     assert found == pytest.approx([middle, witness.SAFETY * 0.5, witness.SAFETY * 4.0, 0.0])
     assert with_errors([by_chance])[0].numerical_error == pytest.approx(100.0 * witness.LEAST)
-
-
-def test_a_table_says_of_every_number_what_the_witness_has() -> None:
-    good, bad = number(100.0, 0.5, witness=100.25), number(100.0, 0.5, "std_force", witness=101.0)
-    rows = witness_table([good, bad, number(1.0, 0.1, "waits")]).rows
-    assert rows[0][-4:] == ("100.00 ± 0.50", "100.25", "-0.25", "yes")
-    assert rows[1][-2:] == ("-1", "no")
-    assert rows[2][-3:] == ("", "", "")
-    assert verdict([good, bad]).endswith("in 1 of them ([@witness]). Beyond it: std force (case).")
-    assert verdict([number(1.0, 0.1)]) == witness.WAITING
 
 
 @pytest.mark.slow

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import errno
 import faulthandler
-import multiprocessing
 import os
-import pickle
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -107,80 +102,14 @@ def test_the_job_whose_process_ends_is_told_and_all_others_are_done(pool: Worker
     assert {begun[n] for n in (2, 3, 4, 5, 8)} <= {1, 2}  # again if they stood beside one that ended
 
 
-def test_what_other_pools_wait_for_without_an_end_ends_here(pool: Workers, tmp_path: Path) -> None:
-    # exit code 0, which pebble takes for a process that had nothing to do; and an end that leaves a lock behind
-    ways = ["good", "left 0", "killed in mid-sentence", "good", "good"]
-    found = pool.run([(way, tmp_path) for way in ways], end, silent, lambda error: error.code or -100)
-    assert found == [0, -100, -9, 3, 4]
-
-
 def test_a_job_whose_process_ends_once_is_done_after_all(pool: Workers, tmp_path: Path) -> None:
     found = pool.run([("killed once", tmp_path), ("good", tmp_path)], end, silent)
     assert found == [0, 1]
 
 
-def test_if_nobody_asks_for_it_the_error_comes_when_all_others_are_done(pool: Workers, tmp_path: Path) -> None:
-    ways = ["killed", *["good"] * 6]
-    with pytest.raises(
-        ProcessEndedError, match=r"^job 1: the process that computed it ended: signal 9"
-    ) as caught:
-        pool.run([(way, tmp_path) for way in ways], end, silent)
-    assert set(times_begun(tmp_path)) == set(range(7))
-    again = pickle.loads(pickle.dumps(caught.value))
-    assert (again.place, again.code, str(again)) == (0, -9, str(caught.value))
-
-
-@pytest.mark.parametrize("number", [None, errno.EBADF, errno.ECONNREFUSED])
-def test_a_process_that_cannot_be_started_as_another_ends_is_started_later(
-    number: int | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    errors, submit = [OSError(number, "closed")], ProcessPoolExecutor.submit
-
-    def failing(self: Any, *args: Any) -> Any:
-        if errors:
-            raise errors.pop()
-        return submit(self, *args)
-
-    monkeypatch.setattr(ProcessPoolExecutor, "submit", failing)
-    with worker_pool(1) as single:
-        assert single.run([("good", tmp_path)] * 2, end, silent) == [0, 1]
-    assert not errors
-
-
 def meet(place: int, folder: Path) -> bool:
     (folder / f"here {place}").touch()
     return wait_until((folder / f"here {1 - place}").exists, 30.0)
-
-
-def test_one_that_is_killed_between_sweeps_is_replaced(pool: Workers, tmp_path: Path) -> None:
-    mine = {process.pid for process in multiprocessing.active_children()}
-    pool.run([("good", tmp_path)] * 4, end, silent)
-    for pid in {process.pid for process in multiprocessing.active_children()} | mine:
-        assert pid is not None
-        os.kill(pid, signal.SIGKILL)
-    assert pool.run([("good", tmp_path)] * 4, end, silent) == [0, 1, 2, 3]
-
-
-UNGUARDED = """
-from support_exudyn.sweeps.workers import worker_pool
-from tests.sweeps.test_dying_workers import meet, silent
-with worker_pool(1) as pool:
-    pool.run([(None,)], meet, silent)
-"""
-
-
-@pytest.mark.slow  # a script whose processes import all
-def test_a_script_that_starts_itself_again_is_told_what_is_missing(tmp_path: Path) -> None:
-    script = tmp_path / "unguarded.py"
-    script.write_text(UNGUARDED, encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, str(script)], cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=60
-    )
-    assert done.returncode == 1
-    last = done.stderr.strip().splitlines()[-1]
-    name = "support_exudyn.sweeps.workers.NoProcessError"
-    assert last.startswith(f"{name}: processes end before they begin their work")
-    assert "if __name__ == '__main__'" in last
 
 
 # --- streams ---

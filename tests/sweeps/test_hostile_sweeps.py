@@ -12,7 +12,6 @@ from typing import Any
 import pytest
 
 from support_exudyn import ClearancePin, Held, Scenario, simulate
-from support_exudyn.__main__ import main
 from support_exudyn.simulation import memory
 from support_exudyn.sweeps import Plan, Record, read_table, sweep
 from tests.cases.run_cases import loose_support, paper_contact
@@ -128,27 +127,3 @@ def test_a_run_that_does_not_fit_into_memory_is_refused_before_it_begins() -> No
     period = float(str(caught.value).rpartition("at least ")[2].removesuffix(" s apart"))
     memory.check_room(replace(scene(), duration=1e10, record_period=period))
     memory.check_room(replace(scene(), duration=1e10, record_period=1e2 * period))
-
-
-# --- single runs ---
-
-
-def test_what_an_own_module_does_wrong_is_said_in_a_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.syspath_prepend(tmp_path)
-    (tmp_path / "wrong_law.py").write_text(
-        "from user_forces import FrictionLaw, value\n\n@value\nclass WrongLaw(FrictionLaw):\n"
-        "    @staticmethod\n    def force(slip, normal_force):\n        return {}[slip]\n",
-        encoding="utf-8",
-    )
-    (tmp_path / "run.toml").write_text(
-        'machine = "reference"\nduration_s = 0.05\n[pins.rear_base]\nclearance_mm = 1.5\n'
-        'friction = {type = "WrongLaw"}\n',
-        encoding="utf-8",
-    )
-    assert main(["--import", "wrong_law", "run", str(tmp_path / "run.toml")]) == 1
-    error = capsys.readouterr().err
-    assert error.startswith("error: stopped at t = 0 s: rear_base: WrongLaw fails at a slip of 0 m/s")
-    assert "KeyError" in error
-    assert error.count("\n") == 1

@@ -70,16 +70,6 @@ def test_named_ones_alone_are_drawn(vary: str, drawn: tuple[str, ...], tmp_path:
     assert set(read_sweep(write(tmp_path, vary)).names) == set(drawn)
 
 
-def test_what_is_said_of_a_key_goes_before_what_the_file_states(tmp_path: Path) -> None:
-    own = '"machine.masses_kg.canopy" = [9000]\n"machine.pivots_mm.tip" = [[3850, 2600]]'
-    plan = read_sweep(write(tmp_path, f'"machine.*" = "stated range"\n{own}'))
-    assert set(plan.names) == {*DRAWN[1:], "machine.pivots_mm.tip"}
-    for point in plan.points:
-        machine = plan.scenario(point).machine
-        assert machine.parts["canopy"][0].mass == 9000.0  # type: ignore[attr-defined]
-        assert machine.tip == (3.85, 2.6)  # type: ignore[attr-defined]
-
-
 @pytest.mark.parametrize(
     ("vary", "head", "said"),
     [
@@ -111,21 +101,6 @@ def test_a_wildcard_leaves_out_the_strength_of_a_machine(tmp_path: Path) -> None
     stated = {f"machine.{key}" for key, one in read_machine("reference").sourced.items() if one.low is not None}
     assert {name for name in stated if name.startswith("machine.strength.")} == stated - names
     assert stated - names
-
-
-@pytest.mark.parametrize(
-    ("vary", "method"),
-    [
-        ('"machine.strength.*" = "stated range"', None),
-        ('"machine.*.bore_mm" = "stated range"', None),
-        ('"machine.*" = "stated range"\n"machine.strength.*" = "stated range"', None),
-        ('"machine.strength.base.mass_kg" = [100, 200]', ""),
-    ],
-)
-def test_strength_is_refused_where_it_is_named(vary: str, method: str | None, tmp_path: Path) -> None:
-    path = on_reference(tmp_path, vary) if method is None else on_reference(tmp_path, vary, method)
-    with pytest.raises(InputError, match=r"no run depends on \[strength\].*`support-exudyn stand` alone reads"):
-        read_sweep(path)
 
 
 # --- numbers of a scenario's file ---

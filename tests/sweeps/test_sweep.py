@@ -88,50 +88,6 @@ def test_without_a_list_the_usual_numbers_are_noted_with_their_errors(tmp_path: 
             assert table[f"{title}_error"][0] == error
 
 
-def test_patterns_note_what_runs_have(tmp_path: Path, ran: list[Task]) -> None:
-    path = write_sweep(tmp_path, speeds(2), record='numbers = ["pin.*.force.m??", "pin.*.force.l*", "*.first"]')
-    names = read_table(do(path).table).column_names
-    assert {"pin.pin.force.largest_N", "pin.pin.force.min_N", "journal.x.first_m"} <= set(names)
-    assert "pin.pin.force.mean_N" not in names
-
-
-@pytest.mark.parametrize(
-    ("kind", "words"),
-    [
-        ("md", "| run | machine.speed [m/s] | journal.x.last [mm] |"),
-        ("latex", r"run & machine.speed [m/s] & journal.x.last [mm] \\"),
-        ("csv", "machine.speed_m_per_s,run,status,journal.x.last_m"),
-    ],
-)
-def test_a_table_for_a_text(
-    tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str], kind: str, words: str
-) -> None:
-    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2]'))
-    arguments = ["table", str(tmp_path / "store"), "--format", kind, "journal.*"]
-    assert main(arguments) == 0
-    printed = capsys.readouterr().out
-    assert words in printed
-    assert "speed" in printed.splitlines()[-1] or kind == "latex"
-    assert main([*arguments, "--out", str(tmp_path / "t")]) == 0
-    assert (tmp_path / "t").read_text(encoding="utf-8") == printed
-
-
-def test_runs_that_miss_their_accuracy_are_told(
-    tmp_path: Path, ran: list[Task], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = write_sweep(tmp_path, speeds(2))
-    text = path.read_text(encoding="utf-8").replace("[scenario]\n", '[scenario]\naccuracy = "draft"\n')
-    path.write_text(text, encoding="utf-8")
-    monkeypatch.setattr(Result, "met", False)  # as where every impact multiplies the errors before it
-    outcome = do(path)
-    table = read_table(outcome.table).to_pydict()
-    assert table["status"] == ["done", "done"]
-    assert outcome.unmet == 2
-    assert all(one.startswith("accuracy 0.01: NOT met, ") for one in table["reason"])
-    assert main(["sweep", str(path), "--out", str(path.parent / "store")]) == 0
-    assert "2 runs are less accurate than asked for" in capsys.readouterr().err
-
-
 def test_a_number_that_no_run_can_have_is_refused_before_any_is_made(tmp_path: Path, ran: list[Task]) -> None:
     path = write_sweep(tmp_path, speeds(2), record='numbers = ["pin.hinge.force.mean"]')
     with pytest.raises(InputError, match=r"runs have no channel 'pin.hinge.force'; allowed"):
@@ -265,71 +221,7 @@ def test_if_all_are_refused_the_sweep_is(tmp_path: Path, ran: list[Task]) -> Non
         do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [-0.5, -0.6]'))
 
 
-def test_runs_have_readable_names_in_the_store(tmp_path: Path, ran: list[Task]) -> None:
-    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2]'))
-    store = tmp_path / "store"
-    assert columns(store)["run"] == ["speed_m_per_s_0.1", "speed_m_per_s_0.2"]
-    for name, key in zip(columns(store)["run"], columns(store)["key"], strict=True):
-        assert (store / "named" / f"{name}.h5").samefile(store / "runs" / f"{key}.h5")
-    (store / "named" / "mine.h5").write_text("no run", encoding="utf-8")
-    do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.2]'))
-    assert {one.name for one in (store / "named").iterdir()} == {"speed_m_per_s_0.2.h5", "mine.h5"}
-
-
 # --- the command ---
-
-
-def test_the_command_tells_what_there_is(
-    tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2, -1.0]')
-    assert main(["sweep", str(path), "--dry-run"]) == 0
-    assert capsys.readouterr().out == "3 runs, 2 to do; 1 failed\n"
-    assert not (tmp_path / "sweep_sweep").exists()
-    with pytest.raises(SystemExit) as ended:
-        main(["sweep", str(path)])
-    assert ended.value.code == 3
-    told = capsys.readouterr()
-    assert told.out.splitlines()[0] == "3 runs: 2 done, 1 failed"
-    assert told.err == "some runs have failed; their reasons are in the table\n"
-    with pytest.raises(SystemExit):
-        main(["sweep", str(path), "--json"])
-    assert json.loads(capsys.readouterr().out)["found"] == 2
-
-
-DRAWN = """
-"pins.pin.restitution" = {distribution = "normal", mean = 0.8, std = 0.05, to = 0.99}
-"machine.speed_m_per_s" = {distribution = "uniform", from = 0.1, to = 0.3}
-"""
-
-
-def test_a_drawn_sweep_is_told_shown_and_drawn(
-    tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str]
-) -> None:
-    do(write_sweep(tmp_path, DRAWN, head='method = "latin_hypercube"\nsamples = 12\nseed = 3'))
-    store = str(tmp_path / "store")
-    assert main(["show", store]) == 0
-    told = capsys.readouterr().out
-    for words in (
-        "12 runs: 12 done",
-        "pins.pin.restitution",
-        "5 %",
-        "confidence",
-        "Spearman",
-        "support-exudyn chart",
-    ):
-        assert words in told
-    assert main(["show", store, "pin.pin.force.*", "--json"]) == 0
-    number = json.loads(capsys.readouterr().out)["numbers"]["pin.pin.force.largest"]
-    values = columns(tmp_path / "store")["pin.pin.force.largest_N"]
-    assert number["percentiles"][1]["value"] == np.median(values)
-    assert number["ranking"][0]["name"] == "machine.speed_m_per_s"
-    assert main(["chart", store, "pin.pin.force.largest"]) == 0
-    assert main(["chart", store, "pin.pin.force.largest", "--tornado"]) == 0
-    files = {Path(line).name for line in capsys.readouterr().out.splitlines()}
-    assert {"pin.pin.force.largest_histogram.png", "pin.pin.force.largest_tornado.png"} <= files
-    for wrong in (["pin.pin.force.median"], ["pin.pin.force.largest", "--by", "x", "a", "b"]):
-        assert main(["chart", store, *wrong]) == 1
 
 
 def test_a_chart_is_drawn_of_it(tmp_path: Path, ran: list[Task], capsys: pytest.CaptureFixture[str]) -> None:

@@ -12,7 +12,6 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.__main__ import main
 from support_exudyn.sweeps import read_sweep, sweep, work
 from support_exudyn.sweeps.cluster import _remote
 from support_exudyn.sweeps.key import program
@@ -25,13 +24,6 @@ from user_forces.values.value import InputError
 
 SOON = 90.0  # [s]; what comes at all has come by then, on a busy machine too
 RUNS = 20
-SOON_GIVEN_UP = """
-import sys
-from support_exudyn.__main__ import main
-from support_exudyn.sweeps import cluster
-cluster.REACHED = {seconds}
-sys.exit(main())
-"""
 Started = Callable[..., subprocess.Popen[bytes]]
 
 needs_dask = pytest.mark.skipif(
@@ -96,36 +88,6 @@ def test_with_a_worker_killed_midway_it_gives_the_same_table_as_here(
     assert columns(store) == columns(whole.folder)
     for one in columns(store)["key"]:
         assert Store(store).has_run(Store(store).row(one))  # type: ignore[arg-type]
-
-
-def command(seconds: float) -> list[str]:
-    """The program, which waits so long for a scheduler."""
-    return [sys.executable, "-c", SOON_GIVEN_UP.format(seconds=seconds)]
-
-
-@needs_dask
-def test_a_scheduler_that_is_not_there_is_told(tmp_path: Path) -> None:
-    # in a process of its own: what Dask leaves behind in this one would be warned of
-    path = write_sweep(tmp_path, speeds(2))
-    done = subprocess.run(
-        [*command(0.5), "sweep", str(path), "--scheduler", "tcp://127.0.0.1:1"],
-        cwd=ROOT,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=SOON,
-    )
-    assert done.returncode == 1
-    assert done.stderr.splitlines()[-1].startswith("error: scheduler = 'tcp://127.0.0.1:1': cannot be reached")
-
-
-def test_without_dask_it_is_told_what_to_install(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    path = write_sweep(tmp_path, speeds(2))
-    assert main(["sweep", str(path), "--scheduler", "tcp://127.0.0.1:1"]) == 1
-    assert "pip install 'support-exudyn[cluster]'" in capsys.readouterr().err
 
 
 def test_a_worker_with_another_program_refuses(tmp_path: Path) -> None:

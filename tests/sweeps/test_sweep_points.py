@@ -159,12 +159,3 @@ def test_rows_are_read_as_they_were_written_or_not_at_all() -> None:
             StoredRun.from_text(text[:place] + chr(ord(text[place]) ^ 1) + text[place + 1 :])
         with pytest.raises(ValueError, match="digest"):
             StoredRun.from_text(text[:place])
-
-
-def test_a_misspelt_field_is_told_with_the_sweep_and_its_scenario(tmp_path: Path) -> None:
-    (tmp_path / "rise.toml").write_text('machine = "reference"\nduration_s = 1\n', encoding="utf-8")
-    sweep = tmp_path / "sweep.toml"
-    sweep.write_text('scenario = "rise.toml"\n[vary]\nduratoin_s = [1, 2]\n', encoding="utf-8")
-    plan = read_sweep(sweep)
-    with pytest.raises(InputError, match=r"rise\.toml as .*sweep\.toml varies it: duratoin_s: .*duration_s"):
-        plan.scenario(plan.points[0])

@@ -58,20 +58,6 @@ def test_what_is_no_distribution_is_refused(given: dict[str, object], message: s
         distribution_of(given, "vary.e", HERE)
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("a,b\n1,2\n", "allowed: a column of"),
-        ("e\n1\nx\n", "a number in every line"),
-        ("e\n1\n", "two or more"),
-    ],
-)
-def test_what_is_no_column_of_numbers_is_refused(tmp_path: Path, text: str, message: str) -> None:
-    (tmp_path / "e.csv").write_text(text, encoding="utf-8")
-    with pytest.raises(InputError, match=message):
-        distribution_of({"distribution": "file", "file": "e.csv"}, "vary.e", tmp_path)
-
-
 # --- statistics ---
 
 

@@ -8,24 +8,18 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
-from pyarrow import csv
 
 from support_exudyn import reference_support
 from support_exudyn.files import read_scenario
 from support_exudyn.files.hdf5 import with_checksum
-from support_exudyn.files.temporary import PREFIX
 from support_exudyn.model.drives.drive import CubicStep
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import FORMAT
 from support_exudyn.sweeps import key as keys
 from support_exudyn.sweeps import own_sources
 from support_exudyn.sweeps.key import LENGTH
-from support_exudyn.sweeps.plan import Plan, Record
 from support_exudyn.sweeps.store import Store, StoredNumber, StoredRun
-from support_exudyn.sweeps.table import SweepTable, read_table
-from tests.hostile import left_behind, posix_only, with_own_files
 
 STAND = """
 duration_s = 0.02
@@ -149,23 +143,6 @@ def test_a_run_is_read_again_if_its_file_is_older_or_newer_than_its_row(tmp_path
     assert not store.has_run(known)
 
 
-@posix_only
-def test_what_killed_processes_left_is_cleared_before_and_after_and_files_of_others_stay(
-    tmp_path: Path,
-) -> None:
-    store = Store(tmp_path)
-    folders = (store.folder, store.rows, store.runs)
-    own = [path for folder in folders for path in with_own_files(folder)]
-    for folder in folders:
-        left_behind(folder)
-    with store.writing():
-        assert not any((folder / f"{PREFIX}abc").exists() for folder in folders)
-        for folder in folders:
-            left_behind(folder)
-    assert not any((folder / f"{PREFIX}abc").exists() for folder in folders)
-    assert all(path.read_text(encoding="utf-8") == "of the user" for path in own)
-
-
 def test_only_rows_and_runs_of_other_keys_are_pruned(tmp_path: Path) -> None:
     store = Store(tmp_path)
     names = [letter * LENGTH for letter in "abc"]
@@ -186,50 +163,3 @@ def test_a_table_of_others_is_not_overwritten(tmp_path: Path) -> None:
     with pytest.raises(FileExistsError, match="is of no sweep, and would be lost"), Store(tmp_path).writing():
         pytest.fail("the work is begun")
     assert [path.name for path in tmp_path.iterdir()] == ["table.csv"]
-
-
-def test_what_is_noted_is_told_apart_by_all_of_it() -> None:
-    digests = [
-        Record().digest,
-        Record(("a.mean",)).digest,
-        Record(after=1.0).digest,
-        Record(until=1.0).digest,
-    ]
-    assert len(set(digests)) == 4
-    assert Record(keep_runs=False).digest == Record().digest
-
-
-# --- the table ---
-
-
-def test_columns_are_in_the_order_of_the_first_row_whenever_rows_come(tmp_path: Path) -> None:
-    def no_scenario(point: Any) -> Scenario:
-        raise AssertionError
-
-    def of(names: str, value: float) -> dict[str, StoredNumber]:
-        return {name: StoredNumber(value, None if name == "c" else 0.25, "N") for name in names}
-
-    table = SweepTable(Plan([{"x": 3, "y": "q"}, {"x": 1, "y": "p"}, {"x": 2, "y": "r"}], no_scenario))
-    table.set(2, StoredRun("k2", "done", wall_time=0.5, numbers=of("ca", 2.0)))
-    table.set(1, StoredRun("", "failed", "because"))
-    table.set(0, StoredRun("k0", "done", wall_time=0.25, numbers=of("ab", 1.0)))
-    table.write(tmp_path)
-    found = read_table(tmp_path).to_pydict()
-    assert found == {
-        "x": [3, 1, 2],
-        "y": ["q", "p", "r"],
-        "run": ["x_3_y_q", "x_1_y_p", "x_2_y_r"],
-        "key": ["k0", "", "k2"],
-        "status": ["done", "failed", "done"],
-        "reason": ["", "because", ""],
-        "wall_time_s": [0.25, None, 0.5],
-        "a_N": [1.0, None, 2.0],
-        "a_N_error": [0.25, None, 0.25],
-        "b_N": [1.0, None, None],
-        "b_N_error": [0.25, None, None],
-        "c_N": [None, None, 2.0],
-    }
-    assert list(found)[7:] == ["a_N", "a_N_error", "b_N", "b_N_error", "c_N"]
-    texts = csv.read_csv(tmp_path / "table.csv").to_pydict()
-    assert np.array_equal(texts["x"], found["x"])
-    assert texts["a_N"] == found["a_N"]

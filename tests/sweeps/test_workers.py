@@ -58,11 +58,6 @@ def pool() -> Iterator[Workers]:
         yield pool
 
 
-def children() -> set[int]:
-    """Processes of all pools."""
-    return {process.pid or 0 for process in multiprocessing.active_children()}
-
-
 def silent(shares: list[float]) -> None:
     del shares
 
@@ -111,28 +106,6 @@ def test_an_exception_of_a_job_is_raised_here_and_the_rest_is_dropped(pool: Work
 
 
 # --- ends ---
-
-
-@linux_only
-def test_a_block_that_raises_ends_its_processes_in_mid_work(pool: Workers) -> None:
-    pool.run([(n,) for n in range(8)], squared, silent)
-    others = children()
-    mine: set[int] = set()
-
-    def interrupt(shares: list[float]) -> None:
-        if shares[0] == 0.5:
-            mine.update(children() - others)
-            raise KeyboardInterrupt
-
-    started = time.perf_counter()
-    with pytest.raises(KeyboardInterrupt), worker_pool(1) as short:
-        short.run([(LONG,), (LONG,)], stay, interrupt)
-    assert len(mine) == 1
-    assert wait_until(lambda: not alive(mine), SOON)
-    assert time.perf_counter() - started < LONG / 2
-    # those of another pool go on
-    assert others <= alive(others)
-    assert {process for *_, process in pool.run([(n,) for n in range(8)], squared, silent)} <= others
 
 
 @pytest.mark.slow  # three processes

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.files.series import adams_results
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted
 from tests.cases.series_cases import DATA, REQUESTS
@@ -58,15 +57,6 @@ def test_numbers_are_in_the_order_of_the_ids_whatever_lines_they_are_on(tmp_path
     assert found["P.X"].time.tolist() == [0.5, 1.0]
 
 
-def test_only_what_is_wanted_is_kept(tmp_path: Path) -> None:
-    told: list[float] = []
-    found = read_series(written(tmp_path, SMALL), names=["P.*"], progress=told.append)
-    assert list(found.series) == ["P.Y", "P.X"]
-    assert told[-1] == 1.0
-    with pytest.raises(InputError, match="has no series 'Q'; allowed: its own names"):
-        read_series(written(tmp_path, SMALL), names=["Q"])
-
-
 def test_of_several_analyses_one_is_taken_and_told(tmp_path: Path) -> None:
     start, _, rest = SMALL.partition("<Analysis")
     one = "<Analysis" + rest.partition("</Results>")[0]
@@ -111,19 +101,6 @@ def test_damaged_and_hostile_files_end_in_a_sentence(tmp_path: Path, text: str, 
         read_series(written(tmp_path, text))
     assert "\n" not in str(raised.value)
     assert "a.res" in str(raised.value)
-
-
-def test_a_file_whose_numbers_do_not_fit_into_memory_is_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    first, _, _ = SMALL.partition("<Data>")
-    steps = "".join(f"<Step>{n} 1 2 3 4</Step>\n" for n in range(4000))
-    path = written(tmp_path, f"{first}<Data>{steps}</Data></Analysis></Results>")
-    monkeypatch.setattr(adams_results, "PIECE", 1000)
-    monkeypatch.setattr(adams_results, "available", lambda: 100_000)
-    with pytest.raises(InputError, match=r"5 series of it take .* GB, .* are free; allowed: fewer, by"):
-        read_series(path)
-    assert read_series(path, names=["P.X"]).series["P.X"].time.size == 4000
 
 
 def test_requests_are_read_with_the_units_of_their_system(tmp_path: Path) -> None:

@@ -16,9 +16,9 @@ from support_exudyn.files.series import matlab
 from support_exudyn.files.series import parquet as parquet_module
 from support_exudyn.files.series.matlab_arrays import matlab_arrays
 from support_exudyn.files.series.named_series import SeriesFile
-from support_exudyn.files.series.read import FORMATS, read_series
+from support_exudyn.files.series.read import read_series
 from tests.cases import series_cases as cases
-from tests.cases.series_cases import DATA, FORCE, TIME, UNITS
+from tests.cases.series_cases import FORCE, TIME, UNITS
 from user_forces import InputError
 
 
@@ -78,11 +78,6 @@ def test_its_solutions_are_read_as_text_and_binary(engine: Path) -> None:
     assert text.notes == binary.notes == ()
 
 
-def test_a_solution_that_was_cut_off_at_a_line_is_told(tmp_path: Path) -> None:
-    found = read(tmp_path, cases.SOLUTION.partition("#simulation finished")[0].encode(), units=UNITS)
-    assert found.notes == ("There is no line '#simulation finished': the run was cut off, or the file was.",)
-
-
 @pytest.mark.parametrize(
     ("data", "message"),
     [
@@ -122,11 +117,6 @@ def test_every_version_of_matlab_is_read(tmp_path: Path, name: str) -> None:
         )  # of its own times, in milliseconds where it says so
 
 
-def test_a_file_that_ends_the_process_of_scipy_ends_in_a_sentence() -> None:
-    with pytest.raises(InputError, match=r"crashes_scipy.mat: is .*; allowed: a whole MATLAB file"):
-        read_series(DATA / "crashes_scipy.mat")
-
-
 # --- Parquet ---
 
 
@@ -159,11 +149,3 @@ def test_a_format_is_found_by_content_whatever_the_ending(tmp_path: Path, name: 
     found = read(tmp_path, cases.in_process()[name], "nothing.dat", units=UNITS)
     assert found.series
     assert found.path.name == "nothing.dat"
-
-
-def test_what_is_of_no_kind_says_which_are(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"is of no kind that can be read; allowed: run of this .*CSV"):
-        read(tmp_path, b"\x89PNG\r\n\x1a\n\0\0")
-    with pytest.raises(FileNotFoundError, match=r"no such file; allowed: files of series: run of this program"):
-        read_series(tmp_path / "none.csv")
-    assert len({one.name for one in FORMATS}) == len(FORMATS)

@@ -42,15 +42,6 @@ def test_a_run_is_made_once(made: list[object], tmp_path: Path) -> None:
     assert (len(made), with_errors.coarser is not None, first.coarser) == (2, True, None)
 
 
-@pytest.mark.parametrize("damage", [b"", b"no run", b"\x89HDF"])
-def test_a_damaged_run_is_made_again(damage: bytes, made: list[object], tmp_path: Path) -> None:
-    cache = RunCache(tmp_path)
-    cache.run(SCENE)
-    next(tmp_path.rglob("run.h5")).write_bytes(damage)
-    assert cache.run(SCENE).time.size
-    assert len(made) == 2
-
-
 def test_another_program_makes_its_own(
     made: list[object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

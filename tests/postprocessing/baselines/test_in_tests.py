@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn import InputError, Result
+from support_exudyn import InputError
 from support_exudyn.postprocessing.comparing.baselines import SessionBaselines
 from support_exudyn.postprocessing.pytest_plugin import SimulateCached
 from support_exudyn.simulation.estimate import Estimate
@@ -37,14 +37,6 @@ def test_only_what_is_named_is_written(tmp_path: Path) -> None:
     assert "100 -> 100.3 N" in said
     assert compared(LARGER, tmp_path, "test_it.test_force")[1]
     assert compared(LARGER, tmp_path) == ("", False)
-
-
-def test_a_changed_run_is_told(simulate_cached: SimulateCached, tmp_path: Path) -> None:
-    run: Result = simulate_cached(rocker())
-    assert compared(run, tmp_path, "*")[1]
-    assert compared(run, tmp_path) == ("", False)
-    said, _ = compared(simulate_cached(rocker(friction=0.1001)), tmp_path)
-    assert "changed by more than both errors, new, or gone" in said
 
 
 def test_a_name_is_used_once_and_only_numbers_with_errors_are_kept(tmp_path: Path) -> None:
