@@ -23,17 +23,21 @@ from pathlib import Path
 from typing import Any, NamedTuple, cast
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from studies.benchmarking.peers.in_drake import run_drake
 from studies.benchmarking.peers.in_mujoco import run_mujoco
 from studies.benchmarking.peers.in_scipy import run_lsoda
-from studies.benchmarking.peers.peer_run import PeerRun
-from studies.benchmarking.peers.stock import run_stock
+from studies.benchmarking.peers.on_exudyn import run_stock
+from studies.benchmarking.peers.plain_support import PeerRun
 from studies.common import paper_machine
 from support_exudyn import Estimate, Scenario, SolverSettings, simulate
 from support_exudyn.commands.command_line import warn
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.registry import FormulationName
+from support_exudyn.postprocessing.figures import style
 from support_exudyn.simulation.provenance import versions
 from support_exudyn.sweeps.warm_up import warm_up
 
@@ -107,10 +111,7 @@ class TradePoint(NamedTuple):
 
 
 def _to_accuracy(formulation: FormulationName) -> Callable[[Scenario, Any], float]:
-    def run(scenario: Scenario, accuracy: Any) -> float:
-        return _largest(replace(scenario, formulation=formulation, accuracy=accuracy))
-
-    return run
+    return lambda scenario, accuracy: _largest(replace(scenario, formulation=formulation, accuracy=accuracy))
 
 
 def _once(formulation: FormulationName) -> Callable[[Scenario, Any], float]:
@@ -123,8 +124,7 @@ def _once(formulation: FormulationName) -> Callable[[Scenario, Any], float]:
 
 
 def _largest(scenario: Scenario) -> float:
-    ((pin, force),) = simulate(scenario).largest_force.items()
-    del pin
+    (force,) = simulate(scenario).largest_force.values()
     return force
 
 
@@ -140,39 +140,25 @@ OURS_COMPILED, OURS_ENGINE = "support-exudyn, compiled", "support-exudyn on Exud
 ONCE = ", single run"
 STOCK = "Exudyn, stock recipe"
 COMMON = (OURS_COMPILED, "standard")
+_ACCURACIES = dict(zip(PRESETS, PRESETS, strict=True))
+_TOLERANCES = {f"tolerance {x:.0e}": {"solver": {"tolerance": x}} for x in (1e-3, 1e-4, 1e-5, 1e-6)}
+_IMPACTS = {
+    f"{n} steps an impact": {"step": step, "solver": {"impact_steps": n}}
+    for step, n in ((1e-3, 64), (1e-3, 256), (5e-4, 512))
+}
+_OF_DRAKE = {f"accuracy {x:.0e}": x for x in (1e-2, 1e-3, 1e-4, 1e-5)}
+_OF_LSODA = {f"tolerance {x:.0e}": x for x in (1e-4, 1e-5, 1e-6, 1e-7)}
 PROGRAMS: Mapping[str, PeerProgram] = {
     one.name: one
     for one in (
-        PeerProgram(OURS_COMPILED, dict(zip(PRESETS, PRESETS, strict=True)), _to_accuracy(COMPILED)),
-        PeerProgram(
-            OURS_ENGINE, dict(zip(PRESETS, PRESETS, strict=True)), _to_accuracy(ENGINE), slow=["reference"]
-        ),
-        PeerProgram(
-            OURS_COMPILED + ONCE,
-            {f"tolerance {x:.0e}": {"solver": {"tolerance": x}} for x in (1e-3, 1e-4, 1e-5, 1e-6)},
-            _once(COMPILED),
-        ),
-        PeerProgram(
-            OURS_ENGINE + ONCE,
-            {
-                f"{n} steps an impact": {"step": step, "solver": {"impact_steps": n}}
-                for step, n in ((1e-3, 64), (1e-3, 256), (5e-4, 512))
-            },
-            _once(ENGINE),
-        ),
+        PeerProgram(OURS_COMPILED, _ACCURACIES, _to_accuracy(COMPILED)),
+        PeerProgram(OURS_ENGINE, _ACCURACIES, _to_accuracy(ENGINE), slow=["reference"]),
+        PeerProgram(OURS_COMPILED + ONCE, _TOLERANCES, _once(COMPILED)),
+        PeerProgram(OURS_ENGINE + ONCE, _IMPACTS, _once(ENGINE)),
         PeerProgram(STOCK, _steps(3e-4, 2e-4, 1e-4, 5e-5), _of_peer(run_stock)),
         PeerProgram("MuJoCo", _steps(2e-4, 1e-4, 5e-5, 2e-5), _of_peer(run_mujoco), "mujoco"),
-        PeerProgram(
-            "Drake",
-            {f"accuracy {x:.0e}": x for x in (1e-2, 1e-3, 1e-4, 1e-5)},
-            _of_peer(run_drake),
-            "pydrake",
-        ),
-        PeerProgram(
-            "scipy's LSODA",
-            {f"tolerance {x:.0e}": x for x in (1e-4, 1e-5, 1e-6, 1e-7)},
-            _of_peer(run_lsoda),
-        ),
+        PeerProgram("Drake", _OF_DRAKE, _of_peer(run_drake), "pydrake"),
+        PeerProgram("scipy's LSODA", _OF_LSODA, _of_peer(run_lsoda)),
     )
 }
 
@@ -296,6 +282,75 @@ def cheapest(points: Sequence[TradePoint], program: str, error: float = GOOD) ->
     mine = [one for one in points if one.program == program]
     good = [one for one, lasting in zip(mine, lasting_errors(mine), strict=True) if lasting <= error]
     return min(good, key=lambda one: one.ratio) if good else None
+
+
+# --- the figure ---
+
+# by program: colour, marker; ours are blue
+LOOKS: Mapping[str, tuple[str, str]] = {
+    OURS_COMPILED: ("#0072B2", "o"),
+    OURS_ENGINE: ("#56B4E9", "o"),
+    STOCK: ("#000000", "s"),
+    "MuJoCo": ("#D55E00", "P"),
+    "Drake": ("#882255", "^"),
+    "scipy's LSODA": ("#009E73", "v"),
+}
+SMALLEST = 1e-10  # errors below are those of the reference
+
+
+def figure(points: Sequence[TradePoint]) -> Figure:
+    """Errors of all programs over their processor time, on logarithmic axes."""
+    drawing = Figure(figsize=style.size(160, 100))
+    axes = drawing.subplots()
+    for name in PROGRAMS:
+        _line(axes, name, [one for one in points if one.program == name])
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="processor time [s]",
+        ylabel="relative error of the largest pin force",
+    )
+    axes.margins(x=0.08, y=0.08)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(numticks=12))
+        axis.set_minor_formatter(NullFormatter())
+    axes.grid(which="major", lw=0.4, color="#DDDDDD")
+    drawing.legend(loc="outside right upper", fontsize=8, frameon=False)
+    return drawing
+
+
+def _line(axes: Axes, name: str, points: Sequence[TradePoint]) -> None:
+    if not points:
+        return
+    colour, marker = LOOKS[name.removesuffix(ONCE)]
+    reports = name in (OURS_COMPILED, OURS_ENGINE)
+    x = [one.seconds for one in points]
+    y = [max(error, SMALLEST) for error in lasting_errors(points)]
+    label = f"{name},\nto an accuracy" if reports else name.replace(ONCE, f"{ONCE[:1]}\nsingle run")
+    axes.plot(
+        x,
+        y,
+        color=colour,
+        marker=marker,
+        ms=7.0 if reports else 5.0,
+        mfc=colour if reports else "white",
+        lw=1.8 if reports else 1.0,
+        ls="--" if name.endswith(ONCE) else "-",
+        label=label,
+    )
+    if reports:
+        for one, at in zip(points, y, strict=True):
+            is_last = one.setting == PRESETS[-1] and name == OURS_ENGINE  # at the edge
+            axes.annotate(
+                f'"{one.setting}"',
+                (one.seconds, at),
+                (-7, -2) if is_last else (7, -2),
+                textcoords="offset points",
+                ha="right" if is_last else "left",
+                fontsize=7.5,
+                color=colour,
+                bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5},
+            )
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
-from studies.benchmarking.peers.peer_run import contact_numbers
+from studies.benchmarking.peers.plain_support import contact_numbers
 from support_exudyn import CubicStep, HydraulicSupport, Scenario
 from support_exudyn.model.linkage import lumped
 from support_exudyn.model.plane_geometry import minus, parts_of, side

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from studies.benchmarking.peers.stock import peak_acceleration
+from studies.benchmarking.peers.on_exudyn import peak_acceleration
 from studies.common import paper_machine, rise
 from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.subject import Subject

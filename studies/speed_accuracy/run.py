@@ -8,7 +8,6 @@ from collections.abc import Sequence
 
 from studies.benchmarking import benchmark, trade
 from studies.benchmarking.trade import TradePoint
-from studies.benchmarking.trade_figure import figure
 from studies.common.numbers import Number
 from studies.common.options import Options
 from studies.common.study import Study, StudyOutcome
@@ -48,7 +47,7 @@ def outcome(points: Sequence[TradePoint]) -> StudyOutcome:
         "table_caption": sheet.caption,
     }
     tables = {"settings": TextTable(sheet.header, sheet.rows, left=sheet.left)}
-    return StudyOutcome(numbers, words, {benchmark.FIGURE: figure(points)}, tables)
+    return StudyOutcome(numbers, words, {benchmark.FIGURE: trade.figure(points)}, tables)
 
 
 study = Study("speed_accuracy", __doc__, work, seconds=120.0)

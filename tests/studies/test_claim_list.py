@@ -49,6 +49,7 @@ def test_small_errors_change_no_judgement(claim: Claim) -> None:
     assert claim.judge(blurred(right(), 1e-6)) is True
 
 
+@pytest.mark.slow  # all cases of a machine
 @pytest.mark.parametrize("claim", numbered([c for c in CLAIMS if c.judge is not None]))
 def test_every_judge_finds_what_it_asks_for_in_real_measures(claim: Claim, reference: Evidence) -> None:
     assert claim.judge is not None

@@ -10,12 +10,11 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from studies.benchmarking.peers.built_in import Evaluator, run_built_in
 from studies.benchmarking.peers.in_drake import run_drake
 from studies.benchmarking.peers.in_mujoco import run_mujoco
 from studies.benchmarking.peers.in_scipy import run_lsoda
-from studies.benchmarking.peers.peer_run import PeerRun, impacts
-from studies.benchmarking.peers.stock import run_stock
+from studies.benchmarking.peers.on_exudyn import Evaluator, run_built_in, run_stock
+from studies.benchmarking.peers.plain_support import PeerRun, impacts
 from studies.benchmarking.yardstick import YardstickError, compiled, run_yardstick
 from support_exudyn import CubicStep, Held, SolverSettings, simulate
 from support_exudyn.scenario.scenario import Scenario

@@ -45,6 +45,7 @@ def test_errors_of_the_ideal_pin_cover_the_other_formulation(known: Data, case: 
         assert abs(other[name] - value) <= error, name
 
 
+@pytest.mark.slow  # runs at a tenth of the tolerance
 def test_errors_cover_ten_times_denser_records_at_a_tighter_tolerance(known: Data) -> None:
     shares = []
     for case in CASES:

@@ -55,6 +55,7 @@ def test_what_a_made_up_loop_consists_of_is_found() -> None:
     assert loop.leg_share == pytest.approx(LEAN * moved / (2.0 * CASE.push), rel=1e-3)
 
 
+@pytest.mark.slow  # a support is pushed slowly
 def test_the_slack_of_a_support_is_that_of_virtual_work() -> None:
     ideal = replace(CASE, clearance_mm=0.0, friction=0.0)
     shares = pin_shares(ideal, simulate(replace(ideal.scenario(), accuracy=None)))

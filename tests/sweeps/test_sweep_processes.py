@@ -47,7 +47,9 @@ def _soon_started() -> Iterator[None]:
         yield
 
 
-@pytest.mark.parametrize("number", [3, 41])  # by itself, and among others that are sent with it
+@pytest.mark.parametrize(
+    "number", [3, pytest.param(41, marks=pytest.mark.slow)]
+)  # by itself, and among others that are sent with it
 def test_a_run_whose_process_is_killed_is_a_row_and_is_tried_again(tmp_path: Path, number: int) -> None:
     plan = read_sweep(write_sweep(tmp_path, speeds(number)))
     middle = number // 2

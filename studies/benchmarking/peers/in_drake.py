@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from studies.benchmarking.peers.peer_run import PeerRun, undisturbed
 from studies.benchmarking.peers.plain_support import (
     COLUMN_LINK,
     JOURNAL_LINK,
     JournalLog,
+    PeerRun,
     PlainSupport,
     plain_support,
+    undisturbed,
 )
 from support_exudyn.scenario.scenario import Scenario
 

@@ -15,13 +15,14 @@ import numpy as np
 import numpy.typing as npt
 from scipy.integrate import solve_ivp
 
-from studies.benchmarking.peers.peer_run import PeerRun, undisturbed
 from studies.benchmarking.peers.plain_support import (
     COLUMN_LINK,
     JOURNAL_LINK,
     JournalLog,
+    PeerRun,
     PlainSupport,
     plain_support,
+    undisturbed,
 )
 from support_exudyn.scenario.scenario import Scenario
 

@@ -1,26 +1,30 @@
-"""The support as the programs of others take it: four links as a tree, two driven columns, a pin in its bore.
+"""The support as programs of others take it, and what their runs give: times, forces, impacts.
 
-The tree begins at the front base pin: front link, shield, canopy on the shield, rear link on the shield. Its
-last link ends in the journal, whose bore is fixed to the base. All frames lie as the ground does in the start
-posture, so that joint angles begin at zero. Nothing here comes from the package but the machine's data and
-the law's constants.
+Four links as a tree, two driven columns, a pin in its bore. The tree begins at the front base pin: front
+link, shield, canopy on the shield, rear link on the shield. Its last link ends in the journal, whose bore is
+fixed to the base. All frames lie as the ground does in the start posture, so that joint angles begin at zero.
+Nothing here comes from the package but the machine's data and the law's constants.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from studies.benchmarking.peers.peer_run import PeerRun, contact_numbers, impacts
+from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.model.drives.drive import CubicStep, Held
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact import JournalContact
+from user_forces.contact_state import Onset
 from user_forces.friction.laws import Ambrosio, Frictionless
+from user_forces.normal.power_laws import LankaraniNikravesh
 from user_forces.values.value import InputError, Vector2
 
 PIN = "rear_base"
@@ -34,6 +38,7 @@ TREE = (
 COLUMN_LINK, JOURNAL_LINK = 2, 3  # places in the tree of the canopy and of the rear link
 # force on the journal from its place, velocity, spin in the bore and the initial impact velocity:
 # two components [N], moment about its centre [N m]
+Series = npt.NDArray[np.float64]
 Pair = Sequence[float] | npt.NDArray[np.float64]  # components along x and y
 JournalForce = Callable[[float, float, float, float, float, float], tuple[float, float, float]]
 
@@ -178,6 +183,90 @@ def journal_force(contact: JournalContact) -> JournalForce:
         return -normal * nx - sliding * ny, -normal * ny + sliding * nx, arm * sliding
 
     return force
+
+
+def contact_numbers(contact: JournalContact) -> tuple[float, float, float]:
+    """Stiffness [N/m^1.5], damping factor [-], rest velocity [m/s]; InputError otherwise."""
+    law = contact.normal
+    if not isinstance(law, LankaraniNikravesh) or law.exponent != 1.5:
+        raise InputError(f"normal = {law}: allowed here: LankaraniNikravesh with exponent 1.5")
+    return law.stiffness, law.damping_factor, law.rest_velocity
+
+
+def contact_forces(contact: JournalContact, depth: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """Force [N] at the ends of all steps, with the impact velocity at the end of the first in contact."""
+    stiffness, factor, floor = contact_numbers(contact)
+    closed = depth > 0.0
+    begins = closed & ~np.concatenate(([False], closed[:-1]))
+    which = np.maximum.accumulate(np.where(begins, np.arange(len(depth)), 0))
+    speed = np.maximum(rate[which], floor)
+    inside = np.maximum(depth, 0.0)
+    force: np.ndarray = np.maximum(stiffness * inside**1.5 * (1.0 + factor * rate / speed), 0.0)
+    return force
+
+
+# --- runs ---
+
+
+@dataclass(frozen=True)
+class PeerRun:
+    """Outcome of a competitor's run, at the ends of all its steps.
+
+    time: [s]. force: magnitude in the clearance pin [N]. depth: [m], rate: [m/s], of the contact. solve_time:
+    of the solver, on the processor [s].
+    """
+
+    time: Series
+    force: Series
+    depth: Series
+    rate: Series
+    solve_time: float
+
+    @property
+    def onsets(self) -> tuple[Onset, ...]:
+        """Impacts, by interpolation of the depth."""
+        return impacts(self.time, self.depth, self.rate)
+
+
+def impacts(
+    time: Sequence[float] | Series, depth: Sequence[float] | Series, rate: Sequence[float] | Series
+) -> tuple[Onset, ...]:
+    """Impacts from time [s], depth [m] and its rate [m/s] at the ends of all steps, and how they end.
+
+    Between two steps the depth is the cubic that fits depth and rate at both; where it passes zero is found
+    by bisection, and its slope there is the speed.
+    """
+    t, d, r = (np.asarray(series, dtype=np.float64) for series in (time, depth, rate))
+    found: list[Onset] = []
+    for n in np.flatnonzero((d[:-1] <= 0.0) != (d[1:] <= 0.0)).tolist():
+        h = float(t[n + 1] - t[n])
+        x, slope = _crossing(float(d[n]), float(d[n + 1]), h * float(r[n]), h * float(r[n + 1]))
+        if d[n] <= 0.0:
+            found.append(Onset(float(t[n]) + x * h, slope / h))
+        elif found:  # else it began in contact
+            found[-1] = found[-1].separated(float(t[n]) + x * h, -slope / h)
+    return tuple(found)
+
+
+def _crossing(first: float, last: float, first_slope: float, last_slope: float) -> tuple[float, float]:
+    """The place between 0 and 1 where the cubic with these values and slopes passes zero, and its slope."""
+    a, b, c = last - first, first_slope, last_slope
+    cubic = np.array([b + c - 2.0 * a, 3.0 * a - 2.0 * b - c, b, first])
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        x = 0.5 * (low + high)
+        if (np.polyval(cubic, x) > 0.0) == (last > 0.0):
+            high = x
+        else:
+            low = x
+    return high, float(np.polyval(np.polyder(cubic), high))
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """The engine is silent and garbage is not collected: neither is part of what is measured."""
+    with quiet_engine(), paused_collector():
+        yield
 
 
 @dataclass

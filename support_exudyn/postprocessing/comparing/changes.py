@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
-from support_exudyn.postprocessing.comparing.common_times import Column
+from support_exudyn.postprocessing.comparing.common_times import ComparedColumn
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedWindow, compared
 from support_exudyn.postprocessing.comparing.kept_run import KeptRun, kept_number
 from support_exudyn.postprocessing.comparing.tolerance import BOTH_ERRORS
@@ -72,7 +72,7 @@ def _gone_and_new(what: str, was: Mapping[str, Any], now: Mapping[str, Any]) -> 
 
 
 def _columns(
-    what: str, old: Mapping[str, Column], new: Mapping[str, Column], end: float
+    what: str, old: Mapping[str, ComparedColumn], new: Mapping[str, ComparedColumn], end: float
 ) -> Iterator[RunChange]:
     """Changes of curves up to a time [s], or of numbers."""
     yield from _gone_and_new(what, old, new)

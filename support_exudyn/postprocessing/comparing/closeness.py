@@ -12,7 +12,7 @@ import numpy as np
 
 from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
 from support_exudyn.files.series.read import read_series
-from support_exudyn.postprocessing.comparing.common_times import Column
+from support_exudyn.postprocessing.comparing.common_times import ComparedColumn
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, ComparedWindow, compared
 from support_exudyn.postprocessing.comparing.compared_file import is_own
 from support_exudyn.postprocessing.comparing.kept_run import determined_until, kept_number
@@ -117,20 +117,20 @@ def _several(reference: SeriesFile | NamedSeries | Mapping[str, Any]) -> Mapping
     return reference.series if isinstance(reference, SeriesFile) else reference
 
 
-def _columns(item: Any, numbers: Mapping[str, Estimate], names: Sequence[str]) -> dict[str, Column]:
+def _columns(item: Any, numbers: Mapping[str, Estimate], names: Sequence[str]) -> dict[str, ComparedColumn]:
     """Channels or numbers of these names with their errors."""
     if not isinstance(item, Result):
         several = _several(item)
         return {name: _column(several[name]) for name in names}
     errors = curve_errors(item, [name for name in names if name in item.channels])
-    curves = {name: Column(item.unit(name), item.time, item[name], errors[name]) for name in errors}
+    curves = {name: ComparedColumn(item.unit(name), item.time, item[name], errors[name]) for name in errors}
     return curves | {name: kept_number(numbers[name]) for name in names if name not in curves}
 
 
-def _column(item: Any) -> Column:
+def _column(item: Any) -> ComparedColumn:
     """A curve or number as a column. Raises InputError if it is none."""
     if isinstance(item, NamedSeries):
-        return Column(item.unit, item.time, item.values, np.full(item.time.size, math.nan))
+        return ComparedColumn(item.unit, item.time, item.values, np.full(item.time.size, math.nan))
     if isinstance(item, Estimate):
         return kept_number(item)
     if isinstance(item, (int, float)) and not isinstance(item, bool):

@@ -17,7 +17,7 @@ Values = npt.NDArray[np.float64]
 SAME = 1e-3  # share of the shortest time between two records by which equal times may differ, at most
 
 
-class Column(NamedTuple):
+class ComparedColumn(NamedTuple):
     """A curve at times [s] (n,), with values and errors (n,); a number has no times and a single value.
 
     unit: of all but the times; None: not known. An error that is NaN is not known.
@@ -122,7 +122,7 @@ def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Valu
     return result, np.where(own, 0.0, error), int(np.count_nonzero(~own))
 
 
-def errors_at(at: Values, column: Column) -> Values:
+def errors_at(at: Values, column: ComparedColumn) -> Values:
     """Errors of a curve at other times [s], (m,): those of the next record, as errors grow with time."""
     return column.errors[np.minimum(np.searchsorted(column.time, at - CLEARANCE), column.time.size - 1)]
 

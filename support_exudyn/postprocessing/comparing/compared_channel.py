@@ -13,8 +13,8 @@ import numpy.typing as npt
 from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.series.units import converted
 from support_exudyn.postprocessing.comparing.common_times import (
-    Column,
     CommonCurves,
+    ComparedColumn,
     errors_at,
     extent,
     on_common_times,
@@ -164,8 +164,8 @@ def _or_infinite(error: float) -> float:
 
 def compared(
     name: str,
-    reference: Column,
-    other: Column,
+    reference: ComparedColumn,
+    other: ComparedColumn,
     tolerance: Tolerance | None = None,
     window: ComparedWindow = EVERYTHING,
 ) -> ComparedChannel:
@@ -212,12 +212,13 @@ def compared(
     )
 
 
-def _in_unit(name: str, column: Column, unit: str) -> Column:
+def _in_unit(name: str, column: ComparedColumn, unit: str) -> ComparedColumn:
     """A column in another unit; a number without a unit is in that unit."""
     if column.unit == unit or (column.unit is None and not column.time.size):
         return column
     zero, one = converted(NamedSeries(name, column.unit, np.zeros(2), np.array([0.0, 1.0])), unit)
-    return Column(unit, column.time, zero + (one - zero) * column.values, abs(one - zero) * column.errors)
+    scale = one - zero
+    return ComparedColumn(unit, column.time, zero + scale * column.values, abs(scale) * column.errors)
 
 
 def _turns_apart(common: CommonCurves) -> float:

@@ -19,7 +19,7 @@ from support_exudyn.files.series.own_runs import is_run
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import converted, scaled, unit_checked
 from support_exudyn.files.toml.faults import nearest
-from support_exudyn.postprocessing.comparing.common_times import Column
+from support_exudyn.postprocessing.comparing.common_times import ComparedColumn
 from support_exudyn.postprocessing.comparing.compared_channel import ANGLE, TURN
 from support_exudyn.postprocessing.comparing.mapping import MappedColumn, MappedFile
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
@@ -82,7 +82,7 @@ class ComparedFile:
         """Unit of a channel in the file; None if it names none."""
         return self.series[self.mapped_column(channel).column].unit
 
-    def column(self, channel: str, unit: str) -> Column:
+    def column(self, channel: str, unit: str) -> ComparedColumn:
         """A channel in a unit, at its shifted times, with its numerical errors; wrapped angles are unwrapped.
 
         Raises InputError if the file's own unit is not known or of another kind.
@@ -98,7 +98,7 @@ class ComparedFile:
         if unit == ANGLE and self.run is None:
             values = unwrapped(values)
         errors = self._errors.get(mapped.column, np.full(values.size, math.nan))
-        return Column(unit, series.time + self.mapped.shift, values, errors)
+        return ComparedColumn(unit, series.time + self.mapped.shift, values, errors)
 
     def mean(self, channel: str, unit: str, after: float, until: float) -> Estimate | None:
         """The mean of a channel over time with its error, from every step of a run between two times [s].

@@ -17,7 +17,7 @@ import numpy as np
 
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.comparing.common_times import Column
+from support_exudyn.postprocessing.comparing.common_times import ComparedColumn
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.horizon import horizon
@@ -37,9 +37,9 @@ MEND = (
 )
 
 
-def kept_number(number: Estimate) -> Column:
+def kept_number(number: Estimate) -> ComparedColumn:
     """A number as a column of a single value."""
-    return Column(number.unit, np.zeros(0), np.array([number.value]), np.array([number.error]))
+    return ComparedColumn(number.unit, np.zeros(0), np.array([number.value]), np.array([number.error]))
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class KeptRun:
     numbers: Mapping[str, Estimate]
     provenance: Mapping[str, str]
     scenario: Mapping[str, Any] = field(default_factory=dict)
-    curves: Mapping[str, Column] = field(default_factory=dict)
+    curves: Mapping[str, ComparedColumn] = field(default_factory=dict)
     horizon: float = math.inf
 
 
@@ -82,7 +82,7 @@ def kept_run(result: Result) -> KeptRun:
         numbers=result.numbers() if math.isinf(end) else {},
         provenance={**result.provenance, "sources": program()["sources"], **own},
         curves={
-            name: Column(result.unit(name), result.time[rows], result[name][rows], known[name][rows])
+            name: ComparedColumn(result.unit(name), result.time[rows], result[name][rows], known[name][rows])
             for name in names
         },
         horizon=end,
@@ -167,12 +167,12 @@ def _estimate(value: str, error: str, unit: str) -> Estimate:
     return Estimate(float(value), math.inf if math.isnan(known) else known, unit)
 
 
-def _curve(time: Series, unit: str | None, values: str, errors: str) -> Column:
+def _curve(time: Series, unit: str | None, values: str, errors: str) -> ComparedColumn:
     """A curve; errors that are not known are infinite. Raises ValueError if it has not as many as times."""
     of_values, of_errors = _series(values), _series(errors)
     if not of_values.size == of_errors.size == time.size:
         raise ValueError("a curve has more or fewer values than there are times")
-    return Column(unit, time, of_values, np.where(np.isnan(of_errors), math.inf, of_errors))
+    return ComparedColumn(unit, time, of_values, np.where(np.isnan(of_errors), math.inf, of_errors))
 
 
 def _series(text: str) -> Series:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from support_exudyn import InputError
 from support_exudyn.postprocessing.comparing.changes import changes
-from support_exudyn.postprocessing.comparing.common_times import Column
+from support_exudyn.postprocessing.comparing.common_times import ComparedColumn
 from support_exudyn.postprocessing.comparing.kept_run import (
     KeptRun,
     read_baseline,
@@ -26,7 +26,7 @@ WHOLE = KeptRun(
     numbers={"pin.B.force.mean": Estimate(1.0 / 3.0, 1e-9, "N"), "unknown": Estimate(math.nan, math.inf, "m")},
     provenance={"python": "3.11"},
     scenario={"gravity": [0.0, -9.81], "pins": {"B": {"of": "Clearance"}}},
-    curves={"tip.x": Column("m", TIMES, np.array([1.0, math.nan, 2.0]), ERRORS)},
+    curves={"tip.x": ComparedColumn("m", TIMES, np.array([1.0, math.nan, 2.0]), ERRORS)},
     horizon=0.15,
 )
 UNCHECKED = [HealthCheck.function_scoped_fixture]

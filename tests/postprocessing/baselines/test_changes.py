@@ -12,7 +12,7 @@ import pytest
 
 from support_exudyn import Result, Scenario, simple_scenario, simulate
 from support_exudyn.postprocessing.comparing.changes import RunChange, changes
-from support_exudyn.postprocessing.comparing.common_times import Column
+from support_exudyn.postprocessing.comparing.common_times import ComparedColumn
 from support_exudyn.postprocessing.comparing.kept_run import KeptRun, kept_run
 from support_exudyn.postprocessing.pytest_plugin import SimulateCached
 from support_exudyn.simulation.estimate import Estimate
@@ -201,7 +201,7 @@ def test_what_exceeds_both_errors_has_changed(
         KeptRun(
             {"mine": Estimate(value, error, "N")},
             {},
-            curves={"c": Column("N", np.arange(2.0), np.full(2, value), np.full(2, error))},
+            curves={"c": ComparedColumn("N", np.arange(2.0), np.full(2, value), np.full(2, error))},
         )
         for value, error in (was, now)
     ]
