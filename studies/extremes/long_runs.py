@@ -1,15 +1,13 @@
-"""Do runs stay right for long? Joints, energy and memory over a thousand seconds, of the crank over a hundred.
+"""Do runs stay right for long? Joints and energy over a thousand seconds, of the crank over a hundred.
 
 The reference support raised and lowered by 100 mm every 4 s, with ideal pins, with 1.5 mm in the rear-link pin,
 with friction there, and on oil columns; held at rest; and a slider-crank with clearance that turns, which
-takes far more steps. A run is measured in the process that calls; for memory that should be a fresh one.
+takes far more steps.
 """
 
-import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -31,7 +29,6 @@ from support_exudyn.scenario.recorded_channels import channels
 from support_exudyn.scene.contract import Progress, silent
 from support_exudyn.simulation.result_checks import energy_open, joints_apart, result_checks, turned_over
 from support_exudyn.simulation.single_run import paused_collector
-from user_forces.contact_state import PinMemory
 
 Series = npt.NDArray[np.float64]
 STROKE, PERIOD = 0.1, 4.0  # [m], [s]
@@ -46,9 +43,6 @@ MOST_STEPS = 10**9
 IDEAL, SMOOTH, DRY, OIL, REST = "ideal pins", "1.5 mm", "friction", "oil columns", "at rest"
 CRANK = "crank"
 PARTS = 10  # of a run: the first is compared with the last
-NUMBER = 8  # [bytes]
-IMPACT = 168  # an Onset of four numbers in a list of CPython [bytes]
-STATUS = Path("/proc/self/status")
 
 
 @dataclass(frozen=True)
@@ -57,10 +51,7 @@ class LongRun:
 
     simulated, wall: times [s]. steps, impacts: numbers. gap_first, gap_last: largest distance of
     what is joined, in the first and the last tenth of the run [m]. gap_slope: of the line through all [m/s].
-    energy_first, energy_open: by how much the balance is open after the first tenth and at the end [J].
-    turned_over: kinetic, potential and elastic energy, losses and work that changed hands [J].
-    memory_slope: of resident memory from a tenth of the run to its end, less what records and impacts take, by
-    simulated time [bytes/s]; nan where the system does not tell.
+    energy_share: by how much the energy balance is open at the end, of what was turned over.
     """
 
     simulated: float
@@ -70,15 +61,7 @@ class LongRun:
     gap_first: float
     gap_last: float
     gap_slope: float
-    energy_first: float
-    energy_open: float
-    turned_over: float
-    memory_slope: float
-
-    @property
-    def energy_share(self) -> float:
-        """By how much the energy balance is open at the end, of what was turned over."""
-        return self.energy_open / self.turned_over
+    energy_share: float
 
 
 # --- scenes ---
@@ -147,20 +130,11 @@ def run(scenario: Scenario, progress: Progress = silent) -> LongRun:
 
     Raises SimulationError if it fails or does not stand up to the result checks, as `simulate` does.
     """
-    memory = [math.nan, math.nan]  # after a tenth, at the end [bytes]
-
-    def watch(share: float) -> None:
-        if share >= 1.0 / PARTS and math.isnan(memory[0]):
-            memory[0] = resident()
-        if share >= 1.0:
-            memory[1] = resident()
-        progress(share)
-
     chosen = formulation(scenario.formulation)
     chosen.check(scenario)
     began = time.perf_counter()
     with paused_collector():
-        outcome = chosen.run(scenario, watch)
+        outcome = chosen.run(scenario, progress)
     wall = time.perf_counter() - began
     found = channels(scenario, outcome.trajectory)
     if (failure := result_checks(scenario, outcome, found)) is not None:
@@ -170,21 +144,15 @@ def run(scenario: Scenario, progress: Progress = silent) -> LongRun:
     open_by, _ = energy_open(scenario, found)
     times, tenth = outcome.trajectory.time, scenario.duration / PARTS
     first, last = times <= tenth, times >= scenario.duration - tenth
-    begun = [onset.time for pin in outcome.onsets.values() for onset in pin]
-    later = sum(t > tenth for t in begun)
-    kept = (times.size - first.sum()) * record_bytes(scenario) + later * IMPACT
     return LongRun(
         simulated=scenario.duration,
         wall=wall,
         steps=outcome.counts.steps,
-        impacts=len(begun),
+        impacts=sum(map(len, outcome.onsets.values())),
         gap_first=float(gaps[first].max()),
         gap_last=float(gaps[last].max()),
         gap_slope=slope(times, gaps),
-        energy_first=float(open_by[first][-1]),
-        energy_open=float(open_by[-1]),
-        turned_over=turned_over(found),
-        memory_slope=float(memory[1] - memory[0] - kept) / (scenario.duration - tenth),
+        energy_share=float(open_by[-1]) / turned_over(found),
     )
 
 
@@ -192,20 +160,3 @@ def slope(times: Series, values: Series) -> float:
     """The slope of the straight line that fits values best, per second."""
     apart = times - times.mean()
     return float(apart @ values / (apart @ apart))
-
-
-def record_bytes(scenario: Scenario) -> int:
-    """What a record of a scenario in the plane takes while it runs [bytes]."""
-    # time and three integrals; position and velocity; what clearance pins remember
-    of_pins = len(PinMemory._fields) * len(scenario.clearance_pins)
-    return NUMBER * (4 + 6 * len(scenario.linkage.bodies) + of_pins)
-
-
-def resident() -> float:
-    """Memory of this process that is in use now [bytes]; nan where the system does not tell."""
-    try:
-        lines = STATUS.read_text().splitlines()
-    except OSError:
-        return math.nan
-    sizes = [line.split()[1] for line in lines if line.startswith("VmRSS:")]
-    return 1024.0 * float(sizes[0]) if sizes else math.nan

@@ -141,8 +141,6 @@ def numbers(judged: Judged, long: Long) -> list[Number]:
                 Number("gap_slope", case, run.gap_slope, "m/s", 0.0),
                 Number("energy_open", case, run.energy_share, "1", 0.0),
             ]
-            if math.isfinite(run.memory_slope):
-                found.append(Number("memory_slope", case, run.memory_slope, "bytes/s", 0.0))
     return found
 
 
@@ -225,16 +223,15 @@ def long_table(long: Long) -> TextTable:
     rows = []
     for name, run in long.items():
         if isinstance(run, str):
-            rows.append((name, run, *("",) * 7))
+            rows.append((name, run, *("",) * 6))
             continue
-        memory = f"{run.memory_slope:.0f}" if math.isfinite(run.memory_slope) else ""
         rows.append((
             name, f"{run.simulated:g}", f"{run.wall:.0f}", f"{run.steps}", f"{run.impacts}",
-            f"{run.gap_first:.1e}", f"{run.gap_last:.1e}", f"{run.energy_share:.1e}", memory,
+            f"{run.gap_first:.1e}", f"{run.gap_last:.1e}", f"{run.energy_share:.1e}",
         ))  # fmt: skip
     header = (
         "scene", "time [s]", "took [s]", "steps", "impacts", "gap, first tenth [m]", "gap, last tenth [m]",
-        "energy open / turned over", "memory beyond records [bytes/s]",
+        "energy open / turned over",
     )  # fmt: skip
     return TextTable(header, tuple(rows), width=200)
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import multiprocessing
-import os
 import signal
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -21,7 +19,7 @@ from studies.common.options import Options
 from studies.extremes import judge as judge_module
 from studies.extremes import long_runs, runs, scenes
 from studies.extremes import run as extremes
-from studies.extremes.cases import ALL, BOX, DRAWN, HYDRAULICS, MAPS, RANDOM, cases, mapped
+from studies.extremes.cases import ALL, BOX, HYDRAULICS, MAPS, cases, mapped
 from studies.extremes.hydraulics import oil_open
 from studies.extremes.judge import (
     GOOD,
@@ -40,8 +38,6 @@ from support_exudyn.scene.limits import DEEPEST
 from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.reported_numbers import measured
 from support_exudyn.simulation.result_checks import turned_over
-from support_exudyn.sweeps import workers
-from support_exudyn.sweeps.workers import worker_pool
 from tests.at_once import at_once
 from tests.hostile import posix_only
 from user_forces import InputError
@@ -69,15 +65,6 @@ def impact() -> Scenario:
 def full() -> list[Case]:
     """As many as were drawn at first."""
     return cases(ALL)
-
-
-def test_there_are_many_different_cases_of_every_group(full: list[Case]) -> None:
-    assert len(full) == 3618
-    for chosen in (full, cases(), cases(1)):
-        assert len({case.name for case in chosen}) == len(chosen)
-        assert {case.group for case in chosen} == {*MAPS, *RANDOM}
-    assert len(cases()) - len(list(mapped())) == DRAWN
-    assert len(cases(1)) - len(list(mapped())) == len(RANDOM)  # one of each
 
 
 def made_of(case: Case) -> Scenario | str:
@@ -114,17 +101,6 @@ def test_random_points_keep_to_their_ranges(box: bool) -> None:
             # the rounding of powers
             assert low * (1.0 - 1e-12) <= value <= high * (1.0 + 1e-12), (n, name)
         assert point.dynamic_speed_m_s <= LARGEST_SPEED
-
-
-def test_the_box_is_what_its_scenes_are(full: list[Case]) -> None:
-    boxed = [case for case in full if case.group == BOX]
-    for n, case in enumerate(boxed[:60:10]):
-        scene = case.scenario()
-        contact = scene.clearance_pins[PIN].contact
-        low, high = SPANS["clearance_m"].sensible
-        assert low * (1.0 - 1e-12) <= contact.bearing.clearance <= high * (1.0 + 1e-12)
-        assert SPANS["restitution"].sensible[0] <= contact.normal.restitution <= 1.0
-        assert scene.accuracy == scenes.ACCURACIES[10 * n % 3]
 
 
 # --- the judge ---
@@ -180,12 +156,6 @@ def test_what_is_right_is_good(fallen: Result, struck: Result) -> None:
     assert math.isnan(space.other)  # nothing else covers it
 
 
-def test_an_accuracy_that_is_reached_is_good() -> None:
-    point = Point(pace=0.2)
-    found = judge(lambda: scenes.boxed(point, "draft", scenes.gentle(point)))
-    assert (found.outcome, found.met) == (GOOD, True), found.reason
-
-
 def test_forces_that_are_wrong_at_all_steps_alike_are_seen_by_the_other_formulation(fallen: Result) -> None:
     forces = dict.fromkeys((name for name in measured(fallen.scenario) if name.endswith(".force")), 1.05)
     found = judged(fall, scaled(fallen, forces))
@@ -231,16 +201,6 @@ def test_an_error_that_is_reported_too_small_is_seen_by_half_the_steps(
 ) -> None:
     make, result = {"fall": (fall, fallen), "impact": (impact, struck)}[scene]
     found = judged(make, boasting(result))
-    assert found.outcome == SILENT
-    assert "half the steps are" in found.reason
-
-
-def test_so_it_is_in_a_run_to_an_accuracy() -> None:
-    point = Point(pace=0.2)
-    scene = replace(scenes.boxed(point, 1e-2, scenes.gentle(point)), formulation="exudyn")
-    result = simulate(scene)
-    assert judged(lambda: scene, result).outcome == GOOD
-    found = judged(lambda: scene, boasting(result))
     assert found.outcome == SILENT
     assert "half the steps are" in found.reason
 
@@ -333,25 +293,6 @@ def test_inputs_that_are_refused_are_refused_and_errors_of_other_kinds_are_silen
         assert "test_extremes.py" in found.reason  # where it was
 
 
-@pytest.mark.filterwarnings("default")
-def test_a_warning_is_an_error_even_where_nobody_asked_for_that(fallen: Result) -> None:
-    def run(scenario: Scenario) -> Result:
-        np.divide(1.0, np.zeros(1))
-        return fallen
-
-    found = judge(fall, run)
-    assert found.outcome == SILENT
-    assert found.reason.startswith("RuntimeWarning: divide by zero")
-
-
-def test_a_scene_that_no_other_formulation_covers_is_not_compared() -> None:
-    assert independent(replace(fall(), dimensions=3)) is None
-    for scene in (fall(), impact()):
-        other = independent(scene)
-        assert other is not None
-        assert other.scenario.formulation == "compiled"
-
-
 @pytest.mark.parametrize("seconds", [0.2, 2.7, 20.0, 120.0])
 @pytest.mark.parametrize("clearance", [1e-6, 1e-3])
 def test_a_check_by_steps_does_not_damp_out_what_the_loaded_contact_still_does(
@@ -412,32 +353,6 @@ def test_a_run_that_hangs_is_a_silent_failure(
     assert signal.getsignal(signal.SIGALRM) == before
 
 
-def test_a_run_that_ends_in_time_is_let_be(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(runs, "PATIENCE", 60.0)
-    assert runs.judged(0, of(impact)).outcome == GOOD
-
-
-def killed_at_one(place: int, case: Case) -> Judgement:
-    """In a process of its own, in place of `runs.judged`."""
-    if case.name == "1":
-        os.kill(os.getpid(), signal.SIGKILL)
-    return Judgement(GOOD)
-
-
-@posix_only
-def test_a_process_that_is_killed_is_a_silent_failure_of_its_case_alone(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(runs, "judged", killed_at_one)
-    context = multiprocessing.get_context("forkserver")  # from one that has imported everything: sooner
-    context.set_forkserver_preload([__name__])
-    monkeypatch.setattr(workers, "CONTEXT", context)
-    with worker_pool(1) as pool:
-        found = runs.judge_all([of(impact, str(n)) for n in range(3)], pool)
-    assert [verdict.outcome for verdict in found] == [GOOD, SILENT, GOOD]
-    assert found[1].reason.startswith("crash: the process that computed it ended: signal 9 (SIGKILL")
-
-
 # --- shares of what was drawn ---
 
 
@@ -457,16 +372,6 @@ def test_the_interval_of_a_share_is_that_of_counting(held: int, number: int) -> 
     else:
         assert high == 1.0
     assert max(found.value - low, high - found.value) == pytest.approx(found.error)
-
-
-def test_the_error_of_a_median_covers_that_of_all_that_could_be_drawn() -> None:
-    random = np.random.default_rng(20261123)
-    covered = 0
-    for _ in range(400):
-        found, error = extremes.middle(random.lognormal(size=60).tolist())
-        covered += abs(found - 1.0) <= error
-    assert covered >= 0.95 * 400
-    assert extremes.middle([1.0, 2.0, 3.0])[1] == math.inf
 
 
 # --- the whole study ---
