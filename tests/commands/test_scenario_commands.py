@@ -86,12 +86,6 @@ def test_the_scenario_of_a_run_makes_it_again_to_the_bit(name: str, tmp_path: Pa
     same(again(result, tmp_path), result)
 
 
-def test_a_run_with_errors_is_made_again_with_them(tmp_path: Path) -> None:
-    scenario = replace(BASE, pins={}, duration=0.05, record_period=0.002, step=1e-3)
-    result = simulate(scenario, errors=True)
-    same(again(result, tmp_path), result)
-
-
 def refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     assert main(arguments) == 1
     told = capsys.readouterr()

@@ -67,22 +67,6 @@ def test_what_cannot_be_written_is_said_before_the_work(tmp_path: Path, place: o
     assert names(tmp_path) == before
 
 
-@posix_only
-@pytest.mark.parametrize("exists", [True, False])
-def test_a_link_stays_and_its_file_is_written(tmp_path: Path, exists: bool) -> None:
-    target, link = tmp_path / "elsewhere" / "run.json", tmp_path / "run.json"
-    target.parent.mkdir()
-    if exists:
-        target.write_text("old", encoding="utf-8")
-    link.symlink_to(target)
-    with whole_file(link) as temporary:
-        temporary.write_text("new", encoding="utf-8")
-        assert temporary.parent.parent == target.parent  # a rename does not reach from disk to disk
-    assert link.is_symlink()
-    assert target.read_text(encoding="utf-8") == "new"
-    assert names(target.parent) == ["run.json"]
-
-
 # --- disks ---
 
 

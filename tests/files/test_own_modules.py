@@ -158,14 +158,6 @@ def test_a_scenario_runs_no_python(foreign: Path, name: str, capsys: pytest.Capt
     assert not (foreign / RAN).exists()
 
 
-def test_workers_import_the_modules_that_a_sweep_was_trusted_with(foreign: Path) -> None:
-    trusted(foreign / "zlaw.py")
-    sent = pickle.dumps(read_sweep(foreign / "sweep.toml").scenario)
-    forget("zlaw")  # as in another process, which looks for modules in the same folders
-    scenario = pickle.loads(sent)({"pins.pin.clearance_mm": 2})
-    assert type(scenario.pins["pin"].contact.normal).__name__ == "ForeignLaw"
-
-
 @pytest.mark.parametrize(
     ("module", "file"),
     [

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from support_exudyn import Onset, Result
-from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.channels import error_over_time, over_time
 from support_exudyn.postprocessing.figures.units import readable
 from tests import figure_checks, synthetic
@@ -101,10 +100,3 @@ def test_what_cannot_be_drawn_is_refused() -> None:
         over_time(many, ["*"])
     with pytest.raises(InputError, match="0 records lie between"):
         over_time(run(), ["tip.x"], after=7.0)
-
-
-@pytest.mark.parametrize("names", [["*"], ["tip.x"], ["*.force", "slide.nothing"]])
-@pytest.mark.parametrize("window", [{}, {"after": 1.0, "until": 1.05}])
-def test_nothing_is_cut_off_or_overlaps(names: list[str], window: dict[str, float]) -> None:
-    with style.look():
-        figure_checks.check(over_time(run(), names, **window))

@@ -67,20 +67,3 @@ def test_bars_and_points_have_the_ends_of_their_error_bars(tmp_path: Path) -> No
         ("2", "20", "1.5", "2.5", "18", "24"),
     ]
     assert [(r["x"], r["y"], r["y_low"], r["y_high"]) for r in d] == [("1", "10", "8", "12")]
-
-
-def test_maps_marks_and_bands(tmp_path: Path) -> None:
-    figure = Figure()
-    picture, mesh, other = figure.subplots(3, 1)
-    picture.imshow([[1.0, 2.0, 3.0], [4.0, np.nan, 6.0]])
-    figure.colorbar(mesh.pcolormesh([0.0, 1.0, 3.0], [0.0, 2.0], [[7.0, 8.0]]), ax=mesh)
-    other.scatter([1.0, 2.0], [3.0, 4.0], label="runs")
-    other.fill_between([0.0, 1.0], [1.0, 1.0], [2.0, 3.0], label="error")
-    _, rows = saved(figure, tmp_path)
-    a, b, c = ([row for row in rows if row["panel"] == letter] for letter in "abc")
-    assert [(r["x"], r["y"], r["value"]) for r in a] == [
-        ("0", "0", "1"), ("1", "0", "2"), ("2", "0", "3"), ("0", "1", "4"), ("1", "1", ""), ("2", "1", "6"),
-    ]  # fmt: skip
-    assert [(r["x"], r["y"], r["value"]) for r in b] == [("0.5", "1", "7"), ("2", "1", "8")]
-    assert [(r["x"], r["y"]) for r in c if r["curve"] == "runs"] == [("1", "3"), ("2", "4")]
-    assert {r["y"] for r in c if r["curve"] == "error"} == {"1", "2", "3"}

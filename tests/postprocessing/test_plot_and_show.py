@@ -52,17 +52,6 @@ def test_without_a_wish_an_overview_is_drawn(runs: Path, capsys: pytest.CaptureF
     assert (out / "with_clearance_overview.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_one_kind_of_one_pin_is_drawn(runs: Path, tmp_path: Path) -> None:
-    args = ["plot", str(runs / "crank.h5"), "--spectrum", "--after", "0.01", "--pin", "main"]
-    assert main([*args, "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("crank_spectrum_main_after_0.01_s")
-
-
-def test_channels_are_drawn_by_pattern(runs: Path, tmp_path: Path) -> None:
-    assert main(["plot", str(runs / "with_clearance.h5"), "pin.*.force", "tip.?", "--out", str(tmp_path)]) == 0
-    assert names(tmp_path) == both("with_clearance_pin.force_tip")
-
-
 def test_several_runs_are_drawn_one_upon_another(runs: Path, tmp_path: Path) -> None:
     words = [str(runs / "ideal.h5"), str(runs / "with_clearance.h5"), "tip.*", "--out", str(tmp_path)]
     assert main(["plot", "--until", "0.1", *words]) == 0

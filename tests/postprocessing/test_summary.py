@@ -43,14 +43,6 @@ def test_numbers_are_of_the_piece_that_was_asked_for() -> None:
         summary.came_out(run(), 7.0, 8.0)
 
 
-def test_channels_have_their_least_mean_and_largest_value_in_the_piece() -> None:
-    found = run(canopy__angle=(np.radians(10.0) * (TIME - 0.5), "rad"), tip__x=(-3.0 + 0.0 * TIME, "m"))
-    angle, x = summary.of_channels(found, ["canopy.angle", "tip.x"], 0.0, math.inf)
-    assert angle == ("canopy.angle", "deg", "-5", "0", "5", "meaning of canopy.angle")
-    assert x[1:5] == ("mm", "-3000", "-3000", "-3000")
-    assert summary.of_channels(found, ["canopy.angle"], 0.5, 0.9)[0][2:5] == ("0", "2", "4")
-
-
 @pytest.mark.parametrize(
     ("found", "row"),
     [

@@ -18,7 +18,6 @@ from support_exudyn import ClearancePin, OilColumn
 from support_exudyn.model.drives.coupled_drive import CoupledDrive
 from tests.studies.forms import ONLY_WHOLE, written
 from user_forces import Ambrosio
-from user_forces.values.value import InputError
 
 IDEAL, WITH_CLEARANCE = PINS
 
@@ -224,12 +223,3 @@ def test_the_study_of_ones_own_machine_leaves_the_paper_out(tmp_path: Path) -> N
     assert "my support" in chapter.title
     assert "paper" not in " ".join((*chapter.method, *chapter.findings, chapter.answer)).lower()
     assert [picture.stem for picture in chapter.pictures] == ["fig13_rigid_columns"]
-
-
-def test_a_machine_without_a_stroke_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="no drive moves a linear actuator"):
-        _ = ModePlan(
-            own_subject(own(tmp_path, 'machine = "slider_crank"\nduration_s = 1'), "slider_pin")
-        ).actuators
-    with pytest.raises(InputError, match="drive of front_column = Held"):
-        _ = ModePlan(own_subject(own(tmp_path, 'machine = "zf18000"\nduration_s = 1'))).actuators

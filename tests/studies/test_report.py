@@ -209,14 +209,3 @@ def test_nothing_is_written_if_a_picture_vanishes(out: Path) -> None:
     assert {path: path.read_bytes() for path in out.glob("*.html")} == before
     with pytest.raises(InputError, match=r"force one\.png: no such file"):
         report.sections(out, [])
-
-
-def test_a_missing_summary_and_an_empty_folder_are_sentences(
-    out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (out / "claims" / "summary.json").unlink()
-    assert report.main(["--out", str(out)]) == 1
-    assert "summary.json: no such file" in capsys.readouterr().err
-    empty = tmp_path / "empty"
-    assert report.main(["--out", str(empty)]) == 1
-    assert "run python -m studies first" in capsys.readouterr().err

@@ -11,12 +11,11 @@ from typing import Any
 
 import pytest
 
-from support_exudyn import ClearancePin, Held, Scenario, simulate
-from support_exudyn.simulation import memory
+from support_exudyn import ClearancePin, Held, Scenario
 from support_exudyn.sweeps import Plan, Record, read_table, sweep
 from tests.cases.run_cases import loose_support, paper_contact
 from tests.processes import soon_started
-from user_forces import FrictionLaw, InputError, value
+from user_forces import FrictionLaw, value
 
 pytestmark = pytest.mark.filterwarnings("ignore:computed in Python")  # which no machine code can do
 KINDS = ("good", "zero", "overflow", "deep", "exit", "memory", "file", "type", "letters", "killed")
@@ -114,16 +113,3 @@ def test_whatever_happens_at_a_point_is_a_row_with_its_reason(tmp_path: Path) ->
         assert reason in rows[kind]["reason"], kind
         assert rows[kind]["reason"].isprintable()
         assert (rows[kind]["tip.x.mean_m"] is not None) is (not reason)
-
-
-# --- memory ---
-
-
-def test_a_run_that_does_not_fit_into_memory_is_refused_before_it_begins() -> None:
-    with pytest.raises(
-        InputError, match=r"records of 66 channels take .* GB and more, .* GB are free"
-    ) as caught:
-        simulate(replace(scene(), duration=1e10))
-    period = float(str(caught.value).rpartition("at least ")[2].removesuffix(" s apart"))
-    memory.check_room(replace(scene(), duration=1e10, record_period=period))
-    memory.check_room(replace(scene(), duration=1e10, record_period=1e2 * period))

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from support_exudyn.files import load_toml, read_scenario, toml_text
-from support_exudyn.files.machines import read_machine
 from support_exudyn.sweeps import read_sweep
 from support_exudyn.sweeps.key import key
 from tests.machine_files import OURS
@@ -94,13 +93,6 @@ def on_reference(folder: Path, vary: str, method: str = 'method = "latin_hypercu
     path = folder / "sweep.toml"
     path.write_text(f'scenario = "a.toml"\n{method}\n[vary]\n{vary}\n', encoding="utf-8")
     return path
-
-
-def test_a_wildcard_leaves_out_the_strength_of_a_machine(tmp_path: Path) -> None:
-    names = set(read_sweep(on_reference(tmp_path, '"machine.*" = "stated range"')).names)
-    stated = {f"machine.{key}" for key, one in read_machine("reference").sourced.items() if one.low is not None}
-    assert {name for name in stated if name.startswith("machine.strength.")} == stated - names
-    assert stated - names
 
 
 # --- numbers of a scenario's file ---

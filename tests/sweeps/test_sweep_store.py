@@ -18,7 +18,6 @@ from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import FORMAT
 from support_exudyn.sweeps import key as keys
 from support_exudyn.sweeps import own_sources
-from support_exudyn.sweeps.key import LENGTH
 from support_exudyn.sweeps.store import Store, StoredNumber, StoredRun
 
 STAND = """
@@ -141,25 +140,3 @@ def test_a_run_is_read_again_if_its_file_is_older_or_newer_than_its_row(tmp_path
     assert not store.has_run(known)
     file.unlink()
     assert not store.has_run(known)
-
-
-def test_only_rows_and_runs_of_other_keys_are_pruned(tmp_path: Path) -> None:
-    store = Store(tmp_path)
-    names = [letter * LENGTH for letter in "abc"]
-    for name in names:
-        kept(store, name)
-    own = [store.runs / "notes.txt", store.runs / "rise.h5", store.rows / f"{'d' * LENGTH}.json",
-           store.runs / f"{'d' * LENGTH}.h5", store.rows / "notes.json"]  # fmt: skip
-    for path in own:
-        path.write_text("of the user", encoding="utf-8")
-    assert store.prune([names[1]]) == 2
-    assert {path for path in store.folder.rglob("*") if path.is_file()} == {
-        store.run_file(names[1]), store.rows / f"{names[1]}.json", *own
-    }  # fmt: skip
-
-
-def test_a_table_of_others_is_not_overwritten(tmp_path: Path) -> None:
-    (tmp_path / "table.csv").write_text("of the user", encoding="utf-8")
-    with pytest.raises(FileExistsError, match="is of no sweep, and would be lost"), Store(tmp_path).writing():
-        pytest.fail("the work is begun")
-    assert [path.name for path in tmp_path.iterdir()] == ["table.csv"]

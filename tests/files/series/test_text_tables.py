@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.series.read import read_series
-from support_exudyn.postprocessing.export.tables import to_csv, to_hdf5
-from tests import synthetic
-from tests.cases.run_cases import loose_support
 from user_forces import InputError
 
 
@@ -73,11 +69,6 @@ def test_the_same_table_is_read_however_it_is_written(folder: Path, text: str) -
 )
 def test_what_a_reader_has_to_know_is_told(folder: Path, text: str, note: str) -> None:
     assert any(note in one for one in read(folder, text).notes)
-
-
-@pytest.mark.parametrize("encoding", ["utf-16", "cp1252", "utf-8"])
-def test_other_encodings_are_read(folder: Path, encoding: str) -> None:
-    assert values(read(folder, "time_s;w [°]\n0;1\n1;2\n".encode(encoding)))["w"][0] == "°"
 
 
 def test_several_columns_of_times_are_of_what_stands_to_their_right(folder: Path) -> None:
@@ -145,18 +136,3 @@ def test_numbers_are_read_as_the_same_bits(
     expected = sorted(rows)
     assert found.time.tolist() == [row[0] for row in expected]
     assert found.values.tolist() == [row[1] for row in expected]
-
-
-def test_what_export_writes_is_read_as_the_same_bits(tmp_path: Path) -> None:
-    time = np.linspace(0.0, 1.0, 33)
-    run = synthetic.journal(loose_support(1.5), time, 0 * time, 0 * time, [], tip__x=(np.sin(time) / 3.0, "m"))
-    (table,) = to_csv(run, tmp_path / "run.csv")
-    (channels,) = to_hdf5(run, tmp_path / "run_channels.h5")
-    saved = run.save(tmp_path / "run.h5")
-    for path in (table, channels, saved):
-        found = read_series(path)
-        assert set(found.series) == {name for name in run.channels if name != "time"}
-        for name, one in found.series.items():
-            assert np.array_equal(one.values, run[name], equal_nan=True)
-            assert np.array_equal(one.time, run.time)
-            assert one.unit == run.unit(name)
