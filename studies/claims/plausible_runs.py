@@ -115,7 +115,7 @@ def _with_errors(
     return {name: measured(name) for name in values[1]}
 
 
-def extremes(during: rise.Watched) -> dict[str, tuple[rise.Peak, ...]]:
+def extremes(during: rise.Watched) -> dict[str, tuple[rise.Crest, ...]]:
     """The extremes from which a measure is made, by its name: records may miss them."""
     tip = during.peak("tip.x", 1e3)
     ends = replace(tip, extreme="min"), replace(tip, extreme="max")

@@ -64,9 +64,9 @@ OF_RISE: dict[str, tuple[str, Callable[[Result], float], Mapping[float, float] |
     "mean_pin_force": ("N", _mean(rise.FORCE), paper_machine.MEAN_FORCE),
     "std_pin_force": ("N", _spread(rise.FORCE), paper_machine.FORCE_SPREAD),
     "rms_pin_force": ("N", lambda run: rise.PAPER.rms_fluctuation(run, run[rise.FORCE]), None),
-    "largest_pin_force": ("N", rise.Peak(rise.FORCE, begin=0.0), None),
-    "largest_pin_force_in_rise": ("N", rise.Peak(rise.FORCE), None),
-    "largest_angular_speed_in_rise": ("deg/s", rise.Peak(rise.SPEED, rise.DEGREES), None),
+    "largest_pin_force": ("N", rise.Crest(rise.FORCE, begin=0.0), None),
+    "largest_pin_force_in_rise": ("N", rise.Crest(rise.FORCE), None),
+    "largest_angular_speed_in_rise": ("deg/s", rise.Crest(rise.SPEED, rise.DEGREES), None),
     "mean_angular_acceleration": (
         "deg/s^2", _mean(rise.ACCELERATION, rise.DEGREES), paper_machine.MEAN_ACCELERATION
     ),

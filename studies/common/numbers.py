@@ -10,7 +10,7 @@ from typing import cast
 import numpy as np
 import numpy.typing as npt
 
-from studies.common.rise import Peak
+from studies.common.rise import Crest
 from studies.common.runs import halvings
 from support_exudyn import Result
 from support_exudyn.files.whole_file import whole_file
@@ -47,7 +47,7 @@ def measured(
 ) -> Number:
     """A number of a run with errors: that of its steps, and that of its records."""
     found = result.estimate(measure, unit)
-    if isinstance(measure, Peak):
+    if isinstance(measure, Crest):
         of_records = measure.missed(result)
     else:
         of_records = error_of_records(lambda every: measure(cast(Result, Thinned(result, every))))

@@ -54,7 +54,7 @@ TAKEN: dict[str, Callable[[TimeWindow], float]] = {
 
 
 @dataclass(frozen=True)
-class Peak:
+class Crest:
     """An extreme of a channel between two times, from every step.
 
     begin, end: [s]. extreme: "largest", of the magnitude, or "max" or "min", with its sign. scale: to the unit
@@ -162,9 +162,9 @@ class Watched:
         """Mask of the records of the motion."""
         return between(run, self.start, self.end)
 
-    def peak(self, channel: str, scale: float = 1.0) -> Peak:
+    def peak(self, channel: str, scale: float = 1.0) -> Crest:
         """The measure of the largest magnitude of a channel in the motion."""
-        return Peak(channel, scale, self.start, self.end)
+        return Crest(channel, scale, self.start, self.end)
 
     def mean(self, run: MeasuredRun, quantity: str | Series) -> float:
         """Mean over the motion's time of a channel, or of a quantity given at all records, in its unit."""

@@ -22,7 +22,7 @@ OIL = {  # bulk modulus [Pa], four published shields give 1.96 GPa; and hoses of
     STIFFEST: (2.2e9, Line(volume=5e-3, nominal_flow=200e-3 / 60.0, nominal_drop=5e5)),
 }
 START, AFTER = 0.05, 0.4  # of mode 1, and how long is looked at [s]
-PEAK = rise.Peak(rise.FORCE, 1e-3, START, START + AFTER)  # [kN]
+PEAK = rise.Crest(rise.FORCE, 1e-3, START, START + AFTER)  # [kN]
 NAME = "peak_at_start"
 
 

@@ -36,7 +36,7 @@ def _of_motion(watched: rise.Watched) -> dict[str, tuple[str, Get]]:
         "std_pin_force": ("N", spread(watched.force)),
         "rms_pin_force": ("N", fluctuation(watched.force)),
         START: ("N", watched.peak(watched.force)),
-        STOP: ("N", rise.Peak(watched.force, begin=watched.end, end=math.inf)),
+        STOP: ("N", rise.Crest(watched.force, begin=watched.end, end=math.inf)),
         "largest_angular_acceleration": ("deg/s^2", watched.peak(watched.acceleration, rise.DEGREES)),
         "std_angular_acceleration": ("deg/s^2", spread(watched.acceleration, rise.DEGREES)),
         "rms_angular_velocity": ("deg/s", fluctuation(watched.speed, rise.DEGREES)),
@@ -46,7 +46,10 @@ def _of_motion(watched: rise.Watched) -> dict[str, tuple[str, Get]]:
 def _of_forces(watched: rise.Watched, actuators: Sequence[str]) -> dict[str, tuple[str, Get]]:
     """Extremes of what actuators carry: largest is of the magnitude; a push is positive, a pull negative."""
     return {
-        f"{extreme}_{name}_force": ("N", rise.Peak(f"{name}.force", 1.0, watched.start, watched.end, extreme))
+        f"{extreme}_{name}_force": (
+            "N",
+            rise.Crest(f"{name}.force", 1.0, watched.start, watched.end, extreme),
+        )
         for name in actuators
         for extreme in EXTREMES
     }
@@ -103,13 +106,13 @@ def _of_column(column: str) -> dict[str, tuple[str, Get]]:
         ),
         f"settled_extension_{short}": ("mm", settled),
         f"overshoot_{short}": ("mm", lambda r: float(1e3 * extension(r, column).max()) - settled(r)),
-        f"largest_pressure_{short}": ("MPa", rise.Peak(pressure, 1e-6, end=math.inf, extreme="max")),
-        f"least_pressure_{short}": ("MPa", rise.Peak(pressure, 1e-6, end=math.inf, extreme="min")),
+        f"largest_pressure_{short}": ("MPa", rise.Crest(pressure, 1e-6, end=math.inf, extreme="max")),
+        f"least_pressure_{short}": ("MPa", rise.Crest(pressure, 1e-6, end=math.inf, extreme="min")),
         f"pressure_after_{short}": (
             "MPa",
             lambda r: 1e-6 * _mean_after(r, r[f"{column}.pressure"]),
         ),
-        f"largest_flow_{short}": ("l/min", rise.Peak(f"{column}.flow", 6e4, begin=0.0, end=math.inf)),
+        f"largest_flow_{short}": ("l/min", rise.Crest(f"{column}.flow", 6e4, begin=0.0, end=math.inf)),
     }
 
 

@@ -118,9 +118,9 @@ def _of_stroke(scene: DetailScene, result: Result) -> Numbers:
         return lambda run: scale * statistic(run.window(channel, scene.begin, scene.end))
 
     def largest(channel: str, scale: float) -> Get:
-        return rise.Peak(channel, scale, scene.begin, scene.end)
+        return rise.Crest(channel, scale, scene.begin, scene.end)
 
-    at_all: Get = rise.Peak(force, 1.0, 0.0, scene.scenario.duration)
+    at_all: Get = rise.Crest(force, 1.0, 0.0, scene.scenario.duration)
     if REAR in result.largest_force:  # at the ends of all steps
         at_all = lambda run: float(run.largest_force[REAR])  # noqa: E731
     measures: dict[str, tuple[str, Get]] = {

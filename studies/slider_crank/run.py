@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from studies.common.numbers import Found, Number, by_case, cell, measured, off, printed
 from studies.common.options import Options
 from studies.common.panels import letters
-from studies.common.rise import Peak, onset
+from studies.common.rise import Crest, onset
 from studies.common.runs import impacts, run_with_errors
 from studies.common.study import Study, StudyOutcome
 from studies.common.words import TextTable
@@ -91,7 +91,7 @@ def scenarios() -> dict[str, Scenario]:
 def measure(results: Mapping[str, Result]) -> list[Number]:
     """All numbers of the study."""
     numbers = [
-        measured(name, IDEAL, unit, results[IDEAL], Peak(channel, begin=0.0), known)
+        measured(name, IDEAL, unit, results[IDEAL], Crest(channel, begin=0.0), known)
         for name, (channel, unit, known) in IDEAL_REFERENCE.items()
     ]
     for case in (SMOOTH, DRY):

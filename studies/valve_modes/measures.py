@@ -62,22 +62,34 @@ def measures(result: Result) -> dict[str, tuple[str, Get]]:
     """Unit and measure of every number of a case, by name."""
     ends = {"begin": 0.0, "end": math.inf}
     found: dict[str, tuple[str, Get]] = {
-        "largest_pin_force_at_start": ("kN", rise.Peak(rise.FORCE, 1e-3, START, START + 1.0)),
-        "largest_pin_force_at_end": ("kN", lambda r: rise.Peak(rise.FORCE, 1e-3, _closes(r), math.inf)(r)),
+        "largest_pin_force_at_start": ("kN", rise.Crest(rise.FORCE, 1e-3, START, START + 1.0)),
+        "largest_pin_force_at_end": (
+            "kN",
+            lambda r: rise.Crest(rise.FORCE, 1e-3, _closes(r), math.inf)(r),
+        ),
     }
     for row in ROWS:
         name = f"{row}_column"
-        found[f"least_pressure_{row}"] = ("MPa", rise.Peak(f"{name}.pressure", 1e-6, extreme="min", **ends))
-        found[f"largest_pressure_{row}"] = ("MPa", rise.Peak(f"{name}.pressure", 1e-6, extreme="max", **ends))
-        found[f"least_force_{row}"] = ("kN", rise.Peak(f"{name}.force", 1e-3, extreme="min", **ends))
+        found[f"least_pressure_{row}"] = (
+            "MPa",
+            rise.Crest(f"{name}.pressure", 1e-6, extreme="min", **ends),
+        )
+        found[f"largest_pressure_{row}"] = (
+            "MPa",
+            rise.Crest(f"{name}.pressure", 1e-6, extreme="max", **ends),
+        )
+        found[f"least_force_{row}"] = ("kN", rise.Crest(f"{name}.force", 1e-3, extreme="min", **ends))
         found[f"speed_in_mid_rise_{row}"] = ("mm/s", _speed(row))
         found[f"extension_at_end_{row}"] = ("mm", _at_end(row))
         if result.scenario.legs[name].vapour_pressure is not None:
-            found[f"largest_cavity_{row}"] = ("ml", rise.Peak(f"{name}.cavity", 1e6, extreme="max", **ends))
+            found[f"largest_cavity_{row}"] = (
+                "ml",
+                rise.Crest(f"{name}.cavity", 1e6, extreme="max", **ends),
+            )
     if result.scenario.legs["front_column"].vapour_pressure is not None:
         found["time_with_cavity"] = ("ms", _boils)
     if result.scenario.pump is not None:
-        found["least_pump_pressure"] = ("MPa", rise.Peak("pump.pressure", 1e-6, extreme="min", **ends))
+        found["least_pump_pressure"] = ("MPa", rise.Crest("pump.pressure", 1e-6, extreme="min", **ends))
     return found
 
 

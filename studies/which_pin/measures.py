@@ -15,7 +15,7 @@ Get = Callable[[Result, Result], float]  # of a run and that of ideal pins
 OVER_IDEAL = "largest_peak_over_ideal"
 
 
-def peaks(plan: PinPlan) -> dict[str, rise.Peak]:
+def peaks(plan: PinPlan) -> dict[str, rise.Crest]:
     """The measures of the largest forces in the motion, by name."""
     return {f"largest_force_{name}": plan.watched.peak(channel) for channel, name in plan.forces.items()}
 
