@@ -13,7 +13,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-from support_exudyn.mechanics.space.motion import SpatialMotion
 
 from support_exudyn import (
     AppliedForce,
@@ -42,7 +41,7 @@ from support_exudyn import (
 from support_exudyn.files.scenarios.scenario_file import scenario_of
 from support_exudyn.files.toml.text import parsed
 from support_exudyn.mechanics.acting_loads import MANY, add_load, largest_forces, load_series
-from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.body_motion import UNTURNED, BodyMotion, Motion, SpatialMotion, parameter_rates
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel, MomentLoad, StretchLoad
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
@@ -213,30 +212,29 @@ PROBES: list[ActingLoad] = [
 ]
 
 
-def motions(by: float) -> tuple[tuple[BodyMotion, np.ndarray], tuple[SpatialMotion, np.ndarray]]:
-    """Drawn motions of the crank-rocker's bodies in the plane and in space after a time [s]; velocities."""
+def motions(by: float) -> tuple[Motion, Motion]:
+    """Drawn motions of the crank-rocker's bodies in the plane and in space after a time [s]."""
     random, count, linkage = np.random.default_rng(5), 7, CrankRocker().linkage()
     position, velocity = random.uniform(-0.5, 0.5, (2, count, 3 * len(linkage.bodies)))
-    plane = BodyMotion(linkage, position + by * velocity, velocity, 0.0 * velocity)
+    plane = BodyMotion(linkage, position + by * velocity, velocity)
     bodies = {
         name: SpatialBody(mass=1.0, inertia=(1.0, 1.0, 1.0, 0.0, 0.0, 0.0), centre=(*body.centre, 0.0))
         for name, body in linkage.bodies.items()
     }
     shape = (count, len(bodies), 3)
     shift, speed, spin, turned = random.uniform(-0.5, 0.5, (4, *shape))
-    turn = (
-        Rotation.from_rotvec((by * spin).reshape(-1, 3)) * Rotation.from_rotvec(turned.reshape(-1, 3))
-    ).as_matrix()
-    space = SpatialMotion(
-        SpatialLinkage(bodies=bodies), shift + by * speed, turn.reshape(*shape, 3), speed, spin
-    )
-    return (plane, velocity), (space, np.concatenate([speed, spin], axis=2))
+    turn = Rotation.from_rotvec((by * spin).reshape(-1, 3)) * Rotation.from_rotvec(turned.reshape(-1, 3))
+    parameters = np.roll(turn.as_quat(), 1, axis=1).reshape(*shape[:2], 4)
+    places = np.concatenate([shift + by * speed, parameters - UNTURNED], axis=2).reshape(count, -1)
+    rates = np.concatenate([speed, parameter_rates(parameters, spin)], axis=2).reshape(count, -1)
+    return plane, SpatialMotion(SpatialLinkage(bodies=bodies), places, rates)
 
 
 @pytest.mark.parametrize("load", PROBES, ids=lambda load: f"{type(load).__name__}-{load.against('')}")
 @pytest.mark.parametrize("space", [False, True], ids=["plane", "space"])
 def test_rates_are_those_of_the_strains_and_forces_do_their_work(load: ActingLoad, space: bool) -> None:
-    (motion, velocity), (before, _), (after, _) = (motions(by)[space] for by in (0.0, -1e-6, 1e-6))
+    motion, before, after = (motions(by)[space] for by in (0.0, -1e-6, 1e-6))
+    velocity = motion.velocities
     time, count = np.zeros(len(velocity)), load.FORCES
     now, earlier, later = (load_series(load, "", one, time) for one in (motion, before, after))
     measured = [np.array(list(one.observed.values())).T for one in (now, earlier, later)]
@@ -244,7 +242,7 @@ def test_rates_are_those_of_the_strains_and_forces_do_their_work(load: ActingLoa
     np.testing.assert_allclose(rates, (measured[2] - measured[1])[:, :count] / 2e-6, atol=1e-8)
     total = np.zeros_like(velocity)
     add_load(total, motion, "", load, now)
-    power = (total * velocity).reshape(len(time), -1).sum(axis=1)
+    power = (total * velocity).sum(axis=1)
     np.testing.assert_allclose(power, (now.forces * rates).sum(axis=1), rtol=1e-12, atol=1e-12)
 
 
@@ -256,7 +254,7 @@ def test_compiled_actions_are_those_of_python(name: str) -> None:
     time = np.linspace(0.0, 0.5, MANY)
 
     def series(part: slice) -> np.ndarray:
-        motion = BodyMotion(linkage, position[part], velocity[part], 0.0 * velocity[part])
+        motion = BodyMotion(linkage, position[part], velocity[part])
         found = load_series(load, name, motion, time[part])
         return np.column_stack([found.forces, found.stored, *found.observed.values()])
 
