@@ -33,10 +33,8 @@ from user_forces.kernel import compiled_or_plain, numbers
 from user_forces.values.value import Vector2
 
 MANY = 1000  # records from which on a compiled loop is faster, though it may have to be compiled
-SAMPLES, FINEST = (
-    200,
-    0.25,
-)  # times at which the largest force is looked for: at least, and of the shortest time
+# Times at which the largest force is looked for: at least so many, a share of the shortest time apart, at most.
+SAMPLES, FINEST = 200, 0.25
 MOST_SAMPLES = 5000
 
 
