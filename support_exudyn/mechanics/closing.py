@@ -1,4 +1,4 @@
-"""What a drawn linkage has to meet to be closed, and the ways that lead there."""
+"""What a linkage has to meet to be closed, and how far it is from that."""
 
 from __future__ import annotations
 
@@ -15,15 +15,9 @@ from support_exudyn.model.linkage import GROUND, Linkage
 from user_forces.values.value import Vector2
 
 JOINTS = ("pins", "actuators", "cranks", "slides", "gears")  # fields of a linkage that hold its parts together
-STEPS = 600  # of a search
-FARTHEST_STEP = 0.05  # of the drawing's size
-LARGEST_TURN = 0.2  # [rad] in a step
-CURVED = 0.25  # of what a step closes: by how much it may miss that
-SHORTEST = 2.0**-16  # share of what is open that a step closes
 PRECISE, EVALUATIONS = 1e-10, 60  # of a search for the least gaps
 NEARLY = 1e-3  # of the drawing's size: gaps from which on Newton's method closes what can be closed
 LESS = 0.8  # of what was open before: if a step leaves more, rounding is reached
-STUCK = 1e-6  # of what is open: less is closed by no step
 LEAST_ARM = 0.1  # of the drawing's size: by this the turn of a small body is counted
 ASIDE = 1e-3  # of the machine's size: how far it is moved to see whether a freedom lasts
 ROUNDS = 8  # of Newton's method there
@@ -126,37 +120,6 @@ class Conditions:
     def driven(self) -> list[tuple[str, str]]:
         """Those whose angle or length is asked for."""
         return [(kind, name) for kind, name in self.names if kind in ("cranks", "actuators")]
-
-
-def gradually(conditions: Conditions, start: Matrix) -> tuple[Matrix, bool]:
-    """Coordinates (n,) where conditions are met, on a continuous way from a start, and whether they are.
-
-    Each step closes a share of what is open, by the least movement that does so to first order. Else the
-    coordinates at which the way ends: at a fold, or where no movement closes any more.
-    """
-    moved, share = start, 1.0
-    short = conditions.short(moved)
-    turns = np.arange(moved.size) % 3 == 2
-    for _ in range(STEPS):
-        if np.abs(short).max(initial=0.0) < conditions.enough:
-            return moved, True
-        rows = conditions.rows(moved)
-        step = np.linalg.lstsq(rows, short, rcond=REPEATED)[0]
-        closes = rows @ step
-        if not np.linalg.norm(closes) > STUCK * np.linalg.norm(short):
-            break
-        far = np.abs(step).max() / (FARTHEST_STEP * conditions.size)
-        far = max(far, np.abs(step / conditions.arms)[turns].max() / LARGEST_TURN)
-        share = min(1.0, 2.0 * share, 1.0 / far)
-        while True:
-            after = conditions.short(moved + share * step)
-            if np.linalg.norm(after - short + share * closes) <= CURVED * share * np.linalg.norm(closes):
-                break
-            share /= 2.0
-            if share < SHORTEST / max(1.0, far):
-                return moved, False
-        moved, short = moved + share * step, after
-    return moved, False
 
 
 def nearest(conditions: Conditions, start: Matrix) -> Matrix:

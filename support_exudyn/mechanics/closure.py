@@ -9,7 +9,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from support_exudyn.mechanics.closing import Conditions, gradually, nearest
+from support_exudyn.mechanics.closing import Conditions, nearest
+from support_exudyn.mechanics.continuation import moved_on
 from support_exudyn.mechanics.kinetics import Matrix, joints_of, kinetics_of
 from support_exudyn.mechanics.open_loop import refusal
 from support_exudyn.mechanics.postures import laid_out
@@ -90,16 +91,15 @@ def posture_of(conditions: Conditions) -> Matrix:
 
 def _from(conditions: Conditions, start: Matrix) -> Matrix | None:
     """Coordinates (n,) of the posture that a start leads to; None if it leads to none."""
-    found, closed = gradually(conditions, start)
-    if not closed and conditions.driven:  # its gaps first, then what is driven
+    found, share = moved_on(conditions, start)
+    if share < 1.0 and conditions.driven:  # its gaps first, then what is driven
         undriven = conditions.of([one for one in conditions.names if one not in conditions.driven])
-        found, closed = gradually(undriven, start)
-        if closed:
-            found, closed = gradually(conditions, found)
-    if not closed:
+        found, share = moved_on(undriven, start)
+        if share == 1.0:
+            found, share = moved_on(conditions, found)
+    if share < 1.0:
         found = nearest(conditions, start)
-        closed = conditions.closed(found)
-    return found if closed else None
+    return found if conditions.closed(found) else None
 
 
 def _rank(conditions: Conditions, moved: Matrix) -> int:

@@ -1,4 +1,4 @@
-"""A linkage moved by its driven parts, step by step, so that it stays on one branch."""
+"""A linkage moved step by step, by its driven parts or from a drawing, so that it stays on one branch."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from support_exudyn.mechanics.closing import CURVED, FARTHEST_STEP, LARGEST_TURN, Conditions
+from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.mechanics.kinetics import REPEATED, Matrix
 from support_exudyn.mechanics.postures import ROUNDINGS
 from support_exudyn.model.linkage import Linkage
 
+FARTHEST_STEP = 0.05  # of the linkage's size
+LARGEST_TURN = 0.2  # [rad] in a step
+CURVED = 0.25  # of a step: by how much the posture may lie beside the tangent
 ROUNDS = 8  # of Newton's method after a step
 FINEST = 2.0**-34  # of the way between two postures: a step so short is none
 SINGULAR = 1e-5  # of the largest singular value: below, the direction is taken from the way that led there
@@ -26,26 +29,28 @@ def conditions_of(linkage: Linkage) -> Conditions:
 def moved_on(
     conditions: Conditions,
     start: Matrix,
-    before: Mapping[str, float],
-    after: Mapping[str, float],
+    travels: Mapping[str, float] | None = None,
     along: Matrix | None = None,
 ) -> tuple[Matrix, float]:
-    """The posture to which driven parts move a linkage, and the share of the way that it comes.
+    """The posture to which a linkage moves as what is open of its conditions closes, and the share that does.
 
-    The way is straight in the travels of all driven parts. A step goes along the tangent and is short enough
-    that what is left for Newton's method is little of it; at a fold, where the linkage locks, steps vanish.
+    On the way all that is open closes in proportion: gaps of a drawing, or the rest of the travels of driven
+    parts. A step goes along the tangent and is short enough that what is left for Newton's method is little of
+    it; at a fold, where the linkage locks, steps vanish.
 
     Arguments:
-        conditions: of `conditions_of`.
-        start: coordinates counted by `Conditions.arms` (n,) [m] in which the travels are those before.
-        before, after: travels of actuators and cranks from the start posture on [m], [rad]; else 0.
+        conditions: that are met at the end of the way.
+        start: coordinates counted by `Conditions.arms` (n,) [m].
+        travels: see `Conditions.short`.
         along: the movement that is expected (n,) [m]. It tells which way to go on where all bars lie in line.
 
     Returns coordinates (n,), those at the end of the way or where the linkage locks or opens, and the share, 1
-    if all of the way is gone.
+    if all is closed.
     """
     moved, share, step = start, 0.0, 1.0
-    ahead = conditions.short(start, after) - conditions.short(start, before)
+    ahead = conditions.short(start, travels)
+    if np.abs(ahead).max(initial=0.0) < conditions.enough:
+        return start, 1.0
     turns = np.arange(start.size) % 3 == 2
     while share < 1.0:
         direction = tangent(conditions, moved, ahead, along)
@@ -56,10 +61,8 @@ def moved_on(
         step = min(2.0 * step, 1.0 - share, 1.0 / max(far, 1.0))
         while True:
             at = share + step if step < 1.0 - share else 1.0
-            goal = {name: (1.0 - at) * before.get(name, 0.0) + at * travel for name, travel in after.items()}
-            found = _corrected(
-                conditions, moved + step * direction, goal, CURVED * step * np.abs(direction).max()
-            )
+            near, most = moved + step * direction, CURVED * step * np.abs(direction).max()
+            found = _corrected(conditions, near, travels, (1.0 - at) * ahead, most)
             if found is not None:
                 break
             step /= 2.0
@@ -88,14 +91,17 @@ def tangent(conditions: Conditions, moved: Matrix, ahead: Matrix, along: Matrix 
 
 
 def _corrected(
-    conditions: Conditions, near: Matrix, travels: Mapping[str, float], most: float
+    conditions: Conditions, near: Matrix, travels: Mapping[str, float] | None, ahead: Matrix, most: float
 ) -> Matrix | None:
-    """The posture for travels near another one, by Newton's method; None if it lies farther than `most` [m]."""
+    """The posture next to another in which conditions are open by so much, `ahead` (m,), by Newton's method.
+
+    None if it lies farther than `most` [m].
+    """
     # coordinates of a crank that has turned for long are rounded more
     enough = max(conditions.enough, ROUNDINGS * math.ulp(float(np.abs(near).max())))
     moved, most = near, max(most, 10.0 * enough)
     for _ in range(ROUNDS):
-        short = conditions.short(moved, travels)
+        short = conditions.short(moved, travels) - ahead
         if np.abs(short).max(initial=0.0) < enough:
             return moved
         moved = moved + np.linalg.lstsq(conditions.rows(moved), short, rcond=REPEATED)[0]

@@ -83,7 +83,7 @@ def _alone(conditions: Conditions, name: str, drive: Drive, duration: float) -> 
         moved, reached = start, 0.0
         for _ in range(MOST_TURNS):
             following = reached + math.copysign(min(abs(goal - reached), TURN), goal) if crank else goal
-            moved, share = moved_on(conditions, moved, {name: reached}, {name: following})
+            moved, share = moved_on(conditions, moved, {name: following})
             if share < 1.0:
                 _refuse(conditions.linkage, drive, name, reached + share * (following - reached), duration)
             reached = following
@@ -135,7 +135,7 @@ def _together(conditions: Conditions, drives: Mapping[str, Drive], duration: flo
                 whole = math.trunc(step / TURN)
                 step -= TURN * (whole - math.copysign(min(abs(whole), number % EVERY == 0), whole))
             goal[name] = gone[name] + step
-        reached, share = moved_on(conditions, moved, gone, goal)
+        reached, share = moved_on(conditions, moved, goal)
         if share < 1.0:
             stuck = [
                 one for one in drives if goal[one] != gone[one] and _locks(conditions, moved, gone, goal, one)
@@ -150,7 +150,7 @@ def _together(conditions: Conditions, drives: Mapping[str, Drive], duration: flo
 
 def _locks(conditions: Conditions, moved: Matrix, before: Travels, after: Travels, name: str) -> bool:
     """Whether one drive cannot go on by itself."""
-    return moved_on(conditions, moved, before, {**before, name: after[name]})[1] < 1.0
+    return moved_on(conditions, moved, {**before, name: after[name]})[1] < 1.0
 
 
 def _said(stuck: list[str], extensions: Travels, linkage: Linkage, time: float) -> str:

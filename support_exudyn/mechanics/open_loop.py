@@ -8,7 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from support_exudyn.mechanics.closing import Conditions, gradually, nearest
+from support_exudyn.mechanics.closing import Conditions, nearest
+from support_exudyn.mechanics.continuation import moved_on
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import GROUND
 from user_forces.values.value import Vector2
@@ -16,7 +17,6 @@ from user_forces.values.value import Vector2
 Names = list[tuple[str, str]]  # of joints and driven parts: field of the linkage, name
 TRIES = 8  # starts from which it is looked whether a linkage closes at all
 FEW = 4  # the same of some of its joints
-FINEST = 1e-6  # of the way to what is asked for: by this its end is located
 FIRM = 1e3  # how much more than a gap a driven value counts where the least gap is looked for
 
 
@@ -225,10 +225,10 @@ def _told(conditions: Conditions, one: tuple[str, str], moved: Matrix) -> str:
 def _rest(conditions: Conditions, one: tuple[str, str]) -> Matrix | None:
     """A posture in which all is met but one driven part; None if there is none."""
     rest = conditions.of([other for other in conditions.names if other != one])
-    moved, closed = gradually(rest, np.zeros(3 * len(conditions.linkage.bodies)))
-    if not closed:
-        moved, closed = closest(rest)
-    return moved if closed else None
+    moved, share = moved_on(rest, np.zeros(3 * len(conditions.linkage.bodies)))
+    if share < 1.0:
+        moved = closest(rest)[0]
+    return moved if rest.closed(moved) else None
 
 
 def _reach(conditions: Conditions, one: tuple[str, str]) -> str:
@@ -236,17 +236,7 @@ def _reach(conditions: Conditions, one: tuple[str, str]) -> str:
     moved = _rest(conditions, one)
     if moved is None:
         return ""
-    row, name = conditions.kinetics.owners().index(one), one[1]
-    ahead = float(conditions.short(moved)[row] / conditions.counts[row])
-    reached, step = 0.0, 0.125
-    while step > FINEST and reached < 1.0:
-        share = min(1.0, reached + step)
-        asked = {**conditions.travels, name: conditions.travels[name] - (1.0 - share) * ahead}
-        following, closed = gradually(replace(conditions, travels=asked), moved)
-        if closed:
-            reached, moved = share, following
-        else:
-            step /= 2.0
+    moved = moved_on(conditions, moved)[0]
     return f"; from the drawing it comes as far as {_told(conditions, one, moved)}"
 
 

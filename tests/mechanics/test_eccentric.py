@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, Held, Scenario, ravn_slider_crank, reference_support
-from support_exudyn.mechanics.initial_eccentricity import eccentric
 from support_exudyn.mechanics.kinetics import kinetics_of
+from support_exudyn.mechanics.postures import eccentric
 from support_exudyn.model.linkage import Linkage
 from tests.cases.run_cases import PIN, SLIDER_PIN, paper_contact, slider_crank_contact
 from tests.often import often

@@ -17,7 +17,7 @@ from studies.which_pin.measures import measures
 from studies.which_pin.posture import loads, mean_shift
 from studies.which_pin.tables import in_order, rankings
 from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
-from support_exudyn.mechanics.initial_eccentricity import eccentric
+from support_exudyn.mechanics.postures import eccentric
 from tests.studies.forms import ONLY_WHOLE, written
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 from user_forces.values.value import InputError

@@ -237,7 +237,7 @@ def _march(
     moved, reached, along = start, first, None
     for number in range(1, steps + 1 if goal != first else 0):
         wanted, before = first + (goal - first) * (number / steps), moved  # the last is the goal to the bit
-        moved, share = _moved(conditions, drives, before, reached, wanted, along)
+        moved, share = moved_on(conditions, before, dict.fromkeys(drives, wanted), along)
         along = moved - before
         if share < 1.0:
             if share > 0.0:
@@ -245,18 +245,6 @@ def _march(
             return
         yield wanted, moved
         reached = wanted
-
-
-def _moved(
-    conditions: Conditions,
-    drives: tuple[str, ...],
-    start: Matrix,
-    before: float,
-    after: float,
-    along: Matrix | None = None,
-) -> tuple[Matrix, float]:
-    """`moved_on` from one travel of the driven parts to another."""
-    return moved_on(conditions, start, dict.fromkeys(drives, before), dict.fromkeys(drives, after), along)
 
 
 def _rows(conditions: Conditions, drives: tuple[str, ...]) -> list[int]:
@@ -319,9 +307,9 @@ def _change_points(
             continue
 
         def at(x: float, n: int = n) -> Matrix:
-            travel, moved = stations[n - 1]
+            moved = stations[n - 1][1]
             along = stations[n][1] - moved
-            return _moved(conditions, drives, moved, travel, x, along)[0]
+            return moved_on(conditions, moved, dict.fromkeys(drives, x), along)[0]
 
         found = minimize_scalar(
             lambda x: float(np.linalg.svd(conditions.rows(at(x)), compute_uv=False)[rank - 1]),
@@ -378,7 +366,7 @@ def _zeros(
             def on_the_way(
                 x: float, travel: float = travel, moved: Matrix = moved, along: Matrix = along
             ) -> Matrix:
-                return _moved(conditions, drives, moved, travel, x, along)[0]
+                return moved_on(conditions, moved, dict.fromkeys(drives, x), along)[0]
 
             def rate(x: float, way: Callable[[float], Matrix] = on_the_way) -> float:
                 return value(way(x))

@@ -148,10 +148,11 @@ def _extreme(
         return near.travel, value
 
     def at(travel: float) -> float:
-        start, stop = dict.fromkeys(way.drives, near.travel), dict.fromkeys(way.drives, travel)
         other = number + 1 if travel > near.travel else number - 1
         along = (way.moved[other].position - near.position) * conditions.arms
-        moved = moved_on(conditions, near.position * conditions.arms, start, stop, along)[0]
+        moved = moved_on(conditions, near.position * conditions.arms, dict.fromkeys(way.drives, travel), along)[
+            0
+        ]
         return angle(moved / conditions.arms)
 
     found = minimize_scalar(

@@ -46,7 +46,7 @@ def used_postures(data: MachineData, count: int) -> list[UsedPosture]:
     at, reached = np.zeros(3 * len(linkage.bodies)), 0.0
     postures: list[UsedPosture] = []
     for goal in np.linspace(0.0, stroke, count).tolist():
-        at, share = moved_on(conditions, at, dict.fromkeys(legs, reached), dict.fromkeys(legs, goal))
+        at, share = moved_on(conditions, at, dict.fromkeys(legs, goal))
         if share < 1.0:
             raise InputError(
                 f"stroke = {stroke:.6g} m: the linkage locks before; allowed: up to "
