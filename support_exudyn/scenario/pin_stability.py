@@ -153,13 +153,10 @@ class _Way:
         if np.linalg.matrix_rank(closed.rows(moved)) < moved.size:
             return None
         positions: list[Matrix] = []
-        before = _travels(scenario, closed, 0.0)
         for time in times:
-            after = _travels(scenario, closed, time)
-            moved, share = moved_on(conditions, moved, before, after)
+            moved, share = moved_on(conditions, moved, _travels(scenario, closed, time))
             if share < 1.0:
                 break
-            before = after
             positions.append(moved / conditions.arms)
         if not positions:
             return None

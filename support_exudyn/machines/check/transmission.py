@@ -150,9 +150,8 @@ def _extreme(
     def at(travel: float) -> float:
         other = number + 1 if travel > near.travel else number - 1
         along = (way.moved[other].position - near.position) * conditions.arms
-        moved = moved_on(conditions, near.position * conditions.arms, dict.fromkeys(way.drives, travel), along)[
-            0
-        ]
+        start, travels = near.position * conditions.arms, dict.fromkeys(way.drives, travel)
+        moved = moved_on(conditions, start, travels, along)[0]
         return angle(moved / conditions.arms)
 
     found = minimize_scalar(
