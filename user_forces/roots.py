@@ -200,7 +200,7 @@ def narrowed(bracket: Bracket, x: float, value: float) -> Bracket:
     return Bracket(low, x, 0.5 * at_low, value)
 
 
-class Peak(NamedTuple):
+class StepPeak(NamedTuple):
     """The largest value so far, at a fraction of a step, and the fractions between which more may be."""
 
     top: float = -math.inf
@@ -210,7 +210,7 @@ class Peak(NamedTuple):
 
 
 @kernel
-def peak_place(peak: Peak, n: int) -> float:
+def peak_place(peak: StepPeak, n: int) -> float:
     """The n-th fraction of a step to look at: `PEAK_SAMPLES` parts, then golden section at the largest."""
     if n <= PEAK_SAMPLES:
         return n / PEAK_SAMPLES
@@ -219,16 +219,16 @@ def peak_place(peak: Peak, n: int) -> float:
 
 
 @kernel
-def peak_with(peak: Peak, n: int, x: float, value: float) -> Peak:
+def peak_with(peak: StepPeak, n: int, x: float, value: float) -> StepPeak:
     """The peak after a quantity has been seen to have a value at x, the n-th."""
     top, at, low, high = peak
     if n <= PEAK_SAMPLES:
         if value > top:
-            return Peak(value, x, max(0.0, x - 1.0 / PEAK_SAMPLES), min(1.0, x + 1.0 / PEAK_SAMPLES))
+            return StepPeak(value, x, max(0.0, x - 1.0 / PEAK_SAMPLES), min(1.0, x + 1.0 / PEAK_SAMPLES))
         return peak
     if value > top:
-        return Peak(value, x, at, high) if x > at else Peak(value, x, low, at)
-    return Peak(top, at, low, x) if x > at else Peak(top, at, x, high)
+        return StepPeak(value, x, at, high) if x > at else StepPeak(value, x, low, at)
+    return StepPeak(top, at, low, x) if x > at else StepPeak(top, at, x, high)
 
 
 def has_a_top(size: Callable[[float], float], first: float, last: float) -> bool:
@@ -240,7 +240,7 @@ def has_a_top(size: Callable[[float], float], first: float, last: float) -> bool
 
 def peak(size: Callable[[float], float], largest: float) -> float:
     """The largest force [N] so far, a step included; size: the force's magnitude at fractions of the step."""
-    found = Peak()
+    found = StepPeak()
     for n in range(PEAK_LOOKS):
         x = peak_place(found, n)
         found = peak_with(found, n, x, size(x))

@@ -268,6 +268,8 @@ def test_a_bump_between_two_falling_ends_is_a_touch() -> None:
     bump = depth - (0.3 * depth(0.0) + 0.7 * depth(0.009))
     assert bump(0.0) < 0.0 < bump(0.009)
     assert driven(Course(1e7 * DEPTH * bump, closed=False))[0][0] == IMPACT
+    # it lies within the first part of a step
+    assert find(Course(1e5 * DEPTH * bump, closed=False), 0.0, 0.05)[0] == UNCLEAR
 
 
 def test_what_has_just_been_met_is_not_met_again() -> None:

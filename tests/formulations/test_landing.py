@@ -1,15 +1,16 @@
-"""A step made again to end where tension is cut: every look is between the nearest others."""
+"""A step made again to end where something happens to a contact, and what that changes."""
 
 from __future__ import annotations
 
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 from support_exudyn.formulations.compiled import events, landing
-from support_exudyn.scene.arrays import CONTACT, REPORT
+from support_exudyn.scene.arrays import CONTACT, IMPACTS, REPORT
 from tests.formulations.plain import plain
 
 STEP = 0.125
@@ -60,3 +61,16 @@ def test_a_turn_is_sought_between_the_nearest_looks_on_either_side(
 ) -> None:
     turning = Turning(turn, flat, late)
     turning.check(landed(turning))
+
+
+@pytest.mark.parametrize("what", [events.IMPACT, events.SEPARATION])
+def test_contacts_that_meet_or_part_at_the_same_instant_do_so_together(what: int) -> None:
+    meets = what == events.IMPACT
+    contacts = np.zeros(3, CONTACT).view(np.recarray)
+    contacts.state, contacts.rate, contacts.closed = -1, 0.3 if meets else -0.3, 0.0 if meets else 1.0
+    contacts.depth = 0.0, 0.5 * events.TOGETHER, 2.0 * events.TOGETHER  # the last does so at another instant
+    onsets, report = np.zeros((3, 5)), np.zeros(REPORT)
+    scene = SimpleNamespace(contacts=contacts)
+    assert plain(landing.happen)(scene, 0, what, 1.0, np.zeros(1), onsets, report)
+    np.testing.assert_array_equal(contacts.closed, [1.0, 1.0, 0.0] if meets else [0.0, 0.0, 1.0])
+    assert report[IMPACTS] == (2 if meets else 0)

@@ -21,7 +21,7 @@ from support_exudyn.scene.compilation import compiled
 from support_exudyn.scene.hydraulics.flows import OPEN
 from support_exudyn.scene.hydraulics.gaps import met
 from support_exudyn.scene.hydraulics.records import RELIEF, YIELD
-from user_forces.roots import PEAK_LOOKS, Bracket, Peak, narrowed, peak_place, peak_with, zero_of
+from user_forces.roots import PEAK_LOOKS, Bracket, StepPeak, narrowed, peak_place, peak_with, zero_of
 
 LOOKS = 40  # for a gap, by false position
 NONE, GAP, AT_ONCE = range(3)  # what is found
@@ -98,7 +98,7 @@ def hidden_gap(scene: SceneArrays, legs: LegArrays | None, room: Scratch, t: flo
             most = legs.beyond[n, k]
             if jumps == 0 or not end >= -met(k) or not max(begin, end) + 2.0 * most > 0.0:
                 continue
-            peak = Peak(-math.inf, 0.0, 0.0, 1.0)
+            peak = StepPeak(-math.inf, 0.0, 0.0, 1.0)
             for look in range(PEAK_LOOKS):
                 x = peak_place(peak, look)
                 peak = peak_with(peak, look, x, beyond_at(scene, legs, room, n, k, t, h, x))

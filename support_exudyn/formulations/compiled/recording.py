@@ -19,7 +19,7 @@ from support_exudyn.scene.arrays import (
 )
 from support_exudyn.scene.compilation import compiled, once
 from support_exudyn.scene.motion import follow_courses
-from user_forces.roots import NEAR_PEAK, NEAR_TOP, PEAK_LOOKS, PEAK_SAMPLES, Peak, peak_place, peak_with
+from user_forces.roots import NEAR_PEAK, NEAR_TOP, PEAK_LOOKS, PEAK_SAMPLES, StepPeak, peak_place, peak_with
 
 
 @compiled
@@ -29,9 +29,9 @@ def size(scene: SceneArrays, n: int) -> float:
 
 
 @once
-def peak_of(scene: SceneArrays, n: int, path: Matrix, y: Vector, slope: Vector) -> Peak:
+def peak_of(scene: SceneArrays, n: int, path: Matrix, y: Vector, slope: Vector) -> StepPeak:
     """The largest force of a contact in a step; next to the largest so far it is sought between the samples."""
-    peak = Peak(-math.inf, 0.0, 0.0, 1.0)
+    peak = StepPeak(-math.inf, 0.0, 0.0, 1.0)
     for k in range(PEAK_LOOKS):
         x = peak_place(peak, k)
         look(scene, n, x, path, y, slope, True)
