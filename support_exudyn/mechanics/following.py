@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 import numpy as np
 
@@ -36,7 +36,8 @@ def follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> No
     that turns over and over, whole revolutions are left out.
 
     A linkage that can move with all drives held is not checked: forces decide where it goes. Neither is a
-    linkage of which a driven part has no drive, such as a cylinder with an inlet.
+    linkage of which a driven part has no drive, such as a cylinder with an inlet. Nothing is checked from the
+    time on at which a drive has no finite extension: the run is refused there, with the name of the drive.
 
     Arguments:
         linkage: in its start posture.
@@ -75,7 +76,7 @@ def _follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> N
 
 def _alone(conditions: Conditions, name: str, drive: Drive, duration: float) -> None:
     """Follow the only drive that moves, over its span."""
-    extensions = [drive.extension(time) for time in times((drive,), duration)]
+    extensions = list(takewhile(math.isfinite, map(drive.extension, times((drive,), duration))))
     low, high = min(0.0, *extensions), max(0.0, *extensions)
     crank = name in conditions.linkage.cranks
     start = np.zeros(3 * len(conditions.linkage.bodies))
@@ -128,6 +129,8 @@ def _together(conditions: Conditions, drives: Mapping[str, Drive], duration: flo
     true = {name: drive.extension(0.0) for name, drive in drives.items()}
     for number, time in enumerate(times(tuple(drives.values()), duration)):
         following = {name: drive.extension(time) for name, drive in drives.items()}
+        if not all(map(math.isfinite, following.values())):
+            return
         goal = {}
         for name, extension in following.items():
             step = extension - true[name]
