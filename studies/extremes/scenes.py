@@ -168,7 +168,7 @@ def gentle(point: Point) -> Drive:
 def with_solver(point: Point, i: int, random: np.random.Generator) -> Scenario:
     """The fall with other settings of the solver, by turns on columns of oil."""
     point = replace(point, spectral_radius=(0.0, 0.5, 1.0, point.spectral_radius)[i % 4])
-    solver = replace(settings(point), growth=GROWTHS[i % 3])
+    solver = replace(settings(point), newton="full" if i % 2 else "modified", growth=GROWTHS[i % 3])
     actuators = paper_machine.oil_columns() if i % 2 else {}
     return replace(fallen(point), solver=solver, actuators=actuators)
 

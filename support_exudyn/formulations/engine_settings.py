@@ -42,7 +42,7 @@ def engine_settings(
     integration.newton.relativeTolerance = chosen.newton_tolerance
     norm = rounding / unknowns  # the engine's norm of a residual
     integration.newton.absoluteTolerance = max(integration.newton.absoluteTolerance, norm)
-    integration.newton.useModifiedNewton = True
+    integration.newton.useModifiedNewton = chosen.newton == "modified"
     integration.newton.modifiedNewtonContractivity = 0.1  # renew the Jacobian early: a fifth faster here
     if repeats:
         settings.linearSolver.solverType = exudyn.LinearSolverType.EigenDense

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -23,7 +23,6 @@ REMOVED = {
     "integrator": ("generalised_alpha", "the engine integrates by generalised alpha"),
     "constraint_index": (3, "constraints hold the positions"),
     "locate": (True, "steps always end at impacts and separations"),
-    "newton": ("modified", "the Jacobian is renewed wherever Newton's method needs a new one"),
 }
 
 
@@ -36,6 +35,7 @@ class SolverSettings(Value):
             step) to 1 (none). At 0.5 the joint forces are quiet at small steps; at 0.9 rounding
             shows in them below a step of 0.2 ms.
         newton_tolerance: relative tolerance of Newton's residual, > 0.
+        newton: "modified", which keeps a Jacobian as long as it serves, or "full", a new one each iteration.
         impact_steps: how many steps an impact takes at least, from the impact to the separation of an undamped
             one of the same speed; 16 to 10000. Steps are so short from the impact until the surfaces part, or
             until the depth swings little any more. Errors are of second order; 512 delivers any
@@ -60,6 +60,7 @@ class SolverSettings(Value):
 
     spectral_radius: Fraction = 0.5
     newton_tolerance: Annotated[Real, Field(gt=0, le=1e-3)] = 1e-8
+    newton: Literal["modified", "full"] = "modified"
     impact_steps: Annotated[Whole, Field(ge=16, le=MOST_IMPACT_STEPS)] = 512
     growth: Annotated[Real, Field(ge=1, le=64)] = 1.0
     tolerance: Annotated[Real, Field(ge=1e-13, le=1e-2)] = 1e-7

@@ -16,7 +16,6 @@ import numpy.typing as npt
 Vector = npt.NDArray[np.float64]
 Matrix = npt.NDArray[np.float64]
 Whole = npt.NDArray[np.int64]
-Unsigned = npt.NDArray[np.uint64]
 Records = npt.NDArray[np.void]
 
 F, N = np.float64, np.int64
@@ -26,9 +25,9 @@ def _record(whole: str, numbers: str) -> np.dtype[np.void]:
     return np.dtype([(name, N) for name in whole.split()] + [(name, F) for name in numbers.split()])
 
 
-# inertia that stands in for a point mass's, 0 else; weight; centre of mass at the start | direction, force,
-# moment, moment that gives back what stands in
-BODY = _record("", "stand_in weight_x weight_y x0 y0 c s fx fy m given")
+# lightness: one over mass and inertia; of the latter that which stands in for a point mass's, 0 else; weight;
+# centre of mass at the start | direction, force, moment, acceleration, moment that gives back what stands in
+BODY = _record("", "light light_turn stand_in weight_x weight_y x0 y0 c s fx fy m ax ay a given")
 # arm: from the centre of mass at the start, of the ground the place itself | arm now, place, velocity
 POINT = _record("body", "arm_x arm_y rx ry x y vx vy")
 # a time course: its pieces in the segment; still: for a record before it begins, at a break at 0 s | its jump
@@ -38,9 +37,12 @@ PIECE = _record("", "begin half")
 # kinds: see PIN and so on. ratio: of a gear. length, angle: at the start
 JOINT = _record("kind row first second course conditions", "length angle ratio")
 PIN, ACTUATOR, CRANK, SLIDE, GEAR = range(5)
-# two bodies, the carrier of a gear, and what its rate takes of their rates | what C a has to be, multiplier,
-# what is left of the position, and the rate that it has to have
-ROW = _record("body other carrier", "x y t ox oy ot carrier_x carrier_y carrier_t wanted held off rate")
+# two bodies and what its rate takes of theirs, and the carrier of a gear, of which the rate takes the turn;
+# first: of the row in the factors | what C a has to be, multiplier, what is left of the position, and the rate
+# that it has to have
+ROW = _record("body other carrier first", "x y t ox oy ot carrier_t wanted held off rate")
+# rows that share a body, i >= j; which of the bodies of each it is
+PAIR = _record("i j side other", "")
 # journal `second` in bore `first`, both points. slot: corner between walls, or ONE_SIDED of one wall alone.
 # law: address of both laws, with constants from `constants` on. state: of the friction law in y.
 # radius: of the bore, or of a pin in a slot. angle: of a slot at the start. | closed, impact velocity: what it
@@ -83,35 +85,12 @@ class LegArrays(NamedTuple):
     events: Matrix
 
 
-class Elimination(NamedTuple):
-    """How the square matrix C M^-1 C^T of all rows is made and factored, see `multipliers`.
-
-    A side is a body that a row is of. coefficients: numbers of all rows, a view. lightness: one over mass and
-    inertia (3 bodies,). sides: of each row after another, three times the body, place of the coefficients;
-    places: the latter body by body; ends: of the sides of a row, or body. targets: places in `square` that
-    pairs of a body's sides add to. first: column of each row; begins: its place in `square`, which holds rows
-    from there to the diagonal. inverse: in full, where rows repeat others.
-    """
-
-    coefficients: Vector
-    lightness: Vector
-    sides: Unsigned
-    side_ends: Unsigned
-    places: Unsigned
-    place_ends: Unsigned
-    targets: Unsigned
-    first: Unsigned
-    begins: Unsigned
-    square: Vector
-    inverse: Matrix
-
-
 class SceneArrays(NamedTuple):
-    """All that an evaluation of the equations of motion takes.
+    """All that an evaluation of the equations of motion takes. square: C M^-1 C^T and its factors.
 
     repeats: of each row that repeats others, the multipliers of all that cancel each other, (repeats, rows).
     counts: factor of each row [m], see `Kinetics.counts`. spare: a number a row. rounds: in which multipliers
-    and accelerations are solved for, at most, see `multipliers.refine`.
+    and accelerations are solved for, at most, see `motion.refine`.
     legs: None without any. Compiled code that is for legs then has nothing to do by the type of the scene, and
     is not compiled before a scene has legs.
     """
@@ -123,7 +102,8 @@ class SceneArrays(NamedTuple):
     coefficients: Matrix
     joints: Records
     rows: Records
-    elimination: Elimination
+    pairs: Records
+    square: Matrix
     repeats: Matrix
     counts: Vector
     spare: Vector
@@ -137,16 +117,11 @@ class SceneArrays(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """What a run works on and keeps.
+    """Room that a run works in.
 
     right, impulses: a number a row. end, probe, slope, along: states; see `stabilised`. path: of the
-    interpolation. rates: of a step's stages. now, then: contacts at its start and end.
-    going: what the next step needs, by its indices. report: counts, and where the run stopped.
-    weights: one over the largest error of a step, for each component of the state.
-    times: of the records [s], from 0; rows: the records. forces: whether these need accelerations and what
-    joints carry.
-    nodes: of the steps since the last pause, four each, with room for all until the next and one row more.
-    onsets: of impacts.
+    interpolation. rates: of a step's stages.
+    now, then: contacts at its start and end.
     """
 
     right: Vector
@@ -159,14 +134,6 @@ class Scratch(NamedTuple):
     rates: Matrix
     now: Records
     then: Records
-    going: Vector
-    report: Vector
-    weights: Vector
-    times: Vector
-    rows: Matrix
-    forces: bool
-    nodes: Matrix
-    onsets: Matrix
 
 
 def leg_arrays(records: Records, pumps: Records, gaps: Matrix) -> LegArrays | None:
@@ -184,13 +151,26 @@ def leg_arrays(records: Records, pumps: Records, gaps: Matrix) -> LegArrays | No
     )
 
 
+def scratch(scene: SceneArrays, states: int) -> Scratch:
+    """Room for a scene with so many states."""
+    rows = scene.rows.size
+    return Scratch(
+        right=np.zeros(rows),
+        impulses=np.zeros(rows),
+        end=np.zeros(states),
+        probe=np.zeros(states),
+        slope=np.zeros(states),
+        along=np.zeros(states),
+        path=np.zeros((5, states)),
+        rates=np.zeros((STAGES, states)),
+        now=scene.contacts.copy(),
+        then=scene.contacts.copy(),
+    )
+
+
 STAGES = 7  # of a step
 MOST_OIL_EVENTS = 100_000
 
-# What the next step needs: whether a run is in the midst of a segment, time, next step, last error; the fastest
-# decay, above 0 while steps are stabilised; the explicit step before these; steps since it was looked for; how
-# many steps have lately been cut where a law begins or ceases to ask for tension, and for how many more none is
-MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, EXPLICIT_STEP, STIFF_STEPS, CUT_STEPS, UNCUT, GOING = range(10)
 # what a run counts and where it stopped
 (
     STEPS,

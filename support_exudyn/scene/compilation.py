@@ -2,8 +2,10 @@
 
 import hashlib
 import math
+import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
@@ -19,7 +21,13 @@ from support_exudyn.model.loads.load import ActingLoad
 from user_forces import contact
 from user_forces.kernel import copied, numbers, prepare, reason
 
-SECONDS = 10  # that compiling takes on a quiet machine of 2020
+try:
+    import fcntl as _fcntl
+except ImportError:  # Windows
+    _fcntl = None  # type: ignore[assignment]
+
+fcntl: Any = _fcntl
+SECONDS = {"compiled": 10}  # that compiling takes on a quiet machine of 2020
 COMPILED = ("scene", "formulations/compiled", "formulations/statistics")  # folders with compiled functions
 CONSTANTS_OF = (elements,)  # modules of which compiled functions use constants
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
@@ -177,28 +185,63 @@ def _is_kept_only_while_unchanged(dispatcher: Any) -> bool:
         return False
     kept._source_stamp = STAMP
     kept._version = f"{kept._version}, {STAMP[0]}"
-    _announce_compiling(dispatcher)
+    _one_process_at_a_time(dispatcher)
     return True
 
 
-def _announce_compiling(dispatcher: Any) -> None:
-    """Let a function print that it is being compiled where no code of it is on disk."""
-    load = dispatcher._cache.load_overload
+def _one_process_at_a_time(dispatcher: Any) -> None:
+    """Let processes that need a function at the same time wait for the first, and load what it has compiled."""
+    kept: Any = dispatcher._cache
+    load, save = kept.load_overload, kept.save_overload
+    locks: list[int] = []
 
-    def load_or_announce(signature: Any, target: Any) -> Any:
-        kept = load(signature, target)
-        if kept is None:
-            _print_compiling(dispatcher.py_func.__module__)
-        return kept
+    def release() -> None:
+        while locks:
+            os.close(locks.pop())
 
-    dispatcher._cache.load_overload = load_or_announce
+    def load_or_wait(signature: Any, target: Any) -> Any:
+        found = load(signature, target)
+        if found is None:
+            locks.extend(_lock(Path(kept.cache_path), dispatcher.__name__))
+            found = load(signature, target)
+            if found is None:
+                _tell(dispatcher.py_func.__module__)
+            else:
+                release()
+        return found
+
+    def save_and_release(signature: Any, made: Any) -> None:
+        try:
+            save(signature, made)
+        finally:
+            release()
+
+    kept.load_overload, kept.save_overload = load_or_wait, save_and_release
+
+
+def _lock(folder: Path, name: str) -> list[int]:
+    """A lock on a function that one process has until it closes it; empty where there are no locks."""
+    if fcntl is None:
+        return []
+    with suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+        handle = os.open(folder / f"{name}.lock", os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        except OSError:  # a disk without locks
+            os.close(handle)
+            raise
+        return [handle]
+    return []
 
 
 @cache
-def _print_compiling(module: str) -> None:
-    """Print why nothing moves, once for a module of the compiled formulation."""
-    if "compiled" in module.split(".") and sys.stderr is not None:
-        print(f"compiling (compiled), once on this machine: about {SECONDS} s", file=sys.stderr)
+def _tell(module: str) -> None:
+    """Tell why nothing moves."""
+    said = next((name for name in SECONDS if name in module.split(".")), None)
+    if said is not None and sys.stderr is not None:
+        what = said.replace("_", " ")
+        print(f"compiling ({what}), once on this machine: about {SECONDS[said]} s", file=sys.stderr)
 
 
 NUMBER = numba.types.float64

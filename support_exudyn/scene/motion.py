@@ -1,9 +1,23 @@
-"""Places and velocities of points, what the joints demand, and forces on bodies."""
+"""Where points are, what joints demand, and the accelerations of all bodies.
+
+Mass matrix M, constraint Jacobian C, applied forces f and what drives demand, w, give
+
+    C M^-1 C^T L = C M^-1 f - w,    a = M^-1 (f - C^T L)
+
+by factors L D L^T of the square matrix, within the envelope that the order of the rows leaves.
+"""
 
 import math
 
+from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.scene.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
-from support_exudyn.scene.compilation import inlined
+from support_exudyn.scene.compilation import compiled, inlined, often
+
+SETTLED = 1e-13  # share by which moments that depend on accelerations may still change
+# Factors lose as many digits as the lightest body is lighter than the heaviest. So little may be left of that.
+DIGIT, CLOSE = 1e-15, 1e-13
+MOST_ROUNDS = 30
+SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
 
 
 @inlined
@@ -128,6 +142,181 @@ def hold(scene: SceneArrays, y: Vector) -> None:
         row.ox, row.oy, row.ot = -ux, -uy, first.ry * ux - first.rx * uy - carried
 
 
+@often
+def factor(scene: SceneArrays) -> float:
+    """Write C M^-1 C^T as its factors L, and 1 / D on the diagonal; the least share that is left of a row."""
+    count = scene.rows.size
+    square = scene.square
+    for i in range(count):
+        for j in range(scene.rows[i].first, i + 1):
+            square[i, j] = 0.0
+    for n in range(scene.pairs.size):
+        pair = scene.pairs[n]
+        one, two = scene.rows[pair.i], scene.rows[pair.j]
+        if pair.side == 0:
+            body, x, y, t = scene.bodies[one.body], one.x, one.y, one.t
+        elif pair.side == 1:
+            body, x, y, t = scene.bodies[one.other], one.ox, one.oy, one.ot
+        else:
+            body, x, y, t = scene.bodies[one.carrier], 0.0, 0.0, one.carrier_t
+        if pair.other == 0:
+            u, v, w = two.x, two.y, two.t
+        elif pair.other == 1:
+            u, v, w = two.ox, two.oy, two.ot
+        else:
+            u, v, w = 0.0, 0.0, two.carrier_t
+        square[pair.i, pair.j] += body.light * (x * u + y * v) + body.light_turn * t * w
+    if scene.repeats.shape[0] > 0:
+        return invert_repeated(scene)
+    least = 1.0
+    for i in range(count):
+        first = scene.rows[i].first
+        for j in range(first, i):
+            total = square[i, j]
+            for k in range(max(first, scene.rows[j].first), j):
+                total -= square[i, k] * square[j, k]
+            square[i, j] = total
+        own = left = square[i, i]
+        for j in range(first, i):
+            total = square[i, j]
+            square[i, j] = total * square[j, j]
+            left -= total * square[i, j]
+        share = left / own
+        if not share > least:
+            least = share
+        square[i, i] = 1.0 / left
+    return least
+
+
+@compiled
+def invert_repeated(scene: SceneArrays) -> float:
+    """Write in place of C M^-1 C^T, some of whose rows repeat others, the inverse of what is left without them.
+
+    The method of Gauss and Jordan takes that row next of which the largest share is left. Rows that remain at
+    the end give `SceneArrays.repeats`. Returns the least share that was left of a row taken.
+    """
+    count, repeats = scene.rows.size, scene.repeats.shape[0]
+    square, own = scene.square, scene.spare
+    for i in range(count):
+        for j in range(scene.rows[i].first, i):
+            square[j, i] = square[i, j]
+        for j in range(scene.rows[i].first):
+            square[i, j] = square[j, i] = 0.0
+        own[i] = square[i, i]
+    least = 1.0
+    for _ in range(count - repeats):
+        best, most = -1, 0.0
+        for i in range(count):
+            if own[i] > 0.0 and square[i, i] > most * own[i]:
+                best, most = i, square[i, i] / own[i]
+        if best < 0:
+            return 0.0
+        least = min(least, most)
+        own[best] = 0.0
+        pivot, square[best, best] = square[best, best], 1.0
+        for j in range(count):
+            square[best, j] /= pivot
+        for i in range(count):
+            if i != best:
+                factor, square[i, best] = square[i, best], 0.0
+                for j in range(count):
+                    square[i, j] -= factor * square[best, j]
+    n = 0
+    for i in range(count):
+        if own[i] > 0.0:
+            for j in range(count):
+                scene.repeats[n, j] = -square[j, i] if own[j] == 0.0 else 0.0
+                square[i, j] = square[j, i] = 0.0
+            scene.repeats[n, i] = 1.0
+            n += 1
+    for n in range(repeats):  # perpendicular to each other and of length 1, counted by `counts`
+        for k in range(n + 1):
+            product = 0.0
+            for j in range(count):
+                product += scene.repeats[n, j] * scene.repeats[k, j] / scene.counts[j] ** (2 if k == n else 1)
+            for j in range(count):
+                if k == n:
+                    scene.repeats[n, j] /= scene.counts[j] * math.sqrt(product)
+                else:
+                    scene.repeats[n, j] -= product * scene.repeats[k, j] * scene.counts[j]
+    return least
+
+
+@compiled
+def divide_repeated(scene: SceneArrays, right: Vector) -> None:
+    """See `divide`, where rows repeat others: of all x that fit the least, counted by `SceneArrays.counts`."""
+    found, counts = scene.spare, scene.counts
+    for i in range(right.size):
+        found[i] = 0.0
+        for j in range(right.size):
+            found[i] += scene.square[i, j] * right[j]
+    for n in range(scene.repeats.shape[0]):
+        product = 0.0
+        for i in range(right.size):
+            product += scene.repeats[n, i] * found[i] / counts[i]
+        for i in range(right.size):
+            found[i] -= product * scene.repeats[n, i] * counts[i]
+    for i in range(right.size):
+        right[i] = found[i]
+
+
+@inlined
+def divide(scene: SceneArrays, right: Vector) -> None:
+    """Solve C M^-1 C^T x = right by the factors; x stands in `right` afterwards."""
+    if scene.repeats.shape[0] > 0:
+        divide_repeated(scene, right)
+        return
+    count = scene.rows.size
+    square = scene.square
+    for i in range(count):
+        total = right[i]
+        for k in range(scene.rows[i].first, i):
+            total -= square[i, k] * right[k]
+        right[i] = total
+    for i in range(count):
+        right[i] *= square[i, i]
+    for i in range(count - 1, -1, -1):
+        value = right[i]
+        for k in range(scene.rows[i].first, i):
+            right[k] -= square[i, k] * value
+
+
+@inlined
+def rate_of(scene: SceneArrays, row: int, v: Vector, start: int) -> float:
+    """What a row makes of velocities that stand in `v` from `start` on."""
+    one = scene.rows[row]
+    total = 0.0
+    if one.body >= 0:
+        i = start + 3 * one.body
+        total += one.x * v[i] + one.y * v[i + 1] + one.t * v[i + 2]
+    if one.other >= 0:
+        i = start + 3 * one.other
+        total += one.ox * v[i] + one.oy * v[i + 1] + one.ot * v[i + 2]
+    if one.carrier >= 0:
+        total += one.carrier_t * v[start + 3 * one.carrier + 2]
+    return float(total)
+
+
+@often
+def respond(scene: SceneArrays, multipliers: Vector, v: Vector, start: int) -> None:
+    """Take M^-1 C^T L off the velocities or displacements that stand in `v` from `start` on."""
+    for n in range(scene.rows.size):
+        row = scene.rows[n]
+        size = multipliers[n]
+        if row.body >= 0:
+            body, i = scene.bodies[row.body], start + 3 * row.body
+            v[i] -= body.light * row.x * size
+            v[i + 1] -= body.light * row.y * size
+            v[i + 2] -= body.light_turn * row.t * size
+        if row.other >= 0:
+            body, i = scene.bodies[row.other], start + 3 * row.other
+            v[i] -= body.light * row.ox * size
+            v[i + 1] -= body.light * row.oy * size
+            v[i + 2] -= body.light_turn * row.ot * size
+        if row.carrier >= 0:
+            v[start + 3 * row.carrier + 2] -= scene.bodies[row.carrier].light_turn * row.carrier_t * size
+
+
 @inlined
 def push(scene: SceneArrays, body: int, fx: float, fy: float, moment: float) -> None:
     """Add a force [N] at the centre of mass of a body and a moment [N m] to what acts on it."""
@@ -143,3 +332,89 @@ def push_point(scene: SceneArrays, point: int, fx: float, fy: float) -> None:
     """Add a force [N] at a point to what acts on its body."""
     at = scene.points[point]
     push(scene, at.body, fx, fy, at.rx * fy - at.ry * fx)
+
+
+@inlined
+def miss(scene: SceneArrays, right: Vector) -> None:
+    """Write by how much the accelerations of the bodies miss what the joints demand."""
+    for n in range(scene.rows.size):
+        row = scene.rows[n]
+        total = -row.wanted
+        if row.body >= 0:
+            body = scene.bodies[row.body]
+            total += row.x * body.ax + row.y * body.ay + row.t * body.a
+        if row.other >= 0:
+            body = scene.bodies[row.other]
+            total += row.ox * body.ax + row.oy * body.ay + row.ot * body.a
+        if row.carrier >= 0:
+            total += row.carrier_t * scene.bodies[row.carrier].a
+        right[n] = total
+
+
+@inlined
+def take(scene: SceneArrays, n: int, size: float) -> None:
+    """Take M^-1 C^T L off the accelerations of the bodies, for a multiplier of one row."""
+    row = scene.rows[n]
+    if row.body >= 0:
+        body = scene.bodies[row.body]
+        body.ax -= body.light * row.x * size
+        body.ay -= body.light * row.y * size
+        body.a -= body.light_turn * row.t * size
+    if row.other >= 0:
+        body = scene.bodies[row.other]
+        body.ax -= body.light * row.ox * size
+        body.ay -= body.light * row.oy * size
+        body.a -= body.light_turn * row.ot * size
+    if row.carrier >= 0:
+        body = scene.bodies[row.carrier]
+        body.a -= body.light_turn * row.carrier_t * size
+
+
+@inlined
+def solve(scene: SceneArrays, right: Vector) -> None:
+    """Write multipliers and accelerations under the forces that act on the bodies; `right` is overwritten."""
+    for n in range(scene.bodies.size):
+        body = scene.bodies[n]
+        body.ax, body.ay, body.a = body.light * body.fx, body.light * body.fy, body.light_turn * body.m
+        body.given = 0.0
+    miss(scene, right)
+    divide(scene, right)
+    for n in range(scene.rows.size):
+        scene.rows[n].held = right[n]
+        take(scene, n, right[n])
+    for _ in range(1, scene.rounds):
+        if not refine(scene, right):
+            break
+
+
+@compiled
+def refine(scene: SceneArrays, right: Vector) -> bool:
+    """Correct multipliers and accelerations by what the equations are open by; whether that may help further.
+
+    Beside light bodies the factors lose digits. They contain an inertia `stand_in` for a point mass: a moment,
+    from the acceleration before, gives that back.
+    """
+    changed = largest = 0.0
+    for n in range(scene.bodies.size):
+        body = scene.bodies[n]
+        given = body.stand_in * body.a
+        changed = max(changed, abs(given - body.given))
+        largest = max(largest, abs(given))
+        body.given = given
+        body.ax, body.ay = body.light * body.fx, body.light * body.fy
+        body.a = body.light_turn * (body.m + given)
+    for n in range(scene.rows.size):
+        take(scene, n, scene.rows[n].held)
+    miss(scene, right)
+    divide(scene, right)
+    for n in range(scene.rows.size):
+        scene.rows[n].held += right[n]
+        take(scene, n, right[n])
+    return largest == 0.0 or changed > SETTLED * largest
+
+
+def rounds_of(held: Conditions) -> int:
+    """In how many rounds multipliers and accelerations are solved for, see `refine`."""
+    felt = held.kinetics.mass() / held.arms**2
+    lost = DIGIT * felt.max() / max(felt.min(), DIGIT * felt.max())  # all of a point mass
+    return MOST_ROUNDS if lost >= CLOSE**0.1 else max(1, math.ceil(math.log(CLOSE) / math.log(lost)))

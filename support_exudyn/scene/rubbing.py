@@ -8,8 +8,7 @@ import math
 
 from support_exudyn.scene.arrays import BLOCK, BOLT, SceneArrays, Vector
 from support_exudyn.scene.compilation import call_law, compiled, once
-from support_exudyn.scene.motion import push, push_point, spin_of, turn_of
-from support_exudyn.scene.multipliers import SETTLED, solve
+from support_exudyn.scene.motion import SETTLED, push, push_point, solve, spin_of, turn_of
 from user_forces.slot import end_loads, larger_load
 
 RUBBINGS = 30  # rounds at most
@@ -97,6 +96,6 @@ def rub(scene: SceneArrays, y: Vector, slope: Vector, right: Vector) -> None:
             moment = one.lever * force
             apply(scene, n, force - one.force, moment - one.moment)
             one.force, one.moment = force, moment
-        solve(scene, right, slope)
+        solve(scene, right)
     if changed > JAMMED * largest:
-        slope[3 * scene.bodies.size] = math.nan  # the step is not accepted
+        scene.bodies[0].a = math.nan  # the step is not accepted

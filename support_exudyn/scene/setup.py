@@ -19,7 +19,7 @@ from support_exudyn.model.loads.load import Load, StretchLoad, TimeFunction
 from support_exudyn.model.pins import IdealPin
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene import arrays
-from support_exudyn.scene.arrays import LOSSES, Records, SceneArrays, Vector, Whole
+from support_exudyn.scene.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
 from support_exudyn.scene.compilation import (
     FIRST_COURSE,
     address_of,
@@ -34,7 +34,7 @@ from support_exudyn.scene.courses import (
     segment_edges,
 )
 from support_exudyn.scene.hydraulics.fill import Legs, fill_legs
-from support_exudyn.scene.multipliers import elimination_of, rounds_of
+from support_exudyn.scene.motion import rounds_of
 from support_exudyn.scene.time_grid import record_times
 from user_forces.friction.law import FrictionLaw
 from user_forces.values.value import Vector2
@@ -113,8 +113,7 @@ def model_of(scenario: Scenario) -> Model:
     legs = _legs(scenario, build, course, states)
     states += legs.states
     loads = _loads(scenario, build, of_loads)
-    rows, lightness = _rows(joints, held), _lightness(scenario)
-    repeats = np.zeros((repeated_count(scenario.held)[0], len(rows)))
+    rows, pairs, square = _rows(joints, held)
     rubbing = _rubbing(scenario, build, joints, states)
     states += int((rubbing["state"] >= 0).sum())
     counts = np.ones(len(rows))
@@ -127,8 +126,9 @@ def model_of(scenario: Scenario) -> Model:
         coefficients=found.coefficients,
         joints=joints,
         rows=rows,
-        elimination=elimination_of(rows, lightness, bool(len(repeats))),
-        repeats=repeats,
+        pairs=pairs,
+        square=square,
+        repeats=np.zeros((repeated_count(scenario.held)[0], len(rows))),
         counts=counts,
         spare=np.zeros(len(rows)),
         rounds=rounds_of(scenario.held),
@@ -163,18 +163,11 @@ def _bodies(scenario: Scenario) -> Records:
     gx, gy = scenario.gravity
     stand_in = scenario.held.kinetics.stand_in[2::3].tolist()
     for record, body, inertia in zip(found, scenario.linkage.bodies.values(), stand_in, strict=True):
+        record["light"], record["light_turn"] = 1.0 / body.mass, 1.0 / (body.inertia + inertia)
         record["stand_in"] = inertia
         record["weight_x"], record["weight_y"] = body.mass * gx, body.mass * gy
         record["x0"], record["y0"] = body.centre
     return found
-
-
-def _lightness(scenario: Scenario) -> Vector:
-    """One over masses and inertias (3 bodies,), with what stands in for those of point masses."""
-    stand_in = scenario.held.kinetics.stand_in[2::3]
-    bodies = zip(scenario.linkage.bodies.values(), stand_in.tolist(), strict=True)
-    masses = [(body.mass, body.mass, body.inertia + more) for body, more in bodies]
-    return 1.0 / np.array(masses).reshape(-1)
 
 
 def _points(build: _Builder, linkage: Linkage) -> Records:
@@ -260,14 +253,28 @@ def _joints(
     return found, np.array(rows, np.int64), held
 
 
-def _rows(joints: Records, held: Sequence[_Joint]) -> Records:
-    """Rows of all joints with their bodies."""
+def _rows(joints: Records, held: Sequence[_Joint]) -> tuple[Records, Records, Matrix]:
+    """Rows with their bodies and envelope, pairs of rows that share a body, and room for the square matrix."""
     rows = np.zeros(sum(one.rows for one in held), arrays.ROW)
     for joint, one in zip(joints, held, strict=True):
         for k in range(one.rows):
             row = rows[joint["row"] + k]
             row["body"], row["other"], row["carrier"] = *one.bodies, one.carrier
-    return rows
+    bodies = [(int(row["body"]), int(row["other"]), int(row["carrier"])) for row in rows]
+    pairs = [
+        (i, j, side, other)
+        for i, mine in enumerate(bodies)
+        for j, theirs in enumerate(bodies[: i + 1])
+        for side in range(3)
+        for other in range(3)
+        if mine[side] == theirs[other] >= 0
+    ]
+    for i in range(len(rows)):
+        rows[i]["first"] = min([i, *(j for k, j, _, _ in pairs if k == i)])
+    found = np.zeros(len(pairs), arrays.PAIR)
+    for record, pair in zip(found, pairs, strict=True):
+        record["i"], record["j"], record["side"], record["other"] = pair
+    return rows, found, np.zeros((len(rows), len(rows)))
 
 
 def _contact(record: Any, place: ContactPlace, build: _Builder, linkage: Linkage, states: int) -> int:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import inspect
+import os
 import pickle
+import sys
+from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any
 
@@ -46,10 +49,32 @@ def test_what_an_older_program_has_kept_is_not_read(tmp_path: Path, monkeypatch:
     assert compilation.STAMP[0].encode() in index.read_bytes()
 
 
-def test_compiling_is_announced(capsys: pytest.CaptureFixture[str]) -> None:
-    compilation._print_compiling.__wrapped__("support_exudyn.formulations.compiled.integrate")
+def test_a_function_that_another_process_compiles_is_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("fcntl")
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
+    dispatcher, other = compilation._kept(twice), compilation._kept(twice)
+    (lock,) = compilation._lock(Path(dispatcher._cache.cache_path), "twice")  # the other process begins
+    with ThreadPoolExecutor(1) as pool:
+        found = pool.submit(dispatcher, 21.0)
+        assert wait([found], timeout=0.3).not_done
+        os.close(lock)
+        assert found.result() == 42.0
+    assert other(21.0) == 42.0
+    assert (dispatcher.stats.cache_hits, other.stats.cache_hits) == ({}, {(numba.types.float64,): 1})
+
+
+@pytest.mark.parametrize("at_terminal", [True, False])
+def test_the_compiling_is_told_at_a_terminal_and_elsewhere(
+    at_terminal: bool,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: at_terminal)
+    compilation._tell.__wrapped__("support_exudyn.formulations.compiled.integrate")
     assert capsys.readouterr().err.startswith("compiling (compiled), once on this machine: about ")
-    compilation._print_compiling.__wrapped__("__main__")
+    compilation._tell.__wrapped__("__main__")
     assert capsys.readouterr().err == ""
 
 

@@ -198,6 +198,7 @@ FLIGHT = Scenario(
     ("scenario", "choice"),
     [
         (SUPPORT, {}),
+        (SUPPORT, {"newton": "full"}),
         (SUPPORT, {"newton_tolerance": 1e-4}),
         (replace(SUPPORT, pins={PIN: ClearancePin(contact=paper_contact(1.5, 0.25), bore="second")}), {}),
         (FLIGHT, {}),

@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from numpy.polynomial import Polynomial
 
-from support_exudyn.formulations.exudyn.solver.within_steps import StepEnd, between
 from support_exudyn.scene.time_grid import StepPlan, shortest_step
 
 Times = list[float]
@@ -265,35 +263,3 @@ def test_a_step_that_ends_at_a_record_passes_none() -> None:
     assert plan.passes_record(0.05, 0.11)
     assert plan.passes_record(0.1, 0.3)
     assert plan.passes_record(0.22, 0.27)  # beyond a break
-
-
-# --- states inside a step ---
-
-
-def state(t: float, position: Polynomial, integral: Polynomial) -> StepEnd:
-    velocity, acceleration, power = position.deriv(), position.deriv(2), integral.deriv()
-    line = np.array([3.0 - 2.0 * t])
-    return StepEnd(
-        t,
-        np.array([position(t)]),
-        np.array([velocity(t)]),
-        np.array([acceleration(t)]),
-        line,
-        np.array([integral(t)]),
-        np.array([power(t)]),
-    )
-
-
-@pytest.mark.parametrize("t", [0.5, 0.7, 0.9999, 1.5])
-def test_quintics_cubics_and_lines_are_met(t: float) -> None:
-    cubic, quintic = Polynomial([1.0, -2.0, 0.5, 0.3]), Polynomial([1.0, -2.0, 0.5, 0.3, -0.7, 0.2])
-    # rounding of numbers up to 3
-    found = between(state(0.5, quintic, cubic), state(1.5, quintic, cubic), t)
-    assert found.time == t
-    assert found.position == pytest.approx(state(t, quintic, cubic).position, abs=1e-14)
-    assert found.totals == pytest.approx(state(t, quintic, cubic).totals, abs=1e-14)
-    assert found.memory == pytest.approx([3.0 - 2.0 * t], abs=1e-14)
-    found = between(state(0.5, cubic, cubic), state(1.5, cubic, cubic), t)
-    exact = state(t, cubic, cubic)
-    assert found.velocity == pytest.approx(exact.velocity, abs=1e-14)
-    assert found.acceleration == pytest.approx(exact.acceleration, abs=1e-14)

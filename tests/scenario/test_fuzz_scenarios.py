@@ -129,6 +129,7 @@ def short_runs(draw: st.DrawFn) -> Scenario:
         solver=SolverSettings(
             impact_steps=16,
             tolerance=draw(st.sampled_from((1e-5, 1e-3))),
+            newton=draw(st.sampled_from(("modified", "full"))),
         ),
     )
 

@@ -99,6 +99,7 @@ def test_bores_and_their_sides_are_checked() -> None:
         ("impact_steps", 15, ">= 16 and <= 10000"),
         ("growth", 65.0, ">= 1 and <= 64"),
         ("tolerance", 1e-14, ">= 1e-13 and <= 0.01"),
+        ("newton", "none", "'modified' or 'full'"),
         ("most_steps", 0, ">= 1"),
     ],
 )

@@ -7,11 +7,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, simulate
+from support_exudyn import ClearancePin, CubicStep, Held, Result, SolverSettings, simulate
 from support_exudyn.formulations.exudyn.solver.step_growth import SMOOTH
-from tests.cases.run_cases import FORCE, PIN, paper_contact, support
+from tests.cases.run_cases import (
+    FORCE,
+    PIN,
+    loose_support,
+    paper_contact,
+    support,
+)
 from user_forces import Exact
 from user_forces.values.value import Value
+
+
+def drop(step: float = 5e-4, duration: float = 0.08, **solver: object) -> Result:
+    settings = SolverSettings(**solver)
+    return simulate(loose_support(drive=Held(), duration=duration, step=step, solver=settings))
+
 
 # --- settings of earlier versions ---
 
@@ -23,7 +35,6 @@ from user_forces.values.value import Value
         ("integrator", "generalised_alpha", "trapezoidal"),
         ("constraint_index", 3, 2),
         ("locate", True, False),
-        ("newton", "modified", "full"),
     ],
 )
 def test_settings_of_earlier_versions_are_read_with_a_note(key: str, usual: object, other: object) -> None:
@@ -31,6 +42,18 @@ def test_settings_of_earlier_versions_are_read_with_a_note(key: str, usual: obje
     assert Value.from_data(written | {key: usual}) == SolverSettings(growth=2.0)
     with pytest.warns(UserWarning, match=rf"solver\.{key} = {other!r} has no effect any more"):
         assert Value.from_data(written | {key: other}) == SolverSettings(growth=2.0)
+
+
+# --- Newton's method ---
+
+
+def test_full_newton_gives_the_same() -> None:
+    modified, full = drop(impact_steps=64), drop(impact_steps=64, newton="full")
+    assert full.counts.jacobians == full.counts.newton_iterations
+    assert full.counts.newton_iterations < modified.counts.newton_iterations
+    # Newton's tolerance of 1e-8 and what the impacts make of it
+    for one, other in zip(modified.onsets[PIN], full.onsets[PIN], strict=True):
+        assert one.speed == pytest.approx(other.speed, rel=1e-4)
 
 
 # --- steps that grow ---

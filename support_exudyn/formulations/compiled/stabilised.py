@@ -10,19 +10,23 @@ Source: Sommeijer, Shampine and Verwer, RKC: an explicit solver for parabolic PD
 
 import math
 
-from support_exudyn.formulations.compiled.step import close_and_evaluate, evaluate
+from support_exudyn.formulations.compiled.step import close_joints, evaluate
 from support_exudyn.scene.arrays import STAGES, Matrix, SceneArrays, Vector
 from support_exudyn.scene.compilation import compiled
-from support_exudyn.scene.multipliers import SINGULAR
+from support_exudyn.scene.motion import SINGULAR
 
 DAMPING = 2.0 / 13.0
 STABLE = 1.54  # (s^2 - 1) that a product of step and fastest decay asks for, over it
 MOST_STAGES = 200
-# step times fastest decay beyond which the explicit method is held up by its stability, not its error
-STIFF_AT = 1.5
-PATIENCE = 50  # steps of the explicit method after which that is looked for
+FEWEST_STAGES = 8  # below, the explicit method of order 5 does as well
+STIFF_AT = (
+    1.5  # step times fastest decay beyond which the explicit method is held up by its stability, not its error
+)
+FIRST_PATIENCE, LONGEST_PATIENCE = (
+    50.0,
+    3200.0,
+)  # steps after which that is looked for; doubled where it was in vain
 AT_FIRST = 2.0  # times as long is the first step of this method as those before: it damps what they leave
-STRICTER = 4.0  # times that errors count: those of order 2 remain, those of order 5 are below what is allowed
 MARGIN = 1.2  # on the fastest decay that has been measured
 STRAIGHT = 0.5  # cosine between a state's way and its way back, from which on that is a decay
 SHIFT = 1e-4  # of what a step may err by, over which it is looked how rates change
@@ -133,13 +137,14 @@ def advance_stabilised(
         b_before, b_now = b_now, b
     for i in range(y.size):
         end[i] = newer[i]
-    if not close_and_evaluate(scene, t + h, end, k[STAGES - 1], right) > SINGULAR:
+    close_joints(scene, t + h, end, right)
+    if not evaluate(scene, t + h, end, k[STAGES - 1], right) > SINGULAR:
         return math.nan
     square = 0.0
     for i in range(y.size):
         wrong = 0.8 * (y[i] - end[i]) + 0.4 * h * (k[0, i] + k[STAGES - 1, i])
         square += (wrong * weights[i]) ** 2
-    return STRICTER * math.sqrt(square / y.size)
+    return math.sqrt(square / y.size)
 
 
 @compiled

@@ -21,8 +21,17 @@ from support_exudyn.scene.forces import (
     push_contact,
 )
 from support_exudyn.scene.legs import press_legs
-from support_exudyn.scene.motion import follow_courses, hold, place
-from support_exudyn.scene.multipliers import SINGULAR, divide, factor, respond, row_rates, solve
+from support_exudyn.scene.motion import (
+    SINGULAR,
+    divide,
+    factor,
+    follow_courses,
+    hold,
+    place,
+    rate_of,
+    respond,
+    solve,
+)
 from support_exudyn.scene.rubbing import begin_rubbing, rub
 
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
@@ -79,87 +88,45 @@ def evaluate(scene: SceneArrays, t: float, y: Vector, slope: Vector, right: Vect
         press_loads(scene, t, y)
     if scene.rubbing.size > 0:
         begin_rubbing(scene, y)
-    solve(scene, right, slope)
+    solve(scene, right)
     if scene.rubbing.size > 0:
         rub(scene, y, slope, right)
-    for i in range(3 * count):
-        slope[i] = y[3 * count + i]
+    for n in range(count):
+        body, i, j = scene.bodies[n], 3 * n, 3 * (count + n)
+        slope[i], slope[i + 1], slope[i + 2] = y[j], y[j + 1], y[j + 2]
+        slope[j], slope[j + 1], slope[j + 2] = body.ax, body.ay, body.a
     powers(scene, y, slope)
     return least
 
 
 @compiled
-def correct(scene: SceneArrays, y: Vector, right: Vector) -> float:
-    """Close joints that a state leaves open, and correct its rates; by how much they were open [m], [rad].
+def close_joints(scene: SceneArrays, t: float, y: Vector, right: Vector) -> None:
+    """Close the joints of a state at t [s], and give it rates that keep them so.
 
     The factors are those of an evaluation near by, but of this state for light bodies, which feel their errors.
     """
     count, rows = 3 * scene.bodies.size, scene.rows.size
-    place(scene, y)
-    hold(scene, y)
-    if scene.rounds > 1:
-        factor(scene)
-    worst = largest_gap(scene)
-    if worst > CLOSED:
-        for k in range(rows):
-            right[k] = scene.rows[k].off
-        divide(scene, right)
-        respond(scene, right, y, 0)
-    for _ in range(min(scene.rounds, ROUNDS)):
-        row_rates(scene, y, count, right)
-        for k in range(rows):
-            right[k] -= scene.rows[k].rate
-        divide(scene, right)
-        respond(scene, right, y, count)
-    return worst
-
-
-@compiled
-def largest_gap(scene: SceneArrays) -> float:
-    """The largest residual of the joints [m], [rad], as the scene stands."""
-    worst = 0.0
-    for k in range(scene.rows.size):
-        worst = max(worst, abs(scene.rows[k].off))
-    return worst
-
-
-@compiled
-def close_joints(scene: SceneArrays, t: float, y: Vector, right: Vector) -> None:
-    """Close the joints of a state at t [s], and give it rates that keep them so."""
     follow_courses(scene, t)
     before = math.inf
     for _ in range(ROUNDS):
-        worst = correct(scene, y, right)
+        place(scene, y)
+        hold(scene, y)
+        if scene.rounds > 1:
+            factor(scene)
+        worst = 0.0
+        for k in range(rows):
+            right[k] = scene.rows[k].off
+            worst = max(worst, abs(right[k]))
         if not CLOSED < worst < before:
             break
         before = worst
-
-
-@compiled
-def close_and_evaluate(scene: SceneArrays, t: float, y: Vector, slope: Vector, right: Vector) -> float:
-    """Close the joints of a state at t [s] and evaluate its rate; the least share of a row that joints leave.
-
-    The evaluation shows what the correction has left open, which nearly always is rounding.
-    """
-    follow_courses(scene, t)
-    worst, least = math.inf, 0.0
-    for _ in range(ROUNDS):
-        correct(scene, y, right)
-        least, before, worst = evaluate(scene, t, y, slope, right), worst, largest_gap(scene)
-        if not CLOSED < worst < before:
-            break
-    return least
-
-
-@compiled
-def combine(weights: Vector, k: Matrix, stages: int, size: int, out: Vector) -> None:
-    """Write the weighted sum of the first stages' rates into the first components of `out`."""
-    for i in range(size):
-        out[i] = weights[0] * k[0, i]
-    for j in range(1, stages):
-        weight = weights[j]
-        for i in range(size):
-            out[i] += weight * k[j, i]
+        divide(scene, right)
+        respond(scene, right, y, 0)
+    for _ in range(min(scene.rounds, ROUNDS)):
+        for k in range(rows):
+            right[k] = rate_of(scene, k, y, count) - scene.rows[k].rate
+        divide(scene, right)
+        respond(scene, right, y, count)
 
 
 @compiled
@@ -179,16 +146,17 @@ def advance(
     An error that is no number: the linkage cannot close, or a value is none any more.
     """
     size = y.size
+    free = size - LOSSES  # no rate depends on losses
     for stage in range(1, STAGES):
         last = stage == STAGES - 1
-        count = size if last else size - LOSSES  # no rate depends on losses
-        combine(WEIGHTS[stage], k, stage, count, end)
-        for i in range(count):
-            end[i] = y[i] + h * end[i]
+        for i in range(size if last else free):
+            total = 0.0
+            for j in range(stage):
+                total += WEIGHTS[stage, j] * k[j, i]
+            end[i] = y[i] + h * total
         if last:
-            least = close_and_evaluate(scene, t + h, end, k[stage], right)
-        else:
-            least = evaluate(scene, t + NODES[stage] * h, end, k[stage], right)
+            close_joints(scene, t + h, end, right)
+        least = evaluate(scene, t + NODES[stage] * h, end, k[stage], right)
         if not least > SINGULAR:
             return math.nan
     square = 0.0

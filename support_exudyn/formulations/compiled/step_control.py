@@ -4,7 +4,7 @@ from support_exudyn.scene.compilation import compiled
 
 SAFETY, SLOWEST, FASTEST = 0.9, 0.2, 8.0  # change of the step: margin, smallest and largest factor
 SHORTEN = 0.25  # factor for a step in which too much happens
-STEADY = 0.08  # weight of the last error in the choice of a step (Gustafsson), against hunting
+STEADY = 0.04  # weight of the last error in the choice of a step (Gustafsson), against hunting
 ORDER = 0.2 - 0.75 * STEADY
 SMALLEST_STEP = 1e-13  # [s]
 # Of the step before an impact is the first in it: forces begin as a broken power of time, over which a long

@@ -41,13 +41,13 @@ class NewtonMethod:
         self._pins = pins
         self._unknowns = unknowns
         self._size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())  # [m]
-        self._linearised = False  # whether a line has ever stood for friction
+        self._straightened = False  # whether a line has ever stood for friction
         self._scatters = False  # whether steep friction does, see `ContactConnector.rounding`
         self.failures = NewtonFailures(scenario.step)
 
     def begin(self, step: float) -> None:
         """Begin to try a step of this length [s]: steep friction comes no closer than rounding lets it."""
-        if not (self._linearised or self._scatters):
+        if not (self._straightened or self._scatters):
             return
         rounding = sum(pin.rounding(step, self._size) for pin in self._pins)
         if rounding > 0.0 or self._scatters:
@@ -57,9 +57,9 @@ class NewtonMethod:
 
     def failed(self) -> None:
         """Take note of a failure: lines stand for friction from now on, or else steps become shorter."""
-        linearised = [pin.straighten() for pin in self._pins]
-        if any(linearised):
-            self._linearised = True
+        straightened = [pin.straighten() for pin in self._pins]
+        if any(straightened):
+            self._straightened = True
         else:
             self.failures.failed()
         if self.failures.wants_new_jacobians:

@@ -16,17 +16,17 @@ import exudyn
 
 from support_exudyn.formulations.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene, slide
-from support_exudyn.formulations.exudyn.solver.failures import (
+from support_exudyn.formulations.exudyn.solver.newton_method import NewtonMethod
+from support_exudyn.formulations.exudyn.solver.recorder import Recorder
+from support_exudyn.formulations.exudyn.solver.refusals import (
     ADVICE,
     FEWER_STEPS,
     STEEP,
-    explain_error,
-    find_singular,
-    find_unlawful,
+    singular,
     state_of,
+    unlawful,
+    why,
 )
-from support_exudyn.formulations.exudyn.solver.newton_method import NewtonMethod
-from support_exudyn.formulations.exudyn.solver.recorder import Recorder
 from support_exudyn.formulations.exudyn.solver.step_growth import StepGrowth, step_growth
 from support_exudyn.mechanics.trajectory import Counts, Impulse
 from support_exudyn.scene.contract import Failure, Progress, SimulationError
@@ -83,7 +83,7 @@ class SolverRun:
         self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
-        self.most_steps, self.checks_depth = scenario.solver.most_steps, scenario.solver.result_checks
+        self.most_steps, self.looks = scenario.solver.most_steps, scenario.solver.result_checks
         self.trying = False  # a step has been tried and not accepted yet
         self.repeated = False  # that step is tried again, shorter
         newton = self.settings.timeIntegration.newton
@@ -104,11 +104,11 @@ class SolverRun:
             with quiet_engine():
                 finished = self.solver.SolveSystem(mbs, self.settings)
         except exudyn.ExudynError as error:
-            raise SimulationError(self._failure(*explain_error(error, self.scene, self._ahead))) from error
+            raise SimulationError(self._failure(*why(error, self.scene, self._ahead))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
             advice = f"{ADVICE} {STEEP}" if self.newton.failures.of_step and self._has_friction() else ADVICE
-            known = find_unlawful(self.scene, self._ahead) or find_singular(self.scene)
-            raise SimulationError(self._failure(*(known or ("the solver gave up", advice))))
+            told = unlawful(self.scene, self._ahead) or singular(self.scene) or ("the solver gave up", advice)
+            raise SimulationError(self._failure(*told))
         return Counts(
             steps=self.steps,
             cut_steps=self.cut_steps,
@@ -183,7 +183,7 @@ class SolverRun:
         if self.trying:
             self.trying = False
             self.steps += 1
-            self._check_limits()
+            self._look_for_limits()
             self.newton.solved(taken)
             for name, pin in self.named_pins:
                 met = met or pin.onset is not None
@@ -196,12 +196,12 @@ class SolverRun:
         for friction in self.frictions:
             friction.accept()
         if self.smooth is not None:
-            self._update_step_growth(t, self.smooth)
+            self._look_for_smoothness(t, self.smooth)
         self.recorder.end(t, remembered if met else None)
-        if (later := self._resume_time(t)) != t:
+        if (later := self._arrived(t)) != t:
             t, breaks = later, self.plan.breaks_at(later)
         goal = self._next_time(t)
-        if not breaks and self._needs_alignment(taken, goal - t):
+        if not breaks and self._is_to_be_cut(taken, goal - t):
             self.recorder.energies.totals[0] += self.scene.align(t)
             self.scene.refresh_memory()
             self.legs.refresh()
@@ -210,7 +210,7 @@ class SolverRun:
         self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
         return True
 
-    def _resume_time(self, t: float) -> float:
+    def _arrived(self, t: float) -> float:
         """From when the run goes on [s] after a step to t [s]: stops may follow that are not worth one."""
         self._at_stop(t)
         while self.plan.rest(t) and (stop := self.plan.rest(t, self._longest_step(t))):
@@ -240,7 +240,7 @@ class SolverRun:
         """A time that was to be reached [s]."""
         return self.time + self.plan.step
 
-    def _needs_alignment(self, taken: float, following: float) -> bool:
+    def _is_to_be_cut(self, taken: float, following: float) -> bool:
         """Whether far shorter steps follow on one of this length [s], or the next will be cut.
 
         It will if a clearance pin begins or ends a contact in it.
@@ -261,18 +261,18 @@ class SolverRun:
         rough = (pin for pin in self.pins if not isinstance(pin.contact.friction, Frictionless))
         return bool(self.frictions) or any(rough)
 
-    def _check_limits(self) -> None:
+    def _look_for_limits(self) -> None:
         """Raise SimulationError if a journal is too deep, or there were too many steps, or too many failed."""
         if self.steps + self.cut_steps + self.failed_newton > self.most_steps:
             raise SimulationError(self._failure(f"more than {self.most_steps} steps", FEWER_STEPS))
         if self.newton.failures.too_many:
             reason = f"Newton's method has failed {self.failed_newton} times, and needs next to no step"
             raise SimulationError(self._failure(reason, STEEP))
-        for name, pin, deepest in self.limits if self.checks_depth else ():
+        for name, pin, deepest in self.limits if self.looks else ():
             if (depth := pin.reached.depth) > deepest:
                 raise SimulationError(self._failure(too_deep(name, depth, pin.contact.bearing), SOFT))
 
-    def _update_step_growth(self, t: float, smooth: StepGrowth) -> None:
+    def _look_for_smoothness(self, t: float, smooth: StepGrowth) -> None:
         """See whether steps after t may be longer, and keep the records that the last has passed over."""
         if self.recorder.passes_records:
             for passed in self.plan.records_between(self.time, t):

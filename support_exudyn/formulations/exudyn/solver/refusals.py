@@ -26,14 +26,14 @@ FEWER_STEPS = (
 EMPTY = "Give it end_stops inside of its oil's lengths, or look at what moves it."
 
 
-def explain_error(error: Exception, scene: EngineScene, ahead: float) -> tuple[str, str]:
+def why(error: Exception, scene: EngineScene, ahead: float) -> tuple[str, str]:
     """Reason and advice, where the engine has raised an error.
 
     Raises its cause if that is no matter of the run's numbers.
 
     Arguments:
         error: the engine's.
-        scene, ahead: see `find_unlawful`.
+        scene, ahead: see `unlawful`.
     """
     cause = error.__cause__  # set if a function of ours raised
     if isinstance(cause, LawError):
@@ -44,10 +44,10 @@ def explain_error(error: Exception, scene: EngineScene, ahead: float) -> tuple[s
         return first_line(cause), ADVICE
     if cause is not None:
         raise cause from None
-    return find_unlawful(scene, ahead) or find_singular(scene) or (explained(error), ENGINE_ADVICE)
+    return unlawful(scene, ahead) or singular(scene) or (explained(error), ENGINE_ADVICE)
 
 
-def find_singular(scene: EngineScene) -> tuple[str, str] | None:
+def singular(scene: EngineScene) -> tuple[str, str] | None:
     """Reason and advice if a linkage has come to a change point or dead centre."""
     position = scene.mbs.systemData.GetODE2Coordinates()
     order = np.concatenate([np.arange(item.first, item.first + 3) for item in scene.bodies.values()])
@@ -55,7 +55,7 @@ def find_singular(scene: EngineScene) -> tuple[str, str] | None:
     return (reason, change_points.ADVICE) if reason else None
 
 
-def find_unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
+def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
     """Reason and advice if a law, a load or a drive gives no number a little further on.
 
     The engine meets what is no number by shorter and shorter steps, and tells nothing of it in the end.
