@@ -244,9 +244,10 @@ def _all_modules() -> None:
 
 @cache
 def kinds(base: type = Value) -> tuple[type[Value], ...]:
-    """All classes of the program of which values can be made."""
+    """All classes of the program of which values can be made; those with an underscore other values make."""
     _all_modules()
-    known = [kind for kind in Value._register.values() if issubclass(kind, base)]
+    public = [kind for name, kind in Value._register.items() if not name.startswith("_")]
+    known = [kind for kind in public if issubclass(kind, base)]
     own = [kind for kind in known if kind.__module__.split(".")[0] in ("user_forces", "support_exudyn")]
     return tuple(kind for kind in own if dataclasses.is_dataclass(kind) and not inspect.isabstract(kind))
 

@@ -51,7 +51,8 @@ class LongRun:
 
     simulated, wall: times [s]. steps, impacts: numbers. gap_first, gap_last: largest distance of
     what is joined, in the first and the last tenth of the run [m]. gap_slope: of the line through all [m/s].
-    energy_share: by how much the energy balance is open at the end, of what was turned over.
+    energy_first, energy_share: by how much the energy balance is open after the first tenth and at the end, of
+    what was turned over.
     """
 
     simulated: float
@@ -61,6 +62,7 @@ class LongRun:
     gap_first: float
     gap_last: float
     gap_slope: float
+    energy_first: float
     energy_share: float
 
 
@@ -152,6 +154,7 @@ def run(scenario: Scenario, progress: Progress = silent) -> LongRun:
         gap_first=float(gaps[first].max()),
         gap_last=float(gaps[last].max()),
         gap_slope=slope(times, gaps),
+        energy_first=float(open_by[first][-1]) / turned_over(found),
         energy_share=float(open_by[-1]) / turned_over(found),
     )
 

@@ -9,7 +9,6 @@ from scipy import special
 
 from support_exudyn import (
     Held,
-    IdealPin,
     OilColumn,
     PlanarLinkage,
     Scenario,
@@ -69,11 +68,6 @@ def with_laws(**laws: NormalLaw | FrictionLaw) -> Scenario:
     return replace(scene, pins={PIN: replace(pin, contact=replace(pin.contact, **laws))})
 
 
-@value
-class Walked(IdealPin):
-    """A kind of pin that no formulation but the engine's knows."""
-
-
 SCENES = {
     "clearance support": loose_support(drive=Held(), duration=0.02),
     "ideal support": support(drive=Held(), duration=0.02),
@@ -98,10 +92,6 @@ NOT_COMPILED = {
     "a friction law": (
         with_laws(friction=RubbedByScipy()),
         r"pins\.rear_base\.contact = a law \(numba cannot compile it",
-    ),
-    "a kind of pin of one's own": (
-        support(drive=Held(), duration=0.02, pins={PIN: Walked()}),
-        r"pins\.rear_base = Walked",
     ),
     "a start in a dead centre": (
         Scenario(machine=PlanarLinkage(drawing=four_bar(0.1, 0.4, 0.1, 0.4, 0.0)), duration=0.02),
