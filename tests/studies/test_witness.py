@@ -82,7 +82,7 @@ def test_errors_have_floors() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("study", DEFAULT)
+@pytest.mark.parametrize("study", [study for study in DEFAULT if study != "claims"])  # its machines are drawn
 def test_a_study_of_the_paper_runs_on_exudyn_and_names_what_the_witness_does_not_confirm(
     study: str, tmp_path: Path
 ) -> None:

@@ -13,6 +13,7 @@ import math
 from typing import Any
 
 import exudyn
+import numpy as np
 
 from support_exudyn.formulations.engine_settings import SMALLEST_STEP, engine_settings, quiet_engine
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene, slide
@@ -101,7 +102,8 @@ class SolverRun:
                 pin.begin_impact()
         self.connect()
         try:
-            with quiet_engine():
+            # iterates of Newton's method that diverge may overflow; what is accepted is checked to be finite
+            with quiet_engine(), np.errstate(over="ignore", invalid="ignore"):
                 finished = self.solver.SolveSystem(mbs, self.settings)
         except exudyn.ExudynError as error:
             raise SimulationError(self._failure(*why(error, self.scene, self._ahead))) from error
