@@ -17,34 +17,42 @@ from exudyn.itemInterface import MarkerBodyRigid, NodeGenericData, ObjectContact
 from support_exudyn import SolverSettings, simulate
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.formulations.exudyn.solver.solver import quiet_engine
+from support_exudyn.model.linkage import Body
+from support_exudyn.model.plane_geometry import minus, rotated
 from tests.cases.run_cases import SLIDER_PIN, loose_slider_crank, slider_crank_contact
+from user_forces.values.value import Vector2
 
 DURATION = 1.3e-3  # five impacts [s]
 STEP = 1e-8  # [s], in which the initial impact velocity changes by up to 5e-4 m/s
 ASIDE = 1e-12  # of the slider, so that there is a normal [m]
 
 
-class EvaluationContext(NamedTuple):
+class Onset(NamedTuple):
     time: float
     speed: float
 
 
-def twin_onsets() -> list[EvaluationContext]:
+def local(body: Body, point: Vector2) -> Vector2:
+    """A point of the start posture in a body's axes [m]."""
+    return rotated(minus(point, body.centre), -body.angle)
+
+
+def twin_onsets() -> list[Onset]:
     """Onsets of the same mechanism with the engine's contact, fixed steps."""
     scene = build(loose_slider_crank(DURATION))
     mbs, pin = scene.mbs, scene.clearance_joints[SLIDER_PIN]
     contact = slider_crank_contact()
-    mbs.SetObjectParameter(pin.connector.object, "activeConnector", False)
+    mbs.SetObjectParameter(pin.item.object, "activeConnector", False)
     position = mbs.systemData.GetODE2Coordinates(exudyn.ConfigurationType.Initial)
     position[scene.bodies["slider"].first] += ASIDE
     node = mbs.AddNode(NodeGenericData(initialCoordinates=[0.1, 0, 0, 0], numberOfDataCoordinates=4))
     slider, rod = scene.bodies["slider"], scene.bodies["rod"]
     place = scene.linkage.pins[SLIDER_PIN]
     journal = mbs.AddMarker(
-        MarkerBodyRigid(bodyNumber=rod.object, localPosition=[*rod.local(place.second_point), 0.0])
+        MarkerBodyRigid(bodyNumber=rod.object, localPosition=[*local(rod.body, place.second_point), 0.0])
     )
     bore = mbs.AddMarker(
-        MarkerBodyRigid(bodyNumber=slider.object, localPosition=[*slider.local(place.first_point), 0.0])
+        MarkerBodyRigid(bodyNumber=slider.object, localPosition=[*local(slider.body, place.first_point), 0.0])
     )
     restitution = contact.normal.restitution
     mbs.AddObject(
@@ -65,7 +73,7 @@ def twin_onsets() -> list[EvaluationContext]:
     mbs.systemData.SetODE2Coordinates(position, exudyn.ConfigurationType.Initial)
     mbs.systemData.SetODE2Coordinates_t(velocity, exudyn.ConfigurationType.Initial)
 
-    context: list[EvaluationContext] = []
+    context: list[Onset] = []
     depths: list[float] = []  # at the ends of steps
 
     def drive(mbs: object, t: float) -> bool:
@@ -80,7 +88,7 @@ def twin_onsets() -> list[EvaluationContext]:
             share = -last / (now - last)  # of the step, when it makes contact
             slope = (now - last) / STEP
             bend = (now - 2.0 * last + before) / STEP**2
-            context.append(EvaluationContext(t - (1.0 - share) * STEP, slope + (share - 0.5) * STEP * bend))
+            context.append(Onset(t - (1.0 - share) * STEP, slope + (share - 0.5) * STEP * bend))
         return True
 
     mbs.SetPreStepUserFunction(drive)
@@ -99,12 +107,12 @@ def twin_onsets() -> list[EvaluationContext]:
 
 
 @pytest.fixture(scope="module")
-def twin() -> list[EvaluationContext]:
+def twin() -> list[Onset]:
     return twin_onsets()
 
 
 @pytest.mark.slow  # 130 000 steps of the engine's own contact
-def test_onsets_are_those_of_the_engines_own_contact(twin: list[EvaluationContext]) -> None:
+def test_onsets_are_those_of_the_engines_own_contact(twin: list[Onset]) -> None:
     scenario = loose_slider_crank(DURATION, step=5e-7, solver=SolverSettings(impact_steps=1024))
     ours = simulate(scenario).onsets[SLIDER_PIN]
     assert len(ours) == len(twin) == 5
