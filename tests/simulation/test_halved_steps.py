@@ -136,7 +136,7 @@ def test_runs_at_rest_are_refined_until_their_steps_follow_their_tolerance(how: 
     means = [number for name, number in result.numbers().items() if name.endswith("force.mean")]
     share = max(number.error / number.value for number in means)
     if how == "errors" and share >= 1e-6:
-        pytest.xfail(f"{share:.1e} of a mean: rounding decides; 4.5e-7 before columns of oil were legs")
+        pytest.xfail(f"{share:.1e} of a mean, 4.5e-7 before columns of oil were legs; why is not understood")
     assert share < 1e-6
 
 

@@ -93,8 +93,8 @@ def test_accuracies_of_drawn_scenes_are_told_equal(number: int) -> None:
 
 @pytest.mark.xfail(
     strict=False,
-    reason="rounding draws the chaos: of five means of forces after the horizon that of shield_canopy differs "
-    "by 2.79 kN, the interval by ten blocks is 2.28 kN",
+    reason="of the means of forces after the horizon that of shield_canopy differs by 2.79 kN, the interval by "
+    "ten blocks is 2.28 kN; why is not understood",
 )
 def test_five_pins_are_equal_in_statistics_after_the_horizon() -> None:
     first, second = parted()
