@@ -16,16 +16,12 @@ import pkgutil
 import sys
 import types
 import typing
-from collections import OrderedDict, UserDict
 from collections.abc import Callable, Mapping
-from decimal import Decimal
-from fractions import Fraction
 from functools import cache
 from importlib import resources
 from typing import Any
 
 import annotated_types
-import numpy as np
 import rich.console  # noqa: F401 - as it is imported it draws at random, which hypothesis would tell of
 from hypothesis import HealthCheck, assume, settings
 from hypothesis import strategies as st
@@ -36,10 +32,8 @@ import user_forces
 from support_exudyn import (
     ClearancePin,
     CubicStep,
-    Drive,
     IdealPin,
     ImpactStand,
-    Machine,
     OilColumn,
     OwnBody,
     Scenario,
@@ -63,31 +57,21 @@ else:
 
 # How often each property is tried in a run of the tests, 1000 times and more in all; see `tried`.
 EXAMPLES = {
-    "constructors": 250,
-    "data": 250,
-    "raw data": 100,
     "normal laws": 120,
     "friction laws": 100,
     "contacts": 60,
     "drives": 60,
     "machines": 100,
     "scenarios": 120,
-    "scenario data": 120,
-    "channels": 40,
     "runs": 60,
     "machine text": 80,
     "machine tree": 120,
-    "evidence text": 30,
-    "evidence tree": 40,
-    "asked of results": 60,
     "recommend": 30,
-    "options": 60,
     "files of values": 250,
     "files of scenarios": 60,
     "scenario text": 100,
     "scenario tree": 150,
     "drive tables": 60,
-    "all studies": 40,
 }
 
 
@@ -100,49 +84,7 @@ def tried(name: str) -> Callable[[Any], Any]:
     )
 
 
-# --- what is no value ---
-
-
-class Hostile:
-    """Fails whatever is asked of it."""
-
-    def __repr__(self) -> str:
-        raise RuntimeError("no")
-
-    def __eq__(self, other: object) -> bool:
-        raise RuntimeError("no")
-
-    def __float__(self) -> float:
-        raise RuntimeError("no")
-
-    __hash__ = None  # type: ignore[assignment]
-
-
-def _nested(levels: int) -> list[Any]:
-    found: list[Any] = []
-    for _ in range(levels):
-        found = [found]
-    return found
-
-
-def _nested_table(levels: int) -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for _ in range(levels):
-        found = {"law": found, "type": "PartOf", "share": 0.5}
-    return found
-
-
-def _endless() -> list[Any]:
-    found: list[Any] = []
-    found.append(found)
-    return found
-
-
-def _endless_table() -> dict[str, Any]:
-    found: dict[str, Any] = {"type": "ClearancePin"}
-    found["contact"] = found
-    return found
-
+# --- extreme data ---
 
 EXTREMES: tuple[float, ...] = (
     *(
@@ -184,36 +126,6 @@ SCRAPS: tuple[Any, ...] = (
     *({"type": "Steady", "rate": 1e300}, {"type": "NormalLaw"}, {"type": "Stroke"}, {"type": "PowerLaw"}),
     *({"type": "ActuatorModel"}, {"type": ""}, {"type": None}, {"type": []}, {"type": "Scenario"}),
 )
-# what only a program can hand over
-ODDITIES: tuple[Callable[[], Any], ...] = (
-    *(lambda: 10**5000, lambda: _nested(500), lambda: _nested(5000), lambda: _nested_table(500)),
-    *(_endless, _endless_table, Hostile, object, lambda: iter([1.0]), lambda: (x for x in (1.0, 2.0))),
-    *(lambda: np.float64(0.5), lambda: np.float32(0.5), lambda: np.int64(3), lambda: np.bool_(True)),
-    *(lambda: np.array(0.5), lambda: np.array([0.5]), lambda: np.array([0.5, 0.5]), lambda: np.zeros(0)),
-    *(lambda: np.complex64(1.0), lambda: np.datetime64("now"), lambda: np.float64(math.nan)),
-    *(lambda: np.longdouble("1e4000"), lambda: np.array("a"), lambda: np.array(None)),
-    *(lambda: Decimal("0.5"), lambda: Decimal("sNaN"), lambda: Decimal("1e400"), lambda: Fraction(1, 3)),
-    *(lambda: 1j, lambda: b"1", lambda: bytearray(b"1"), lambda: {1: 2}, lambda: {None: 2}, lambda: {b"a": 2}),
-    *(lambda: {("a", "b"): 2}, lambda: {"type": Hostile()}, lambda: {"type": "Held", 3: 4}),
-    *(lambda: {"type": "Held", "self": 1}, lambda: {"type": "Held", "__dataclass_self__": 1}),
-    *(lambda: {"type": "Held", "\ud800": 1}, lambda: {"\ud800": 1}, lambda: {"x" * 10000: 1}),
-    *(lambda: OrderedDict(a=1), lambda: UserDict(a=1), lambda: types.MappingProxyType({"a": 1})),
-    *(
-        lambda: float,
-        lambda: Value,
-        lambda: Machine,
-        lambda: Drive,
-        lambda: print,
-        lambda: {1, 2},
-        lambda: range(3),
-    ),
-    *(
-        lambda: type("Own", (float,), {})(0.5),
-        lambda: type("Own", (str,), {})("a"),
-        lambda: type("Own", (dict,), {}),
-    ),
-)
-
 numbers = (
     st.sampled_from(EXTREMES)
     | st.floats()
@@ -229,7 +141,6 @@ def one_of(items: typing.Sequence[Any]) -> st.SearchStrategy[Any]:
 
 
 scraps = one_of(SCRAPS).map(copy.deepcopy) | numbers | st.text(max_size=8)
-oddities = one_of(ODDITIES).map(lambda make: make())
 
 
 # --- values of every class ---
@@ -447,24 +358,6 @@ def attempt(kind: type, given: Mapping[str, Any]) -> Any:
         return kind(**given)
     except InputError:
         return None
-
-
-@st.composite
-def arguments(draw: st.DrawFn, kind: type[Value]) -> dict[str, Any]:
-    """Fields of a class: what fits, and now and then what does not, is too much or is missing."""
-    known = _known(kind)
-    if known and draw(st.booleans()):
-        given = _given(draw(one_of(known)))
-    else:
-        given = {
-            name: draw(fitting(field.annotation, field.metadata)) for name, field in fields_of(kind).items()
-        }
-    spoilt = draw(st.lists(st.sampled_from([*given, "self", "type", "other"]), max_size=2))
-    for name in spoilt:
-        given[name] = draw(scraps | oddities)
-    for name in draw(st.lists(st.sampled_from([*given]), max_size=1)) if not spoilt and given else ():
-        del given[name]
-    return given
 
 
 # --- data that were valid ---

@@ -20,8 +20,7 @@ import user_forces
 from studies.claims.plausible import Sample
 from studies.claims.plausible_runs import Data, measures
 from support_exudyn import SimulationError
-from support_exudyn.files.temporary import remove_leftovers
-from support_exudyn.files.whole_file import contents, whole_file
+from support_exudyn.files.whole_file import contents, remove_leftovers, whole_file
 from support_exudyn.simulation.provenance import installed
 from support_exudyn.sweeps.warm_up import warm_up
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, worker_pool
@@ -54,7 +53,7 @@ def run(
     """
     folder = out / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
-    remove_leftovers(folder)
+    remove_leftovers(folder, older=0.0)
     places = [folder / f"{key(sample)}.json" for sample in samples]
     missing = [(place, s) for place, s in zip(places, samples, strict=True) if _read(place) is None]
     before = len(samples) - len(missing)

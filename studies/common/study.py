@@ -22,8 +22,7 @@ from studies.common.witness import Witness
 from studies.common.words import TextTable, Words
 from support_exudyn import Result
 from support_exudyn.commands.command_line import Parser, answered, say
-from support_exudyn.files.temporary import remove_leftovers
-from support_exudyn.files.whole_file import whole_file, writing_alone
+from support_exudyn.files.whole_file import remove_leftovers, whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.drawing_data import save_drawing_data
 from support_exudyn.postprocessing.page.live import of_drawing
@@ -221,7 +220,7 @@ def output_folder(out: Path) -> Iterator[None]:
         try:
             out.mkdir(parents=True, exist_ok=True)
             held.enter_context(writing_alone(out))
-            remove_leftovers(out, below=True)  # of a run that was killed
+            remove_leftovers(out, below=True, older=0.0)  # of a run that was killed
             with tempfile.TemporaryFile(dir=out):
                 pass
         except OSError as error:
@@ -233,4 +232,4 @@ def output_folder(out: Path) -> Iterator[None]:
         try:
             yield
         finally:
-            remove_leftovers(out, below=True)  # of its own processes, which ended in mid-work
+            remove_leftovers(out, below=True, older=0.0)  # of its own processes, which ended in mid-work

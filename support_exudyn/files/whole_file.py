@@ -2,20 +2,24 @@
 
 import errno
 import os
-import re
+import shutil
 import stat
+import tempfile
+import time
 from collections.abc import Collection, Iterator
 from contextlib import ExitStack, contextmanager
 from difflib import get_close_matches
 from pathlib import Path
 
-from support_exudyn.files.temporary import fcntl, workshop
+from filelock import FileLock, Timeout
+
 from user_forces.values.value import InputError, cleaned
 
+PREFIX = ".support_exudyn-"  # of temporary folders
 LOCK = ".support_exudyn.lock"
-HOLDER = re.compile(rb"(\d+\n)?")  # what is in a lock: the process that has it
+DAY = 86400.0  # [s]
 REFUSED = "it cannot be written"
-LETTERS = 80  # of a name that are compared and told
+LETTERS = 80  # of a name that are compared and shown
 
 
 @contextmanager
@@ -147,67 +151,48 @@ def write_through(path: Path) -> None:
 def writing_alone(folder: Path) -> Iterator[None]:
     """Keep other processes that ask for it, too, from a folder while the block runs.
 
-    The lock ends with the process, however it ends. Where the system has no such lock (Windows, some network
-    disks) nobody is kept out.
+    The lock ends with the process, however it ends.
 
-    Raises OSError that names the process which is writing there, or a file of the lock's name that is none.
+    Raises OSError that names the folder if another process is writing there.
     """
-    if fcntl is None:
-        yield
-        return
-    path = folder / LOCK
-    while True:
-        handle = _opened(path)
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            if _is_open(path, handle):
-                break
-        except BlockingIOError:
-            owner = os.read(handle, 32).decode("ascii", "replace").strip() or "starting"
-            os.close(handle)
-            raise BlockingIOError(
-                errno.EWOULDBLOCK,
-                f"another process ({owner}) is writing there; wait, or choose another folder",
-                str(folder),
-            ) from None
-        except OSError as error:
-            if error.errno not in (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP):
-                os.close(handle)
-                raise
-            break
-        os.close(handle)  # it was removed by the one that had it
+    lock = FileLock(folder / LOCK, timeout=0)
     try:
-        os.ftruncate(handle, 0)
-        os.write(handle, f"{os.getpid()}\n".encode())
+        lock.acquire()
+    except Timeout:
+        raise BlockingIOError(
+            errno.EWOULDBLOCK,
+            "another process is writing there; wait, or choose another folder",
+            str(folder),
+        ) from None
+    try:
         yield
     finally:
-        path.unlink(missing_ok=True)
-        os.close(handle)
+        (folder / LOCK).unlink(missing_ok=True)
+        lock.release()
 
 
-def _opened(path: Path) -> int:
-    """A lock, opened; made if missing. Raises OSError if something else has its name."""
+@contextmanager
+def workshop(parent: Path) -> Iterator[Path]:
+    """A new temporary folder below `parent`, removed with all that is in it after the block.
+
+    Raises OSError if it cannot be made.
+    """
+    folder = Path(tempfile.mkdtemp(prefix=PREFIX, dir=parent))
     try:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
-    except OSError as error:
-        if error.errno in (errno.ELOOP, errno.EISDIR, errno.ENXIO):
-            raise _no_lock(path) from None
-        raise
-    regular = stat.S_ISREG(os.fstat(handle).st_mode)
-    if regular and HOLDER.fullmatch(os.pread(handle, 64, 0)):
-        return handle
-    os.close(handle)
-    raise _no_lock(path)
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
-def _no_lock(path: Path) -> OSError:
-    said = "is no lock of this program, which needs the name; allowed: move it elsewhere"
-    return FileExistsError(errno.EEXIST, said, str(path))
+def remove_leftovers(folder: Path, below: bool = False, older: float = DAY) -> None:
+    """Remove the temporary folders that killed processes left behind.
 
-
-def _is_open(path: Path, handle: int) -> bool:
-    """Whether a path is the file that is open."""
-    try:
-        return os.path.samestat(path.stat(), os.fstat(handle))
-    except FileNotFoundError:
-        return False
+    Arguments:
+        folder: where they are.
+        below: whether they are removed in all folders below it, too.
+        older: time since their last change [s]; 0 if the caller alone writes to the folder.
+    """
+    now = time.time()
+    for path in list((folder.rglob if below else folder.glob)(f"{PREFIX}*")):
+        if path.is_dir() and not path.is_symlink() and now - path.stat().st_mtime >= older:
+            shutil.rmtree(path, ignore_errors=True)

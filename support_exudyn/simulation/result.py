@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 
 from support_exudyn.files.free_memory import available
-from support_exudyn.files.hdf5 import Inside, Series, check_checksum, checksum_block, file_image, write_texts
+from support_exudyn.files.hdf5 import Series, check_checksum, checksum_block, file_image, series_in, write_texts
 from support_exudyn.files.own_modules import modules_of, refusals, without_modules
 from support_exudyn.files.series.own_runs import RUN, format_of
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
@@ -222,10 +222,9 @@ class Result(RecordedRun):
         try:
             check_checksum(data, format_of(data))
             with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
-                whole = Inside(file, len(data))
-                if "own_classes" in whole.attributes:
-                    missing = refusals(whole.data("own_classes"))
-                result = _read(whole, missing)
+                if "own_classes" in file.attrs:
+                    missing = refusals(json.loads(file.attrs["own_classes"]))
+                result = _read(file, missing)
         except InputError as error:  # of a value that is not known or does not fit
             raise InputError(f"{path}: {'; '.join(missing.values()) or error}") from None
         except DAMAGES as error:
@@ -278,19 +277,19 @@ def _write(group: h5py.Group, result: Result, scenario: Mapping[str, Any]) -> No
         _write(group["coarser"], result.coarser, result.coarser.scenario.plain)
 
 
-def _read(group: Inside, missing: Mapping[str, str]) -> Result:
+def _read(group: h5py.Group, missing: Mapping[str, str]) -> Result:
     """The run of a group. missing: refusals of the classes that are not imported, by name."""
-    onsets = group.inside("onsets").series() if "onsets" in group else {}
+    onsets = series_in(group["onsets"]) if "onsets" in group else {}
     channels = {
         name: Channel(data.values, data.text("unit"), data.text("meaning"))
-        for name, data in group.inside("channels").series().items()
+        for name, data in series_in(group["channels"]).items()
     }
     _check_channels(channels)
-    coarser = _read(group.inside("coarser"), missing) if "coarser" in group else None
+    coarser = _read(group["coarser"], missing) if "coarser" in group else None
     if coarser is not None:
         _check_coarser(channels, coarser.channels)
     return Result(
-        scenario=Value.from_data(without_modules(group.data("scenario"), missing)),
+        scenario=Value.from_data(without_modules(json.loads(group.attrs["scenario"]), missing)),
         channels=channels,
         onsets={name: _onsets(name, data.values) for name, data in onsets.items()},
         largest_force={name: float(data.attributes["largest_force_N"]) for name, data in onsets.items()},
@@ -299,15 +298,13 @@ def _read(group: Inside, missing: Mapping[str, str]) -> Result:
             for name, data in onsets.items()
             if "largest_force_time_s" in data.attributes  # runs of earlier versions do not tell it
         },
-        impulses=tuple(Impulse(**item) for item in group.data("impulses")),
-        counts=Counts(**group.data("counts")),
-        wall_time=float(group.attributes["wall_time_s"]),
-        provenance=group.data("provenance"),
-        oil_events=_oil_events(group.data("oil_events")) if "oil_events" in group.attributes else {},
-        statistics=_statistics(group.inside("statistics").series(), channels)
-        if "statistics" in group
-        else None,
-        goal=group.data("goal"),
+        impulses=tuple(Impulse(**item) for item in json.loads(group.attrs["impulses"])),
+        counts=Counts(**json.loads(group.attrs["counts"])),
+        wall_time=float(group.attrs["wall_time_s"]),
+        provenance=json.loads(group.attrs["provenance"]),
+        oil_events=_oil_events(json.loads(group.attrs["oil_events"])) if "oil_events" in group.attrs else {},
+        statistics=_statistics(series_in(group["statistics"]), channels) if "statistics" in group else None,
+        goal=json.loads(group.attrs["goal"]),
         coarser=coarser,
     )
 

@@ -22,8 +22,7 @@ from typing import Literal, NamedTuple
 
 from support_exudyn.files.free_memory import available
 from support_exudyn.files.hdf5 import check_checksum
-from support_exudyn.files.temporary import remove_leftovers
-from support_exudyn.files.whole_file import contents, whole_file, writing_alone
+from support_exudyn.files.whole_file import contents, remove_leftovers, whole_file, writing_alone
 from support_exudyn.simulation.result import FORMAT
 from support_exudyn.sweeps.key import LENGTH
 
@@ -126,7 +125,7 @@ class Store:
 
     def _clear(self) -> None:
         for folder in (self.folder, self.rows, self.runs):
-            remove_leftovers(folder)
+            remove_leftovers(folder, older=0.0)
 
     def row(self, key: str) -> StoredRun | None:
         """What is known of a run; None if that is nothing, or damaged."""

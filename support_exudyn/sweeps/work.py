@@ -11,7 +11,7 @@ from itertools import repeat
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from support_exudyn.files.temporary import workshop
+from support_exudyn.files.whole_file import workshop
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.contract import SimulationError, told
 from support_exudyn.simulation.result import Result, with_digest

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any
 
 import numpy as np
 from hypothesis import given
@@ -25,9 +24,8 @@ from support_exudyn import (
     ravn_slider_crank,
     simulate,
 )
-from support_exudyn.mechanics.channels import chosen
 from tests import strategies as some
-from tests.sound import sensible, sound, taken_or_refused
+from tests.sound import sensible, sound
 from user_forces import (
     FrictionLaw,
     Frictionless,
@@ -36,7 +34,6 @@ from user_forces import (
     JournalContact,
     LankaraniNikravesh,
     NormalLaw,
-    Value,
 )
 
 
@@ -44,30 +41,6 @@ from user_forces import (
 @some.tried("scenarios")
 def test_a_scenario_that_can_be_made_is_sound(scenario: Scenario) -> None:
     sound(scenario)
-
-
-@given(data=some.mutated(st.deferred(lambda: some.one_of(some.seed_data()[:6])), some.scraps))
-@some.tried("scenario data")
-def test_data_of_a_scenario_that_were_changed_are_taken_or_refused(data: Any) -> None:
-    made = taken_or_refused(lambda: Value.from_data(data))
-    if made is not None:
-        sound(made)
-
-
-patterns = st.text(st.sampled_from("*?[]!-.,apinforce\x00\ud800"), max_size=12) | st.sampled_from(
-    ("*", "time", "pin.*", "tip.?", "[!a]*", "[", "*" * 100 + "b", "[a-", "\\", "pin.pin.force")
-)
-
-
-@given(asked=st.lists(patterns | some.scraps | some.oddities, max_size=4), as_tuple=st.booleans())
-@some.tried("channels")
-def test_patterns_of_channels_are_taken_if_they_match(asked: list[Any], as_tuple: bool) -> None:
-    scene = some.seeds()[5]
-    channels = tuple(asked) if as_tuple else asked
-    made = taken_or_refused(lambda: dataclasses.replace(scene, channels=channels))  # type: ignore[type-var]
-    if made is not None:
-        sound(made)
-        assert "time" in chosen(made.channel_definitions, made.channels)
 
 
 # --- runs ---

@@ -1,12 +1,8 @@
-"""Result files that are cut, changed, written to a full disk, or by several processes at once."""
+"""Result files that are cut, changed, or written to a full disk."""
 
 from __future__ import annotations
 
-import multiprocessing
-import os
 import random
-import signal
-import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,7 +13,7 @@ from support_exudyn import Held, Result, simulate
 from support_exudyn.files.hdf5 import BLOCK
 from support_exudyn.scenario.recorded_channels import Channel
 from tests.cases.run_cases import loose_support
-from tests.hostile import DISKS, little_room, posix_only
+from tests.hostile import DISKS, little_room
 from user_forces import InputError
 
 FLIPS, CUTS = 400, 100
@@ -73,41 +69,3 @@ def test_on_a_full_disk_the_old_result_stays(
         assert [item.name for item in folder.iterdir()] == ["run.h5"]
         np.testing.assert_array_equal(Result.load(path)["tip.x"], result["tip.x"])
     assert capfd.readouterr().err == ""  # HDF5 says nothing of its own
-
-
-# --- several processes at once ---
-
-
-def write_again_and_again(path: Path, number: int, first: Path) -> None:
-    """In a process of its own: a result whose every channel says who wrote it."""
-    result = Result.load(first)
-    channels = {name: replace(c, values=np.full_like(c.values, number)) for name, c in result.channels.items()}
-    mine = replace(result, channels=channels | {"time": result.channels["time"]}, wall_time=float(number))
-    while True:
-        mine.save(path)
-
-
-@posix_only
-def test_of_several_writers_the_last_has_written_a_whole_file(result: Result, tmp_path: Path) -> None:
-    path, first = tmp_path / "shared" / "run.h5", result.save(tmp_path / "first.h5")
-    context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload([__name__])  # imported once
-    writers = [context.Process(target=write_again_and_again, args=(path, n, first)) for n in (1, 2)]
-    for writer in writers:
-        writer.start()
-    read = []
-    try:
-        end = time.monotonic() + 300.0  # a second or so on an idle machine
-        while (len(read) < 25 or len(set(read)) < 2) and time.monotonic() < end:
-            if not path.exists():
-                continue
-            back = Result.load(path)
-            assert all((back[name] == back.wall_time).all() for name in back.channels if name != "time")
-            read.append(back.wall_time)
-    finally:
-        for writer in writers:
-            if writer.pid is not None:
-                os.kill(writer.pid, signal.SIGKILL)
-            writer.join()
-    assert set(read) == {1.0, 2.0}
-    Result.load(path)  # killed in mid-work

@@ -31,7 +31,7 @@ from user_forces.values.value import InputError
 
 @dataclass(frozen=True)
 class Story:
-    """Of a study that another was started beside, and that was then interrupted as by the console."""
+    """Of a study that another was started next to, and that was then interrupted as by the console."""
 
     out: Path
     second: subprocess.CompletedProcess[str]
@@ -87,9 +87,7 @@ class TestInterrupted:
     def test_a_second_one_into_its_folder_is_told_to_wait(self, story: Story) -> None:
         assert story.second.returncode == 1
         (line,) = story.second.stderr.splitlines()
-        assert line.startswith(
-            f"error: --out {story.out}: another process ({story.pid}) is writing there; wait"
-        )
+        assert line.startswith(f"error: --out {story.out}: another process is writing there; wait")
 
 
 # --- folders ---

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import Result, Scenario
-from support_exudyn.files.temporary import PREFIX
+from support_exudyn.files.whole_file import PREFIX
 from support_exudyn.sweeps import read_sweep, sweep, work
 from support_exudyn.sweeps.plan import Inputs
 from support_exudyn.sweeps.store import Store

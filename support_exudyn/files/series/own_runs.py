@@ -14,7 +14,7 @@ import h5py
 import numpy as np
 
 from support_exudyn.files.free_memory import available
-from support_exudyn.files.hdf5 import HDF5, Inside, check_checksum
+from support_exudyn.files.hdf5 import HDF5, check_checksum, series_in
 from support_exudyn.files.series.apart import read_apart
 from support_exudyn.files.series.asked import Asked
 from support_exudyn.files.series.columns import Column, Numbers, series_file
@@ -82,7 +82,7 @@ def exported_arrays(path: Path) -> Iterator[tuple[dict[str, Any], Numbers]]:
 
 def _channels(data: bytes) -> Iterator[tuple[dict[str, Any], Numbers]]:
     with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
-        found = Inside(file, len(data)).inside("channels").series()
+        found = series_in(file["channels"])
     for name, one in found.items():
         unit = _words(one.attributes["unit"])
         if one.values.ndim != 1:

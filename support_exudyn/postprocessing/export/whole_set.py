@@ -5,8 +5,15 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from support_exudyn.files.temporary import remove_leftovers, workshop
-from support_exudyn.files.whole_file import REFUSED, check_may_be_replaced, named, real_path, write_through
+from support_exudyn.files.whole_file import (
+    REFUSED,
+    check_may_be_replaced,
+    named,
+    real_path,
+    remove_leftovers,
+    workshop,
+    write_through,
+)
 from user_forces.values.value import InputError
 
 RUN = b"support_exudyn result "  # as files of runs begin, see `simulation.result`
