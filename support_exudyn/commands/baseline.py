@@ -7,9 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from support_exudyn.commands.command_line import add_json, answer, folder, refusing, say, shown_progress, warn
-from support_exudyn.commands.tables import printed, show_table
-from support_exudyn.postprocessing.comparing.baselines import BaselineFolder, Looked
-from support_exudyn.postprocessing.comparing.changes import HEADER, rows
+from support_exudyn.postprocessing.comparing.baselines import BaselineFolder, CheckedScenario
+from support_exudyn.postprocessing.comparing.kept_run import lines
 from user_forces.values.value import InputError
 
 EPILOG = """
@@ -38,13 +37,12 @@ def run(given: argparse.Namespace) -> None:
         if given.action != UPDATE and given.names:
             raise InputError(f"{given.action} takes DIR alone; allowed: names with {UPDATE}")
         kept = BaselineFolder(given.folder)
-        kept.check_names(given.names)
         if given.action == MAKE:
             _make(kept, given)
             return
-        found: list[Looked] = []
+        found: list[CheckedScenario] = []
         with shown_progress(given.action) as progress:
-            found += kept.looked_at(list(dict.fromkeys(given.names)) or kept.names, progress)
+            found += kept.check(list(dict.fromkeys(given.names)) or kept.names, progress)
     if given.json:
         answer({one.name: _object(one) for one in found})
     else:
@@ -61,7 +59,7 @@ def _make(kept: BaselineFolder, given: argparse.Namespace) -> None:
     missing = [name for name in kept.scenarios if name not in kept.baselines]
     written: dict[str, Any] = {}
     with shown_progress(MAKE) as progress:
-        for one in kept.looked_at(missing, progress):
+        for one in kept.check(missing, progress):
             written[one.name] = None if one.failed else kept.write(one)
             if one.failed:
                 warn(f"{one.name}: not made, its run cannot be finished: {one.failed}")
@@ -76,7 +74,7 @@ def _make(kept: BaselineFolder, given: argparse.Namespace) -> None:
         raise SystemExit(CHANGED)
 
 
-def _kept_of(one: Looked) -> str:
+def _kept_of(one: CheckedScenario) -> str:
     assert one.now is not None
     words = f"{len(one.now.numbers)} numbers, {len(one.now.curves)} channels"
     if math.isfinite(one.now.horizon):
@@ -84,15 +82,15 @@ def _kept_of(one: Looked) -> str:
     return words
 
 
-def _report(found: Sequence[Looked]) -> None:
-    """The state of each scenario, and a table of what has changed."""
+def _report(found: Sequence[CheckedScenario]) -> None:
+    """The state of each scenario, and what has changed."""
     for one in found:
         if one.state == "changed":
-            title = f"{one.name}: {len(one.changes)} changed by more than both errors, new, or gone"
-            table = title, HEADER, rows(one.changes)
-            printed(lambda console, table=table: show_table(console, *table))  # type: ignore[misc]
+            say(f"{one.name}: {len(one.changes)} changed by more than both errors, new, or gone")
+            for line in lines(one.changes):
+                say(f"  {line}")
             if words := _versions(one):
-                say(f"made with {words}\n")
+                say(f"  made with {words}")
             continue
         states = {
             "failed": f"its run cannot be finished: {one.failed}",
@@ -104,7 +102,7 @@ def _report(found: Sequence[Looked]) -> None:
     say(", ".join(f"{number} {state}" for state, number in counts.items()))
 
 
-def _versions(one: Looked) -> str:
+def _versions(one: CheckedScenario) -> str:
     """With what else the baseline was made, what was and what is; empty if with the same."""
     if one.was is None or one.now is None:
         return ""
@@ -113,7 +111,9 @@ def _versions(one: Looked) -> str:
     return ", ".join(f"{key} {was[key][:40]} (now {now.get(key, 'none')[:40]})" for key in others)
 
 
-def _update(kept: BaselineFolder, changed: Sequence[Looked], given: argparse.Namespace) -> list[Looked]:
+def _update(
+    kept: BaselineFolder, changed: Sequence[CheckedScenario], given: argparse.Namespace
+) -> list[CheckedScenario]:
     """Write the scenarios that are named; returns those that are left. A run that failed is never written."""
     left = [one for one in changed if one.state == "failed" or one.name not in given.names]
     for one in changed:
@@ -127,7 +127,7 @@ def _update(kept: BaselineFolder, changed: Sequence[Looked], given: argparse.Nam
     return left
 
 
-def _object(one: Looked) -> dict[str, Any]:
+def _object(one: CheckedScenario) -> dict[str, Any]:
     """A scenario for scripts."""
     changed = [change._asdict() for change in one.changes]
     return {"state": one.state, "failed": one.failed or None, "changes": changed}

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from support_exudyn.postprocessing.comparing.files_compared import FilesCompared
 
 DIFFERENT, REFUSED = 1, 2  # exit codes
-# of files that are not there, so that they are not taken for channels
+# a word with such an ending is a file even if it is not there, and no channel
 ENDINGS = (".h5", ".csv", ".txt", ".tab", ".tsv", ".dat", ".res", ".req", ".mat", ".parquet", ".xml")
 FEWEST = 2  # files
 WIDTH = 78  # letters of a line of help
@@ -85,7 +85,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(given: argparse.Namespace) -> None:
-    """Compare, and say what came out."""
+    """Compare, print the tables and write what is asked for; ends with the exit code of the verdict."""
     with refusing(REFUSED):
         verdict = _compared(given)
     if verdict in ("not within", "not decided"):
@@ -93,11 +93,14 @@ def run(given: argparse.Namespace) -> None:
 
 
 def _compared(given: argparse.Namespace) -> str:
-    """Print and write; returns the verdict."""
+    """Print and write; returns the verdict. Files that cannot be written are refused before any is read."""
     files, channels = files_and_channels(given.names)
-    _check_outputs(given)
+    from support_exudyn.postprocessing.comparing import compare_page, tables
     from support_exudyn.postprocessing.comparing.files_compared import compare_files
 
+    for path, endings in ((given.figure, compare_page.FIGURES), (given.page, compare_page.PAGES)):
+        if path is not None:
+            compare_page.check_ending(path, endings)
     with shown_progress("reading") as progress:
         compared = compare_files(
             *files,
@@ -109,13 +112,19 @@ def _compared(given: argparse.Namespace) -> str:
             find_shift=given.shift,
             progress=progress,
         )
-    written = _write(given, compared)
+    outputs = (
+        (given.junit, tables.write_junit),
+        (given.figure, compare_page.write_figure),
+        (given.page, compare_page.write_page),
+    )
+    written = [path for path, _ in outputs if path is not None]
+    for path, write in outputs:
+        if path is not None:
+            write(compared, path)
     if given.json:
-        from support_exudyn.postprocessing.comparing.for_programs import as_data
-
-        answer(as_data(compared) | {"written": written})
+        answer(tables.as_data(compared) | {"written": written})
         return compared.verdict
-    _print(compared)
+    printed(lambda console: _show(console, compared))
     for path in written:
         say(str(path))
     return compared.verdict
@@ -143,42 +152,15 @@ def files_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:
     return files, channels
 
 
-def _check_outputs(given: argparse.Namespace) -> None:
-    """Raise InputError, before anything is read, for a file that cannot be written as what it is called."""
-    from support_exudyn.postprocessing.comparing.compare_figure import check_format
-    from support_exudyn.postprocessing.comparing.compare_page import check_page
-
-    for path, check in ((given.figure, check_format), (given.page, check_page)):
-        if path is not None:
-            check(path)
-
-
-def _write(given: argparse.Namespace, compared: FilesCompared) -> list[Path]:
-    """Write what is asked for; returns the paths."""
-    from support_exudyn.postprocessing.comparing.compare_figure import write_figure
-    from support_exudyn.postprocessing.comparing.compare_page import write_page
-    from support_exudyn.postprocessing.comparing.for_programs import write_junit
-
-    written = []
-    for path, write in ((given.junit, write_junit), (given.figure, write_figure), (given.page, write_page)):
-        if path is not None:
-            write(compared, path)
-            written.append(path)
-    return written
-
-
-def _print(compared: FilesCompared) -> None:
+def _show(console: Console, compared: FilesCompared) -> None:
     """Print the tables and the notes on them."""
     from support_exudyn.postprocessing.comparing import tables
 
-    def shown(console: Console) -> None:
-        for pair in compared.pairs:
-            sheet = tables.table(pair)
-            header = [head if n < sheet.left else f">{head}" for n, head in enumerate(sheet.header)]
-            show_table(console, sheet.title, header, sheet.rows)
-            faults = [text for one in pair.channels.values() for text in tables.faults(one)]
-            for line in (*tables.notes(pair), *faults):
-                console.print(line, markup=False, soft_wrap=True)
-        console.print(tables.VERDICTS[compared.verdict], markup=False, soft_wrap=True)
-
-    printed(shown)
+    for pair in compared.pairs:
+        sheet = tables.table(pair)
+        header = [head if n < sheet.left else f">{head}" for n, head in enumerate(sheet.header)]
+        show_table(console, sheet.title, header, sheet.rows)
+        faults = [text for one in pair.channels.values() for text in tables.faults(one)]
+        for line in (*tables.notes(pair), *faults):
+            console.print(line, markup=False, soft_wrap=True)
+    console.print(tables.VERDICTS[compared.verdict], markup=False, soft_wrap=True)

@@ -6,72 +6,37 @@ nothing of the package is imported before a fixture is used.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 if TYPE_CHECKING:
-    from support_exudyn.postprocessing.comparing.baselines import SessionBaselines
-    from support_exudyn.postprocessing.comparing.cached_run import RunCache
-    from support_exudyn.postprocessing.comparing.closeness import Measured, Reference
+    from support_exudyn.postprocessing.comparing.in_tests import Measured, Reference, SessionBaselines
     from support_exudyn.scenario.scenario import Scenario
     from support_exudyn.scenario.scenario_data import Accuracy
     from support_exudyn.simulation.estimate import Estimate
     from support_exudyn.simulation.result import Result
 
+SimulateCached = Callable[..., "Result"]  # types of the fixtures
+AssertClose = Callable[..., None]
+Baseline = Callable[..., None]
 OPTION = "--baseline-update"
 MARKS = {  # by the fixture that a test uses
     "simulate_cached": "simulation: simulates a scenario, or takes the run that is kept; set by the plugin",
     "baseline": "baseline: is compared with a baseline beside its file; set by the plugin",
 }
-WRITTEN = "baseline written"  # property of a test, by which workers tell
+WRITTEN = "baseline written"  # property of a test, by which workers report
 CACHE = "support_exudyn"  # folder in pytest's cache
-
-
-class SimulateCached(Protocol):
-    """What the fixture `simulate_cached` gives."""
-
-    def __call__(
-        self, scenario: Scenario | str | Path, *, accuracy: Accuracy | None = None, errors: bool = False
-    ) -> Result:
-        """The run of a scenario, or of a scenario's file."""
-
-
-class AssertClose(Protocol):
-    """What the fixture `assert_close` gives."""
-
-    def __call__(
-        self,
-        result: Measured,
-        reference: Reference,
-        tolerance: float | str | None = None,
-        *,
-        channels: Sequence[str] = (),
-        after: float = 0.0,
-        until: float = float("inf"),
-    ) -> None:
-        """Fail if they are farther apart than is allowed."""
-
-
-class Baseline(Protocol):
-    """What the fixture `baseline` gives."""
-
-    def __call__(self, item: Result | Estimate | Mapping[str, Estimate], name: str = "") -> None:
-        """Fail if it has changed by more than both errors."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Take the option by which baselines are written."""
-    parser.getgroup("support-exudyn").addoption(
-        OPTION,
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="write baselines of this name, or pattern; what changes is told at the end; repeatable",
-    )
+    text = "write baselines of this name, or pattern; changes are listed at the end; repeatable"
+    group = parser.getgroup("support-exudyn")
+    group.addoption(OPTION, action="append", default=[], metavar="NAME", help=text)
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -96,7 +61,6 @@ def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPa
     `simulate_cached(scenario, accuracy=None, errors=False)` takes a Scenario or the path of its file; accuracy
     and errors are those of `simulate`. Results are read anew at each call: no test changes those of another.
     """
-    cache: RunCache | None = None
 
     def run(
         scenario: Scenario | str | Path, *, accuracy: Accuracy | None = None, errors: bool = False
@@ -104,18 +68,16 @@ def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPa
         from dataclasses import replace
 
         from support_exudyn.files.scenarios.scenario_file import read_scenario_file
-        from support_exudyn.postprocessing.comparing.cached_run import RunCache
+        from support_exudyn.postprocessing.comparing.in_tests import RunCache
         from support_exudyn.scenario.scenario import Scenario
         from user_forces.values.value import InputError, short
 
-        nonlocal cache
-        if cache is None:
-            cache = RunCache(_cache_folder(pytestconfig, tmp_path_factory))
         if isinstance(scenario, (str, Path)):
             file = read_scenario_file(scenario)
             scenario, errors = file.scenario, errors or file.errors
         elif not isinstance(scenario, Scenario):
             raise InputError(f"{short(scenario)}: cannot be run; allowed: a Scenario, or the path of its file")
+        cache = RunCache(_cache_folder(pytestconfig, tmp_path_factory))
         return cache.run(scenario if accuracy is None else replace(scenario, accuracy=accuracy), errors)
 
     return run
@@ -151,7 +113,7 @@ def assert_close() -> AssertClose:
         until: float = float("inf"),
     ) -> None:
         __tracebackhide__ = True
-        from support_exudyn.postprocessing.comparing.closeness import closeness
+        from support_exudyn.postprocessing.comparing.in_tests import closeness
         from support_exudyn.postprocessing.comparing.tables import faults
 
         found = closeness(result, reference, tolerance, channels=channels, after=after, until=until)
@@ -163,7 +125,7 @@ def assert_close() -> AssertClose:
 
 @pytest.fixture(scope="session")
 def _baselines(pytestconfig: pytest.Config) -> SessionBaselines:
-    from support_exudyn.postprocessing.comparing.baselines import SessionBaselines
+    from support_exudyn.postprocessing.comparing.in_tests import SessionBaselines
 
     return SessionBaselines(pytestconfig.getoption(OPTION))
 
@@ -180,17 +142,17 @@ def baseline(request: pytest.FixtureRequest, _baselines: SessionBaselines) -> Ba
     def check(item: Result | Estimate | Mapping[str, Estimate], name: str = "") -> None:
         __tracebackhide__ = True
         whole = f"{request.path.stem}.{name or request.node.name}"
-        said, written = _baselines.compare(item, request.path, whole)
+        report, written = _baselines.compare(item, request.path, whole)
         if written:
-            request.node.user_properties.append((WRITTEN, said))
-        elif said:
-            raise AssertionError(said)
+            request.node.user_properties.append((WRITTEN, report))
+        elif report:
+            raise AssertionError(report)
 
     return check
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:
-    """Tell which baselines were written, and of patterns for which none was."""
+    """Report which baselines were written, and patterns for which none was."""
     texts = {
         text: None
         for reports in terminalreporter.stats.values()
@@ -198,11 +160,9 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
         for key, text in getattr(report, "user_properties", ())
         if key == WRITTEN
     }
-    asked = terminalreporter.config.getoption(OPTION)
-    if not (texts or asked):
+    patterns = terminalreporter.config.getoption(OPTION)
+    if not (texts or patterns):
         return
     terminalreporter.section("baselines")
-    for text in texts:
+    for text in texts or [f"nothing was written: no test has a new or changed baseline {', '.join(patterns)}"]:
         terminalreporter.line(text)
-    if not texts:
-        terminalreporter.line(f"nothing was written: no test has a new or changed baseline {', '.join(asked)}")

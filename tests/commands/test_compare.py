@@ -13,7 +13,7 @@ import pytest
 
 from support_exudyn import compare_files
 from support_exudyn.__main__ import main
-from support_exudyn.postprocessing.comparing.compare_figure import MOST, compare_figure
+from support_exudyn.postprocessing.comparing.compare_page import MOST, compare_figure
 from support_exudyn.postprocessing.comparing.tables import notes
 from user_forces import InputError
 
@@ -101,7 +101,7 @@ NO_VALUE = "tip.x: {} has no value at 1 of 4 times"
         ("marked.csv nan.csv --tolerance tip.x=1mm", 1, NO_VALUE.format("nan.csv")),
         ("empty.csv marked.csv --tolerance tip.x=1mm", 0, NO_VALUE.format("empty.csv")),
         ("marked.csv empty.csv --tolerance tip.x=1mm --after 0.15", 0, ""),
-        ("marked.csv short.csv", 0, "compared are 0 to 0.1 s of 0 to 0.3 s of marked.csv (tip.x)"),
+        ("marked.csv short.csv", 0, "compared are 0 to 0.1 s of 0 to 0.3 s of marked.csv, for"),
         # all that is allowed is within, whatever its digits; F[1] is itself, and no pattern
         ("share.csv percent.csv --tolerance a=0.5percent", 0, ""),
         ("share.csv percent.csv --tolerance F[1]=0.9N", 1, "F[1]: "),
@@ -158,7 +158,7 @@ def test_several_files_as_json_and_as_junit(folder: Path, capsys: pytest.Capture
     assert force["measures"]["magnitude_error"] == pytest.approx(0.01)
     assert force["allowed"] == pytest.approx(5.0, rel=1e-3)
     root = ElementTree.parse(folder / "x.xml").getroot()
-    assert (root.tag, root.get("tests"), root.get("failures")) == ("testsuites", "5", "1")
+    assert (root.tag, root.get("tests"), root.get("failures")) == ("testsuites", "6", "1")
     assert [suite.get("failures") for suite in root.iter("testsuite")] == ["0", "1", "0"]
     assert [failure.text for failure in root.iter("failure") if "differs by 50 N" in str(failure.text)]
 
@@ -167,15 +167,13 @@ def test_what_has_no_unit_or_another_kind_is_left_out(folder: Path, capsys: pyte
     assert ended("marked.csv same.csv kind.csv --json --junit x.xml") == 0
     files = json.loads(capsys.readouterr().out)["files"]
     assert [list(one["channels"]) for one in files.values()] == [["tip.x", "pin.force"], ["tip.x"]]
-    assert (
-        'compare.toml, [files."marked.csv".units] "Marker" = "mm"' in files["same.csv"]["not_alike"]["Marker"]
-    )
+    assert 'compare.toml, [files."marked.csv".units] "Marker" = "mm"' in files["same.csv"]["left_out"]["Marker"]
     assert any(note.startswith("left out: pin.force, Marker; ") for note in files["kind.csv"]["notes"])
     skipped = ElementTree.parse(folder / "x.xml").getroot().findall("testsuite/testcase[skipped]")
     assert [case.get("name") for case in skipped] == ["Marker", "pin.force", "Marker"]
     found = compare_files("marked.csv", "same.csv", "less.csv", tolerance="*=1%")
     assert found.verdict == "within"
-    assert "less.csv has no pin.force, Marker" in list(notes(found.pairs[1]))
+    assert "left out: pin.force, Marker; less.csv has no such channel" in list(notes(found.pairs[1]))
 
 
 def test_figure_and_page(folder: Path) -> None:

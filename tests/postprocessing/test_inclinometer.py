@@ -35,6 +35,7 @@ def turning(angle: np.ndarray, spin: np.ndarray, pivot: tuple[float, float]) -> 
     arm = np.array([np.cos(turn) * x - np.sin(turn) * y, np.sin(turn) * x + np.cos(turn) * y])
     channels = {"angle": (angle, "rad"), "angular_velocity": (spin, "rad/s")}
     channels |= {"velocity_x": (spin * arm[1], "m/s"), "velocity_y": (-spin * arm[0], "m/s")}
+    channels |= {axis: (np.zeros(TIME.size), "m") for axis in "xy"}  # which an inclinometer does not feel
     return synthetic.result(PLANE, TIME, {f"rear_link.{name}": one for name, one in channels.items()})
 
 
@@ -68,6 +69,7 @@ def test_at_a_constant_rate_gravity_and_the_centripetal_acceleration_are_felt(
 def test_an_acceleration_that_grows_evenly_is_felt_exactly_to_both_ends() -> None:
     still = np.zeros(TIME.size)
     channels = {"angle": still, "angular_velocity": still, "velocity_x": 4.0 * TIME**2, "velocity_y": still}
+    channels |= {"x": still, "y": still}
     run = synthetic.result(PLANE, TIME, {f"canopy.{name}": (one, "") for name, one in channels.items()})
     np.testing.assert_allclose(specific_force(run, "canopy")[:, 0], -8.0 * TIME, atol=1e-11)
 
@@ -108,6 +110,7 @@ def spatial(turn: Rotation, spin: np.ndarray, pivot: np.ndarray) -> Result:
     }
     velocity = -np.cross(spin, matrix @ pivot)
     channels |= {f"velocity_{axis}": (velocity[:, n], "m/s") for n, axis in enumerate("xyz")}
+    channels |= {axis: (np.zeros(TIME.size), "m") for axis in "xyz"}
     return synthetic.result(SPACE, TIME, {f"canopy.{name}": one for name, one in channels.items()})
 
 

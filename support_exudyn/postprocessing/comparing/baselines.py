@@ -1,40 +1,31 @@
-"""Baselines of scenarios in a folder and of tests: made, compared, and changed where that is asked for."""
+"""Baselines of the scenarios in a folder: made, compared, and changed where that is asked for."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fnmatch import fnmatchcase
 from pathlib import Path
 
 from support_exudyn.files import ScenarioFile
 from support_exudyn.files.scenarios.scenario_file import OTHER_FILES, read_scenario_file
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import writing_alone
-from support_exudyn.postprocessing.comparing.changes import RunChange, changes, rows
+from support_exudyn.postprocessing.comparing.in_tests import ENDING, FOLDER
 from support_exudyn.postprocessing.comparing.kept_run import (
     KeptRun,
-    kept_numbers,
+    RunChange,
+    changes,
     kept_run,
     read_baseline,
     write_baseline,
 )
 from support_exudyn.scene.contract import Progress, SimulationError
-from support_exudyn.simulation.estimate import Estimate
-from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
-from user_forces.values.value import InputError, short
-
-FOLDER = "baseline"  # in a folder of scenarios or tests
-ENDING = ".json"
-NO_NAME = re.compile(r"[^\w.-]+")  # is left out of a file's name
-LONGEST = 150  # letters of a file's name
-TOLD = 5  # changes in the message of a failure
+from user_forces.values.value import InputError
 
 
 @dataclass(frozen=True)
-class Looked:
+class CheckedScenario:
     """A scenario against its baseline.
 
     name: of the scenario's file. was: its baseline; None: it has none. now: the results of its run; None: there
@@ -62,9 +53,6 @@ class BaselineFolder:
 
     Files of machines, sweeps, instruments and comparisons, which may lie there as well, are not run.
 
-    Arguments:
-        path: of the folder.
-
     Raises InputError if it is no folder, if there is no scenario and no baseline in it, or if a scenario cannot
     be read: all of them are read before any runs.
     """
@@ -84,22 +72,20 @@ class BaselineFolder:
         if not self.names:
             raise InputError(f"{path}: has no scenario; allowed: a folder with scenarios, *.toml")
 
-    def check_names(self, names: Sequence[str]) -> None:
-        """Raise InputError if a name is of no scenario and no baseline."""
+    def check(self, names: Sequence[str], progress: Progress) -> Iterator[CheckedScenario]:
+        """Run scenarios of these names, each after the other, and compare each with its baseline.
+
+        All baselines are read before the first run. Raises InputError if a baseline cannot be, or if a name is
+        of no scenario and no baseline.
+        """
         for name in names:
             if name not in self.names:
                 raise InputError(f"{name}: no such scenario in {self.path}; allowed: {', '.join(self.names)}")
-
-    def looked_at(self, names: Sequence[str], progress: Progress) -> Iterator[Looked]:
-        """Run scenarios of these names, each after the other, and compare each with its baseline.
-
-        All baselines are read before the first run. Raises InputError if a baseline cannot be.
-        """
         kept = {name: read_baseline(self.baselines[name]) for name in names if name in self.baselines}
         for n, name in enumerate(names):
             was, file = kept.get(name), self.scenarios.get(name)
             if file is None:
-                yield Looked(name, was, None)
+                yield CheckedScenario(name, was, None)
                 continue
 
             def part(share: float, n: int = n) -> None:
@@ -110,24 +96,24 @@ class BaselineFolder:
                     file.scenario, errors=file.errors or file.scenario.accuracy is None, progress=part
                 )
             except SimulationError as error:
-                yield Looked(name, was, None, failed=" ".join(str(error).split()))
+                yield CheckedScenario(name, was, None, failed=" ".join(str(error).split()))
                 continue
             now = replace(kept_run(run), scenario=file.scenario.plain)
-            yield Looked(name, was, now, tuple(changes(was, now)) if was is not None else ())
+            yield CheckedScenario(name, was, now, tuple(changes(was, now)) if was is not None else ())
         progress(1.0)
 
-    def write(self, looked: Looked) -> Path:
+    def write(self, checked: CheckedScenario) -> Path:
         """Write the results of a scenario; of a scenario that is gone remove them.
 
         Raises OSError if the file cannot be written, or if another process writes to the folder.
         """
-        path = self.kept / f"{looked.name}{ENDING}"
+        path = self.kept / f"{checked.name}{ENDING}"
         self.kept.mkdir(exist_ok=True)
         with writing_alone(self.kept):
-            if looked.now is None:
+            if checked.now is None:
                 path.unlink(missing_ok=True)
             else:
-                write_baseline(looked.now, path)
+                write_baseline(checked.now, path)
         return path
 
 
@@ -135,65 +121,3 @@ def _is_scenario(path: Path) -> bool:
     """Whether a file is that of a scenario, or nothing that this program reads, which is then refused."""
     table = load_toml(path)
     return "machine" in table or not OTHER_FILES.keys() & table.keys()
-
-
-# --- in tests ---
-
-
-class SessionBaselines:
-    """The baselines of the tests of a session.
-
-    Arguments:
-        updated: names, or patterns of them, of baselines that are written.
-    """
-
-    def __init__(self, updated: Sequence[str]) -> None:
-        self.updated = tuple(updated)
-        self._used: set[Path] = set()
-
-    def compare(
-        self, item: Result | Estimate | Mapping[str, Estimate], beside: Path, name: str
-    ) -> tuple[str, bool]:
-        """Compare with the baseline, or write it if its name is among those.
-
-        Arguments:
-            item: what is compared: a result with errors, a number, or numbers by their names.
-            beside: the file of the test, next to which the folder of baselines is.
-            name: of the baseline.
-
-        Returns:
-            The changes, or that there is no baseline, in lines, empty if nothing has changed; and whether
-            the baseline was written.
-
-        Raises InputError if it is damaged, or if its name was used before.
-        """
-        stem = NO_NAME.sub("_", name).strip("_.")[:LONGEST] or "it"
-        path = beside.parent / FOLDER / f"{stem}{ENDING}"
-        if path in self._used:
-            raise InputError(f"{stem}: is compared already; allowed: a name of its own, baseline(it, 'NAME')")
-        self._used.add(path)
-        now = _kept(item)
-        if path.exists():
-            found = changes(read_baseline(path), now)
-            if not found:
-                return "", False
-            lines = [f"{stem}: {len(found)} changed by more than both errors, new, or gone"]
-            lines += ["  ".join(filter(None, cells)) for cells in rows(found, TOLD)]
-        else:
-            lines = [f"{path}: there is no such baseline"]
-        if any(fnmatchcase(stem, pattern) for pattern in self.updated):
-            write_baseline(now, path)
-            return "\n".join([f"{path}: written", *lines]), True
-        return "\n".join([*lines, f"to write it: pytest --baseline-update {stem}"]), False
-
-
-def _kept(item: Result | Estimate | Mapping[str, Estimate]) -> KeptRun:
-    if isinstance(item, Result):
-        return kept_run(item)
-    named = {"it": item} if isinstance(item, Estimate) else item
-    if not isinstance(named, Mapping) or not all(isinstance(one, Estimate) for one in named.values()):
-        raise InputError(
-            f"{short(item)}: cannot be a baseline; allowed: a Result with errors, an Estimate, or Estimates by "
-            "their names"
-        )
-    return kept_numbers(named)

@@ -6,28 +6,28 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.series.units import converted
-from support_exudyn.postprocessing.comparing.common_times import (
+from support_exudyn.postprocessing.comparing.measures import (
     CommonCurves,
-    ComparedColumn,
-    errors_at,
-    extent,
+    CurveMeasures,
+    StatisticDifference,
+    compared_statistics,
+    curve_measures,
     on_common_times,
-    summed,
 )
-from support_exudyn.postprocessing.comparing.measures import CurveMeasures, curve_measures
-from support_exudyn.postprocessing.comparing.statistics import StatisticDifference, compared_statistics
 from support_exudyn.postprocessing.comparing.tolerance import (
     JudgedDifference,
     Tolerance,
     ToleranceVerdict,
     worst,
 )
+from support_exudyn.postprocessing.figures.selection import CLEARANCE
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError
 
@@ -35,6 +35,57 @@ Values = npt.NDArray[np.float64]
 LARGEST = "largest difference"
 GAPS = "values that are missing"
 ANGLE, TURN = "rad", 2.0 * math.pi
+ROUNDING = 1e-6  # of a turn, by which a file's digits may leave the range of a wrapped angle
+
+
+class ComparedColumn(NamedTuple):
+    """A curve at times [s] (n,), with values and errors (n,); a number has no times and a single value.
+
+    unit: of all but the times; None: not known. An error that is NaN is not known.
+    """
+
+    unit: str | None
+    time: Values
+    values: Values
+    errors: Values
+
+    @classmethod
+    def of_number(cls, number: Estimate, unit: str | None) -> ComparedColumn:
+        """A number as a column of a single value."""
+        return cls(unit, np.zeros(0), np.array([number.value]), np.array([number.error]))
+
+    @classmethod
+    def of_series(cls, series: NamedSeries) -> ComparedColumn:
+        """A series, whose errors are not known."""
+        return cls(series.unit, series.time, series.values, np.full(series.time.size, math.nan))
+
+    def in_unit(self, unit: str, name: str) -> ComparedColumn:
+        """The column in another unit; a number without a unit is in that unit. Wrapped angles are unwrapped.
+
+        Raises InputError if the column's own unit is not known or of another kind.
+        """
+        column = self
+        if self.unit != unit and not (self.unit is None and not self.time.size):
+            zero, one = converted(NamedSeries(name, self.unit, np.zeros(2), np.array([0.0, 1.0])), unit)
+            scale = one - zero
+            column = self._replace(values=zero + scale * self.values, errors=abs(scale) * self.errors)
+        values = unwrapped(column.values) if unit == ANGLE else column.values
+        return column._replace(unit=unit, values=values)
+
+
+def unwrapped(angle: Values) -> Values:
+    """A continuous angle [rad] from one that was wrapped into a single turn; others stay as they are.
+
+    An angle was wrapped if all values lie within a turn and neighbours are more than half a turn apart.
+    """
+    known = np.isfinite(angle)
+    values = angle[known]
+    jumps = np.abs(np.diff(values)).max(initial=0.0) > 0.5 * TURN
+    if not jumps or np.ptp(values) > (1.0 + ROUNDING) * TURN:
+        return angle
+    continuous = angle.copy()
+    continuous[known] = np.unwrap(values)
+    return continuous
 
 
 @dataclass(frozen=True)
@@ -91,11 +142,12 @@ class ComparedChannel:
 
     @property
     def beside_errors(self) -> JudgedDifference:
-        """The difference at the record with the largest multiple of its error; "told" without errors."""
+        """The difference at the record with the largest multiple of its error; no tolerance without errors."""
         where = self._farthest
         if where is None:
             return JudgedDifference(LARGEST, math.nan, 0.0, math.nan)
-        return JudgedDifference(LARGEST, float(self._apart[where]), 0.0, float(self.errors[where]))
+        apart = abs(float(self.common.difference[where]))
+        return JudgedDifference(LARGEST, apart, 0.0, float(self.errors[where]))
 
     @property
     def record(self) -> int:
@@ -106,7 +158,7 @@ class ComparedChannel:
     @cached_property
     def _farthest(self) -> int | None:
         """Index of the record with the largest multiple of its error; None: no error is known."""
-        apart, errors = self._apart[: self.before], self.errors[: self.before]
+        apart, errors = np.abs(self.common.difference[: self.before]), self.errors[: self.before]
         known = np.isfinite(errors) & np.isfinite(apart)
         ratios = np.divide(apart, errors, out=np.where(apart > 0.0, math.inf, 0.0), where=errors > 0.0)
         return int(np.where(known, ratios, -1.0).argmax()) if known.any() else None
@@ -114,10 +166,6 @@ class ComparedChannel:
     @property
     def _largest_at(self) -> int:
         return int(np.searchsorted(self.common.time, self.measures.largest_time))
-
-    @property
-    def _apart(self) -> Values:
-        return np.abs(self.common.other - self.common.reference)
 
     @property
     def gaps(self) -> int:
@@ -144,22 +192,19 @@ class ComparedChannel:
             value, error, _ = self.largest
             if math.isnan(error) and math.isfinite(value):
                 error = float(self.common.interpolation_error[self._largest_at])
-            found.append(JudgedDifference(LARGEST, value, _or_infinite(error), self.allowed))
-        for name, statistic in self.statistics.items():
-            half = _or_infinite(statistic.half)
-            found.append(JudgedDifference(name, abs(statistic.difference), half, self.allowed))
-        return tuple(found)
+            found.append((LARGEST, value, error))
+        found += [(name, abs(one.difference), one.half) for name, one in self.statistics.items()]
+        return tuple(
+            JudgedDifference(name, value, error if math.isfinite(error) else math.inf, self.allowed)
+            for name, value, error in found
+        )
 
     @property
     def verdict(self) -> ToleranceVerdict:
         """Whether the channel is within its tolerance; "not decided" if there is nothing to judge by."""
         if self.tolerance is None:
-            return "told"
+            return "no tolerance"
         return worst(judged.verdict for judged in self.judged) if self.judged else "not decided"
-
-
-def _or_infinite(error: float) -> float:
-    return error if math.isfinite(error) else math.inf
 
 
 def compared(
@@ -168,8 +213,9 @@ def compared(
     other: ComparedColumn,
     tolerance: Tolerance | None = None,
     window: ComparedWindow = EVERYTHING,
+    unit: str | None = None,
 ) -> ComparedChannel:
-    """Compare a column with its reference, in the unit of the other one.
+    """Compare a column with its reference.
 
     Angles are compared modulo the full turns by which both begin apart.
 
@@ -178,53 +224,59 @@ def compared(
         reference, other: curves, or numbers; the unit of a number may be None, which is then that of the other.
         tolerance: by how much they may differ; None: there is no verdict.
         window: what is compared of curves.
+        unit: of the comparison; None: that of the other column.
 
     Raises InputError if a curve stands against a number, if the curves do not overlap, or if units do not fit.
     """
     if bool(other.time.size) != bool(reference.time.size):
         raise InputError(f"{name}: is a curve beside a number; allowed: curves with curves")
-    unit = other.unit if other.unit is not None else reference.unit or ""
-    reference = _in_unit(name, reference, unit)
+    if unit is None:
+        unit = other.unit if other.unit is not None else reference.unit or ""
+    reference, other = reference.in_unit(unit, name), other.in_unit(unit, name)
     if other.time.size:
         curves = reference.time, reference.values, other.time, other.values
         common = on_common_times(*curves, window.after, window.until)
-        errors = summed(errors_at(common.time, reference), errors_at(common.time, other))
+        errors = _summed(_errors_at(common.time, reference), _errors_at(common.time, other))
+        size = float(np.ptp(common.reference[np.isfinite(common.reference)])) if _known(common) else 0.0
     else:
         common = CommonCurves(np.zeros(1), reference.values, other.values, np.zeros(1), 0)
-        errors = summed(reference.errors, other.errors)
+        errors = _summed(reference.errors, other.errors)
+        size = abs(float(reference.values[0]))
     if unit == ANGLE and other.time.size:
         common = common._replace(other=common.other - _turns_apart(common))
     errors = errors + common.interpolation_error
     before = common.time < window.horizon
-    _, mine, its = common.part(~before)
-    size = extent(common.reference) if other.time.size else abs(float(reference.values[0]))
     return ComparedChannel(
         name,
         unit,
         common,
         errors,
         int(before.sum()),
-        curve_measures(*common.part(before)),
+        curve_measures(common.time[before], common.reference[before], common.other[before]),
         _means(common, errors, unit),
-        compared_statistics(mine, its, window.among),
+        compared_statistics(common.reference[~before], common.other[~before], window.among),
         tolerance,
         math.nan if tolerance is None else tolerance.in_si(name, unit, size),
     )
 
 
-def _in_unit(name: str, column: ComparedColumn, unit: str) -> ComparedColumn:
-    """A column in another unit; a number without a unit is in that unit."""
-    if column.unit == unit or (column.unit is None and not column.time.size):
-        return column
-    zero, one = converted(NamedSeries(name, column.unit, np.zeros(2), np.array([0.0, 1.0])), unit)
-    scale = one - zero
-    return ComparedColumn(unit, column.time, zero + scale * column.values, abs(scale) * column.errors)
+def _errors_at(at: Values, column: ComparedColumn) -> Values:
+    """Errors of a curve at other times [s], (m,): those of the next record, as errors grow with time."""
+    return column.errors[np.minimum(np.searchsorted(column.time, at - CLEARANCE), column.time.size - 1)]
+
+
+def _summed(first: Values, second: Values) -> Values:
+    """The errors of a difference, (n,): the sum of both sides; an unknown error, NaN, is left out."""
+    return np.where(np.isnan(first), second, np.where(np.isnan(second), first, first + second))
+
+
+def _known(common: CommonCurves) -> bool:
+    return bool(np.isfinite(common.reference).any())
 
 
 def _turns_apart(common: CommonCurves) -> float:
     """The full turns [rad] by which an angle begins apart from its reference; 0 without overlap."""
-    apart = common.other - common.reference
-    known = apart[np.isfinite(apart)]
+    known = common.difference[np.isfinite(common.difference)]
     return TURN * round(float(known[0]) / TURN) if known.size else 0.0
 
 

@@ -6,28 +6,19 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
 
 from support_exudyn.files.series.asked import Progress, silent
 from support_exudyn.postprocessing import summary
-from support_exudyn.postprocessing.comparing.compared_channel import (
-    ComparedChannel,
-    ComparedWindow,
-    compared,
-)
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, ComparedWindow, compared
 from support_exudyn.postprocessing.comparing.compared_file import (
     ComparedFile,
     channel_unit,
     compared_file,
     of_run,
 )
-from support_exudyn.postprocessing.comparing.mapping import (
-    CompareFile,
-    read_compare_file,
-    tolerances_of,
-)
-from support_exudyn.postprocessing.comparing.shift import FoundShift, found_shift
-from support_exudyn.postprocessing.comparing.statistics import STATISTICS
+from support_exudyn.postprocessing.comparing.mapping import CompareFile, read_compare_file, tolerances_of
+from support_exudyn.postprocessing.comparing.measures import STATISTICS
+from support_exudyn.postprocessing.comparing.shift import TimeShift, found_shift
 from support_exudyn.postprocessing.comparing.tolerance import (
     Tolerance,
     ToleranceVerdict,
@@ -45,19 +36,6 @@ SHOWN = 6  # names that are listed of many
 Comparable = Result | str | Path
 
 
-class CommonChannels(NamedTuple):
-    """The channels of two files.
-
-    units: those that are compared, each with the unit of the comparison. lacking: those of the reference that
-    the other file has not. not_alike: those that both have and that cannot be compared, each with the reason:
-    a unit that a file does not name, or units of two kinds.
-    """
-
-    units: Mapping[str, str]
-    lacking: tuple[str, ...]
-    not_alike: Mapping[str, str]
-
-
 @dataclass(frozen=True)
 class ComparedPair:
     """A file compared with the reference.
@@ -65,15 +43,15 @@ class ComparedPair:
     channels: by their names. window: the part that is compared, and the earlier horizon of both; beyond it
     single impacts are no result of a run.
     shift: the shift in time that was determined, and applied to `other`; None: none was asked for.
-    common: which channels are compared, and which are not.
+    left_out: channels of the reference that are not compared, each with the reason.
     """
 
     reference: ComparedFile
     other: ComparedFile
     channels: Mapping[str, ComparedChannel]
     window: ComparedWindow
-    shift: FoundShift | None
-    common: CommonChannels
+    shift: TimeShift | None
+    left_out: Mapping[str, str]
 
     @property
     def verdict(self) -> ToleranceVerdict:
@@ -90,7 +68,7 @@ class FilesCompared:
 
     @property
     def verdict(self) -> ToleranceVerdict:
-        """Whether all channels of all files are within their tolerances; "told" if none was given."""
+        """Whether all channels of all files are within their tolerances; "no tolerance" if none was given."""
         return worst(pair.verdict for pair in self.pairs)
 
 
@@ -132,15 +110,22 @@ def compare_files(
     asked = read_tolerances(tolerance) if isinstance(tolerance, str) else list(tolerance)
     tolerances = [*asked, *tolerances_of(mapping)]
     named = [*channels, *(each.pattern for each in tolerances)]
-    chosen = [common_channels(first, other, channels, named) for other in rest]
-    compared = list(dict.fromkeys(name for common in chosen for name in common.units))
+    chosen = [_common(first, other, channels, named) for other in rest]
+    compared = list(dict.fromkeys(name for units, _ in chosen for name in units))
     for each in tolerances:
         matching(compared, [each.pattern], f"channel is compared, tolerance {each.text}")
-    pairs = tuple(
-        _pair(first, other, common, (after, until), tolerances, find_shift)
-        for other, common in zip(rest, chosen, strict=True)
-    )
-    return FilesCompared(first, pairs)
+    pairs = []
+    for other, (units, left_out) in zip(rest, chosen, strict=True):
+        shift = found_shift(first, other, units) if find_shift else None
+        if shift is not None:
+            other = other.shifted(-shift.shift)
+        window = ComparedWindow(after, until, min(first.horizon, other.horizon), len(units) * len(STATISTICS))
+        columns = {
+            name: _channel(first, other, name, unit, window, of_channel(tolerances, name))
+            for name, unit in units.items()
+        }
+        pairs.append(ComparedPair(first, other, columns, window, shift, left_out))
+    return FilesCompared(first, tuple(pairs))
 
 
 def _read(
@@ -164,27 +149,6 @@ def _read(
     return files
 
 
-def _pair(
-    reference: ComparedFile,
-    other: ComparedFile,
-    common: CommonChannels,
-    ends: tuple[float, float],
-    tolerances: Sequence[Tolerance],
-    find_shift: bool,
-) -> ComparedPair:
-    """Compare two files."""
-    units = common.units
-    shift = found_shift(reference, other, units) if find_shift else None
-    if shift is not None:
-        other = other.shifted(-shift.found.shift)
-    window = ComparedWindow(*ends, min(reference.horizon, other.horizon), len(units) * len(STATISTICS))
-    channels = {
-        name: _channel(reference, other, name, unit, window, of_channel(tolerances, name))
-        for name, unit in units.items()
-    }
-    return ComparedPair(reference, other, channels, window, shift, common)
-
-
 def _channel(
     reference: ComparedFile,
     other: ComparedFile,
@@ -195,7 +159,7 @@ def _channel(
 ) -> ComparedChannel:
     """Compare a channel; the means of two runs are taken from all of their steps."""
     try:
-        one = compared(name, reference.column(name, unit), other.column(name, unit), tolerance, window)
+        one = compared(name, reference.columns[name], other.columns[name], tolerance, window, unit)
     except InputError as error:
         raise InputError(f"{name} of {reference.name} and {other.name}: {error}") from None
     times = one.common.time
@@ -210,60 +174,60 @@ def _channel(
 # --- the channels that two files have in common ---
 
 
-def common_channels(
+def _common(
     reference: ComparedFile, other: ComparedFile, patterns: Sequence[str], named: Sequence[str]
-) -> CommonChannels:
-    """The channels that are compared, and those that are not, though they are asked for.
+) -> tuple[dict[str, str], dict[str, str]]:
+    """The units of the channels that are compared, and why others, though they are asked for, are not.
 
     patterns: names, or patterns as in a shell; without, of two runs forces and traced points, else all.
     named: of channels that are asked for, or have a tolerance; patterns among them are passed over.
 
     Raises InputError if nothing is left, or if a channel that is named, or mapped, cannot be compared.
     """
-    mine, its = reference.channels, set(other.channels)
+    mine, its = reference.columns, other.columns
     asked = matching(mine, patterns) if patterns else _usual(reference, other)
     for name in named:
         if name in mine and name not in its:
             raise InputError(f"{name}: {other.name} has no such channel; {_way_out(reference, other)}")
-    if its.isdisjoint(asked):
+    if its.keys().isdisjoint(asked):
         raise InputError(
             f"{reference.path}, {other.path}: have no channel in common; {_way_out(reference, other)}"
         )
-    units, not_alike = {}, {}
+    units, left_out = {}, {}
     for name in asked:
-        if name in its:
-            try:
-                units[name] = channel_unit(reference, other, name)
-            except InputError as error:
-                not_alike[name] = str(error)
-    wanted = {*named, *reference.mapped.columns, *other.mapped.columns}
-    if refused := [why for name, why in not_alike.items() if name in wanted]:
-        raise InputError(refused[0])
+        if name not in its:
+            left_out[name] = f"{other.name} has no such channel"
+            continue
+        try:
+            units[name] = channel_unit(reference, other, name)
+        except InputError as error:
+            if name in {*named, *reference.mapped, *other.mapped}:
+                raise
+            left_out[name] = str(error)
     if not units:
-        raise InputError("\n".join(list(not_alike.values())[:SHOWN]))
-    return CommonChannels(units, tuple(name for name in asked if name not in its), not_alike)
+        raise InputError("\n".join([why for name, why in left_out.items() if name in its][:SHOWN]))
+    return units, left_out
 
 
 def _usual(reference: ComparedFile, other: ComparedFile) -> list[str]:
     """The channels that are compared if none is asked for."""
-    its = set(other.channels)
-    if reference.run is None:  # of which nothing is lost without a word, but columns that are mapped
-        used = {column.column for column in reference.mapped.columns.values()}
-        return [name for name in reference.channels if name in its or name not in used]
+    if reference.run is None:
+        return list(reference.columns)
     if other.run is None:
-        return [name for name in reference.channels if name in its]
-    mapped = [name for file in (reference, other) for name in file.mapped.columns if name in reference.channels]
+        return [name for name in reference.columns if name in other.columns]
     usual = [name for name in summary.telling(reference.run) if not name.startswith("energy.")]
+    mapped = [name for name in (*reference.mapped, *other.mapped) if name in reference.columns]
     return list(dict.fromkeys([*mapped, *usual]))
 
 
 def _way_out(reference: ComparedFile, other: ComparedFile) -> str:
+    """The names of channels in both files, and how to map one to another."""
     shown = []
     for file in (reference, other):
-        more = f" and {len(file.channels) - SHOWN} more" if len(file.channels) > SHOWN else ""
-        shown.append(f"{file.name} has {', '.join(file.channels[:SHOWN])}{more}")
+        more = f" and {len(file.columns) - SHOWN} more" if len(file.columns) > SHOWN else ""
+        shown.append(f"{file.name} has {', '.join(list(file.columns)[:SHOWN])}{more}")
+    first, second = next(iter(reference.columns)), next(iter(other.columns))
     return (
         f"{'; '.join(shown)}; allowed: columns called as channels, or --map compare.toml, which says which "
-        f'column is which: [files."{other.path.name}".columns] "{reference.channels[0]}" = '
-        f'"{other.channels[0]}"'
+        f'column is which: [files."{other.path.name}".columns] "{first}" = "{second}"'
     )

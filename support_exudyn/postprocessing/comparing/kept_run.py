@@ -1,4 +1,4 @@
-"""What a baseline keeps of a run: numbers and thinned curves, each with its error; and its file.
+"""What a baseline keeps of a run: numbers and thinned curves with their errors; its file; what has changed.
 
 The file is JSON with a line for each number and curve, so that its versions can be compared. A number
 is a text of its value, its error and its unit; a curve is a text of its values.
@@ -8,16 +8,18 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from support_exudyn.files.whole_file import contents, missing_file, whole_file
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.comparing.common_times import ComparedColumn
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn, ComparedWindow, compared
+from support_exudyn.postprocessing.comparing.tables import faults
+from support_exudyn.postprocessing.comparing.tolerance import BOTH_ERRORS
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.horizon import horizon
@@ -30,16 +32,12 @@ from user_forces.values.value import InputError, cleaned
 RECORDS = 100  # of every curve that are kept
 FORMAT = "support_exudyn baseline 2"
 MOST = 100_000_000  # bytes
+SHOWN = 12  # changes of a scenario that are printed
 DIGITS, OF_ERRORS = 13, 3  # of values and errors that are written; errors count rounding from 1e-10 on
 DAMAGES = (LookupError, AttributeError, TypeError, ValueError, RecursionError, OverflowError)
 MEND = (
     "allowed: a file as `baseline make` writes it; take it from version control, or remove it and make it again"
 )
-
-
-def kept_number(number: Estimate) -> ComparedColumn:
-    """A number as a column of a single value."""
-    return ComparedColumn(number.unit, np.zeros(0), np.array([number.value]), np.array([number.error]))
 
 
 @dataclass(frozen=True)
@@ -70,7 +68,7 @@ def kept_run(result: Result) -> KeptRun:
     """
     if result.coarser is None:
         raise InputError(
-            "the run has no numerical errors, so that no change can be told from them; allowed: a run with an "
+            "the run has no numerical errors, so that no change can be recognised; allowed: a run with an "
             "accuracy, or made with errors=True"
         )
     end = determined_until(result)
@@ -98,6 +96,90 @@ def determined_until(result: Result) -> float:
     """Until when a run is determined [s]: the earlier horizon of it and of the next coarser run."""
     runs = [run for run in (result, result.coarser) if run is not None and run.coarser is not None]
     return min(map(horizon, runs), default=math.inf)
+
+
+# --- what has changed ---
+
+
+class RunChange(NamedTuple):
+    """A difference between a run and its baseline.
+
+    kind: whether it has changed, is new, or gone. what: "number", "channel", "key" of the scenario.
+    name: of it. values: what it was and is, in words.
+    ratio: the difference over the sum of both errors; infinite if nothing measures it.
+    """
+
+    kind: Literal["changed", "new", "gone"]
+    what: str
+    name: str
+    values: str = ""
+    ratio: float = math.inf
+
+
+def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
+    """All that has changed by more than the errors of both runs, is new, or gone, the worst first.
+
+    Keys of the scenario stand first, for they explain the rest. What is not determined is not compared: numbers
+    of which an error is not known or that one of the runs has no more because of its horizon, and curves beyond
+    the horizon of either run.
+    """
+    was, now = dict(_leaves(old.scenario)), dict(_leaves(new.scenario))
+    keys = [*_gone_and_new("key", was, now)]
+    keys += [
+        RunChange("changed", "key", key, f"{was[key]} -> {now[key]}")
+        for key in was
+        if key in now and was[key] != now[key]
+    ]
+    found = [*_columns("channel", old.curves, new.curves, min(old.horizon, new.horizon))]
+    if math.isinf(old.horizon) == math.isinf(new.horizon):
+        numbers = [
+            {name: ComparedColumn.of_number(one, one.unit) for name, one in run.numbers.items()}
+            for run in (old, new)
+        ]
+        found += _columns("number", numbers[0], numbers[1], math.inf)
+    return [*sorted(keys), *sorted(found, key=lambda change: (-change.ratio, change.name))]
+
+
+def lines(found: Sequence[RunChange], most: int = SHOWN) -> list[str]:
+    """The first changes as sentences, and how many more there are."""
+    shown = [
+        f"{one.kind} {one.what} {one.name}{': ' if one.values else ''}{one.values}" for one in found[:most]
+    ]
+    return shown + [f"and {len(found) - most} more"] * (len(found) > most)
+
+
+def _leaves(data: Any, place: str = "") -> Iterator[tuple[str, Any]]:
+    """The items of nested data with their places in it, such as pins.B.friction or gravity[1]."""
+    if isinstance(data, Mapping) and data:
+        for key, item in data.items():
+            yield from _leaves(item, f"{place}.{key}" if place else str(key))
+    elif isinstance(data, (list, tuple)) and data:
+        for n, item in enumerate(data):
+            yield from _leaves(item, f"{place}[{n}]")
+    else:
+        yield place, data
+
+
+def _gone_and_new(what: str, was: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[RunChange]:
+    for kind, mine, its in (("gone", was, now), ("new", now, was)):
+        for name in [name for name in mine if name not in its]:
+            yield RunChange(kind, what, name, str(mine[name]) if what == "key" else "")  # type: ignore[arg-type]
+
+
+def _columns(
+    what: str, old: Mapping[str, ComparedColumn], new: Mapping[str, ComparedColumn], end: float
+) -> Iterator[RunChange]:
+    """Changes of curves up to a time [s], or of numbers."""
+    yield from _gone_and_new(what, old, new)
+    for name in [name for name in old if name in new]:
+        was, now = old[name], new[name]
+        if was.unit != now.unit:
+            yield RunChange("changed", what, name, f"in {was.unit} -> in {now.unit}")
+        elif not (was.time.size and was.time[0] > end):
+            one = compared(name, was, now, BOTH_ERRORS, ComparedWindow(until=end))
+            if one.gaps or one.verdict == "not within":
+                ratio = math.inf if one.gaps else one.beside_errors.ratio
+                yield RunChange("changed", what, name, faults(one)[0].removeprefix(f"{name}: "), ratio)
 
 
 # --- the file ---

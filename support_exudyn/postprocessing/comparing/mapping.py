@@ -10,8 +10,7 @@ from typing import Any, Literal
 
 from support_exudyn.files.series.units import is_unit
 from support_exudyn.files.toml.faults import Faults, Place, nearest
-from support_exudyn.files.toml.reading import Reader
-from support_exudyn.files.toml.shapes import GroupShape
+from support_exudyn.files.toml.reading import Reader, read_value
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import missing_file
 from support_exudyn.postprocessing.comparing.tolerance import Tolerance, tolerance
@@ -65,10 +64,10 @@ class CompareFile(Value):
 
     def of(self, path: Path) -> MappedFile:
         """The first entry whose name or pattern fits a file."""
-        return next((each for name, each in self.files.items() if fits(path, name)), MappedFile())
+        return next((each for name, each in self.files.items() if _fits(path, name)), MappedFile())
 
 
-def fits(path: Path, name: str) -> bool:
+def _fits(path: Path, name: str) -> bool:
     """Whether a file is called so: by its name, its path, or a pattern of one of them."""
     return any(fnmatchcase(own, name) or own == name for own in (path.name, path.as_posix(), str(path)))
 
@@ -76,47 +75,36 @@ def fits(path: Path, name: str) -> bool:
 def read_compare_file(path: Path, files: Iterable[Path]) -> CompareFile:
     """The contents of a compare.toml for the files that are compared.
 
-    Raises InputError with a line for all that is wrong: file, key, value, what is allowed; OSError if it cannot
+    Raises InputError with a line for each wrong item: file, key, value, what is allowed; OSError if it cannot
     be read.
     """
     try:
         table = load_toml(path)
     except FileNotFoundError as error:
         raise missing_file(path, "the TOML file of a comparison") from error
-    faults = Faults(str(path))
-    reader = Reader(faults, {MappedColumn: _named_alone})
-    read = reader.item({"group": GroupShape((CompareFile,))}, table, ())
-    given = list(files)
-    for name, item in _items(table, "files"):
-        if not any(fits(file, name) for file in given):
-            names = list(dict.fromkeys(file.name for file in given))
+    file = read_value(CompareFile, table, str(path), {MappedColumn: _name_alone})
+    faults, given = Faults(str(path)), list(files)
+    for name, mapped in file.files.items():
+        if not any(_fits(one, name) for one in given):
+            names = list(dict.fromkeys(one.name for one in given))
             faults.add(("files", name), f"no file of this name is compared; {nearest(name, names)}")
-        for column, text in _items(item, "units"):
-            if isinstance(text, str) and not is_unit(text):
+        for column, unit in mapped.units.items():
+            if not is_unit(unit):
                 allowed = 'a unit such as "mm", "kN", "deg" or "m/s^2"; "1" of none'
-                faults.wrong(("files", name, "units", column), text, allowed)
-    for pattern, text in _items(table, "tolerances"):
-        if isinstance(text, str):
-            try:
-                tolerance(pattern, text)
-            except InputError as error:
-                faults.add(("tolerances",), str(error))
+                faults.wrong(("files", name, "units", column), unit, allowed)
     faults.check()
-    assert isinstance(read, CompareFile)
-    return read
+    tolerances_of(file, str(path))
+    return file
 
 
-def tolerances_of(file: CompareFile) -> list[Tolerance]:
-    """The tolerances of a file, in its order."""
-    return [tolerance(pattern, text) for pattern, text in file.tolerances.items()]
+def tolerances_of(file: CompareFile, where: str = "compare.toml") -> list[Tolerance]:
+    """The tolerances of a file, in its order. Raises InputError, which names the file, if one is none."""
+    try:
+        return [tolerance(pattern, text) for pattern, text in file.tolerances.items()]
+    except InputError as error:
+        raise InputError(f"{where}: tolerances: {error}") from None
 
 
-def _named_alone(reader: Reader, item: Any, place: Place) -> MappedColumn | None:
+def _name_alone(reader: Reader, item: Any, place: Place) -> MappedColumn | None:
     """The short form of a column: its name."""
     return MappedColumn(column=item) if isinstance(item, str) else None
-
-
-def _items(table: Any, key: str) -> Iterable[tuple[str, Any]]:
-    """Keys and values of a table in a table; none if there is no such table."""
-    inner = table.get(key) if isinstance(table, dict) else None
-    return inner.items() if isinstance(inner, dict) else ()

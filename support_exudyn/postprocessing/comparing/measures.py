@@ -1,18 +1,132 @@
-"""Measures of the distance between a curve and a reference at common times.
+"""Two curves at common times: the measures of their distance, and their statistics after the horizon.
 
-Integrals over time are sums by the trapezoid rule, so times may be unequally spaced. An interval counts if
-both curves are known at both of its ends. A measure without a value, such as a share of no range, is NaN.
+Common times are those of the coarser curve inside the overlap. The finer curve is interpolated there by
+straight lines, and the error of that is estimated. At a time that both have, both values are taken as they are.
+
+Integrals over time are sums by the trapezoid rule, so times may be unequally spaced. An interval counts if both
+curves are known at both of its ends. A measure without a value, such as a share of no range, is NaN.
+
+Beyond the horizon two curves are compared as pieces of steady processes: do their means and root mean squares
+differ by more than chance explains? Both are cut into the same `BLOCKS` blocks, so that a course that both
+follow, such as a stroke, drops out. Student's t gives the interval of the mean of the blocks' differences
+(batch means: C. Alexopoulos, A. F. Seila, "Output data analysis", in J. Banks (ed.), Handbook of Simulation,
+1998).
 """
 
 import math
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
+from scipy import stats
 
+from support_exudyn.postprocessing.figures.selection import CLEARANCE
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
+SAME = 1e-3  # share of the shortest time between two records by which equal times may differ, at most
+BLOCKS = 10
+FEWEST = 5  # samples of a block
+CONFIDENCE = 0.95  # of all intervals of two files together
+EXACT = 1e-12  # of the largest value: rounding of a difference of curves that do not vary
+
+
+class CommonCurves(NamedTuple):
+    """Two curves at the same times.
+
+    time: [s], (n,). reference, other: their values, (n,).
+    interpolation_error: by how much interpolation may have changed their difference, (n,), >= 0, in the unit of
+        the curves; 0 at times that both have.
+    interpolated: number of times at which one of them was interpolated.
+    """
+
+    time: Values
+    reference: Values
+    other: Values
+    interpolation_error: Values
+    interpolated: int
+
+    @property
+    def difference(self) -> Values:
+        """The other curve less the reference, (n,)."""
+        return self.other - self.reference
+
+
+def on_common_times(
+    reference_time: Values,
+    reference: Values,
+    other_time: Values,
+    other: Values,
+    after: float = -math.inf,
+    until: float = math.inf,
+) -> CommonCurves:
+    """Two curves at the times of the coarser of them, between two times [s].
+
+    The coarser curve has the fewer times there; of equally many the reference.
+
+    Arguments:
+        reference_time, other_time: [s], (n,) and (m,), increasing.
+        reference, other: values of one unit, (n,) and (m,); NaN where a value is not known.
+        after, until: [s].
+
+    Raises InputError if no time of the coarser curve lies there.
+    """
+    both = bool(reference_time.size and other_time.size)
+    start = max(reference_time[0], other_time[0], after) if both else math.inf
+    end = min(reference_time[-1], other_time[-1], until) if both else -math.inf
+    mine, its = (
+        (time >= start - CLEARANCE) & (time <= end + CLEARANCE) for time in (reference_time, other_time)
+    )
+    if not (mine.any() or its.any()):
+        between = "" if math.isinf(after) and math.isinf(until) else f" between {after:g} and {until:g} s"
+        spans = [f"from {t[0]:g} to {t[-1]:g} s" if t.size else "(none)" for t in (reference_time, other_time)]
+        raise InputError(
+            f"times {spans[0]} and {spans[1]}: none lies{between} where both curves are; "
+            "allowed: curves that overlap there"
+        )
+    if its.any() and (not mine.any() or its.sum() < mine.sum()):
+        values, error, count = interpolated(reference_time, reference, other_time[its])
+        return CommonCurves(other_time[its], values, other[its], error, count)
+    values, error, count = interpolated(other_time, other, reference_time[mine])
+    return CommonCurves(reference_time[mine], reference[mine], values, error, count)
+
+
+def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Values, int]:
+    """A curve at other times, by straight lines between its own.
+
+    Between two times a and b the line differs from the curve f by (t - a) (b - t) f''/2 at most. As f''/2 the
+    larger of the divided second differences at a and b is taken. Where the curve has a kink or a jump,
+    these are of the size of the step itself, so the estimate is, too.
+
+    Arguments:
+        time: of the curve [s], (n,), increasing. values: (n,).
+        at: times [s], (m,), inside those of the curve.
+
+    Returns:
+        The values (m,), by how much they may be wrong (m,), and how many are not a record's own. Values next to
+        an unknown value are not known, and so are their errors.
+    """
+    if time.size < 2:
+        return np.repeat(values, at.size), np.zeros(at.size), 0
+    same = min(CLEARANCE, SAME * float(np.diff(time).min()))
+    right = np.clip(np.searchsorted(time, at), 1, time.size - 1)
+    left = right - 1
+    nearest = np.where(at - time[left] <= time[right] - at, left, right)
+    own = np.abs(time[nearest] - at) <= np.maximum(same, 4.0 * np.spacing(np.abs(at)))
+    span = time[right] - time[left]
+    share = np.clip((at - time[left]) / span, 0.0, 1.0)
+    result = np.where(own, values[nearest], (1.0 - share) * values[left] + share * values[right])
+    bent = np.zeros(time.size)
+    if time.size > 2:
+        inside = np.abs(np.diff(np.diff(values) / np.diff(time)) / (time[2:] - time[:-2]))
+        bent = np.pad(inside, 1, mode="edge")
+    error = share * (1.0 - share) * span**2 * np.fmax(bent[left], bent[right])
+    error = np.where(np.isfinite(result), error, math.nan)
+    return result, np.where(own, 0.0, error), int(np.count_nonzero(~own))
+
+
+# --- measures ---
 
 
 class CurveMeasures(NamedTuple):
@@ -61,12 +175,17 @@ def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasu
 
     Raises InputError if the lengths differ, or if the times do not increase.
     """
-    _check(time, reference, other)
+    shapes = [np.shape(curve) for curve in (time, reference, other)]
+    if len(shapes[0]) != 1 or len(set(shapes)) != 1:
+        raise InputError(f"times and curves are of shapes {shapes}; allowed: one value for each time")
+    if not (np.isfinite(time).all() and (np.diff(time) > 0.0).all()):
+        raise InputError("the times do not increase; allowed: finite times [s], each later than the one before")
     known = np.isfinite(reference) & np.isfinite(other)
     t, r, c = (np.asarray(curve, dtype=np.float64)[known] for curve in (time, reference, other))
     if not t.size:
         return CurveMeasures()
-    d, weights = c - r, _weights(np.asarray(time, dtype=np.float64), known)[known]
+    intervals = np.where(known[1:] & known[:-1], np.diff(time), 0.0)
+    weights = 0.5 * (np.append(intervals, 0.0) + np.append(0.0, intervals))[known]
 
     def mean(values: Values) -> float:
         return _ratio(float(weights @ values), float(weights.sum()))
@@ -74,6 +193,7 @@ def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasu
     def rms(values: Values) -> float:
         return math.sqrt(mean(values**2))
 
+    d = c - r
     worst, extent, size = int(np.abs(d).argmax()), float(np.ptp(r)), rms(r)
     spread = rms(r - mean(r)) if extent > 0.0 else 0.0
     magnitude, phase = _ratio(rms(c), size) - 1.0, math.nan
@@ -95,19 +215,57 @@ def curve_measures(time: Values, reference: Values, other: Values) -> CurveMeasu
     )
 
 
-def _weights(time: Values, known: npt.NDArray[np.bool_]) -> Values:
-    """Weights of the times in an integral [s], (n,): half of the neighbouring intervals with known ends."""
-    intervals = np.where(known[1:] & known[:-1], np.diff(time), 0.0)
-    return np.asarray(0.5 * (np.append(intervals, 0.0) + np.append(0.0, intervals)))
-
-
 def _ratio(part: float, whole: float) -> float:
     return part / whole if whole > 0.0 else math.nan
 
 
-def _check(time: Values, *curves: Values) -> None:
-    lengths = [np.shape(curve) for curve in (time, *curves)]
-    if len(lengths[0]) != 1 or len(set(lengths)) != 1:
-        raise InputError(f"times and curves are of shapes {lengths}; allowed: one value for each time")
-    if not (np.isfinite(time).all() and (np.diff(time) > 0.0).all()):
-        raise InputError("the times do not increase; allowed: finite times [s], each later than the one before")
+# --- statistics ---
+
+STATISTICS: Mapping[str, Callable[[Values], float]] = {
+    "mean": lambda values: float(values.mean()),
+    "rms": lambda values: float(np.sqrt(np.mean(values**2))),
+}
+
+
+class StatisticDifference(NamedTuple):
+    """A statistic of two curves: of each, second less first, and half of the confidence interval of that.
+
+    half: the smallest difference that would have shown; NaN if the curves are too short.
+    """
+
+    first: float
+    second: float
+    difference: float
+    half: float
+
+    @property
+    def equal(self) -> bool | None:
+        """Whether the interval of the difference contains 0; None if there is no interval."""
+        return None if math.isnan(self.half) else abs(self.difference) <= self.half
+
+
+def compared_statistics(first: Values, second: Values, among: int = 1) -> dict[str, StatisticDifference]:
+    """The mean and the root mean square of two curves, by name; none if fewer than two values are known.
+
+    Neighbouring samples may be correlated as long as blocks are longer than the correlation lasts.
+
+    Arguments:
+        first, second: values of one unit at the same, evenly spaced times, (n,); NaN where one is not known.
+        among: number of differences that are reported together. Of twenty intervals of 95 % one misses the
+            truth on average, so each has the confidence 0.95^(1/among) (Sidak).
+    """
+    known = np.isfinite(first) & np.isfinite(second)
+    first, second = first[known], second[known]
+    if first.size < 2:
+        return {}
+    blocks = [np.array_split(values, BLOCKS) for values in (first, second)]
+    quantile = float(stats.t.ppf(0.5 + 0.5 * CONFIDENCE ** (1.0 / among), BLOCKS - 1))
+    rounding = EXACT * float(np.abs((first, second)).max())
+    result = {}
+    for name, statistic in STATISTICS.items():
+        values, half = (statistic(first), statistic(second)), math.nan
+        if first.size >= FEWEST * BLOCKS:
+            apart = [statistic(its) - statistic(mine) for mine, its in zip(*blocks, strict=True)]
+            half = quantile * float(stats.sem(apart)) + rounding
+        result[name] = StatisticDifference(*values, values[1] - values[0], half)
+    return result

@@ -28,11 +28,13 @@ class TimeShift(NamedTuple):
         reference.
     correlation: of both curves at this shift, -1 to 1.
     next_best: the largest correlation at another shift that is a peak of its own; NaN if there is none.
+    channel: by which it was determined; empty if the curves have no name.
     """
 
     shift: float
     correlation: float
     next_best: float
+    channel: str = ""
 
     @property
     def is_sure(self) -> bool:
@@ -43,14 +45,7 @@ class TimeShift(NamedTuple):
         return self.correlation >= ALIKE and not self.next_best > self.correlation - APART
 
 
-class FoundShift(NamedTuple):
-    """A shift in time, and the channel by which it was determined."""
-
-    channel: str
-    found: TimeShift
-
-
-def found_shift(reference: ComparedFile, other: ComparedFile, units: Mapping[str, str]) -> FoundShift:
+def found_shift(reference: ComparedFile, other: ComparedFile, units: Mapping[str, str]) -> TimeShift:
     """The shift of the channel that is sure of it and has the largest correlation.
 
     units: of the channels that are tried, in SI.
@@ -59,21 +54,21 @@ def found_shift(reference: ComparedFile, other: ComparedFile, units: Mapping[str
     """
     sure, reasons = [], []
     for name, unit in units.items():
-        mine, its = (file.column(name, unit) for file in (reference, other))
+        mine, its = (file.columns[name].in_unit(unit, name) for file in (reference, other))
         try:
             shift = time_shift(mine.time, mine.values, its.time, its.values)
         except InputError as error:
             reasons.append(f"{name}: {error}")
             continue
         if shift.is_sure:
-            sure.append(FoundShift(name, shift))
+            sure.append(shift._replace(channel=name))
         else:
             reasons.append(
                 f"{name}: correlation {shift.correlation:.2f} at {shift.shift:.4g} s, and "
                 f"{shift.next_best:.2f} at another shift"
             )
     if sure:
-        return max(sure, key=lambda shift: shift.found.correlation)
+        return max(sure, key=lambda shift: shift.correlation)
     raise InputError(
         f"--shift: {other.name} and {reference.name}: no shift in time is sure ({'; '.join(reasons[:3])}); "
         f'allowed: a channel with one clear event, or shift_s of [files."{other.path.name}"] in compare.toml'
@@ -93,10 +88,8 @@ def time_shift(reference_time: Values, reference: Values, other_time: Values, ot
 
     Raises InputError if a curve is constant or has too few values, or is so at all shifts that are tried.
     """
-    known = [
-        (time[np.isfinite(values)], values[np.isfinite(values)])
-        for time, values in ((reference_time, reference), (other_time, other))
-    ]
+    curves = ((reference_time, reference), (other_time, other))
+    known = [(time[np.isfinite(values)], values[np.isfinite(values)]) for time, values in curves]
     for time, values in known:
         if time.size < FEWEST or np.ptp(values) == 0.0:
             raise InputError(
@@ -117,11 +110,9 @@ def time_shift(reference_time: Values, reference: Values, other_time: Values, ot
         at = np.arange(max(0, math.ceil(-lag)), min(mine.size, math.floor(its.size - 1 - lag) + 1))
         return float(np.corrcoef(mine[at], spline(at + lag))[0, 1])
 
+    bounds = lags[best] - 1.0, lags[best] + 1.0
     found = optimize.minimize_scalar(
-        lambda lag: 1.0 - correlation(lag),
-        bounds=(lags[best] - 1.0, lags[best] + 1.0),
-        method="bounded",
-        options={"xatol": 1e-9},
+        lambda lag: 1.0 - correlation(lag), bounds=bounds, method="bounded", options={"xatol": 1e-9}
     )
     return TimeShift(
         shift=float(known[1][0][0] - known[0][0][0] + found.x * spacing),

@@ -10,13 +10,12 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from support_exudyn.files.series.named_series import NamedSeries
-from support_exudyn.files.series.units import converted
+from support_exudyn.files.series.units import scaled
 from support_exudyn.postprocessing.figures.selection import is_called
 from user_forces.values.value import InputError, short
 
-ToleranceVerdict = Literal["within", "not within", "not decided", "told"]
-WORST_FIRST: tuple[ToleranceVerdict, ...] = ("not within", "not decided", "within", "told")
+ToleranceVerdict = Literal["within", "not within", "not decided", "no tolerance"]
+WORST_FIRST: tuple[ToleranceVerdict, ...] = ("not within", "not decided", "within", "no tolerance")
 ROUNDING = 1e-9  # share of what is allowed: 1.1 - 1.0 is 0.1, in whatever digits
 WRITTEN = re.compile(r"\s*([+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
 PERCENT, ERRORS = "%", "errors"
@@ -28,7 +27,8 @@ class Tolerance:
     """A tolerance bounds how much the channels that a pattern matches may differ.
 
     pattern: name of a channel, or a pattern as in a shell. text: as it was written. amount: number of `unit`,
-    which is "%" of the reference's range or a unit of the channel.
+    which is "%" of the reference's range, a unit of the channel, or "errors": the numerical errors of both
+    sides are allowed, record by record.
     """
 
     pattern: str
@@ -38,7 +38,7 @@ class Tolerance:
 
     @property
     def is_errors(self) -> bool:
-        """Whether the numerical errors of both sides are allowed, record by record."""
+        """Whether the numerical errors of both sides are allowed."""
         return self.unit == ERRORS
 
     @property
@@ -47,19 +47,17 @@ class Tolerance:
         return self.unit == PERCENT
 
     def in_si(self, channel: str, unit: str, extent: float) -> float:
-        """The amount that is allowed of a channel.
+        """The amount that is allowed of a channel in SI; NaN if the errors are allowed.
 
         Arguments:
-            channel: its name.
-            unit: of it, in SI.
+            channel: its name. unit: of it, in SI.
             extent: the range of the reference: its largest less its least value, in SI.
 
-        Returns NaN if the errors are allowed. Raises InputError if it is an amount of another kind.
+        Raises InputError if it is an amount of another kind.
         """
-        if not self.is_relative and not self.is_errors:
-            amount = NamedSeries(f"tolerance of {channel}", self.unit, np.zeros(1), np.array([self.amount]))
-            return float(converted(amount, unit)[0])
-        return self.amount / 100.0 * extent
+        if self.is_relative or self.is_errors:
+            return self.amount / 100.0 * extent
+        return float(scaled(np.array([self.amount]), self.unit, unit, f"tolerance of {channel}")[0])
 
 
 BOTH_ERRORS = Tolerance("*", "both errors", math.nan, ERRORS)
@@ -76,15 +74,10 @@ def tolerance(pattern: str, text: str) -> Tolerance:
 
 def read_tolerances(text: str) -> list[Tolerance]:
     """The tolerances of a command line, 'pin.*.force=2%,tip.*=0.1mm'. Raises InputError if it holds none."""
-    tolerances = []
-    for part in filter(str.strip, text.split(",")):
-        pattern, sign, amount = part.rpartition("=")
-        if not sign:
-            raise InputError(f"{short(part.strip())}: allowed: CHANNEL=AMOUNT, such as 'tip.*=0.1mm'")
-        tolerances.append(tolerance(pattern, amount))
-    if not tolerances:
+    parts = [part.rpartition("=") for part in text.split(",") if part.strip()]
+    if not parts or not all(sign for _, sign, _ in parts):
         raise InputError(f"{short(text)}: allowed: CHANNEL=AMOUNT, such as 'pin.*.force=2%,tip.*=0.1mm'")
-    return tolerances
+    return [tolerance(pattern, amount) for pattern, _, amount in parts]
 
 
 def of_channel(tolerances: Sequence[Tolerance], channel: str) -> Tolerance | None:
@@ -111,10 +104,10 @@ class JudgedDifference(NamedTuple):
     def verdict(self) -> ToleranceVerdict:
         """Within, or not; not decided if the error is larger than what is allowed and could turn the answer.
 
-        A difference that is no number is not decided: it could not be computed. Without a tolerance it is told.
+        A difference that is no number is not decided: it could not be computed.
         """
         if math.isnan(self.allowed):
-            return "told"
+            return "no tolerance"
         unsure = self.error > self.allowed and self.value - self.error <= self.allowed
         if math.isnan(self.value) or math.isinf(self.error) or unsure:
             return "not decided"
@@ -131,4 +124,4 @@ class JudgedDifference(NamedTuple):
 def worst(verdicts: Iterable[ToleranceVerdict]) -> ToleranceVerdict:
     """The verdict on all: the worst of those on each."""
     given = set(verdicts)
-    return next((verdict for verdict in WORST_FIRST if verdict in given), "told")
+    return next((verdict for verdict in WORST_FIRST if verdict in given), "no tolerance")

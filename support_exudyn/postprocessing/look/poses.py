@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND, Body
@@ -14,11 +13,10 @@ from support_exudyn.model.to_space import at
 from support_exudyn.postprocessing.look.solid import DrawnActuator
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
-from user_forces.values.value import Vector3
+from user_forces.values.value import InputError, Vector3
 
-MOST_CORRECTIONS = 50  # of a rotation; three do for a machine
 WHY = "without it nobody knows where the body is"
-ROUNDING = 1e-14  # [rad]
+LEAST = 1e-9  # determinant below which roll, yaw and angle do not determine a rotation
 ONLY_IN_SPACE = ("z", "velocity_z", "angular_velocity_x", "angular_velocity_y")
 
 
@@ -117,32 +115,28 @@ def _about_z(angle: Series) -> Series:
 
 
 def turned(angle: Series, roll: Series, yaw: Series) -> Series:
-    """Rotations (n, 3, 3) with the angles that the channels of space have.
+    """Rotation matrices A (n, 3, 3) with the angles (n,) [rad] that the channels of space have.
 
-    Each is the angle by which an axis of the body has turned towards the next of the ground, seen along the
-    third: angle x towards y, roll y towards z, yaw z towards x. Found by Newton's method, from a turn about z.
-    With d a further small rotation, the angle of axis c towards r, seen along k, changes by
+        angle = atan2(A_10, A_00),   roll = atan2(A_21, A_11),   yaw = atan2(A_02, A_22)
 
-        d_k - R_kc (R_cc d_c + R_rc d_r) / (R_cc^2 + R_rc^2)
+    So the columns are multiples of (cos angle, sin angle, p), (q, cos roll, sin roll), (sin yaw, s, cos yaw).
+    That they are perpendicular to each other are three linear equations for p, q and s.
+
+    Raises InputError if the angles do not determine the rotation: the body has turned far to the side.
     """
-    asked = np.stack([angle, roll, yaw], axis=1)
-    turn = _about_z(angle)
-    for _ in range(MOST_CORRECTIONS):
-        slope = np.zeros((angle.size, 3, 3))
-        context = np.empty_like(asked)
-        for c in range(3):
-            r, k = (c + 1) % 3, (c + 2) % 3
-            axis = turn[:, :, c]
-            context[:, c] = np.arctan2(axis[:, r], axis[:, c])
-            share = axis[:, k] / (axis[:, c] ** 2 + axis[:, r] ** 2)
-            slope[:, c, k] = 1.0
-            slope[:, c, c], slope[:, c, r] = -share * axis[:, c], -share * axis[:, r]
-        off = (asked - context + np.pi) % (2.0 * np.pi) - np.pi
-        if not np.abs(off).max(initial=0.0) > ROUNDING:
-            break
-        correction = np.linalg.solve(slope, off[:, :, None])[:, :, 0]
-        turn = Rotation.from_rotvec(correction).as_matrix() @ turn
-    return turn
+    (cr, sr), (cy, sy), (ca, sa) = ((np.cos(one), np.sin(one)) for one in (roll, yaw, angle))
+    zero = np.zeros_like(angle)
+    rows = ((sr, ca, zero), (zero, sy, cr), (cy, zero, sa))
+    matrix = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    if np.abs(np.linalg.det(matrix)).min() < LEAST:
+        raise InputError(
+            "roll, yaw and angle do not determine how a body has turned; allowed: bodies that turn less to the "
+            "side"
+        )
+    right = np.stack([-sa * cr, -sr * cy, -ca * sy], axis=-1)
+    p, q, s = np.linalg.solve(matrix, right[..., None])[..., 0].T
+    columns = np.stack([np.stack(row, axis=-1) for row in ((ca, q, sy), (sa, cr, s), (p, sr, cy))], axis=-2)
+    return np.asarray(columns / np.linalg.norm(columns, axis=-2, keepdims=True))
 
 
 # --- struts ---

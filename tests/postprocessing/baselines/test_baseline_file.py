@@ -12,10 +12,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import InputError
-from support_exudyn.postprocessing.comparing.changes import changes
-from support_exudyn.postprocessing.comparing.common_times import ComparedColumn
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn
 from support_exudyn.postprocessing.comparing.kept_run import (
     KeptRun,
+    changes,
     read_baseline,
     write_baseline,
 )

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import Failure, SimulationError, simple_scenario
-from support_exudyn.postprocessing.comparing import cached_run
-from support_exudyn.postprocessing.comparing.cached_run import RunCache
+from support_exudyn.postprocessing.comparing import in_tests
+from support_exudyn.postprocessing.comparing.in_tests import RunCache
 
 SCENE = simple_scenario(
     "crank_rocker", duration_s=0.01, drives={"crank": {"type": "Steady", "rate_rad_per_s": 60}}
@@ -22,13 +22,13 @@ SCENE = simple_scenario(
 def made(monkeypatch: pytest.MonkeyPatch) -> list[object]:
     """What was simulated."""
     found: list[object] = []
-    simulate = cached_run.simulate
+    simulate = in_tests.simulate
 
     def counted(scenario: object, **more: bool) -> object:
         found.append(scenario)
         return simulate(scenario, **more)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(cached_run, "simulate", counted)
+    monkeypatch.setattr(in_tests, "simulate", counted)
     return found
 
 
@@ -47,11 +47,11 @@ def test_another_program_makes_its_own(
 ) -> None:
     first = RunCache(tmp_path)
     first.run(SCENE)
-    monkeypatch.setattr(cached_run, "program", lambda: {"sources": "others"})
+    monkeypatch.setattr(in_tests, "program", lambda: {"sources": "others"})
     RunCache(tmp_path).run(SCENE)
     assert len(made) == 2
     os.utime(first.folder, (0.0, 0.0))  # what another program has left is removed once it is old
-    monkeypatch.setattr(cached_run, "program", lambda: {"sources": "third"})
+    monkeypatch.setattr(in_tests, "program", lambda: {"sources": "third"})
     RunCache(tmp_path)
     assert not first.folder.exists()
 
@@ -64,7 +64,7 @@ def test_who_asks_for_the_same_waits_and_a_run_that_fails_is_not_kept(
 
     cache, found = RunCache(tmp_path), []
     with monkeypatch.context() as patch:
-        patch.setattr(cached_run, "simulate", fails)
+        patch.setattr(in_tests, "simulate", fails)
         with pytest.raises(SimulationError, match="stuck"):
             cache.run(SCENE)
     assert list(tmp_path.rglob("run.h5")) == []  # and nothing is locked

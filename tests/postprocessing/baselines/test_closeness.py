@@ -12,7 +12,7 @@ import pytest
 
 from support_exudyn import InputError, Result, simulate
 from support_exudyn.files.series.named_series import NamedSeries
-from support_exudyn.postprocessing.comparing.closeness import closeness
+from support_exudyn.postprocessing.comparing.in_tests import closeness
 from support_exudyn.postprocessing.comparing.tables import faults
 from support_exudyn.postprocessing.export.tables import to_hdf5
 from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached

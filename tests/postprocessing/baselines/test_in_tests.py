@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from support_exudyn import InputError
-from support_exudyn.postprocessing.comparing.baselines import SessionBaselines
+from support_exudyn.postprocessing.comparing.in_tests import SessionBaselines
 from support_exudyn.postprocessing.pytest_plugin import SimulateCached
 from support_exudyn.simulation.estimate import Estimate
 from tests.postprocessing.baselines.scenes import rocker
@@ -34,7 +34,7 @@ def test_only_what_is_named_is_written(tmp_path: Path) -> None:
     assert path.read_bytes() == first
     said, written = compared(LARGER, tmp_path)
     assert (path.read_bytes(), written) == (first, False)
-    assert "100 -> 100.3 N" in said
+    assert "100.3 N, where the reference is 100, differs by" in said
     assert compared(LARGER, tmp_path, "test_it.test_force")[1]
     assert compared(LARGER, tmp_path) == ("", False)
 

@@ -69,7 +69,7 @@ def test_failures_tell_the_worst_number_and_its_time(tmp_path: Path) -> None:
     file.write_text(example.text.replace('"clearance_mm": 0.5', '"clearance_mm": 0.51'), "utf-8")
     found = tried(tmp_path)
     assert "2 failed, 1 passed" in found.stdout
-    assert re.search(r"changed  .* -> ", found.stdout)
+    assert re.search(r"changed number .*, where the reference is ", found.stdout)
     assert "differs by" in found.stdout
     shared = tried(tmp_path, "-n", "2", OPTION, "test_rocker.*")
     assert f"{NAME}.json: written" in shared.stdout  # workers tell it, too

@@ -11,8 +11,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import integrate
 
-from support_exudyn.postprocessing.comparing.common_times import interpolated, on_common_times
-from support_exudyn.postprocessing.comparing.measures import CurveMeasures, curve_measures
+from support_exudyn.postprocessing.comparing.measures import (
+    CurveMeasures,
+    curve_measures,
+    interpolated,
+    on_common_times,
+)
 from user_forces import InputError
 
 PERIOD = np.linspace(0.0, 2.0 * np.pi, 20_001)

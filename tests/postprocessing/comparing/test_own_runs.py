@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
-from support_exudyn.postprocessing.comparing.statistics import compared_statistics
+from support_exudyn.postprocessing.comparing.measures import compared_statistics
 from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from tests.cases.run_cases import FORCE, loose_support
 
@@ -122,23 +122,6 @@ def test_a_clearance_that_is_larger_by_a_thousandth_is_told() -> None:
     other = simulate(five_pins(1.001), accuracy=FINE)
     worst = max(point_by_point(first, other, min(first.horizon, other.horizon)))
     assert worst[0] > 100.0 * DOUBT
-
-
-def with_factor(run: Result, factor: float) -> Result:
-    """The run, and all that its errors are estimated by, with another force of the pin."""
-    channel = run.channels[FORCE]
-    channels = {**run.channels, FORCE: replace(channel, values=factor * channel.values)}
-    coarser = run.coarser and with_factor(run.coarser, factor)
-    return replace(run, channels=channels, coarser=coarser, statistics=None)  # which then are of the channels
-
-
-def test_a_factor_on_a_force_is_told() -> None:
-    run = simulate(loose_support(1.0, 0.25, duration=0.1), accuracy=1e-4)
-    changed = with_factor(run, 1.001)
-    told = {name: times for times, name, _ in point_by_point(run, changed, math.inf)}
-    assert told.pop(FORCE) > DOUBT
-    assert set(told.values()) == {0.0}
-    assert of_numbers(run, changed)[f"{FORCE}.mean"] > DOUBT
 
 
 def test_errors_cover_what_lies_beyond_the_horizon() -> None:

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy import signal, stats
 
+from support_exudyn.postprocessing.comparing.measures import STATISTICS, compared_statistics
 from support_exudyn.postprocessing.comparing.shift import time_shift
-from support_exudyn.postprocessing.comparing.statistics import STATISTICS, compared_statistics
 from user_forces import InputError
 
 SECOND = np.arange(0.0, 1.0, 1e-3)

@@ -1,0 +1,256 @@
+"""The work of the pytest plugin: runs that are kept, baselines of tests, closeness to a reference."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import re
+import shutil
+import time
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from fnmatch import fnmatchcase
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
+from support_exudyn.files.whole_file import writing_alone
+from support_exudyn.postprocessing.comparing.compared_channel import (
+    ComparedChannel,
+    ComparedColumn,
+    ComparedWindow,
+    compared,
+)
+from support_exudyn.postprocessing.comparing.compared_file import run_or_series
+from support_exudyn.postprocessing.comparing.kept_run import (
+    changes,
+    determined_until,
+    kept_numbers,
+    kept_run,
+    lines,
+    read_baseline,
+    write_baseline,
+)
+from support_exudyn.postprocessing.comparing.tolerance import BOTH_ERRORS, PERCENT, Tolerance, tolerance
+from support_exudyn.postprocessing.comparing.with_errors import curve_errors
+from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.simulate import simulate
+from support_exudyn.sweeps.key import key, program
+from user_forces.values.names import meant
+from user_forces.values.value import InputError, short
+
+Measured = Result | NamedSeries | Estimate | float
+Reference = Measured | SeriesFile | str | PathLike[str] | Mapping[str, NamedSeries | Estimate | float]
+ALONE = "it"  # the name of a number without a name
+FOLDER, ENDING = "baseline", ".json"  # of baselines beside tests and scenarios
+WAIT = 0.05  # [s] until it is checked again whether another process is done
+OLD = 86400.0  # [s] since the runs of another program were made: nobody works with it any more
+NO_NAME = re.compile(r"[^\w.-]+")  # is left out of a file's name
+LONGEST = 150  # letters of a file's name
+FEW = 5  # changes in the message of a failure
+
+
+class RunCache:
+    """Runs in a folder, one for each scenario and program.
+
+    The key of a run is that of sweeps: all fields of the scenario, versions of packages, a digest of our
+    sources and of modules of one's own. Another program thus never reads a run of this one. Several processes
+    may use the folder: one makes a run, others that ask for the same wait for it.
+
+    folder: where they are kept; made if it is missing. Runs of other programs, a day old, are removed.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        text = json.dumps(program(), sort_keys=True)
+        self.folder = folder / hashlib.sha256(text.encode()).hexdigest()[:16]
+        if not self.folder.is_dir():
+            self.folder.mkdir(parents=True, exist_ok=True)
+            for other in folder.iterdir():
+                with suppress(OSError):  # another process may remove it at the same time
+                    if time.time() - other.stat().st_mtime > OLD:
+                        shutil.rmtree(other, ignore_errors=True)
+
+    def run(self, scenario: Scenario, errors: bool = False) -> Result:
+        """The run of a scenario, made if it is not there or damaged; always as it is read from its file.
+
+        errors: whether it is made with estimated errors, see `simulate`.
+
+        Raises InputError and SimulationError as `simulate` does; OSError if it cannot be kept.
+        """
+        folder = self.folder / key(scenario, errors)
+        path = folder / "run.h5"
+        while True:
+            with suppress(InputError, OSError):  # it is not there, damaged, or removed while it is read
+                return Result.load(path)
+            folder.mkdir(exist_ok=True)
+            try:
+                with writing_alone(folder):
+                    with suppress(InputError, OSError):  # another process may have made it meanwhile
+                        return Result.load(path)
+                    simulate(scenario, errors=errors).save(path)
+            except BlockingIOError:
+                time.sleep(WAIT)
+
+
+class SessionBaselines:
+    """The baselines of the tests of a session.
+
+    updated: names, or patterns of them, of baselines that are written.
+    """
+
+    def __init__(self, updated: Sequence[str]) -> None:
+        self.updated = tuple(updated)
+        self._used: set[Path] = set()
+
+    def compare(
+        self, item: Result | Estimate | Mapping[str, Estimate], beside: Path, name: str
+    ) -> tuple[str, bool]:
+        """Compare with the baseline, or write it if its name is among those.
+
+        Arguments:
+            item: what is compared: a result with errors, a number, or numbers by their names.
+            beside: the file of the test, next to which the folder of baselines is.
+            name: of the baseline.
+
+        Returns:
+            The changes, or that there is no baseline, in lines, empty if nothing has changed; and whether
+            the baseline was written.
+
+        Raises InputError if it is damaged, or if its name was used before.
+        """
+        stem = NO_NAME.sub("_", name).strip("_.")[:LONGEST] or ALONE
+        path = beside.parent / FOLDER / f"{stem}{ENDING}"
+        if path in self._used:
+            raise InputError(f"{stem}: is compared already; allowed: a name of its own, baseline(it, 'NAME')")
+        self._used.add(path)
+        named = {ALONE: item} if isinstance(item, Estimate) else item
+        if isinstance(named, Result):
+            now = kept_run(named)
+        elif isinstance(named, Mapping) and all(isinstance(one, Estimate) for one in named.values()):
+            now = kept_numbers(named)
+        else:
+            allowed = "a Result with errors, an Estimate, or Estimates by their names"
+            raise InputError(f"{short(item)}: cannot be a baseline; allowed: {allowed}")
+        report = [f"{path}: there is no such baseline"]
+        if path.exists():
+            found = changes(read_baseline(path), now)
+            if not found:
+                return "", False
+            head = f"{stem}: {len(found)} changed by more than both errors, new, or gone"
+            report = [head, *lines(found, FEW)]
+        if any(fnmatchcase(stem, pattern) for pattern in self.updated):
+            write_baseline(now, path)
+            return "\n".join([f"{path}: written", *report]), True
+        return "\n".join([*report, f"to write it: pytest --baseline-update {stem}"]), False
+
+
+# --- closeness ---
+
+
+def closeness(
+    result: Measured,
+    reference: Reference,
+    allowed: float | str | None = None,
+    *,
+    channels: Sequence[str] = (),
+    after: float = 0.0,
+    until: float = math.inf,
+) -> list[ComparedChannel]:
+    """Each curve or number of a result against its reference, those that are not within first.
+
+    Arguments:
+        result: a Result, a NamedSeries, an Estimate such as `result.numbers()[name]`, or a number.
+        reference: another Result; a file with curves, by its path or as `read_series` gives it; a NamedSeries;
+            an Estimate or a number; or several of these by the names of channels and numbers of a Result.
+        allowed: a relative tolerance, such as 0.02 or "2 %": of curves it is of the range of the reference, of
+            numbers of their reference; an amount with its unit, "0.1 mm"; None: the errors of both, which have
+            to be known of one side at least, and of curves up to the time when runs are determined.
+        channels: of a Result, by names or patterns; without, all that both have.
+        after, until: the part of curves and runs that is compared [s].
+
+    Raises InputError if there is nothing to compare, if units do not fit, or if the tolerance is none.
+    """
+    if isinstance(reference, (str, PathLike)):
+        reference = run_or_series(Path(reference))
+    rule = _rule(allowed)
+    mine: Mapping[str, Any] = {ALONE: result}
+    its: Mapping[str, Any] = {ALONE: reference}
+    names = [ALONE]
+    if isinstance(result, Result):
+        numbers = result.numbers(after, until) if result.coarser is not None else {}
+        mine, its = {**numbers, **_curves(result)}, _several(reference)
+        missing = [name for name in its if name not in mine]
+        if missing and isinstance(reference, Mapping):
+            why = "the result has no such channel or number with an error"
+            raise InputError(f"{missing[0]}: {why}; {meant(missing[0], list(mine))}")
+        names = [name for name in its if name in mine]
+        if not names:
+            known = ", ".join(list(result.channels)[1:4])
+            raise InputError(f"reference: has no channel of the result; allowed: names such as {known}")
+        names = matching(names, channels) if channels else names
+    elif isinstance(result, NamedSeries):
+        names, mine, its = [result.name], {result.name: result}, {result.name: reference}
+    if rule.is_errors:
+        runs = [run for run in (result, reference) if isinstance(run, Result)]
+        until = min([until, *map(determined_until, runs)])
+    window = ComparedWindow(after, until)
+    found = [compared(name, _column(its[name]), _column(mine[name]), rule, window) for name in names]
+    if rule.is_errors and (unknown := [one.name for one in found if np.isnan(one.errors).all()]):
+        raise InputError(
+            f"{unknown[0]}: no numerical error is known; allowed: a tolerance, such as '2 %', or runs with an "
+            "accuracy"
+        )
+    return sorted(found, key=lambda one: one.verdict == "within")
+
+
+def _rule(allowed: float | str | None) -> Tolerance:
+    if allowed is None:
+        return BOTH_ERRORS
+    if isinstance(allowed, str):
+        return tolerance("*", allowed)
+    if isinstance(allowed, (int, float)) and not isinstance(allowed, bool) and 0.0 <= allowed < math.inf:
+        return Tolerance("*", f"{100.0 * allowed:.4g} %", 100.0 * allowed, PERCENT)
+    raise InputError(
+        f"tolerance = {short(allowed)}: allowed: a share from 0 on, a text, '2 %' or '0.1 mm', None"
+    )
+
+
+def _several(reference: Any) -> Mapping[str, Any]:
+    """Curves and numbers of a reference by their names."""
+    if isinstance(reference, Result):
+        return {name: one for name, one in _curves(reference).items() if reference.channels[name].is_determined}
+    if isinstance(reference, NamedSeries):
+        return {reference.name: reference}
+    if isinstance(reference, SeriesFile):
+        return reference.series
+    if isinstance(reference, Mapping):
+        return reference
+    raise InputError(
+        f"reference = {short(reference)}: is one number, the result a whole run; allowed: numbers by names"
+    )
+
+
+def _curves(run: Result) -> dict[str, ComparedColumn]:
+    """All channels of a run with their errors."""
+    errors = curve_errors(run, [name for name in run.channels if name != "time"])
+    return {name: ComparedColumn(run.unit(name), run.time, run[name], errors[name]) for name in errors}
+
+
+def _column(item: Any) -> ComparedColumn:
+    """A curve or number as a column. Raises InputError if it is none."""
+    if isinstance(item, ComparedColumn):
+        return item
+    if isinstance(item, NamedSeries):
+        return ComparedColumn.of_series(item)
+    if isinstance(item, Estimate):
+        return ComparedColumn.of_number(item, item.unit)
+    if isinstance(item, (int, float)) and not isinstance(item, bool):
+        return ComparedColumn.of_number(Estimate(float(item), math.nan, ""), None)
+    raise InputError(f"{short(item)}: cannot be compared; allowed: a NamedSeries, an Estimate, a number")
