@@ -76,10 +76,10 @@ def passed(scenario: Scenario, run: Trajectory) -> tuple[float, str] | None:
 
     Returns None if the run has passed no such point.
     """
-    if not run.position.size or not run.velocity.size:
+    if not run.motion.position.size or not run.motion.velocity.size:
         return None
     motion, time = run.motion, run.time
-    forces = {name: np.hypot(*force.T) for name, force in run.ideal_pins.items()}
+    forces = {name: np.hypot(*force.T) for name, force in run.pins.items()}
     forces |= {name: slide[:, 0] for name, slide in run.slides.items()}
     conditions = scenario.held
     last = len(conditions.counts) - repeated_count(conditions)[0] - 1

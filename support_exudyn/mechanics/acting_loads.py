@@ -69,7 +69,7 @@ def _turning(motion: Motion, body: str, other: str) -> Turning:
     return Turning(np.unwrap(np.arctan2(forward[1], forward[0])), rate, axis)
 
 
-class _Strain(ABC):
+class Strain(ABC):
     """A strain kind over the motion of all bodies. numbers: strains and rates (n, m), as `MOTION` has them."""
 
     numbers: Series
@@ -79,7 +79,7 @@ class _Strain(ABC):
         """Add forces (n, k) of a load, as its action gives them, to the forces on all bodies."""
 
 
-class _PointStrain(_Strain):
+class _PointStrain(Strain):
     """The way of a point against another, of a `Load`."""
 
     def __init__(self, load: Load, name: str, motion: Motion) -> None:
@@ -97,7 +97,7 @@ class _PointStrain(_Strain):
         push(total, self.motion, self.against, -known, self.origin.position)
 
 
-class _TurnStrain(_Strain):
+class _TurnStrain(Strain):
     """The turn of a body against another, of a `MomentLoad`."""
 
     def __init__(self, load: MomentLoad, name: str, motion: Motion) -> None:
@@ -111,7 +111,7 @@ class _TurnStrain(_Strain):
         twist(total, self.motion, self.load.other, -forces * self.axis)
 
 
-class _StretchStrain(_Strain):
+class _StretchStrain(Strain):
     """The ways up of both ends of a stretch, of a `StretchLoad`."""
 
     def __init__(self, load: StretchLoad, name: str, motion: Motion) -> None:
@@ -128,7 +128,7 @@ class _StretchStrain(_Strain):
             push(total, self.motion, self.load.body, up, end.position)
 
 
-def _strain(load: ActingLoad, name: str, motion: Motion) -> _Strain:
+def strain_of(load: ActingLoad, name: str, motion: Motion) -> Strain:
     """The strain of a load of this name. Raises TypeError for a load of no strain kind."""
     if isinstance(load, Load):
         return _PointStrain(load, name, motion)
@@ -141,7 +141,7 @@ def _strain(load: ActingLoad, name: str, motion: Motion) -> _Strain:
 
 def load_series(load: ActingLoad, name: str, motion: Motion, time: Series) -> LoadSeries:
     """The load of this name at the records [s]."""
-    known = np.column_stack([time, _strain(load, name, motion).numbers])
+    known = np.column_stack([time, strain_of(load, name, motion).numbers])
     forces, width = load.FORCES, load.FORCES + 3 + len(load.channels)
     if len(known) < MANY:
         found = np.array([load.numbers(load.MOTION(*row)) for row in known.tolist()]).reshape(-1, width)
@@ -174,7 +174,7 @@ def _loop(
 
 def add_load(forces: Series, motion: Motion, name: str, load: ActingLoad, series: LoadSeries) -> None:
     """Add what a load of this name does at the records to the forces on all bodies, (n, freedoms)."""
-    _strain(load, name, motion).apply(forces, series.forces)
+    strain_of(load, name, motion).apply(forces, series.forces)
 
 
 def load_channels(name: str, load: ActingLoad, stem: str | None = None) -> ChannelDefinitions:
@@ -224,7 +224,7 @@ def strain_rates(system: Kinetics, name: str, load: ActingLoad) -> Matrix:
     """
     count, size = load.FORCES, 3 * len(system.linkage.bodies)
     motion, forces = _at_rest(system, np.zeros((count, size))), np.zeros((count, size))
-    _strain(load, name, motion).apply(forces, np.eye(count))
+    strain_of(load, name, motion).apply(forces, np.eye(count))
     return forces
 
 

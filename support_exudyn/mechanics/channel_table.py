@@ -38,7 +38,7 @@ from support_exudyn.mechanics.joint_channels import (
     sizes,
 )
 from support_exudyn.mechanics.leg_channels import leg_channels
-from support_exudyn.mechanics.observed_run import ObservedRun
+from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.reactions import UNDETERMINED, Loads
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.guides import Guide, IdealGuide
@@ -114,8 +114,8 @@ def _body(name: str, linkage: Linkage | SpatialLinkage, axes: int) -> ChannelDef
     velocity, about = (MOTION, " about z") if axes == 3 else (VELOCITY, "")
     spin = 3 * (axes - 1) * (list(linkage.bodies).index(name) + 1) - 1  # that about z among all velocities
 
-    def centre(run: ObservedRun) -> Series:
-        return np.asarray(body.centre) + run.motion.centre(name)[0]
+    def centre(run: Trajectory) -> Series:
+        return np.asarray(body.centre + run.motion.centre(name)[0])
 
     places: list[Row] = [
         (axis, "m", f"centre of mass, {to}", column(k)) for k, (axis, to) in enumerate(towards)
@@ -162,7 +162,7 @@ def _actuator(name: str, oil: bool, axes: int) -> ChannelDefinitions:
         ("angle", "rad", angle, lambda span: np.arctan2(span[:, 1], span[:, 0])),
         ("length", "m", "distance of its ends", sizes),
     ]
-    force: list[Row] = [("force", "N", APART, lambda run: run.actuator_force(name))]
+    force: list[Row] = [("force", "N", APART, lambda run: run.actuators[name])]
     found = table(name, POSITION, lambda run: run.span(name), rows)
     return found | table(name, OIL if oil else JOINTS, lambda run: run, force)
 
@@ -195,7 +195,7 @@ def _together(
     """A channel of a pair, from those of each."""
     each = [known[f"{part}.{what}"] for part in parts]
 
-    def united(run: ObservedRun) -> Series:
+    def united(run: Trajectory) -> Series:
         return np.asarray(unite([one.values(run) for one in each], axis=0))
 
     return table(whole, each[0].needs, lambda run: run, [(what, each[0].unit, meaning, united)])
@@ -243,8 +243,8 @@ def _loads_of(linkage: SpatialLinkage, parts: Parts) -> Loads:
     return Loads(linkage, _loose(parts), parts.oil)
 
 
-def _sum_of_bearings(parts: Iterable[str]) -> Callable[[ObservedRun], Series]:
-    return lambda run: np.asarray(np.sum([run.pin_force(part) for part in parts], axis=0))
+def _sum_of_bearings(parts: Iterable[str]) -> Callable[[Trajectory], Series]:
+    return lambda run: np.asarray(np.sum([run.pins[part] for part in parts], axis=0))
 
 
 def _marked(channels: ChannelDefinitions, what: str, determined: bool) -> ChannelDefinitions:

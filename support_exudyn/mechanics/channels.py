@@ -11,12 +11,12 @@ from enum import Flag, auto
 from fnmatch import fnmatchcase
 from typing import Any
 
-from support_exudyn.mechanics.observed_run import ObservedRun
+from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.trajectory import Series
 
 
 class DataNeeds(Flag):
-    """Parts of an `ObservedRun`.
+    """Parts of an `Trajectory`.
 
     JOINTS: forces of ideal pins, cranks, guides and rigid actuators; CONTACTS: clearance joints and others
     whose force follows from the motion; OIL: actuators on oil; INTEGRALS: work and losses so far, which have to
@@ -55,7 +55,7 @@ class ChannelDefinition:
     unit: str
     meaning: str
     needs: DataNeeds
-    values: Callable[[ObservedRun], Series]
+    values: Callable[[Trajectory], Series]
 
 
 ChannelDefinitions = dict[str, ChannelDefinition]

@@ -14,18 +14,21 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from support_exudyn.mechanics.body_motion import BodyMotion, pairs
-from support_exudyn.mechanics.kinetics import Kinetics, Matrix
+from support_exudyn.mechanics.body_motion import BodyMotion, Motion
+from support_exudyn.mechanics.constraints import Shift, matrix
+from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.guides import Guide, GuideContact
 from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, Slide
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.model.plane_geometry import minus, plus, rotated
+from support_exudyn.model.to_space import at
 from user_forces.contact import SHALLOWEST, Contact
 from user_forces.contact_state import PinMemory
 from user_forces.values.value import Vector2
 
+PLANE = np.eye(2)
 PLAY = 1e-3  # [m] of a falling block, as of a pin
 
 
@@ -84,6 +87,42 @@ def journal_arm(contact: Contact, depth: Series) -> Series:
     return np.array([contact.bearing.contact_arms(d)[1] for d in depth.tolist()])
 
 
+class Meeting(Protocol):
+    """Two bodies that may make contact, see `ContactPlace`; with points of the plane or of space."""
+
+    @property
+    def contact(self) -> Contact:
+        """Geometry and laws."""
+
+    @property
+    def bore(self) -> str:
+        """The body that encloses."""
+
+    @property
+    def journal(self) -> str:
+        """The body that is enclosed."""
+
+    @property
+    def bore_point(self) -> Any:
+        """The bore's centre [m]."""
+
+    @property
+    def journal_point(self) -> Any:
+        """The journal's centre [m]."""
+
+
+def contact_rate(motion: Motion, place: Meeting, axes: Matrix) -> Matrix:
+    """The matrix of the eccentricity's rate, or of slip and depth in a slot, see `ContactPlace.rate`."""
+    ends = place.bore, place.bore_point, place.journal, place.journal_point
+    directions = [tuple(axis[: motion.SHIFTS].tolist()) for axis in axes.T[:2]]
+    carrier = place.bore  # of the walls of a slot, whose turning moves them at the corner
+    if not place.contact.bearing.is_slot:
+        carrier = GROUND
+        directions = [tuple(motion.carried(place.bore, axis)[0].tolist()) for axis in directions]
+    rows = [Shift("", "", "across_1", *ends, axis, carrier) for axis in directions]
+    return np.asarray(matrix(motion, rows)[0])
+
+
 class ContactPlace(ABC):
     """A place at which two bodies may make contact.
 
@@ -110,21 +149,27 @@ class ContactPlace(ABC):
     def axes(self, linkage: Linkage) -> float:
         """Angle [rad] of the bore's axes in the start posture."""
 
-    @abstractmethod
-    def rate(self, kinetics: Kinetics, position: Matrix) -> Matrix:
-        """The matrix of the eccentricity's rate and of the slip (2, n), ground's axes, with either sign."""
+    def rate(self, motion: Motion, axes: Matrix = PLANE) -> Matrix:
+        """The matrix of the eccentricity's rate, or of slip and depth in a slot (2, freedoms).
+
+        motion: of one instant. axes: along what, two directions of the start posture that turn with the bore,
+        in columns.
+        """
+        return contact_rate(motion, self, axes)
 
     @abstractmethod
-    def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
+    def series(self, motion: Any, memories: Series | Sequence[PinMemory]) -> ContactSeries:
         """The contact at every record, with the memory that it has there."""
 
-    def push(self, motion: BodyMotion, contact: ContactSeries) -> tuple[Series, Series]:
-        """Force of the bore on the journal [N], and the contact point at which it acts [m], (n, 2) each."""
+    def push(self, motion: Motion, contact: ContactSeries) -> tuple[Series, Series]:
+        """Force of the bore on the journal [N], and the contact point at which it acts [m], (n, d) each."""
         x, y = contact.eccentricity_x, contact.eccentricity_y
         away = np.maximum(np.sqrt(x * x + y * y), SHALLOWEST)  # there is no force in the middle
         arm = journal_arm(self.contact, contact.depth) / away
-        point = motion.place(self.journal, self.journal_point) + pairs(arm * x, arm * y)
-        return pairs(contact.force_x, contact.force_y), point
+        point = motion.place(self.journal, self.journal_point)
+        vectors = np.zeros((2, point.shape[1], motion.count))
+        vectors[:, :2] = (contact.force_x, contact.force_y), (arm * x, arm * y)
+        return vectors[0].T, point + vectors[1].T
 
     @abstractmethod
     def depth(self, channels: Mapping[str, HasValues]) -> Series | None:
@@ -159,10 +204,6 @@ class PinContactPlace(ContactPlace):
     def axes(self, linkage: Linkage) -> float:
         """Those of the bore's body."""
         return 0.0 if self.bore == GROUND else linkage.bodies[self.bore].angle
-
-    def rate(self, kinetics: Kinetics, position: Matrix) -> Matrix:
-        """The rate of the eccentricity."""
-        return kinetics.relative(position, self.place)[1]
 
     def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
         """The journal in its bore."""
@@ -211,32 +252,19 @@ class GuideContactPlace(ContactPlace):
         del linkage
         return self.slide.direction
 
-    def rate(self, kinetics: Kinetics, position: Matrix) -> Matrix:
-        """The rate of the corner against that point of the guide which is there now."""
-        corner, rate = kinetics.point(position, self.journal, self.journal_point)
-        origin, origin_rate = kinetics.point(position, self.bore, self.bore_point)
-        x, y = corner - origin
-        moved: Matrix = rate - origin_rate - np.outer((-y, x), kinetics.turning(position.size, self.bore))
-        return moved
-
-    def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
+    def series(self, motion: Motion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
         """The corner between the walls, in the ground's axes."""
         corner, origin = (
             motion.point(self.journal, self.journal_point),
             motion.point(self.bore, self.bore_point),
         )
-        along, across = self._directions(motion)
+        along, across = (motion.carried(self.bore, one) for one in self._directions(motion.SHIFTS))
         apart, rate = corner.position - origin.position, corner.velocity - origin.velocity
         x, y = _dot(apart, along), _dot(apart, across)
-        still = np.zeros_like(x)
-        moving = RelativeMotion(
-            still,
-            y,
-            _dot(rate, along),
-            _dot(rate, across) - origin.spin * x,
-            origin.spin,
-            corner.spin,
-        )
+        # in space only blocks have such a contact, which do not turn
+        spins = [one.spin if motion.SHIFTS == 2 else one.spin[:, 2] for one in (origin, corner)]
+        rise = _dot(rate, across) - spins[0] * x
+        moving = RelativeMotion(np.zeros_like(x), y, _dot(rate, along), rise, *spins)
         found = series(self.contact, moving, memories)
         force = found.force_x[:, None] * along + found.force_y[:, None] * across
         return replace(
@@ -265,11 +293,10 @@ class GuideContactPlace(ContactPlace):
         across = np.array([-math.sin(self.slide.direction), math.cos(self.slide.direction)])
         return np.asarray(share * across)
 
-    def _directions(self, motion: BodyMotion) -> tuple[Series, Series]:
-        """Of the guide and across it, (n, 2) each."""
-        angle = self.slide.direction + motion.turn(self.bore)
-        c, s = np.cos(angle), np.sin(angle)
-        return np.column_stack([c, s]), np.column_stack([-s, c])
+    def _directions(self, dimensions: int) -> list[tuple[float, ...]]:
+        """Of the guide and across it, start posture."""
+        c, s = math.cos(self.slide.direction), math.sin(self.slide.direction)
+        return [(c, s, 0.0)[:dimensions], (-s, c, 0.0)[:dimensions]]
 
 
 @dataclass(frozen=True)
@@ -294,6 +321,13 @@ class BlockContactPlace(GuideContactPlace):
         """Nothing: no joint stands in its place."""
         del reactions
         return np.zeros(2)
+
+    def in_space(self, lateral: float) -> BlockContactPlace:
+        """The same face, so far to the right [m]."""
+        found = replace(self)
+        for end in ("bore_point", "journal_point"):
+            object.__setattr__(found, end, at(getattr(self, end), lateral))
+        return found
 
 
 def contact_places(

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.mechanics.channels import CONTACT, MOTION, ChannelDefinitions, DataNeeds, Row, named, table
-from support_exudyn.mechanics.observed_run import ObservedRun
+from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
 from support_exudyn.model.linkage import Slide
@@ -57,7 +57,7 @@ def force_channels(
 
 @pin_channels.register
 def _of_ideal_pin(pin: IdealPin, name: str) -> ChannelDefinitions:
-    found = force_channels(name, DataNeeds.JOINTS, lambda run: run.pin_force(name))
+    found = force_channels(name, DataNeeds.JOINTS, lambda run: run.pins[name])
     if pin.friction is not None:
         rows: list[Row] = [("friction_moment", "N m", "of friction on the second body", lambda run: run[name])]
         found |= table(f"pin.{name}", MOTION | DataNeeds.JOINTS, attrgetter("friction_moments"), rows)
@@ -68,7 +68,7 @@ def _of_ideal_pin(pin: IdealPin, name: str) -> ChannelDefinitions:
 def _of_clearance_pin(pin: ClearancePin, name: str) -> ChannelDefinitions:
     sign = 1.0 if pin.bore == "first" else -1.0  # contacts know the force on the journal
 
-    def force(run: ObservedRun) -> Series:
+    def force(run: Trajectory) -> Series:
         (contact,) = run.sections[name]
         return sign * np.array([contact.force_x, contact.force_y]).T
 
@@ -126,12 +126,12 @@ def bearing_channels(name: str, *, with_clearance: bool, is_guide: bool) -> Chan
     if is_guide:
         return _ideal_guide_channels(name)
     about = "of the first body on the second about {} through the middle of the bearing"
-    found = force_channels(name, joints, lambda run: run.pin_force(name), axes=3)
+    found = force_channels(name, joints, lambda run: run.pins[name], axes=3)
     rows: list[Row] = [
         ("moment_x", "N m", about.format("x"), column(0)),
         ("moment_y", "N m", about.format("y"), column(1)),
     ]
-    found |= table(f"pin.{name}", joints, lambda run: run.bearing_load(name)[1], rows)
+    found |= table(f"pin.{name}", joints, lambda run: run.pin_moments[name], rows)
     return found | clearance_channels(name, in_space=True) if with_clearance else found
 
 
@@ -150,7 +150,7 @@ def _ideal_guide_channels(name: str) -> ChannelDefinitions:
         ("force", "N", "magnitude of the guide's force, across it", column(0)),
         ("moment", "N m", "magnitude of the guide's moment", column(1)),
     ]
-    return table(name, DataNeeds.JOINTS, lambda run: run.guide_force(name), rows)
+    return table(name, DataNeeds.JOINTS, lambda run: run.slides[name], rows)
 
 
 @guide_channels.register
@@ -175,7 +175,7 @@ class _Block:
         origin = motion.place(slide.against, slide.point)
         parts = guide.contacts()
         self.tilt = motion.turn(slide.body) - motion.turn(slide.against)
-        contacts = [run.contacts[f"{name}.{part}"] for part in parts]
+        contacts = [run.sections[f"{name}.{part}"][0] for part in parts]
         self.force = np.array([along * one.force_y - across * one.force_x for one in contacts])
         self.friction = np.array([along * one.force_x + across * one.force_y for one in contacts])
         self.normal = np.array([one.normal_force for one in contacts])

@@ -26,12 +26,11 @@ from support_exudyn.mechanics.constraints import (
     Constraint,
     Shift,
     constraints_of,
-    frame_of,
     matrix,
     pin,
 )
 from support_exudyn.model.linkage import GROUND, Linkage, PinPlace
-from support_exudyn.model.spatial_linkage import BearingEnd, SpatialBody
+from support_exudyn.model.spatial_linkage import SpatialBody
 from user_forces.values.value import Vector2
 
 Matrix = npt.NDArray[np.float64]
@@ -240,14 +239,6 @@ class Instant:
         """Answer of rates to impulses in them (k, k) [1/kg], see `Kinetics.inverse_mass`; rate: rows (k, n)."""
         found: Matrix = (rate @ self.respond(rate.T, 0.0)[0]).T
         return found
-
-
-def bearing_rate(motion: SpatialMotion, bore: BearingEnd, journal: BearingEnd) -> Matrix:
-    """Rows that give the velocity of a journal's middle across its bore, in the bore's axes (2, 6 bodies)."""
-    ends = bore.body, bore.point, journal.body, journal.point
-    axes = [motion.carried(bore.body, frame_of(bore.axis)[:, k])[0].tolist() for k in (0, 1)]
-    across = [Shift("bearings", "", "across_1", *ends, tuple(axis), GROUND) for axis in axes]
-    return np.asarray(matrix(motion, across)[0])
 
 
 def rates(constraints: Iterable[Constraint], speed: Callable[[str], float]) -> Matrix:

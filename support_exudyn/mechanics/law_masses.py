@@ -44,7 +44,7 @@ def _mass(places: Iterable[ContactPlace], free: Kinetics) -> float:
     """The harmonic mean of the effective masses at places of contact in the start posture [kg]."""
     still, found = np.zeros(3 * len(free.linkage.bodies)), []
     for place in places:
-        inverse = free.inverse_mass(still, place.rate(free, still))
+        inverse = free.inverse_mass(still, place.rate(free.motion(still)))
         along = place.axes(free.linkage)
         normal = np.array([-np.sin(along), np.cos(along)])
         found.append(normal @ inverse @ normal if place.contact.bearing.is_slot else 0.5 * np.trace(inverse))

@@ -1,8 +1,7 @@
-"""A finished run at its records, from which channels are computed: one interface in the plane and in space."""
+"""A finished run at its records, from which channels are computed, in the plane and in space."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -10,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.mechanics.body_motion import BodyMotion, Motion
 from support_exudyn.mechanics.kinetics import kinetic_energy
 from support_exudyn.mechanics.time_statistics import TimeStatistics
 from support_exudyn.mechanics.trajectory import (
@@ -23,53 +21,59 @@ from support_exudyn.mechanics.trajectory import (
     Series,
 )
 from support_exudyn.model.linkage import Linkage
+from support_exudyn.model.spatial_linkage import SpatialLinkage
 from user_forces.contact_state import Onset
-from user_forces.values.value import Vector2
 
 
-class ObservedRun(ABC):
-    """A run at its n records. Arrays have shape (n, ...); forces in a pin are of the first body on the second.
+@dataclass(frozen=True)
+class Trajectory:
+    """A run at its n records, from which channels are computed. Arrays have shape (n, ...).
 
-    gravity: (2,) or (3,) [m/s^2]. time: [s]. acceleration: rates of `Motion.velocities` of all bodies
-    (n, freedoms). work: of drives so far, damping_loss,
-    friction_loss: so far (n,) [J]. By name: loads, which act on the machine besides its weight, and those of
-    compliant pins; hydraulic legs, and the pump.
+    linkage: the mechanism, in the plane (d = 2) or in space (d = 3). gravity: (d,) [m/s^2]. time: [s]. motion:
+    of all bodies. acceleration: rates of `Motion.velocities` (n, freedoms). sections: contacts of clearance
+    joints, corners in guides and blocks; several along a bearing. work: of drives so far, damping_loss,
+    friction_loss: so far (n,) [J].
+
+    Forces of joints, by name. pins: of ideal pins and of all bearings, of the first body on the second (n, d)
+    [N]. pin_moments: of bearings about their middle (n, 3) [N m]. slides: magnitudes of force and moment of
+    guides (n, 2). actuators: force (n,) [N] that pushes the ends apart. cranks: moment of the drive on the
+    crank (n,) [N m]. gears: moment on the second body (n,) [N m]. friction_moments: of ideal pins with
+    friction, on the second body (n,) [N m]. friction_forces: of ideal guides with friction, on the body along
+    the guide (n,) [N].
+
+    loads: which act on the machine besides its weight, and those of compliant pins. legs: hydraulic, and the
+    pump.
     """
 
+    linkage: Linkage | SpatialLinkage
     gravity: Sequence[float]
     time: Series
+    motion: Any
     acceleration: Series
     work: Series
     damping_loss: Series
     friction_loss: Series
-    loads: Mapping[str, LoadSeries]
-    legs: Mapping[str, LegSeries]
+    sections: Mapping[str, Sequence[ContactSeries]] = field(default_factory=dict)
+    pins: Mapping[str, Series] = field(default_factory=dict)
+    pin_moments: Mapping[str, Series] = field(default_factory=dict)
+    slides: Mapping[str, Series] = field(default_factory=dict)
+    actuators: Mapping[str, Series] = field(default_factory=dict)
+    cranks: Mapping[str, Series] = field(default_factory=dict)
+    gears: Mapping[str, Series] = field(default_factory=dict)
+    friction_moments: Mapping[str, Series] = field(default_factory=dict)
+    friction_forces: Mapping[str, Series] = field(default_factory=dict)
+    loads: Mapping[str, LoadSeries] = field(default_factory=dict)
+    legs: Mapping[str, LegSeries] = field(default_factory=dict)
 
     @property
-    @abstractmethod
-    def motion(self) -> Motion:
-        """The motion of all bodies."""
+    def in_space(self) -> bool:
+        """Whether the run is one in space."""
+        return isinstance(self.linkage, SpatialLinkage)
 
-    @property
-    @abstractmethod
-    def sections(self) -> Mapping[str, Sequence[ContactSeries]]:
-        """Contacts of clearance joints, corners in guides and blocks by name; several along a bearing."""
-
-    @abstractmethod
     def contacts_of(self, place: str) -> Sequence[ContactSeries]:
-        """Contacts of a contact place of the plane, section by section."""
-
-    @abstractmethod
-    def pin_force(self, name: str) -> Series:
-        """Force in a pin, or in a bearing (n, d) [N]."""
-
-    @abstractmethod
-    def guide_force(self, name: str) -> Series:
-        """Magnitudes of force and moment in an ideal guide (n, 2) [N], [N m]."""
-
-    @abstractmethod
-    def actuator_force(self, name: str) -> Series:
-        """Force that pushes the ends of an actuator apart (n,) [N]."""
+        """Contacts of a contact place of the plane, section by section; a pin has those of all its bearings."""
+        bearings = self.linkage.parts_of_pin(place) if isinstance(self.linkage, SpatialLinkage) else {}
+        return [one for name in bearings or [place] for one in self.sections.get(name, ())]
 
     @cached_property
     def _paths(self) -> dict[str, Series]:
@@ -118,66 +122,6 @@ class ObservedRun(ABC):
 
 
 @dataclass(frozen=True)
-class Trajectory(ObservedRun):
-    """A run of a linkage with b bodies in the plane.
-
-    linkage: the mechanism. position, velocity, acceleration (n, 3 b): x, y, turn of each body in the order of
-    `Linkage.bodies`, positions from those at the start. ideal_pins: forces (n, 2) [N], by name.
-    friction_moments: of ideal pins with friction, on the second body (n,) [N m]. friction_forces: of ideal
-    guides with friction, on the body along the guide (n,) [N]. contacts: clearance joints and blocks by name.
-    actuators: force (n,) [N] that pushes the ends apart. cranks: moment of the drive on the crank (n,) [N m].
-    slides: magnitude of force across and of moment (n, 2). loads, legs: by name.
-    gears: moment on the second body (n,) [N m]. The others: see `ObservedRun`.
-    """
-
-    linkage: Linkage
-    gravity: Vector2
-    time: Series
-    position: Series
-    velocity: Series
-    acceleration: Series
-    ideal_pins: Mapping[str, Series]
-    contacts: Mapping[str, ContactSeries]
-    actuators: Mapping[str, Series]
-    cranks: Mapping[str, Series]
-    slides: Mapping[str, Series]
-    work: Series
-    damping_loss: Series
-    friction_loss: Series
-    friction_moments: Mapping[str, Series] = field(default_factory=dict)
-    friction_forces: Mapping[str, Series] = field(default_factory=dict)
-    loads: Mapping[str, LoadSeries] = field(default_factory=dict)
-    legs: Mapping[str, LegSeries] = field(default_factory=dict)
-    gears: Mapping[str, Series] = field(default_factory=dict)
-
-    @cached_property
-    def motion(self) -> BodyMotion:
-        """See `ObservedRun`."""
-        return BodyMotion(self.linkage, self.position, self.velocity)
-
-    @cached_property
-    def sections(self) -> Mapping[str, Sequence[ContactSeries]]:
-        """See `ObservedRun`: each contact is one section."""
-        return {name: (contact,) for name, contact in self.contacts.items()}
-
-    def contacts_of(self, place: str) -> Sequence[ContactSeries]:
-        """See `ObservedRun`."""
-        return self.sections[place]
-
-    def pin_force(self, name: str) -> Series:
-        """See `ObservedRun`."""
-        return self.ideal_pins[name]
-
-    def guide_force(self, name: str) -> Series:
-        """See `ObservedRun`."""
-        return self.slides[name]
-
-    def actuator_force(self, name: str) -> Series:
-        """See `ObservedRun`."""
-        return self.actuators[name]
-
-
-@dataclass(frozen=True)
 class Outcome:
     """A finished run of a formulation.
 
@@ -188,7 +132,7 @@ class Outcome:
     all channels that the scenario asks for, from every step.
     """
 
-    trajectory: ObservedRun
+    trajectory: Trajectory
     onsets: Mapping[str, tuple[Onset, ...]]
     largest_force: Mapping[str, float]
     largest_force_time: Mapping[str, float]

@@ -12,7 +12,7 @@ from support_exudyn.mechanics.channels import (
     DataNeeds,
     chosen,
 )
-from support_exudyn.mechanics.observed_run import ObservedRun
+from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.reactions import UNDETERMINED
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scenario.scenario import Scenario
@@ -32,7 +32,7 @@ class Channel:
         return not self.meaning.endswith(UNDETERMINED)
 
 
-def channels(scenario: Scenario, run: ObservedRun) -> dict[str, Channel]:
+def channels(scenario: Scenario, run: Trajectory) -> dict[str, Channel]:
     """The channels that a scenario asks for, by name; all if the result checks look at all of them."""
     channel_definitions = (
         scenario.channel_definitions if scenario.solver.result_checks else asked_definitions(scenario)

@@ -213,7 +213,7 @@ def _running(scenario: ScenarioData, closed: Kinetics) -> float:
 def _inverse_mass(scenario: ScenarioData, place: ContactPlace) -> Matrix:
     """Inverse effective mass of a journal in the start posture, ground's axes (2, 2) [1/kg]."""
     still = np.zeros(3 * len(scenario.linkage.bodies))
-    return scenario.open_kinetics.inverse_mass(still, place.rate(scenario.open_kinetics, still))
+    return scenario.open_kinetics.inverse_mass(still, place.rate(scenario.open_kinetics.motion(still)))
 
 
 def _drive_time(scenario: ScenarioData, linkage: Linkage) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from support_exudyn.formulations import change_points
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.observed_run import Outcome, Trajectory
+from support_exudyn.mechanics.observed_run import Outcome
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
@@ -75,7 +75,7 @@ def _reasons(scenario: Scenario, outcome: Outcome, channels: Mapping[str, Channe
 def _change_points(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
     """Whether forces have no limit in a change point or dead centre that the run has passed."""
     run = outcome.trajectory
-    if isinstance(run, Trajectory) and (point := change_points.passed(scenario, run)) is not None:
+    if not run.in_space and (point := change_points.passed(scenario, run)) is not None:
         yield Failure(point[1], change_points.ADVICE, point[0])
 
 
@@ -134,7 +134,7 @@ def _who_loses(scenario: Scenario, kind: str) -> str:
 def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
     """Whether a piston has come to an end of its cylinder, which nothing in the model stops it at."""
     run = outcome.trajectory
-    if not scenario.valved or not isinstance(run, Trajectory):
+    if not scenario.valved or run.in_space:
         return
     for name, cylinder in scenario.valved.items():
         actuator = scenario.linkage.actuators[name]
@@ -148,7 +148,7 @@ def _pistons_at_ends(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
 def _slots_left(scenario: Scenario, outcome: Outcome) -> Iterator[Failure]:
     """Whether a pin has left its slot at an end, which the model has no stop for."""
     run, slides = outcome.trajectory, scenario.linkage.slides.items()
-    if not isinstance(run, Trajectory):
+    if run.in_space:
         return
     for name, slide in slides:
         beyond = run.motion.past_ends(slide)
@@ -188,7 +188,7 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
     None for runs in space.
     """
     run = outcome.trajectory
-    if not isinstance(run, Trajectory):
+    if run.in_space:
         return None
     linkage, time, motion = scenario.linkage, run.time, run.motion
     gaps = np.zeros_like(time)  # squared

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.mechanics.joint_friction import joint_slips
-from support_exudyn.mechanics.observed_run import Outcome, Trajectory
+from support_exudyn.mechanics.observed_run import Outcome
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.friction.law import FrictionLaw
@@ -71,9 +71,9 @@ def _all_rubbing(scenario: Scenario, outcome: Outcome) -> Iterator[_Rubbing]:
             for contact in run.contacts_of(name):
                 yield _Rubbing(place.of, law, np.asarray(contact.slip), np.asarray(contact.normal_force) > 0.0)
     pins, guides = scenario.friction_pins, scenario.friction_guides
-    if not isinstance(run, Trajectory) or not (pins or guides):
+    if run.in_space or not (pins or guides):
         return
-    forces = [np.hypot(*run.ideal_pins[name].T) for name in pins]
+    forces = [np.hypot(*run.pins[name].T) for name in pins]
     forces += [run.slides[name].max(axis=1) for name in guides]
     laws, slips = scenario.friction_laws.items(), joint_slips(run.motion, scenario)
     for (where, law), slip, force in zip(laws, slips, forces, strict=True):
@@ -84,7 +84,7 @@ def _all_rubbing(scenario: Scenario, outcome: Outcome) -> Iterator[_Rubbing]:
 def _moments_left_out(scenario: Scenario, outcome: Outcome) -> list[str]:
     """Guides with friction that carry a moment, but have no block whose ends it would press on the walls."""
     run = outcome.trajectory
-    if not isinstance(run, Trajectory):
+    if run.in_space:
         return []
     found = []
     for name, guide in scenario.friction_guides.items():

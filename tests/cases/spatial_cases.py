@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from support_exudyn import Body, LinearActuator, Linkage, Machine, PinPlace, Scenario
 from support_exudyn.formulations.exudyn.run import run
-from support_exudyn.formulations.exudyn.space.observation import SpatialObservation
-from support_exudyn.mechanics.observed_run import Outcome
+from support_exudyn.mechanics.observed_run import Outcome, Trajectory
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from user_forces import (
     Ambrosio,
@@ -79,10 +78,9 @@ def contact(friction: float = 0.0, by_depth: bool = False) -> JournalContact:
     )
 
 
-def observed(scenario: Scenario) -> tuple[SpatialObservation, Outcome]:
+def observed(scenario: Scenario) -> tuple[Trajectory, Outcome]:
     """A run, with the motion that no channel shows."""
     outcome = run(scenario, lambda share: None)
-    assert isinstance(outcome.trajectory, SpatialObservation)
     return outcome.trajectory, outcome
 
 
@@ -92,7 +90,7 @@ def matrix_of(inertia: tuple[float, ...]) -> np.ndarray:
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
-def momenta(context: SpatialObservation, about: Vector = (0.0, 0.0, 0.0)) -> tuple[np.ndarray, np.ndarray]:
+def momenta(context: Trajectory, about: Vector = (0.0, 0.0, 0.0)) -> tuple[np.ndarray, np.ndarray]:
     """Linear and angular momentum of all bodies (n, 3), the latter about a fixed point."""
     motion = context.motion
     linear, angular = np.zeros((2, motion.count, 3))

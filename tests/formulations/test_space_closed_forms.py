@@ -145,7 +145,7 @@ def pressed(sections: int, shift: float, tilt: float) -> tuple[np.ndarray, np.nd
         gravity=(0.0, 0.0),
     )
     context, _ = observed(replace(scenario, solver=replace(scenario.solver, sections=sections)))
-    force, moment = context.bearing_load("pin")
+    force, moment = context.pins["pin"], context.pin_moments["pin"]
     return force[0], moment[0]
 
 

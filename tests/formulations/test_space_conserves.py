@@ -75,7 +75,7 @@ def test_two_free_bodies_keep_their_momenta(
     start = context.kinetic[0] + context.stored[0]
     # integrals over 64 steps an impact; measured 2e-4 of the energy and less, which falls with the steps
     assert np.abs(context.balance).max() < 2e-3 * start + 1e-12
-    lost = context.history.damping_loss[-1] + context.history.friction_loss[-1]
+    lost = context.damping_loss[-1] + context.friction_loss[-1]
     assert lost >= (-1e-6 * start if by_depth else 0.0) or not outcome.onsets["pin"]
 
 
@@ -94,7 +94,7 @@ def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
 ) -> None:
     scene = scenario(space, bore, friction, by_depth=False)
     context, _ = observed(replace(scene, duration=6e-3, record_period=RECORDS))
-    force, _ = context.bearing_load("pin")
+    force = context.pins["pin"]
     largest = np.abs(force).max()
     assume(largest > 0.0)
     # Newton's law: the impulse of the first on the second so far
@@ -103,10 +103,6 @@ def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
     impulse = np.concatenate([np.zeros((1, 3)), np.cumsum(force[1:] + force[:-1], axis=0) * 0.5 * RECORDS])
     # the error of the trapezoidal rule over records 5 us apart
     np.testing.assert_allclose(impulse, gained, atol=1e-3 * np.abs(gained).max())
-    if not space.bearings["pin"].holds:  # all of it is in the sections
-        sign = 1.0 if bore == "first" else -1.0
-        total = sign * sum(section.force for section in context.section_forces["pin"])
-        np.testing.assert_allclose(force, total, atol=1e-9 * largest)  # rounding
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])

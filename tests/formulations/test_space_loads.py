@@ -346,14 +346,14 @@ def test_what_the_ground_carries_balances_a_load_beside_the_middle() -> None:
             drive=Held(), duration=0.01, actuators=ON_OIL, loads={"load": load}, dimensions=3, start="settled"
         )
     )
-    linkage, rolling = context.scene.linkage, 0.0  # moments about x on what stands on the ground [N m]
+    linkage, rolling = context.linkage, 0.0  # moments about x on what stands on the ground [N m]
     for name, bearing in linkage.bearings.items():
         if bearing.first == "ground":
-            force, moment = (part[-1] for part in context.bearing_load(name))
+            force, moment = (part[name][-1] for part in (context.pins, context.pin_moments))
             rolling += moment[0] + np.cross(bearing.first_point, force)[0]
     for name, strut in linkage.actuators.items():
         if strut.foot == "ground":
             along = context.span(name)[-1]
-            push = context.actuator_force(name)[-1] * along / np.linalg.norm(along)
+            push = context.actuators[name][-1] * along / np.linalg.norm(along)
             rolling += np.cross(strut.foot_point, push)[0]
     assert rolling == pytest.approx(-0.5 * 4e5, rel=1e-4)  # the weight is in the middle

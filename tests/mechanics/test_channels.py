@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, OilColumn, Scenario, SolverSettings, bore_area, ravn_slider_crank
+from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.channels import EVERYTHING, ChannelDefinition, DataNeeds, chosen
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.scenario.recorded_channels import channels, needs
@@ -142,14 +143,10 @@ def test_what_is_needed_is_enough(name: str) -> None:
         linkage=linkage,
         gravity=one.gravity,
         time=np.arange(rows, dtype=float),
-        position=motion(DataNeeds.POSITION),
-        velocity=motion(DataNeeds.VELOCITY),
+        motion=BodyMotion(linkage, motion(DataNeeds.POSITION), motion(DataNeeds.VELOCITY)),
         acceleration=motion(DataNeeds.ACCELERATION),
-        ideal_pins=named(linkage.pins, (rows, 2)),
-        contacts={},
+        pins=named(linkage.pins, (rows, 2)),
         actuators=named(linkage.actuators, (rows,)),
-        cranks={},
-        slides={},
         work=integral,
         damping_loss=integral,
         friction_loss=integral,

@@ -12,7 +12,7 @@ from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
 from support_exudyn import ClearancePin, Scenario, reference_support
-from support_exudyn.formulations.exudyn.space.sections import half_way, lobatto, section_motion, sections
+from support_exudyn.formulations.exudyn.scene.sections import half_way, lobatto, section_motion, sections
 from support_exudyn.mechanics.body_motion import (
     UNTURNED,
     SpatialMotion,

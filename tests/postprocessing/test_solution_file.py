@@ -23,7 +23,7 @@ from support_exudyn import (
 )
 from support_exudyn.__main__ import main
 from support_exudyn.files import save_scenario
-from support_exudyn.formulations.exudyn.run import model
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.formulations.exudyn.solver import solver
 from support_exudyn.postprocessing.export.solution_file import read_solution, rows
 from support_exudyn.postprocessing.look.poses import Poses, strut_pose
@@ -87,17 +87,14 @@ def test_it_is_what_the_engine_writes_of_its_own_run(
 
 def places(scenario: Scenario, solution: Any, body: str, point: tuple[float, ...], row: int) -> np.ndarray:
     """Where the engine has a point of the start posture in a row of a solution file."""
-    scene = model(scenario)
+    scene = build(scenario)
     try:
         SetSolutionState(scene.mbs, solution, row)
         item = scene.bodies[body]
         centre = item.body.centre
-        angle = -item.body.angle if len(centre) == 2 else 0.0
         arm = np.zeros(3)
         arm[: len(point)] = np.array(point) - centre
-        c, s = np.cos(angle), np.sin(angle)
-        local = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ arm
-        return np.array(scene.mbs.GetObjectOutputBody(item.object, exudyn.OutputVariableType.Position, local))
+        return np.array(scene.mbs.GetObjectOutputBody(item.object, exudyn.OutputVariableType.Position, arm))
     finally:
         scene.release()
 
@@ -179,7 +176,7 @@ def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
         SetSolutionState(shown.scene.mbs, rows(result, shown.scene), record, SHOWN)
         for body, item in shown.scene.bodies.items():
             for solid in solids_of(shown.look, body):
-                drawn = viewer_model._of_solid(solid, viewer_model._axes(shown.scene, body))
+                drawn = viewer_model._of_solid(solid, viewer_model._centre(shown.scene, body))
                 points = np.reshape(drawn["points"], (-1, 3))
                 ends = np.array([np.argmin(points, axis=0), np.argmax(points, axis=0)]).ravel()
                 there = [
@@ -213,9 +210,9 @@ def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypat
     rims: list[tuple[np.ndarray, Any]] = []
     drawn = viewer_model._of_rim
 
-    def of_rim(points: np.ndarray, axes: Any = viewer_model.STILL) -> dict[str, Any]:
-        rims.append((points, axes))
-        return drawn(points, axes)
+    def of_rim(points: np.ndarray, origin: Any = viewer_model.STILL) -> dict[str, Any]:
+        rims.append((points, origin))
+        return drawn(points, origin)
 
     monkeypatch.setattr(viewer_model, "_of_rim", of_rim)
     shown = model_for_viewer(scenario)
@@ -228,11 +225,11 @@ def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypat
         # a polygon of 32 corners that makes contact its circle
         assert 0.5 * (low + high)[:2] == pytest.approx(centre, abs=1e-12)
         assert (high - low)[0] == pytest.approx(2.0 * bearing.journal_radius, rel=1e-9)
-        ((points, axes),) = rims  # of which body: its axes, or those of the ground
-        assert (axes is viewer_model.STILL) == on_second
+        ((points, origin),) = rims  # of which body: its centre, or the ground's origin
+        assert (origin is viewer_model.STILL) == on_second
         away = points[:, :2] - np.array(place.first_point if on_second else place.second_point)
         assert np.hypot(*away.T) == pytest.approx(bearing.bore_radius, abs=1e-12)
         if not on_second:
-            assert axes.origin[:2] == pytest.approx(scenario.linkage.bodies[place.second].centre)
+            assert origin[:2] == pytest.approx(scenario.linkage.bodies[place.second].centre)
     finally:
         shown.scene.release()

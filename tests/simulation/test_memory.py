@@ -10,8 +10,8 @@ from dataclasses import replace
 import pytest
 
 from support_exudyn import Held, Scenario, SolverSettings, simulate
+from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
 from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
-from support_exudyn.formulations.exudyn.scene.scene import Scene
 from support_exudyn.model.loads.load import AnyLoad
 from tests.cases.run_cases import loose_support
 from tests.roof_cases import over_the_canopy
@@ -66,4 +66,4 @@ def test_nothing_of_a_run_stays_behind(loads: dict[str, AnyLoad]) -> None:
     simulate(replace(held("exudyn", 0.1), loads=loads))
     # the engine would keep its user functions alive, and they all that they know
     gc.collect()
-    assert not [item for item in gc.get_objects() if isinstance(item, (Scene, ClearanceJoint, LoadItem))]
+    assert not [item for item in gc.get_objects() if isinstance(item, (EngineScene, ClearanceJoint, LoadItem))]

@@ -23,7 +23,7 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.formulations.exudyn.run import run
-from support_exudyn.mechanics.observed_run import Outcome, Trajectory
+from support_exudyn.mechanics.observed_run import Outcome
 from support_exudyn.scenario.recorded_channels import Channel, channels
 from support_exudyn.scene.limits import DEEPEST
 from support_exudyn.simulation.result_checks import (
@@ -69,10 +69,10 @@ def opened(found: Found, by: float) -> Found:
 
 def moved(outcome: Outcome, place: int, by: float) -> Outcome:
     """The same with the first body moved by so much [m] at one record."""
-    assert isinstance(outcome.trajectory, Trajectory)
-    position = outcome.trajectory.position.copy()
+    motion = outcome.trajectory.motion
+    position = motion.position.copy()
     position[place, 0] += by
-    return replace(outcome, trajectory=replace(outcome.trajectory, position=position))
+    return replace(outcome, trajectory=replace(outcome.trajectory, motion=replace(motion, position=position)))
 
 
 def refused(failure: Failure | None, reason: str, record: int) -> None:
@@ -138,9 +138,8 @@ def test_what_bristles_have_stored_may_be_given_back(outcome: Outcome, found: Fo
     contact = SCENARIO.clearance_pins[PIN].contact
     bristles = replace(contact, friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2))
     sticking = replace(SCENARIO, pins={PIN: ClearancePin(contact=bristles)})
-    assert isinstance(outcome.trajectory, Trajectory)
-    bent = replace(outcome.trajectory.contacts[PIN], deflection=np.linspace(0.0, -1e-3, 51))
-    run_with = replace(outcome, trajectory=replace(outcome.trajectory, contacts={PIN: bent}))
+    bent = replace(outcome.trajectory.sections[PIN][0], deflection=np.linspace(0.0, -1e-3, 51))
+    run_with = replace(outcome, trajectory=replace(outcome.trajectory, sections={PIN: [bent]}))
     # as much as their largest deflection under the largest force; damping has stored nothing
     stored = 1e-3 * outcome.largest_force[PIN]
     allowed = GIVEN_BACK * turned_over(found) + rounding_of_energy(SCENARIO)
@@ -193,7 +192,6 @@ def wrong_by(change: str) -> Any:
 
     def run_wrongly(scenario: Scenario, progress: Any) -> Outcome:
         made = run(scenario, progress)
-        assert isinstance(made.trajectory, Trajectory)
         if change == "apart":
             return moved(made, 5, 0.01)
         series = getattr(made.trajectory, change).copy()

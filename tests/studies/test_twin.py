@@ -18,7 +18,7 @@ from support_exudyn import SolverSettings, simulate
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.formulations.exudyn.solver.solver import quiet_engine
 from support_exudyn.model.linkage import Body
-from support_exudyn.model.plane_geometry import minus, rotated
+from support_exudyn.model.plane_geometry import minus
 from tests.cases.run_cases import SLIDER_PIN, loose_slider_crank, slider_crank_contact
 from user_forces.values.value import Vector2
 
@@ -34,7 +34,7 @@ class Onset(NamedTuple):
 
 def local(body: Body, point: Vector2) -> Vector2:
     """A point of the start posture in a body's axes [m]."""
-    return rotated(minus(point, body.centre), -body.angle)
+    return minus(point, body.centre)
 
 
 def twin_onsets() -> list[Onset]:

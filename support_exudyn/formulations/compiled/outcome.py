@@ -72,8 +72,8 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
     held = joint_forces(scenario.held.kinetics.constraints, found.held)
     actuators = {name: one.force for name, one in legs.items() if name in linkage.actuators}
     wanted = DataNeeds.CONTACTS in needed
-    contacts = {
-        name: place.series(motion, _memories(model, found, n))
+    sections = {
+        name: [place.series(motion, _memories(model, found, n))]
         for n, (name, place) in enumerate(scenario.contact_places.items())
         if wanted
     }
@@ -87,16 +87,11 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         linkage=linkage,
         gravity=scenario.gravity,
         time=found.time,
-        position=found.position,
-        velocity=found.velocity,
+        motion=motion,
         acceleration=found.acceleration,
-        ideal_pins=held["pins"],
-        contacts=contacts,
+        sections=sections,
         **friction_series(scenario, dict(zip(scenario.friction_laws, found.friction.T, strict=True))),
-        actuators={**held["actuators"], **actuators},
-        cranks=held["cranks"],
-        slides=held["slides"],
-        gears=held["gears"],
+        **{**held, "actuators": {**held["actuators"], **actuators}},
         work=losses[:, 2],
         damping_loss=losses[:, 0],
         friction_loss=losses[:, 1],

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from support_exudyn.formulations.statistics.ends import between_ends
 from support_exudyn.formulations.statistics.steps import NODES, OF_STEP, add_steps
-from support_exudyn.mechanics.observed_run import ObservedRun
+from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.time_statistics import COLUMNS, LAST, TimeStatistics
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scenario.recorded_channels import asked_definitions
@@ -61,7 +61,7 @@ class RunStatistics:
         self.wanted = {name: one for name, one in asked_definitions(scenario).items() if name != "time"}
         self._steps = StepStatistics(intervals(scenario.duration))
 
-    def add(self, time: Series, run: ObservedRun) -> None:
+    def add(self, time: Series, run: Trajectory) -> None:
         """Add steps that follow those before.
 
         Arguments:
@@ -70,7 +70,7 @@ class RunStatistics:
         """
         self._steps.add(time, self._values(run))
 
-    def add_ends(self, time: Series, begins: npt.NDArray[np.bool_], run: ObservedRun) -> None:
+    def add_ends(self, time: Series, begins: npt.NDArray[np.bool_], run: Trajectory) -> None:
         """Add steps of which the ends are known, and follow those before.
 
         Arguments:
@@ -82,7 +82,7 @@ class RunStatistics:
             nodes = {name: np.ravel(between_ends(time, begins, one)[lasting]) for name, one in values.items()}
             self._steps.add((time[:-1, None] + np.diff(time)[:, None] * NODES)[lasting], nodes)
 
-    def _values(self, run: ObservedRun) -> dict[str, Series]:
+    def _values(self, run: Trajectory) -> dict[str, Series]:
         """The channels at all times but the first (n,); angles go on from the last that has been added."""
         values = {}
         for name, definition in self.wanted.items():

@@ -126,6 +126,7 @@ class ActingLoad(AnyLoad, ABC):
 
     action: ClassVar[Callable[..., tuple[float, ...]]]
     MOTION: ClassVar[Any]  # the tuple of what a load follows
+    RATES: ClassVar[tuple[str, ...]]  # those fields of it that are rates of the strain
     FORCES: ClassVar[int]  # how many numbers of the action come before the stored energy
 
     @property
@@ -196,6 +197,7 @@ class Load(ActingLoad, ABC):
     lateral: Metres[Real] = 0.0
 
     MOTION: ClassVar[Any] = LoadedPoint
+    RATES: ClassVar[tuple[str, ...]] = ("vx", "vy", "vz")
     FORCES: ClassVar[int] = 3
 
     @property
@@ -222,6 +224,7 @@ class MomentLoad(ActingLoad, ABC):
     """
 
     MOTION: ClassVar[Any] = TurnedBody
+    RATES: ClassVar[tuple[str, ...]] = ("spin",)
     FORCES: ClassVar[int] = 1
 
     other: str = GROUND
@@ -260,6 +263,7 @@ class StretchLoad(ActingLoad, ABC):
     """
 
     MOTION: ClassVar[Any] = LoadedStretch
+    RATES: ClassVar[tuple[str, ...]] = ("first_rate", "second_rate")
     FORCES: ClassVar[int] = 2
 
     points: Metres[tuple[Vector2, Vector2]]

@@ -20,7 +20,8 @@ from scipy.spatial.transform import Rotation
 from support_exudyn.files.free_memory import available
 from support_exudyn.files.whole_file import check_is_file, whole_file
 from support_exudyn.formulations.engine_settings import quiet_engine
-from support_exudyn.formulations.exudyn.run import Model, model
+from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.mechanics.body_motion import UNTURNED, parameter_rates
 from support_exudyn.mechanics.channels import chosen
 from support_exudyn.mechanics.trajectory import Series
@@ -43,7 +44,7 @@ IN_SPACE = (
 )
 
 
-def rows(result: Result, of: Model) -> Solution:
+def rows(result: Result, of: EngineScene) -> Solution:
     """The records of a run as the engine's viewer takes them.
 
     Arguments:
@@ -94,7 +95,7 @@ def save_solution(result: Result, path: str | Path) -> Path:
 
 
 def _write(result: Result, path: Path) -> None:
-    scene = model(result.scenario)
+    scene = build(result.scenario)
     try:
         solution = rows(result, scene)
         with quiet_engine():
@@ -176,7 +177,7 @@ def _check_header(path: str | Path) -> None:
         )
 
 
-def check_fits(solution: Solution, of: Model, path: str | Path) -> None:
+def check_fits(solution: Solution, of: EngineScene, path: str | Path) -> None:
     """Raise InputError unless a solution file is of a model with as many coordinates."""
     wanted, found = int(of.mbs.systemData.ODE2Size()), int(solution["columnsExported"][0])
     if found != wanted:

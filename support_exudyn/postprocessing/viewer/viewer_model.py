@@ -7,14 +7,14 @@ equations stay those of the model that runs.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import exudyn
 import numpy as np
 from exudyn.itemInterface import ObjectGround, VObjectGround
 
-from support_exudyn.formulations.exudyn.run import Model, model
-from support_exudyn.formulations.exudyn.scene.engine_scene import INITIAL
+from support_exudyn.formulations.exudyn.scene.engine_scene import INITIAL, EngineScene
+from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look import looks
@@ -53,7 +53,7 @@ class ViewerModel:
     insets: of clearance pins, beside the machine.
     """
 
-    scene: Model
+    scene: EngineScene
     look: Look
     insets: PinInsets
 
@@ -62,7 +62,7 @@ class ViewerModel:
         if body == GROUND:
             return np.array(point)
         item = self.scene.bodies[body]
-        local = _axes(self.scene, body).local(np.array([point]))[0]
+        local = np.array(point) - _centre(self.scene, body)
         return np.array(self.scene.mbs.GetObjectOutputBody(item.object, POSITION, local, SHOWN))
 
 
@@ -73,7 +73,7 @@ def model_for_viewer(
 
     views, time: pins whose journals and forces are shown beside it, and the times of their records [s].
     """
-    scene, look = model(scenario), looks.look(scenario)
+    scene, look = build(scenario), looks.look(scenario)
     with_clearance = [
         (pin, pin.with_clearance.contact.bearing)
         for pin in placed_pins(scenario)
@@ -87,8 +87,8 @@ def model_for_viewer(
     insets = PinInsets(views, time, corners.min(axis=0), corners.max(axis=0))
     shown = ViewerModel(scene, whole, insets)
     for name, item in scene.bodies.items():
-        drawn = [_of_solid(solid, _axes(scene, name)) for solid in solids_of(whole, name)]
-        drawn += [_of_rim(rim, _axes(scene, name)) for body, rim in rims if body == name]
+        drawn = [_of_solid(solid, _centre(scene, name)) for solid in solids_of(whole, name)]
+        drawn += [_of_rim(rim, _centre(scene, name)) for body, rim in rims if body == name]
         scene.mbs.SetObjectParameter(item.object, "VgraphicsData", drawn)
     still = [_of_solid(solid) for solid in solids_of(whole, GROUND)]
     still += [_of_rim(rim) for body, rim in rims if body == GROUND]
@@ -113,39 +113,24 @@ def model_for_viewer(
 # --- what bodies show ---
 
 
-class Axes(NamedTuple):
-    """The axes of a body in the start posture: origin [m], and rotation (3, 3) to the ground's axes."""
-
-    origin: Series
-    turn: Series
-
-    def local(self, points: Series) -> Series:
-        """Points of the start posture (n, 3) in these axes."""
-        found: Series = (points - self.origin) @ self.turn
-        return found
+STILL = np.zeros(3)
 
 
-STILL = Axes(np.zeros(3), np.eye(3))
+def _centre(scene: EngineScene, name: str) -> Series:
+    """A body's centre of mass in the start posture (3,) [m]; its axes are those of the ground then."""
+    found, centre = np.zeros(3), scene.bodies[name].body.centre
+    found[: len(centre)] = centre
+    return found
 
 
-def _axes(scene: Model, name: str) -> Axes:
-    body = scene.bodies[name].body
-    origin, angle = np.zeros(3), 0.0
-    origin[: len(body.centre)] = body.centre
-    if len(body.centre) == 2:  # in space bodies have the ground's axes at the start
-        angle = body.angle
-    c, s = np.cos(angle), np.sin(angle)
-    return Axes(origin, np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]))
-
-
-def _of_solid(solid: Solid, axes: Axes = STILL) -> dict[str, Any]:
+def _of_solid(solid: Solid, centre: Series = STILL) -> dict[str, Any]:
     mesh = solid.mesh.copy()
-    mesh.vertices = axes.local(mesh.vertices)
+    mesh.vertices = mesh.vertices - centre
     return engine_surface(mesh, COLOURS[solid.role]).placed()
 
 
-def _of_rim(points: Series, axes: Axes = STILL) -> dict[str, Any]:
-    return {"type": "Line", "color": [*BORE, 1.0], "data": axes.local(points).ravel()}
+def _of_rim(points: Series, centre: Series = STILL) -> dict[str, Any]:
+    return {"type": "Line", "color": [*BORE, 1.0], "data": (points - centre).ravel()}
 
 
 # --- actuators ---

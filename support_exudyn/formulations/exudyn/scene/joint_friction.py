@@ -12,12 +12,7 @@ from typing import Any
 
 import exudyn
 import numpy as np
-from exudyn.itemInterface import (
-    MarkerNodeCoordinate,
-    NodePointGround,
-    ObjectConnectorCartesianSpringDamper,
-    ObjectConnectorCoordinateSpringDamper,
-)
+from exudyn.itemInterface import ObjectConnectorCartesianSpringDamper, ObjectConnectorCoordinateSpringDamper
 
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.joint_friction import Carried, FrictionJoint
@@ -33,11 +28,11 @@ class JointFriction:
     Arguments:
         mbs: the engine's system.
         joint: its data.
-        nodes: of the first and the second body; None: the ground.
         points: markers of a guide's point on both bodies; none of a pin.
+        turns: markers of the turns of both bodies; none where friction has no moment.
     """
 
-    def __init__(self, mbs: Any, joint: FrictionJoint, nodes: list[Any], points: list[Any]) -> None:
+    def __init__(self, mbs: Any, joint: FrictionJoint, points: list[Any], turns: list[Any]) -> None:
         self._mbs, self._data = mbs, mbs.systemData
         self.joint, self.law = joint, joint.law
         self.calls = 0
@@ -55,12 +50,9 @@ class JointFriction:
             self._slider = mbs.AddObject(
                 ObjectConnectorCartesianSpringDamper(markerNumbers=points, springForceUserFunction=self._resist)
             )
-        if joint.lever((0.0, 0.0)):
-            markers = _rotations(mbs, *nodes)
+        if turns:
             mbs.AddObject(
-                ObjectConnectorCoordinateSpringDamper(
-                    markerNumbers=markers, springForceUserFunction=self._twist
-                )
+                ObjectConnectorCoordinateSpringDamper(markerNumbers=turns, springForceUserFunction=self._twist)
             )
 
     def assembled(self, multiplier: int, bodies: Mapping[str, Any]) -> None:
@@ -199,14 +191,3 @@ class JointFriction:
         self.calls += 1
         slip = lever * spin
         return -lever * self.joint.force(carried, slip, self._moved(slip))
-
-
-def _rotations(mbs: Any, first: Any, second: Any) -> list[Any]:
-    """Markers of the rotations of two bodies, given by the engine's nodes; None for the ground."""
-
-    def marker(node: Any) -> Any:
-        if node is None:
-            return MarkerNodeCoordinate(nodeNumber=mbs.AddNode(NodePointGround()), coordinate=0)
-        return MarkerNodeCoordinate(nodeNumber=node, coordinate=2)
-
-    return [mbs.AddMarker(marker(node)) for node in (first, second)]

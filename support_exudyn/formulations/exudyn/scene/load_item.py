@@ -4,22 +4,21 @@ They are connectors and no loads of the engine's, for those have no Jacobian, wi
 not get along with a stiff one. What a connector gives is what pulls its ends together: minus the force.
 """
 
+from __future__ import annotations
+
 import math
 import sys
-from abc import ABC, abstractmethod
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import exudyn
 import numpy as np
 from exudyn.itemInterface import ObjectConnectorCartesianSpringDamper, ObjectConnectorRigidBodySpringDamper
 
-from support_exudyn.formulations.exudyn.scene.engine_builder import EngineBuilder
-from support_exudyn.mechanics.acting_loads import turning_axis
+from support_exudyn.mechanics.acting_loads import strain_of, turning_axis
+from support_exudyn.mechanics.body_motion import Motion
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.loads.load import (
     ActingLoad,
     Load,
-    LoadAction,
     LoadedPoint,
     LoadedStretch,
     MomentLoad,
@@ -27,57 +26,63 @@ from support_exudyn.model.loads.load import (
     TurnedBody,
 )
 from user_forces.lawful import ROUNDING, LawError
-from user_forces.values.value import Vector3
+
+if TYPE_CHECKING:
+    from support_exudyn.formulations.exudyn.scene.scene_builder import SceneBuilder
 
 ROUNDINGS = 8.0  # of a point's coordinates, from which ways are computed
-KNOWN = exudyn.OutputVariableType
 
 
-class LoadItem(ABC):
-    """A load in the engine: its data, its connector, and the connector's function, which must live as long."""
+class LoadItem:
+    """A load in the engine: its data, its connector, and the connector's function, which must live as long.
 
-    def __init__(self, load: ActingLoad, builder: EngineBuilder) -> None:
-        self.load, self.mbs = load, builder.mbs
-        self.object: Any = None
+    What the action gave last is what it gives at the end of a step that has been solved: with that Newton's
+    method has ended.
+    """
+
+    def __init__(self, load: ActingLoad, name: str, builder: SceneBuilder) -> None:
+        self.load, self.name, self.mbs = load, name, builder.mbs
         self.rounding = 0.0  # force by which rounding of positions lets it scatter [N]
+        self._at: Any = None  # the motion that the action was given last,
+        self._numbers: tuple[float, ...] = ()  # and what it gave
 
-    @abstractmethod
-    def at(self, t: float) -> Any:
-        """The motion that the load follows, at the end of a step, t [s]."""
+    def act(self, at: Any) -> tuple[float, ...]:
+        """What the action gives for a motion."""
+        self._at, self._numbers = at, self.load.numbers(at)
+        return self._numbers
 
-    def acting(self, t: float) -> LoadAction:
-        """What the load does at the end of a step, t [s]."""
-        return self.load.acting(self.at(t))
+    def powers(self) -> tuple[float, float]:
+        """Power of what moves the load, and power that is lost in it, at the end of the last step [W]."""
+        count = self.load.FORCES
+        return self._numbers[count + 1], self._numbers[count + 2]
 
-    def probe(self, t: float, name: str) -> None:
-        """Raise LawError if the load has no finite force at a time t [s] where its bodies are now."""
-        forces = self.acting(t).forces
+    def probe(self, t: float, motion: Motion) -> None:
+        """Raise LawError if the load has no finite force at a time t [s] for the motion of all bodies now."""
+        load = self.load
+        at = load.MOTION(t, *strain_of(load, self.name, motion).numbers[0].tolist())
+        forces = load.numbers(at)[: load.FORCES]
         if not all(map(math.isfinite, forces)):
             said = ", ".join(f"{force:g}" for force in forces)
-            what, unit = ("moment", "N m") if isinstance(self.load, MomentLoad) else ("force", "N")
-            raise LawError(f"{name}: {type(self.load).__name__} has a {what} of {said} {unit}")
+            what, unit = ("moment", "N m") if isinstance(load, MomentLoad) else ("force", "N")
+            raise LawError(f"{self.name}: {type(load).__name__} has a {what} of {said} {unit}")
 
-    def look(self, t: float, name: str) -> None:
-        """Raise LawError if the load gives at t [s] what it should lose, but for rounding, or no number."""
-        at = self.at(t)
-        now = self.load.acting(at)
-        power = math.hypot(*now.forces) * math.hypot(*self.rates(at))
-        if not now.loss >= -ROUNDING * (abs(now.work) + power):
-            raise LawError(f"{name}: {type(self.load).__name__} loses {now.loss:.6g} W; allowed: >= 0")
-
-    @abstractmethod
-    def rates(self, at: Any) -> tuple[float, ...]:
-        """The rates of the strain."""
+    def look(self) -> None:
+        """Raise LawError if the load gives what it should lose, but for rounding, or no number."""
+        work, loss = self.powers()
+        rates = [getattr(self._at, rate) for rate in self.load.RATES]
+        power = math.hypot(*self._numbers[: self.load.FORCES]) * math.hypot(*rates)
+        if not loss >= -ROUNDING * (abs(work) + power):
+            raise LawError(f"{self.name}: {type(self.load).__name__} loses {loss:.6g} W; allowed: >= 0")
 
 
 class ForceItem(LoadItem):
     """A force on a point: a connector in the axes of the ground."""
 
-    def __init__(self, load: Load, name: str, builder: EngineBuilder) -> None:
-        super().__init__(load, builder)
+    def __init__(self, load: Load, name: str, builder: SceneBuilder) -> None:
+        super().__init__(load, name, builder)
         origin = builder.marker(load.against(name), builder.place(load.origin, load.origin_lateral))
         point = builder.marker(load.body, builder.place(load.point, load.lateral))
-        self.object = self.mbs.AddObject(
+        self.mbs.AddObject(
             ObjectConnectorCartesianSpringDamper(
                 markerNumbers=[origin, point], springForceUserFunction=self.pull
             )
@@ -88,27 +93,16 @@ class ForceItem(LoadItem):
     def pull(self, mbs: Any, t: float, item: int, way: Any, velocity: Any, *others: Any) -> list[float]:
         """The engine's user function."""
         (x, y, z), (vx, vy, vz) = way, velocity
-        return [-force for force in self.load.numbers(LoadedPoint(t, x, y, vx, vy, z, vz))[:3]]
-
-    def at(self, t: float) -> LoadedPoint:
-        """See `LoadItem`."""
-        x, y, z = map(float, self.mbs.GetObjectOutput(self.object, KNOWN.Displacement))
-        vx, vy, vz = map(float, self.mbs.GetObjectOutput(self.object, KNOWN.Velocity))
-        return LoadedPoint(t, x, y, vx, vy, z, vz)
-
-    def rates(self, at: LoadedPoint) -> tuple[float, ...]:
-        """See `LoadItem`."""
-        return at.vx, at.vy, at.vz
+        return [-force for force in self.act(LoadedPoint(t, x, y, vx, vy, z, vz))[:3]]
 
 
 class MomentItem(LoadItem):
     """A moment on a body: a connector that knows all turns, in the other body's axes; it counts whole turns."""
 
-    def __init__(self, load: MomentLoad, name: str, builder: EngineBuilder) -> None:
-        super().__init__(load, builder)
-        del name
+    def __init__(self, load: MomentLoad, name: str, builder: SceneBuilder) -> None:
+        super().__init__(load, name, builder)
         self._turn = 0.0  # [rad], the last
-        self.object = self.mbs.AddObject(
+        self.mbs.AddObject(
             ObjectConnectorRigidBodySpringDamper(
                 markerNumbers=[builder.frame(body) for body in (load.other, load.body)],
                 springForceTorqueUserFunction=self.pull,
@@ -118,29 +112,13 @@ class MomentItem(LoadItem):
     def pull(
         self, mbs: Any, t: float, item: int, shift: Any, angles: Any, velocity: Any, spin: Any, *others: Any
     ) -> list[float]:
-        """The engine's user function."""
-        at, axis = self._turned(t, angles, spin)
-        moment = self.load.numbers(at)[0]
-        return [0.0, 0.0, 0.0, *(-moment * k for k in axis)]
-
-    def _turned(self, t: float, angles: Any, spin: Any) -> tuple[TurnedBody, Vector3]:
-        """Turn and rate, and the axis by which a moment acts on them; angles, spin: in the other's axes."""
+        """The engine's user function; angles, spin: in the other body's axes."""
         x, y, z = _forward(*map(float, angles)).tolist()
-        axis: Vector3 = turning_axis(x, y, z)
+        axis = turning_axis(x, y, z)
         self._turn += math.remainder(math.atan2(y, x) - self._turn, 2.0 * math.pi)
         rate = float(sum(k * w for k, w in zip(axis, spin, strict=True)))
-        return TurnedBody(t, self._turn, rate), axis
-
-    def at(self, t: float) -> TurnedBody:
-        """See `LoadItem`."""
-        angles, spin = (
-            self.mbs.GetObjectOutput(self.object, what) for what in (KNOWN.Rotation, KNOWN.AngularVelocityLocal)
-        )
-        return self._turned(t, angles, spin)[0]
-
-    def rates(self, at: TurnedBody) -> tuple[float, ...]:
-        """See `LoadItem`."""
-        return (at.spin,)
+        moment = self.act(TurnedBody(t, self._turn, rate))[0]
+        return [0.0, 0.0, 0.0, *(-moment * k for k in axis)]
 
 
 class StretchItem(LoadItem):
@@ -148,14 +126,12 @@ class StretchItem(LoadItem):
 
     load: StretchLoad
 
-    def __init__(self, load: StretchLoad, name: str, builder: EngineBuilder) -> None:
-        super().__init__(load, builder)
-        places = [builder.place(point, load.lateral) for point in load.points]
-        first = builder.frame(load.body, places[0])
-        self.ends = first, builder.marker(load.body, places[1])
-        self.object = self.mbs.AddObject(
+    def __init__(self, load: StretchLoad, name: str, builder: SceneBuilder) -> None:
+        super().__init__(load, name, builder)
+        first = builder.place(load.points[0], load.lateral)
+        self.mbs.AddObject(
             ObjectConnectorRigidBodySpringDamper(
-                markerNumbers=[builder.frame(load.against(name), places[0]), first],
+                markerNumbers=[builder.frame(body, first) for body in (load.against(name), load.body)],
                 springForceTorqueUserFunction=self.pull,
             )
         )
@@ -169,21 +145,8 @@ class StretchItem(LoadItem):
         arm = (u - x) * _forward(a, b, c) + (v - y) * _upward(a, b, c)
         rate = velocity[1] + spin[2] * arm[0] - spin[0] * arm[2]
         at = LoadedStretch(t, way[1], way[1] + arm[1] - (v - y), velocity[1], rate)
-        first, second = self.load.numbers(at)[:2]
+        first, second = self.act(at)[:2]
         return [0.0, -first - second, 0.0, arm[2] * second, 0.0, -arm[0] * second]
-
-    def at(self, t: float) -> LoadedStretch:
-        """See `LoadItem`."""
-        heights, rates = (
-            [float(self.mbs.GetMarkerOutput(end, what)[1]) for end in self.ends]
-            for what in (KNOWN.Position, KNOWN.Velocity)
-        )
-        ways = [height - point[1] for height, point in zip(heights, self.load.points, strict=True)]
-        return LoadedStretch(t, ways[0], ways[1], rates[0], rates[1])
-
-    def rates(self, at: LoadedStretch) -> tuple[float, ...]:
-        """See `LoadItem`."""
-        return at.first_rate, at.second_rate
 
 
 def _forward(a: float, b: float, c: float) -> Series:
@@ -198,7 +161,7 @@ def _upward(a: float, b: float, c: float) -> Series:
     return np.array([-cb * sc, ca * cc - sa * sb * sc, sa * cc + ca * sb * sc])
 
 
-def add_load(load: ActingLoad, name: str, builder: EngineBuilder) -> LoadItem:
+def add_load(load: ActingLoad, name: str, builder: SceneBuilder) -> LoadItem:
     """Add what stands in the engine for a load of this name. Raises TypeError for one of no strain kind."""
     if isinstance(load, Load):
         return ForceItem(load, name, builder)

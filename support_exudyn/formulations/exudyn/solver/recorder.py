@@ -11,7 +11,7 @@ from support_exudyn.formulations.exudyn.solver.within_steps import RunningIntegr
 from support_exudyn.formulations.statistics.collected import RunStatistics
 from support_exudyn.formulations.statistics.ends import beside_jumps
 from support_exudyn.mechanics.channels import EVERYTHING, DataNeeds
-from support_exudyn.mechanics.observed_run import ObservedRun
+from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.time_statistics import TimeStatistics
 from support_exudyn.mechanics.trajectory import Series
 from user_forces.contact_state import PinMemory
@@ -89,7 +89,7 @@ class Recorder:
         self,
         scene: EngineScene,
         needs: DataNeeds = EVERYTHING,
-        observe: Callable[[History], ObservedRun] | None = None,
+        observe: Callable[[History], Trajectory] | None = None,
     ) -> None:
         duration = scene.scenario.duration
         # rigid actuators that are held and ideal pins neither work nor lose anything
@@ -104,7 +104,7 @@ class Recorder:
         self._looks = scene.scenario.solver.result_checks  # whether what is lost is
         self._driven = tuple((parts, parts.multipliers) for parts in scene.driven)
         self._frictions = tuple(scene.frictions.items())
-        self._loads = tuple(scene.loads.items())
+        self._loads = tuple(scene.loads.values())
         self._legs = scene.legs
         self._keeps_legs = scene.legs.states_count > 0 and DataNeeds.OIL in needs
         self._records, self._ends = _StateRows(), _StateRows()
@@ -259,12 +259,12 @@ class Recorder:
                 multipliers = self._data.GetAECoordinates()
                 # the multiplier of a distance is the tension, that of a crank's angle the moment against it
                 driving -= speed * sum(float(multipliers[n]) for n in struts)
-        for name, load in self._loads:
-            acting = load.acting(t)
-            if self._looks and not acting.loss >= 0.0:
-                load.look(t, name)
-            driving += acting.work
-            damping += acting.loss
+        for load in self._loads:
+            work, loss = load.powers()
+            if self._looks and not loss >= 0.0:
+                load.look()
+            driving += work
+            damping += loss
         if self._legs.names:
             work, loss, rubbed = self._legs.powers()
             driving, damping, friction = driving + work, damping + loss, friction + rubbed

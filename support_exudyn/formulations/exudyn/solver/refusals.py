@@ -1,9 +1,8 @@
 """Why a run could not go on, in words: reason and advice."""
 
-import numpy as np
-
 from support_exudyn.formulations import change_points
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
+from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scene.contract import ENGINE_ADVICE, explained, first_line
 from support_exudyn.scene.limits import ENDS, past_ends
 from user_forces.lawful import UNLAWFUL, LawError
@@ -26,7 +25,7 @@ FEWER_STEPS = (
 EMPTY = "Give it end_stops inside of its oil's lengths, or look at what moves it."
 
 
-def why(error: Exception, scene: EngineScene, ahead: float) -> tuple[str, str]:
+def why(error: Exception, scene: EngineScene, ahead: float, calm: Series | None) -> tuple[str, str]:
     """Reason and advice, where the engine has raised an error.
 
     Raises its cause if that is no matter of the run's numbers.
@@ -34,6 +33,7 @@ def why(error: Exception, scene: EngineScene, ahead: float) -> tuple[str, str]:
     Arguments:
         error: the engine's.
         scene, ahead: see `unlawful`.
+        calm: see `singular`.
     """
     cause = error.__cause__  # set if a function of ours raised
     if isinstance(cause, LawError):
@@ -44,15 +44,19 @@ def why(error: Exception, scene: EngineScene, ahead: float) -> tuple[str, str]:
         return first_line(cause), ADVICE
     if cause is not None:
         raise cause from None
-    return unlawful(scene, ahead) or singular(scene) or (explained(error), ENGINE_ADVICE)
+    return unlawful(scene, ahead) or singular(scene, calm) or (explained(error), ENGINE_ADVICE)
 
 
-def singular(scene: EngineScene) -> tuple[str, str] | None:
-    """Reason and advice if a linkage has come to a change point or dead centre."""
-    position = scene.mbs.systemData.GetODE2Coordinates()
-    order = np.concatenate([np.arange(item.first, item.first + 3) for item in scene.bodies.values()])
-    reason = change_points.ended_at(scene.scenario, position[order])
-    return (reason, change_points.ADVICE) if reason else None
+def singular(scene: EngineScene, calm: Series | None) -> tuple[str, str] | None:
+    """Reason and advice if a linkage has come to a change point or dead centre.
+
+    calm: the last coordinates that are sure if Newton's method has failed; beside such a point the present ones
+    may be far off.
+    """
+    for position in (scene.mbs.systemData.GetODE2Coordinates(), calm):
+        if position is not None and (reason := change_points.ended_at(scene.scenario, position)):
+            return reason, change_points.ADVICE
+    return None
 
 
 def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
@@ -72,8 +76,9 @@ def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
         scene.legs.follow(ahead)
         for parts in scene.driven:
             parts.look(ahead)
-        for name, load in scene.loads.items():
-            load.probe(ahead, name)
+        motion = scene.instant(()).motion
+        for load in scene.loads.values():
+            load.probe(ahead, motion)
         for name, friction in scene.frictions.items():
             friction.probe(name)
         for name, pin in scene.clearance_joints.items():

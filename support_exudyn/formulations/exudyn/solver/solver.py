@@ -29,7 +29,7 @@ from support_exudyn.formulations.exudyn.solver.refusals import (
     why,
 )
 from support_exudyn.formulations.exudyn.solver.step_growth import StepGrowth, step_growth
-from support_exudyn.mechanics.trajectory import Counts, Impulse
+from support_exudyn.mechanics.trajectory import Counts, Impulse, Series
 from support_exudyn.scene.contract import Failure, Progress, SimulationError
 from support_exudyn.scene.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
 from support_exudyn.scene.time_grid import StepPlan
@@ -43,6 +43,7 @@ SMALLEST_IMPACT_STEP = 1e-11  # [s], well above the rounding of times
 # falls with the spectral radius from step to step. The grid step that follows is divided so often, so that
 # nothing of it is left at the next record.
 BREAK_REFINEMENT = 32
+CALM = 10.0  # times the largest velocity before Newton's method failed: up to that coordinates are believed
 # Before steps that are so many times shorter than the last, velocities are aligned, see `Scene.align`.
 MUCH_SHORTER = 8.0
 
@@ -87,6 +88,8 @@ class SolverRun:
         self.most_steps, self.looks = scenario.solver.most_steps, scenario.solver.result_checks
         self.trying = False  # a step has been tried and not accepted yet
         self.repeated = False  # that step is tried again, shorter
+        self.calm: Series | None = None  # coordinates before velocities grew as Newton's method failed,
+        self.calm_speed = 0.0  # and the largest velocity that is none of it
         newton = self.settings.timeIntegration.newton
         self.newton = NewtonMethod(self.solver, newton, scenario, self.pins, unknowns)
         self.named_pins = tuple(scene.clearance_joints.items())
@@ -106,10 +109,11 @@ class SolverRun:
             with quiet_engine(), np.errstate(over="ignore", invalid="ignore"):
                 finished = self.solver.SolveSystem(mbs, self.settings)
         except exudyn.ExudynError as error:
-            raise SimulationError(self._failure(*why(error, self.scene, self._ahead))) from error
+            raise SimulationError(self._failure(*why(error, self.scene, self._ahead, self.calm))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
             advice = f"{ADVICE} {STEEP}" if self.newton.failures.of_step and self._has_friction() else ADVICE
-            told = unlawful(self.scene, self._ahead) or singular(self.scene) or ("the solver gave up", advice)
+            scene, ahead = self.scene, self._ahead
+            told = unlawful(scene, ahead) or singular(scene, self.calm) or ("the solver gave up", advice)
             raise SimulationError(self._failure(*told))
         return Counts(
             steps=self.steps,
@@ -140,6 +144,7 @@ class SolverRun:
             if self.legs.wants_cut or any(pin.wants_cut for pin in self.pins):
                 self.cut_steps += 1
             else:
+                self._keep_calm()
                 self.failed_newton += 1
                 self.newton.failed()
         self.trying = True
@@ -241,6 +246,18 @@ class SolverRun:
     def _ahead(self) -> float:
         """A time that was to be reached [s]."""
         return self.time + self.plan.step
+
+    def _keep_calm(self) -> None:
+        """Keep the coordinates before a step that has failed, while velocities are not far above the usual.
+
+        Beside a change point they grow beyond any limit, and positions with them.
+        """
+        start = exudyn.ConfigurationType.StartOfStep
+        speed = float(np.abs(self.data.GetODE2Coordinates_t(start)).max())
+        if not self.newton.failures.more:
+            self.calm_speed = CALM * speed
+        if speed <= self.calm_speed:
+            self.calm = self.data.GetODE2Coordinates(start)
 
     def _is_to_be_cut(self, taken: float, following: float) -> bool:
         """Whether far shorter steps follow on one of this length [s], or the next will be cut.

@@ -9,15 +9,25 @@ taken by Gauss and Lobatto's rule, whose outermost points are the edges: a tilte
 first.
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import SpatialMotion, cross
 from support_exudyn.mechanics.constraints import frame_of
-from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.mechanics.contact_places import RelativeMotion, journal_arm, series
+from support_exudyn.mechanics.trajectory import ContactSeries, Series
+from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.spatial_linkage import Bearing, BearingEnd
-from user_forces.connector.attachment import Attachment
+from user_forces.connector.attachment import Attachment, attachment
+from user_forces.contact import JournalContact
+from user_forces.contact_state import PinMemory
+from user_forces.friction.laws import Frictionless
+from user_forces.normal.part import PartOf
 from user_forces.values.value import Vector3
 
 
@@ -54,6 +64,74 @@ def ends(bearing: Bearing, bore: Literal["first", "second"]) -> tuple[BearingEnd
     first = BearingEnd(bearing.first, bearing.first_point, bearing.first_axis)
     second = BearingEnd(bearing.second, bearing.second_point, bearing.second_axis)
     return (first, second) if bore == "first" else (second, first)
+
+
+@dataclass(frozen=True)
+class SectionPlace:
+    """A section of a clearance bearing as a place of contact, see `ContactPlace`.
+
+    contact: with the section's share of the force. bore_end, journal_end: of the bearing. section: which it is.
+    slides: the journal may shift along the bore.
+    """
+
+    contact: JournalContact
+    bore_end: BearingEnd
+    journal_end: BearingEnd
+    section: Section
+    slides: bool
+
+    @property
+    def bore(self) -> str:
+        """The body that encloses."""
+        return self.bore_end.body
+
+    @property
+    def journal(self) -> str:
+        """The body that is enclosed."""
+        return self.journal_end.body
+
+    @property
+    def bore_point(self) -> Vector3:
+        """Centre of the bore's section, start posture [m]."""
+        return self.bore_end.centre(self.section.place)
+
+    @property
+    def journal_point(self) -> Vector3:
+        """Centre of the journal's section, start posture [m]."""
+        return self.journal_end.centre(self.section.place)
+
+    def motion(self, motion: SpatialMotion) -> SectionMotion:
+        """How the section moves, see `section_motion`."""
+        at = attachment(self.contact, self.bore == GROUND, self.journal == GROUND)
+        return section_motion(motion, self.bore_end, self.journal_end, self.section.place, at, self.slides)
+
+    def series(self, motion: SpatialMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
+        """The section at every record, in the axes in which its force is given."""
+        return series(self.contact, RelativeMotion(*self.motion(motion)[:6]), memories)
+
+    def push(self, motion: SpatialMotion, contact: ContactSeries) -> tuple[Series, Series]:
+        """Force of the bore on the journal [N], and the point at which it acts [m], ground's axes (n, 3)."""
+        moving = self.motion(motion)
+        away = np.linalg.norm(moving.displacement, axis=1)
+        outward = moving.displacement / np.where(away > 0.0, away, 1.0)[:, None]
+        if isinstance(self.contact.friction, Frictionless):
+            force = -contact.normal_force[:, None] * outward
+        else:
+            plane = np.column_stack([contact.force_x, contact.force_y, np.zeros(motion.count)])
+            force = np.einsum("nij,nj->ni", moving.axes, plane)
+        return force, moving.centre + journal_arm(self.contact, contact.depth)[:, None] * outward
+
+
+def section_places(
+    bearing: Bearing, contact: JournalContact, bore: Literal["first", "second"], number: int
+) -> list[SectionPlace]:
+    """The middle of a clearance bearing with all of its pin's contact, then so many sections."""
+    slides, both = "along" not in bearing.holds, ends(bearing, bore)
+    found = [SectionPlace(contact, *both, Section(0.0, bearing.share), slides)]
+    for section in sections(bearing, number):
+        part = replace(contact, normal=PartOf(law=contact.normal, share=section.share))
+        found.append(SectionPlace(part, *both, section, slides))
+    return found
 
 
 class SectionMotion(NamedTuple):
@@ -138,12 +216,3 @@ def half_way(axes: Series, along: Series) -> Series:
     )
     across = axes[:, :, :2] - np.einsum("ni,nk->nik", own + middle, share)
     return np.concatenate([across, middle[:, :, None]], axis=2)
-
-
-def marker_frame(end: BearingEnd, place: float, centre: Vector3) -> list[list[float]]:
-    """Frame of a section on its body, in the body's axes (4 x 4), its z along the bearing."""
-    frame = np.eye(4)
-    frame[:3, :3] = frame_of(end.axis)
-    frame[:3, 3] = np.array(end.centre(place)) - np.array(centre)
-    found: list[list[float]] = frame.tolist()
-    return found

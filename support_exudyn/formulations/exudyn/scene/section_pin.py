@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
-from support_exudyn.formulations.exudyn.space.sections import Section
-from support_exudyn.model.spatial_linkage import BearingEnd
-from support_exudyn.scenario.solver_settings import SolverSettings
 from user_forces.connector.attachment import Attachment
 from user_forces.connector.contact_connector import ContactConnector, FindMass
 from user_forces.connector.item import INITIAL, JointItem
-from user_forces.contact import JournalContact
+from user_forces.contact import Contact
 from user_forces.contact_state import InverseMass, Onset, PinMemory
 from user_forces.impact_steps import ImpactSteps
-from user_forces.normal.part import PartOf
 from user_forces.roots import NEAR_PEAK, has_a_top, peak
 from user_forces.values.value import Vector2
 
@@ -113,26 +108,19 @@ class SectionPin(ContactConnector):
     bore and journal act on each other that are abreast.
 
     Arguments:
-        contact: of the whole pin.
+        contact: of the whole pin, by which steps are chosen.
         item: markers and connector.
         whole: what it shares with the other sections.
-        section: its place and share.
-        ends: bore and journal.
-        settings: of the solver.
+        share: of the contact.
+        impact_steps: number of steps in an undamped impact.
     """
 
     def __init__(
-        self,
-        contact: JournalContact,
-        item: JointItem,
-        whole: SectionJournal,
-        section: Section,
-        ends: tuple[BearingEnd, BearingEnd],
-        settings: SolverSettings,
+        self, contact: Contact, item: JointItem, whole: SectionJournal, share: float, impact_steps: int
     ) -> None:
-        super().__init__(item, whole.inverse_mass, settings.impact_steps, share=section.share)
-        self.impact_steps = ImpactSteps(contact.normal, settings.impact_steps)  # steps of the whole
-        self.section, self.whole, self.ends, self.slides = section, whole, ends, whole.slides
+        super().__init__(item, whole.inverse_mass, impact_steps, share=share)
+        self.impact_steps = ImpactSteps(contact.normal, impact_steps)
+        self.whole, self.slides = whole, whole.slides
         whole.sections.append(self)
         self._is_first = whole.sections[0] is self
         # whether it was in contact before the last accepted step, and its impact in that
@@ -202,8 +190,3 @@ class SectionPin(ContactConnector):
 
     def _mass_place(self) -> Vector2:
         return self.whole.place
-
-
-def part_of(contact: JournalContact, section: Section) -> JournalContact:
-    """The contact of a section, which has its share of the force."""
-    return replace(contact, normal=PartOf(law=contact.normal, share=section.share))

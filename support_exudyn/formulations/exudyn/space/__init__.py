@@ -1,1 +1,0 @@
-"""The model in space: sections of a bearing, joints, what is observed."""
