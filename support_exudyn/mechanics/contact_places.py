@@ -87,32 +87,11 @@ def journal_arm(contact: Contact, depth: Series) -> Series:
     return np.array([contact.bearing.contact_arms(d)[1] for d in depth.tolist()])
 
 
-class Meeting(Protocol):
-    """Two bodies that may make contact, see `ContactPlace`; with points of the plane or of space."""
+def contact_rate(motion: Motion, place: Any, axes: Matrix) -> Matrix:
+    """The matrix of the eccentricity's rate, or of slip and depth in a slot, see `ContactPlace.rate`.
 
-    @property
-    def contact(self) -> Contact:
-        """Geometry and laws."""
-
-    @property
-    def bore(self) -> str:
-        """The body that encloses."""
-
-    @property
-    def journal(self) -> str:
-        """The body that is enclosed."""
-
-    @property
-    def bore_point(self) -> Any:
-        """The bore's centre [m]."""
-
-    @property
-    def journal_point(self) -> Any:
-        """The journal's centre [m]."""
-
-
-def contact_rate(motion: Motion, place: Meeting, axes: Matrix) -> Matrix:
-    """The matrix of the eccentricity's rate, or of slip and depth in a slot, see `ContactPlace.rate`."""
+    place: a `ContactPlace`, or a section of a bearing in space, which has the same contact, bodies and points.
+    """
     ends = place.bore, place.bore_point, place.journal, place.journal_point
     directions = [tuple(axis[: motion.SHIFTS].tolist()) for axis in axes.T[:2]]
     carrier = place.bore  # of the walls of a slot, whose turning moves them at the corner

@@ -149,11 +149,6 @@ class Kinetics:
         apart = motion.place(place.second, place.second_point) - motion.place(place.first, place.first_point)
         return apart[0], matrix(motion, pin("", place))[0]
 
-    def pin_rate(self, position: Matrix, place: PinPlace) -> Matrix:
-        """The matrix that turns all velocities into the rates of a pin's deflection and of its turn (3, n)."""
-        turning = [self.turning(position.size, body) for body in (place.first, place.second)]
-        return np.vstack([self.relative(position, place)[1], turning[1] - turning[0]])
-
     def respond(self, position: Matrix, impulse: Matrix, jump: Matrix | float) -> tuple[Matrix, Matrix]:
         """Change of velocities dv (n,) and impulses L (m,) under impulses b (n,) and a jump c (m,).
 

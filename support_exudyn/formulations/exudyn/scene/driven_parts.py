@@ -1,44 +1,43 @@
 """Rigid actuators and cranks in the engine that follow the same drive."""
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any, TypeVar
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 from support_exudyn.model.drives.drive import Drive
 from user_forces.lawful import LawError
 
-Item = TypeVar("Item")
 
+class DrivenItem(NamedTuple):
+    """A joint of the engine that holds a length or an angle: its object, the parameter that it holds, what that
+    is at the start [m], [rad], and its multiplier.
+    """
 
-@dataclass(frozen=True)
-class HeldItem:
-    """What constraints of the engine hold: a pin, guide, crank or actuator, its object and first multiplier."""
-
-    part: Any
     object: Any
-    first: int
+    parameter: str
+    start: float
+    multiplier: int
 
 
 @dataclass
 class DrivenParts:
     """All that one drive moves.
 
-    mbs: the engine's system. drive: of all of these. rigid, cranks: in the engine. state: extension that
+    mbs: the engine's system. drive: of all of these. items: rigid actuators and cranks. state: extension that
     the engine has, and speed, which are those of a time [s].
     """
 
     mbs: Any
     drive: Drive
-    rigid: tuple[HeldItem, ...]
-    cranks: tuple[HeldItem, ...]
+    items: list[DrivenItem] = field(default_factory=list)
     state: tuple[float, float] | None = None
     time: float = math.nan
 
     @property
     def multipliers(self) -> tuple[int, ...]:
         """The multipliers of rigid actuators and cranks."""
-        return tuple(item.first for item in (*self.rigid, *self.cranks))
+        return tuple(item.multiplier for item in self.items)
 
     def moves(self, duration: float) -> bool:
         """Whether anything moves within this time [s]."""
@@ -55,7 +54,8 @@ class DrivenParts:
             self.look(t)
         if state != self.state:
             self.state = state
-            self._set(state[0])
+            for item in self.items:
+                self.mbs.SetObjectParameter(item.object, item.parameter, item.start + state[0])
 
     def at(self, t: float) -> tuple[float, float]:
         """Extension and speed at t [s]; at a jump the speed before it."""
@@ -72,27 +72,12 @@ class DrivenParts:
                 f"{t:.9g} s"
             )
 
-    def _set(self, extension: float) -> None:
-        put = self.mbs.SetObjectParameter
-        for rigid in self.rigid:
-            put(rigid.object, "distance", rigid.part.start_length + extension)
-        for crank in self.cranks:
-            put(crank.object, "offset", extension)
 
-
-def by_drive(
-    mbs: Any,
-    drive_of: Callable[[str], Drive],
-    rigid: Mapping[str, HeldItem],
-    cranks: Mapping[str, HeldItem],
-) -> tuple[DrivenParts, ...]:
-    """All that can be driven, by the drive that it follows; drive_of: gives that of a name."""
-    drives: list[Drive] = []
-    for name in (*rigid, *cranks):
-        if (drive := drive_of(name)) not in drives:
-            drives.append(drive)
-
-    def of(drive: Drive, items: Mapping[str, Item]) -> tuple[Item, ...]:
-        return tuple(item for name, item in items.items() if drive_of(name) == drive)
-
-    return tuple(DrivenParts(mbs, one, of(one, rigid), of(one, cranks)) for one in drives)
+def by_drive(mbs: Any, driven: Iterable[tuple[Drive, DrivenItem]]) -> Sequence[DrivenParts]:
+    """All that can be driven, by the drive that it follows."""
+    found: list[DrivenParts] = []
+    for drive, item in driven:
+        if drive not in [parts.drive for parts in found]:
+            found.append(DrivenParts(mbs, drive))
+        next(parts for parts in found if parts.drive == drive).items.append(item)
+    return found

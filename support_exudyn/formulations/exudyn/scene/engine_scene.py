@@ -96,7 +96,7 @@ class EngineScene:
     frictions: Mapping[str, JointFriction]
     loads: Mapping[str, LoadItem]
     weights: Mapping[str, Any]
-    driven: tuple[DrivenParts, ...]
+    driven: Sequence[DrivenParts]
     legs: EngineLegs
 
     @cached_property

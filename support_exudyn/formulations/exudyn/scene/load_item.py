@@ -28,7 +28,7 @@ from support_exudyn.model.loads.load import (
 from user_forces.lawful import ROUNDING, LawError
 
 if TYPE_CHECKING:
-    from support_exudyn.formulations.exudyn.scene.scene_builder import SceneBuilder
+    from support_exudyn.formulations.exudyn.scene.joint_builder import JointBuilder
 
 ROUNDINGS = 8.0  # of a point's coordinates, from which ways are computed
 
@@ -40,7 +40,7 @@ class LoadItem:
     method has ended.
     """
 
-    def __init__(self, load: ActingLoad, name: str, builder: SceneBuilder) -> None:
+    def __init__(self, load: ActingLoad, name: str, builder: JointBuilder) -> None:
         self.load, self.name, self.mbs = load, name, builder.mbs
         self.rounding = 0.0  # force by which rounding of positions lets it scatter [N]
         self._at: Any = None  # the motion that the action was given last,
@@ -78,7 +78,7 @@ class LoadItem:
 class ForceItem(LoadItem):
     """A force on a point: a connector in the axes of the ground."""
 
-    def __init__(self, load: Load, name: str, builder: SceneBuilder) -> None:
+    def __init__(self, load: Load, name: str, builder: JointBuilder) -> None:
         super().__init__(load, name, builder)
         origin = builder.marker(load.against(name), builder.place(load.origin, load.origin_lateral))
         point = builder.marker(load.body, builder.place(load.point, load.lateral))
@@ -99,7 +99,7 @@ class ForceItem(LoadItem):
 class MomentItem(LoadItem):
     """A moment on a body: a connector that knows all turns, in the other body's axes; it counts whole turns."""
 
-    def __init__(self, load: MomentLoad, name: str, builder: SceneBuilder) -> None:
+    def __init__(self, load: MomentLoad, name: str, builder: JointBuilder) -> None:
         super().__init__(load, name, builder)
         self._turn = 0.0  # [rad], the last
         self.mbs.AddObject(
@@ -126,7 +126,7 @@ class StretchItem(LoadItem):
 
     load: StretchLoad
 
-    def __init__(self, load: StretchLoad, name: str, builder: SceneBuilder) -> None:
+    def __init__(self, load: StretchLoad, name: str, builder: JointBuilder) -> None:
         super().__init__(load, name, builder)
         first = builder.place(load.points[0], load.lateral)
         self.mbs.AddObject(
@@ -161,7 +161,7 @@ def _upward(a: float, b: float, c: float) -> Series:
     return np.array([-cb * sc, ca * cc - sa * sb * sc, sa * cc + ca * sb * sc])
 
 
-def add_load(load: ActingLoad, name: str, builder: SceneBuilder) -> LoadItem:
+def add_load(load: ActingLoad, name: str, builder: JointBuilder) -> LoadItem:
     """Add what stands in the engine for a load of this name. Raises TypeError for one of no strain kind."""
     if isinstance(load, Load):
         return ForceItem(load, name, builder)
