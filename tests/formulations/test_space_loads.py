@@ -164,16 +164,6 @@ def test_turns_beyond_half_a_turn_are_counted() -> None:
     assert np.abs(result["energy.balance"]).max() < 3e-4 * 0.5 * INERTIA[2] * 3600.0
 
 
-def test_a_torque_between_two_bodies_turns_them_against_each_other() -> None:
-    other = SpatialBody(mass=1.0, inertia=(0.1, 0.1, 0.08, 0.0, 0.0, 0.0), centre=(1.0, 0.0, 0.0))
-    space = replace(free().space, bodies={**free().space.bodies, "b": other})
-    load = AppliedTorque(body="a", other="b", full_torque=2.0)
-    result = simulate(flight(load, InSpace(space=space)))
-    t = result.time[-1]
-    assert result["a.angular_velocity"][-1] == pytest.approx(2.0 * t / INERTIA[2], rel=1e-5)
-    assert result["b.angular_velocity"][-1] == pytest.approx(-2.0 * t / 0.08, rel=1e-5)
-
-
 # --- a bed of rock over a stretch of a body ---
 
 BED_COMES_DOWN = CubicStep(stroke=0.05, start=0.0, end=0.1)
