@@ -21,8 +21,14 @@ from support_exudyn.files.toml.text import load_toml, parsed, text_of, toml_text
 from support_exudyn.files.whole_file import missing_file
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.sweeps.distributions import KEYS as DISTRIBUTION_KEYS
-from support_exudyn.sweeps.distributions import KINDS as DISTRIBUTIONS
-from support_exudyn.sweeps.distributions import distribution_of
+from support_exudyn.sweeps.distributions import (
+    MACHINE,
+    STATED,
+    STRENGTH,
+    distribution_of,
+    of_strength,
+    stated_ranges,
+)
 from support_exudyn.sweeps.plan import (
     Inputs,
     Plan,
@@ -34,7 +40,6 @@ from support_exudyn.sweeps.plan import (
     latin_hypercube,
     side_by_side,
 )
-from support_exudyn.sweeps.stated import MACHINE, STATED, STRENGTH, of_strength, stated_ranges
 from user_forces.values.value import InputError, short
 
 METHODS = ("grid", "list", "latin_hypercube")
@@ -125,10 +130,6 @@ def _varied(item: Any, where: str, folder: Path) -> Any:
         return item
     if "distribution" in item:
         return distribution_of(item, where, folder)
-    if said := sorted(item.keys() & (DISTRIBUTION_KEYS - RANGE_KEYS)):
-        raise InputError(
-            f"{where}: has {', '.join(said)} and no distribution; allowed: {_example(said)}, or a range {RANGE}"
-        )
     _only(item, RANGE_KEYS, f"{where}.")
     for key in ("from", "to"):
         if not _is_number(item.get(key)):
@@ -164,8 +165,6 @@ def _flat(table: Table, before: str = "") -> list[tuple[str, Any]]:
     found = []
     for key, item in table.items():
         name = f"{before}{key}"
-        if isinstance(item, dict):
-            _check_shorthand(name, item)
         if isinstance(item, dict) and not item.keys() & (RANGE_KEYS | DISTRIBUTION_KEYS):
             found += _flat(item, f"{name}.")
         elif isinstance(item, (dict, list)) or item == STATED:
@@ -173,34 +172,9 @@ def _flat(table: Table, before: str = "") -> list[tuple[str, Any]]:
         else:
             raise InputError(
                 f"vary.{name!r} = {_said(item)}: allowed: a list of values, or a range such as "
-                f"{RANGE}, or {NORMAL}; {_quoted(STATED)} for numbers whose file states one"
+                f"{RANGE}, or {NORMAL}; {STATED!r} for numbers whose file states one"
             )
     return found
-
-
-def _check_shorthand(name: str, item: Table) -> None:
-    """Raise InputError for {normal = [0.9, 0.02]}: there is one way to write a distribution."""
-    for kind in DISTRIBUTIONS.keys() & item.keys():
-        given = item[kind]
-        numbers = given if isinstance(given, list) else [given]
-        if len(item) == 1 and all(map(_is_number, numbers)):
-            needed = ", ".join(f"{key} = ..." for key in DISTRIBUTIONS[kind][0])
-            raise InputError(
-                f"vary.{name!r} = {{{kind} = ...}}: allowed: {{distribution = {_quoted(kind)}, {needed}}}"
-            )
-
-
-def _example(keys: list[str]) -> str:
-    """A distribution that has these keys."""
-    for kind, (needed, more) in DISTRIBUTIONS.items():
-        if set(keys) <= {*needed, *more}:
-            return f"{{distribution = {_quoted(kind)}, {', '.join(f'{key} = ...' for key in needed)}}}"
-    return NORMAL
-
-
-def _quoted(kind: str) -> str:
-    """A text as TOML has it."""
-    return f'"{kind}"'
 
 
 # --- what TOML gives ---

@@ -3,8 +3,8 @@
 import os
 import pickle
 import time
-from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import closing, suppress
+from collections.abc import Callable, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
@@ -14,16 +14,7 @@ from support_exudyn.sweeps.measures import check_numbers
 from support_exudyn.sweeps.plan import Inputs, Plan
 from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.table import FILE, SweepTable
-from support_exudyn.sweeps.work import (
-    Numbered,
-    Task,
-    Wanted,
-    in_processes,
-    points_in_processes,
-    reason_of,
-    refused,
-)
-from support_exudyn.sweeps.workers import ProcessEndedError
+from support_exudyn.sweeps.work import Task, Wanted, in_processes, reason_of, refused
 from user_forces.values.value import InputError
 
 SELDOM = 10.0  # the table is written every so many seconds while runs come in,
@@ -115,7 +106,7 @@ def known(plan: Plan, out: str | Path, retry_failed: bool = False) -> SweepOutco
     store = Store(Path(out))
     outcome = SweepOutcome(len(plan.points), store.folder / FILE)
     keeper = _Keeper(plan, store, outcome, retry_failed, lambda outcome: None)
-    for _ in keeper.tasks(range(outcome.runs)):
+    for _ in keeper.tasks():
         pass
     return outcome
 
@@ -131,69 +122,31 @@ class _Keeper:
         self._wanted = Wanted(plan.scenario, plan.record, plan.errors, retry_failed)
         self._progress = progress
         self._places: dict[str, list[int]] = {}  # of keys under way
-        self._alike: dict[
-            bytes, list[int]
-        ] = {}  # points that others make, as they are sent, and which they are
         self._rows: dict[str, int] = {}  # of keys that are known: where
         self._checked, self._refused = False, list[InputError]()
         self._wait, self._written = SELDOM, time.monotonic()
 
     def run(self, scheduler: str, workers: int) -> None:
-        """Run what is not known."""
-        numbers: Iterable[int] = range(self._outcome.runs)
-        if not scheduler and can_be_sent(self._wanted):
-            # what is known up to the first that is not needs no other process
-            first = next(self.tasks(numbers), None)
-            if first is None:
-                return
-            numbers = self._run_points(self._places.pop(first.key)[0], workers)
-        tasks = self.tasks(numbers)
-        rows: Generator[StoredRun, None, None]
+        """Run what is not known; if all is, no process is started."""
+        tasks = self.tasks()
+        if (first := next(tasks, None)) is None:
+            return
+        tasks = chain([first], tasks)
         if scheduler:
             from support_exudyn.sweeps.cluster import on_cluster
 
-            rows = on_cluster(tasks, self._store, scheduler)
-        elif (one := next(tasks, None)) is None:
-            return
+            found = on_cluster(tasks, self._store, scheduler)
         else:
-            rows = in_processes(chain([one], tasks), self._store, workers)
-        with closing(rows):  # after an interruption, too, its processes have ended when the table is written
+            found = in_processes(tasks, self._store, workers)
+        with closing(found) as rows:  # also after an interruption processes end before the table is written
             for row in rows:
                 self._note(self._places[row.key], row)
 
-    def _run_points(self, first: int, workers: int) -> list[int]:
-        """Run points from one on; the processes make their scenarios. Returns which of them they cannot."""
-        points, here = self._plan.points, list[int]()
-
-        def sent() -> Iterator[Numbered]:
-            for number in range(first, len(points)):
-                mark = pickle.dumps(points[number])
-                if here:
-                    here.append(number)
-                elif mark in self._alike:
-                    self._alike[mark].append(number)
-                else:
-                    self._alike[mark] = [number]
-                    yield number, points[number]
-
-        found = points_in_processes(sent(), len(points) - first, self._wanted, self._store, workers)
-        with closing(found):
-            for (_, inputs), ended in found:
-                numbers = self._alike.pop(pickle.dumps(inputs))
-                if ended is None:
-                    here += numbers
-                elif isinstance(ended, ProcessEndedError):
-                    self._note(numbers, StoredRun("", "killed", ended.reason))
-                else:
-                    self._outcome.found += ended.before and ended.row.key not in self._rows
-                    self._note(numbers, ended.row)
-        return sorted(here)
-
-    def tasks(self, numbers: Iterable[int]) -> Iterator[Task]:
-        """What is to be run of these points, made while others run; all else goes straight into the table."""
-        for number in numbers:
+    def tasks(self) -> Iterator[Task]:
+        """What is to be run, made while others run; all else goes straight into the table."""
+        for number, point in enumerate(self._plan.points):
             try:
-                task = self._wanted.task(self._plan.points[number])
+                task = self._wanted.task(point)
                 pickle.dumps(task.scenario)  # as it is sent to other processes
             except Exception as error:  # of classes of one's own any
                 self._refuse(number, error)
@@ -237,8 +190,7 @@ class _Keeper:
 
     def _note(self, numbers: list[int], row: StoredRun) -> None:
         """Note a run that has ended."""
-        if row.key:
-            self._rows.setdefault(row.key, numbers[0])
+        self._rows.setdefault(row.key, numbers[0])
         self._set(numbers, row)
         if time.monotonic() - self._written > self._wait:
             self.write()
@@ -247,16 +199,10 @@ class _Keeper:
         """Note what was finished while nobody listened any more."""
         for name, numbers in self._places.items():
             if name not in self._rows:
-                self._look_for(name, numbers)
-        for mark, numbers in self._alike.items():
-            with suppress(Exception):  # of classes of one's own any: there is no such run
-                self._look_for(self._wanted.task(pickle.loads(mark)).key, numbers)
-
-    def _look_for(self, name: str, numbers: list[int]) -> None:
-        row = self._store.row(name)
-        if row is not None and self._wanted.is_good(row, True):
-            self._rows[name] = numbers[0]
-            self._set(numbers, row)
+                row = self._store.row(name)
+                if row is not None and self._wanted.is_good(row, True):
+                    self._rows[name] = numbers[0]
+                    self._set(numbers, row)
 
     def _set(self, numbers: list[int], row: StoredRun) -> None:
         for number in numbers:
@@ -271,15 +217,6 @@ class _Keeper:
         self.table.write(self._store.folder)
         self._written = time.monotonic()
         self._wait = max(SELDOM, (self._written - began) / SHARE)
-
-
-def can_be_sent(wanted: Wanted) -> bool:
-    """Whether other processes can be told how scenarios are made; not so of functions within functions."""
-    try:
-        pickle.dumps(wanted)
-    except Exception:  # of somebody's own classes any
-        return False
-    return True
 
 
 def _has_number(scenario: Scenario, name: str) -> bool:

@@ -1,30 +1,23 @@
 """What is done for a run of a sweep, and the runs in processes on this machine."""
 
-import math
-import pickle
 import time
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from itertools import repeat
+from itertools import count, islice
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
 
 from support_exudyn.files.whole_file import workshop
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.contract import SimulationError, told
 from support_exudyn.simulation.result import Result, with_digest
 from support_exudyn.simulation.simulate import simulate
-from support_exudyn.sweeps.chunks import Chunks
 from support_exudyn.sweeps.key import key
 from support_exudyn.sweeps.measures import numbers
 from support_exudyn.sweeps.plan import Inputs, Record
 from support_exudyn.sweeps.store import Store, StoredRun
 from support_exudyn.sweeps.workers import ProcessEndedError, worker_pool
 from user_forces.values.value import InputError, cleaned
-
-Numbered = tuple[int, Inputs]  # a point, and which of its plan it is
 
 
 @dataclass(frozen=True)
@@ -126,134 +119,60 @@ def _put(store: Store, row: StoredRun, image: bytearray | None, within: Path | N
 
 # --- in processes ---
 
-
-class Ended(NamedTuple):
-    """What came of an item: its row, and whether that was in the store before."""
-
-    row: StoredRun
-    before: bool = False
-
-
-T = TypeVar("T")
-Chunk = tuple[float, list[Ended] | None]  # how long it took [s], and what came of its items
+LONG = 0.3  # [s] that a chunk is to take
+MOST = 64  # runs of a chunk
+Chunk = tuple[float, list[StoredRun]]  # how long it took [s], and its rows
 
 
 def in_processes(tasks: Iterable[Task], store: Store, workers: int) -> Generator[StoredRun, None, None]:
     """Rows as they come; each process puts its runs into the store by itself.
 
-    A run whose process ends is tried once more by itself; if that ends too its row is "killed".
+    Small runs are sent many at a time. Of a chunk whose process ends each run is tried by itself; if its
+    process ends again its row is "killed".
 
     workers: number of processes, >= 1.
     """
+    source = iter(tasks)
+    under_way: dict[int, list[Task]] = {}
+    size = 1  # of a chunk, by what the last one took
 
-    def job(chunk: list[Task]) -> tuple[Any, ...]:
-        return store, chunk
+    def jobs() -> Iterator[tuple[Store, list[Task]]]:
+        for number in count():
+            if not (chunk := list(islice(source, size))):
+                return
+            under_way[number] = chunk
+            yield store, chunk
 
-    for task, ended in _streamed(iter(tasks), math.inf, job, _do, workers):
-        assert ended is not None  # tasks can be read everywhere
-        yield ended.row if isinstance(ended, Ended) else StoredRun(task.key, "killed", ended.reason)
-
-
-def points_in_processes(
-    points: Iterable[Numbered], number: int, wanted: Wanted, store: Store, workers: int
-) -> Generator[tuple[Numbered, Ended | ProcessEndedError | None], None, None]:
-    """Points and what came of each as they come; the processes make the scenarios, too.
-
-    None of a point that another process cannot read: there is no more than a name of the function that makes
-    its scenario, which was typed into a console, say.
-
-    Arguments:
-        points: what is varied, with numbers.
-        number: of the points.
-        wanted: what can be pickled.
-        workers: number of processes, >= 1.
-    """
-    sent = pickle.dumps(wanted)
-
-    def job(chunk: list[Numbered]) -> tuple[Any, ...]:
-        return store, sent, pickle.dumps([inputs for _, inputs in chunk])
-
-    return _streamed(iter(points), number, job, _make, workers)
-
-
-def _streamed(
-    items: Iterator[T],
-    number: float,
-    job: Callable[[list[T]], tuple[Any, ...]],
-    work: Callable[..., Chunk],
-    workers: int,
-) -> Generator[tuple[T, Ended | ProcessEndedError | None], None, None]:
-    """Items with what came of each; of a chunk whose process ended each is tried by itself."""
     with worker_pool(workers) as pool:
         while True:
-            apart: list[T] = []
-            chunks = Chunks(items, number, workers)
-            for place, found in pool.stream(map(job, chunks), work):
+            apart: list[Task] = []
+            for place, found in pool.stream(jobs(), _do):
+                chunk = under_way.pop(place)
                 if isinstance(found, ProcessEndedError):
-                    chunk = chunks.ended(place, math.inf)
                     if len(chunk) > 1:
                         apart += chunk
                     else:
-                        yield chunk[0], found
+                        yield StoredRun(chunk[0].key, "killed", found.reason)
                 else:
                     seconds, ended = found
-                    chunk = chunks.ended(place, seconds)
-                    yield from zip(chunk, ended or repeat(None, len(chunk)), strict=True)
+                    if not apart:
+                        size = max(1, min(MOST, int(LONG * len(chunk) / max(seconds, 1e-9))))
+                    yield from ended
             if not apart:
                 return
-            items, number = iter(apart), 1
+            source, size = iter(apart), 1
 
 
 def _do(place: int, store: Store, tasks: list[Task]) -> Chunk:
-    """In a worker: runs of tasks."""
-    del place
-    return _all(store, tasks)
-
-
-def _make(place: int, store: Store, sent: bytes, points: bytes) -> Chunk:
-    """In a worker: runs of points as far as they are not in the store."""
-    del place
-    try:
-        wanted, inputs = _read(sent), pickle.loads(points)
-    except Exception:  # of somebody's own classes any
-        return 0.0, None
-    return _all(store, _looked_up(store, wanted, inputs))
-
-
-@lru_cache(maxsize=1)
-def _read(sent: bytes) -> Wanted:
-    wanted: Wanted = pickle.loads(sent)
-    return wanted
-
-
-def _looked_up(store: Store, wanted: Wanted, points: Iterable[Inputs]) -> Iterator[Task | Ended]:
-    """What is to be run of some points, and what came of the others."""
-    return (_found(store, wanted, inputs) for inputs in points)
-
-
-def _found(store: Store, wanted: Wanted, inputs: Inputs) -> Task | Ended:
-    try:
-        found = wanted.looked_up(store, wanted.task(inputs))
-    except Exception as error:  # of classes of one's own any
-        return Ended(refused(error))
-    return found if isinstance(found, Task) else Ended(found, before=True)
-
-
-def _all(store: Store, asked: Iterable[Task | Ended]) -> Chunk:
-    """What comes of each; a run is written while the next one is computed, and waited for after that."""
-    began, found = time.perf_counter(), list[Ended | Future[StoredRun]]()
+    """In a worker: runs of tasks; each is written while the next is computed, and waited for after that."""
+    began, rows = time.perf_counter(), list[Future[StoredRun]]()
     with workshop(store.folder) as within, ThreadPoolExecutor(1) as writer:
-        written: Future[StoredRun] | None = None
-        for one in asked:
-            if isinstance(one, Ended):
-                found.append(one)
-                continue
-            row, image = _row_and_image(store, one)
-            if written is not None:
-                written.result()
-            written = writer.submit(_put, store, row, image, within)
-            found.append(written)
-        ended = [one if isinstance(one, Ended) else Ended(one.result()) for one in found]
+        for task in tasks:
+            row, image = _row_and_image(store, task)
+            if rows:
+                rows[-1].result()
+            rows.append(writer.submit(_put, store, row, image, within))
+        ended = [row.result() for row in rows]
     return time.perf_counter() - began, ended
 
 

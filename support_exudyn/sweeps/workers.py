@@ -1,25 +1,19 @@
 """Processes that work side by side, and end with the one that started them.
 
-If one of them ends in mid-work, killed or by a crash, the job that it worked on is found and the others go on.
-
-The pool of `concurrent.futures` is broken as a whole when a process ends; what is here makes it whole again.
-Other pools do less of this. loky 3.7.0 is broken in the same way and does not tell whose process ended. pebble
-5.2.3 tells it, but waits for ever for a job that leaves with exit code 0, and for all jobs if a process is
-killed while it sends its result, with the lock of the pool in its hands. tests/sweeps/test_dying_workers.py has
-all these cases.
+The pool of `concurrent.futures` is broken as a whole when one of its processes ends, killed or by a crash. Here
+the jobs that were under way are then done once more, one at a time in a process of their own, and all others go
+on in a new pool. A job whose process ends again has an error of its own.
 """
 
 from __future__ import annotations
 
 import ctypes
-import errno
 import multiprocessing
 import os
 import signal
 import sys
 import threading
 import time
-from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -33,13 +27,9 @@ T = TypeVar("T")
 
 CONTEXT = multiprocessing.get_context("spawn")  # the engine does not survive a fork
 AHEAD = 2  # jobs for each process, one of them waiting
-POLL = 0.1  # how often progress is told [s]
+POLL = 0.1  # how often progress is reported [s]
 NOT_BEGUN = -1.0  # in place of the share of a job that waits
-CLOSED = (None, errno.EBADF, errno.EPIPE, errno.ECONNREFUSED, errno.ECONNRESET)  # of a file or connection
 MOMENT = 0.2  # [s]
-TRIES = 3  # pools in a row whose processes may end before any work has begun
-SOON = 5.0  # a process that has ended is known to within [s]
-
 TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3  # of mallopt of glibc
 KEPT = 2**26  # bytes that a process keeps
 
@@ -51,21 +41,17 @@ _slot = 0
 class ProcessEndedError(RuntimeError):
     """The process of a job ended, killed or by a crash, and so did another that had nothing but this job.
 
-    place: of the job, from 0. share: that was done when it was last told. code: exit code, negative: the number
-    of the signal, None: not known.
+    place: of the job, from 0. share: that was done when it was last reported.
     """
 
-    def __init__(self, place: int, share: float, code: int | None) -> None:
-        self.place, self.share, self.code = place, share, code
+    reason = "the process that computed it ended: killed (out of memory?), or by a crash"
+
+    def __init__(self, place: int, share: float) -> None:
+        self.place, self.share = place, share
         super().__init__(f"job {place + 1}: {self.reason}")
 
-    @property
-    def reason(self) -> str:
-        """What happened, whatever the job."""
-        return f"the process that computed it ended: {_told(self.code)}"
-
-    def __reduce__(self) -> tuple[type[ProcessEndedError], tuple[int, float, int | None]]:
-        return ProcessEndedError, (self.place, self.share, self.code)
+    def __reduce__(self) -> tuple[type[ProcessEndedError], tuple[int, float]]:
+        return ProcessEndedError, (self.place, self.share)
 
 
 class NoProcessError(RuntimeError):
@@ -79,11 +65,14 @@ class NoProcessError(RuntimeError):
 
 
 class _Job(NamedTuple):
-    """A job under way: its number, its arguments, and where its share is told."""
+    """A job under way: its number, its arguments, and where its share is reported."""
 
     number: int
     given: tuple[Any, ...]
     slot: int
+
+
+Tell = Callable[[Mapping[int, float]], None]  # receives the shares done of the jobs under way, by number
 
 
 class Workers:
@@ -91,9 +80,8 @@ class Workers:
 
     The function that does a job is one of a module, and is called with the job's number, from 0, and its
     arguments, which must be picklable; it may call `report`. A job that raises ends all, those that wait are
-    dropped, and its exception is raised here. After the end of a process the jobs that were begun are done once
-    more, one at a time; a job whose process ends again has a ProcessEndedError. NoProcessError is raised if
-    processes end before they begin any job.
+    dropped, and its exception is raised here. NoProcessError is raised if processes end before they begin any
+    job.
     """
 
     def __init__(self, pool: Executor, shares: Any, size: int = 1) -> None:
@@ -110,7 +98,7 @@ class Workers:
     ) -> list[T]:
         """What `work` returns for every job, in their order; they are started in that order too.
 
-        progress: is told the share done of every job ten times a second. ended: gives what to return for a job
+        progress: receives the share done of every job ten times a second. ended: gives what to return for a job
         whose process ended; without it the first such error is raised when all others are done.
         """
         found: dict[int, T | ProcessEndedError] = {}
@@ -131,57 +119,44 @@ class Workers:
         return [result(found[n]) for n in range(len(jobs))]
 
     def stream(
-        self,
-        jobs: Iterable[tuple[Any, ...]],
-        work: Callable[..., T],
-        tell: Callable[[Mapping[int, float]], None] | None = None,
+        self, jobs: Iterable[tuple[Any, ...]], work: Callable[..., T], tell: Tell | None = None
     ) -> Iterator[tuple[int, T | ProcessEndedError]]:
         """Number of a job and what `work` returns, as each ends; for any number of jobs.
 
         Jobs are taken as there is room for them, and nothing is held of those that have ended.
 
-        tell: is told the shares done of the jobs under way, by number, ten times a second.
+        tell: receives the shares done of the jobs under way, by number, ten times a second.
         """
         source = enumerate(jobs)
         free = list(range(AHEAD * self._size))
-        again: deque[tuple[int, tuple[Any, ...]]] = deque()
         held: dict[Future[T], _Job] = {}
-        tries = TRIES
         try:
             while True:
-                broken = False
-                while not broken and free and (item := again.popleft() if again else next(source, None)):
+                lost: list[_Job] = []
+                while free and not lost and (item := next(source, None)):
                     job = _Job(*item, free.pop())
                     try:
                         held[self._submit(job, work)] = job
                     except BrokenProcessPool:
-                        free.append(job.slot)
-                        again.appendleft(item)
-                        broken = True
-                if not held and not broken:
+                        lost.append(job)
+                if not held and not lost:
                     return
-                finished = self._ended(held, tell, whole=broken)
-                if any(isinstance(future.exception(), BrokenProcessPool) for future in finished):
-                    broken = True
+                finished = self._ended(held, tell, whole=bool(lost))
+                if any(map(_is_broken, finished)):  # then all that are under way end now
                     finished = self._ended(held, None, whole=True)
-                lost = []
                 for future in finished:
                     job = held.pop(future)
-                    free.append(job.slot)
-                    if isinstance(future.exception(), BrokenProcessPool):
+                    if _is_broken(future):
                         lost.append(job)
                     else:
-                        tries = TRIES
+                        free.append(job.slot)
                         yield job.number, future.result()
-                if not broken:
+                if not lost:
                     continue
-                begun = [job for job in sorted(lost) if self._shares[job.slot] != NOT_BEGUN]
-                again.extend((job.number, job.given) for job in sorted(lost) if job not in begun)
-                tries = TRIES if begun else tries - 1
-                if not tries:
-                    raise NoProcessError
+                self._renew(1)
                 try:
-                    for job in begun:
+                    for job in sorted(lost):
+                        free.append(job.slot)
                         yield job.number, self._alone(job, work, tell)
                 finally:
                     self._renew(self._size)
@@ -194,48 +169,40 @@ class Workers:
         with kept_from_children():  # they are started here
             try:
                 return self._pool.submit(_do, job.slot, work, job.number, job.given)
-            except OSError as error:
-                if error.errno not in CLOSED:
-                    raise
-                # another process ended just now, and what the new one was to be given is closed already; what
-                # starts processes may end by that, and is there again after a moment
+            except OSError as error:  # a process ended while another was being started
                 time.sleep(MOMENT)
                 raise BrokenProcessPool from error
 
-    def _ended(
-        self, held: Mapping[Future[T], _Job], tell: Callable[[Mapping[int, float]], None] | None, whole: bool
-    ) -> set[Future[T]]:
-        """Wait until any of the jobs has ended, or all of them, and tell meanwhile how far they are."""
+    def _ended(self, held: Mapping[Future[T], _Job], tell: Tell | None, whole: bool) -> set[Future[T]]:
+        """Wait until any of the jobs has ended, or all of them, and report meanwhile how far they are."""
         waiting: set[Future[T]] = set(held)
         while waiting:
             _, waiting = wait(waiting, None if tell is None else POLL, FIRST_COMPLETED)
             if tell is not None:
-                tell({job.number: max(0.0, float(self._shares[job.slot])) for job in held.values()})
+                tell({job.number: self._share(job) for job in held.values()})
             if not whole and len(waiting) < len(held):
                 break
         return set(held) - waiting
 
-    def _alone(
-        self, job: _Job, work: Callable[..., T], tell: Callable[[Mapping[int, float]], None] | None
-    ) -> T | ProcessEndedError:
-        """Do a job beside which a process has ended once more, by itself."""
-        self._renew(1)
-        others = set(multiprocessing.active_children())
-        with kept_from_children():
-            self._pool.submit(int)  # starts the process, which is known before the job can end it
-        started = set(multiprocessing.active_children()) - others
-        try:
-            future = self._submit(job, work)
-            self._ended({future: job}, tell, whole=True)
-            return future.result()
-        except BrokenProcessPool:
-            pass
-        self._pool.shutdown(cancel_futures=True)  # its thread asks for the code, too; it is not told twice
-        code = None
-        for process in started:
-            process.join(SOON)
-            code = process.exitcode
-        return ProcessEndedError(job.number, max(0.0, self._shares[job.slot]), code)
+    def _alone(self, job: _Job, work: Callable[..., T], tell: Tell | None) -> T | ProcessEndedError:
+        """Do a job that was under way when a process ended by itself, until it has been begun twice."""
+        for _ in range(2 if self._shares[job.slot] == NOT_BEGUN else 1):
+            try:
+                with kept_from_children():
+                    self._pool.submit(int).result()  # so that a process can be started at all
+            except (BrokenProcessPool, OSError):
+                raise NoProcessError from None
+            try:
+                future = self._submit(job, work)
+                self._ended({future: job}, tell, whole=True)
+                return future.result()
+            except BrokenProcessPool:
+                self._renew(1)
+        return ProcessEndedError(job.number, self._share(job))
+
+    def _share(self, job: _Job) -> float:
+        """The share of a job that is done."""
+        return max(0.0, float(self._shares[job.slot]))
 
     def _renew(self, size: int) -> None:
         """Go on with so many new processes."""
@@ -245,6 +212,10 @@ class Workers:
     def close(self) -> None:
         """Drop what waits, and wait for the processes to end."""
         self._pool.shutdown(cancel_futures=True)
+
+
+def _is_broken(future: Future[Any]) -> bool:
+    return isinstance(future.exception(), BrokenProcessPool)
 
 
 @contextmanager
@@ -274,21 +245,11 @@ def _pool(size: int, shares: Any) -> Executor:
     return ProcessPoolExecutor(size, CONTEXT, _start, (shares,))
 
 
-def _told(code: int | None) -> str:
-    """What an exit code means."""
-    if code is None:
-        return "the system does not tell why"
-    if code >= 0:
-        return f"exit code {code}"
-    named = {item.value: item.name for item in signal.Signals}.get(-code, "unknown")
-    return f"signal {-code} ({named}{', out of memory?' if named == 'SIGKILL' else ''})"
-
-
 # --- in a worker ---
 
 
 def report(share: float) -> None:
-    """Tell that so much of the job at work is done, 0 to 1; elsewhere than in a worker nobody is told."""
+    """Report that so much of the job at work is done, 0 to 1; elsewhere than in a worker nothing happens."""
     if _shares is not None:
         _shares[_slot] = share
 

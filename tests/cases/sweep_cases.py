@@ -62,8 +62,7 @@ def start(path: Path, *options: str) -> subprocess.Popen[str]:
 
 
 def run_by(monkeypatch: pytest.MonkeyPatch, in_processes: Any) -> None:
-    """Let sweeps make their scenarios in this process, and their runs by a generator in place of processes."""
-    monkeypatch.setattr("support_exudyn.sweeps.run.can_be_sent", lambda wanted: False)
+    """Let sweeps make their runs by a generator in place of processes."""
     monkeypatch.setattr("support_exudyn.sweeps.run.in_processes", in_processes)
 
 

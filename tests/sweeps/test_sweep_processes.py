@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import copyreg
 import os
 import signal
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from decimal import Decimal
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,6 @@ import pytest
 from support_exudyn import Result, Scenario
 from support_exudyn.files.whole_file import PREFIX
 from support_exudyn.sweeps import read_sweep, sweep, work
-from support_exudyn.sweeps.plan import Inputs
 from support_exudyn.sweeps.store import Store
 from support_exudyn.sweeps.workers import ProcessEndedError
 from tests.cases.sweep_cases import columns, rows, run_by, speeds, start, write_sweep
@@ -27,18 +25,9 @@ SPEED = "machine.speed_m_per_s"
 SOON = 60.0  # [s]; what comes at all has come by then, on a busy machine too
 
 
-@dataclass(frozen=True)
-class Killing:
-    """Makes scenarios, and does at one point what one does whose memory is short; while a file is there."""
-
-    scenario: Callable[[Inputs], Scenario]
-    killing: Decimal
-    file: Path
-
-    def __call__(self, inputs: Inputs) -> Scenario:
-        if inputs[SPEED] == self.killing and self.file.exists():
-            os.kill(os.getpid(), signal.SIGKILL)
-        return self.scenario(inputs)
+def end_process() -> None:
+    """What happens to a process whose memory is short."""
+    os.kill(os.getpid(), signal.SIGKILL)
 
 
 @pytest.fixture(autouse=True)
@@ -50,18 +39,25 @@ def _soon_started() -> Iterator[None]:
 @pytest.mark.parametrize(
     "number", [3, pytest.param(41, marks=pytest.mark.slow)]
 )  # by itself, and among others that are sent with it
-def test_a_run_whose_process_is_killed_is_a_row_and_is_tried_again(tmp_path: Path, number: int) -> None:
+def test_a_run_whose_process_is_killed_is_a_row_and_is_tried_again(
+    tmp_path: Path, number: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     plan = read_sweep(write_sweep(tmp_path, speeds(number)))
     middle = number // 2
-    killing = Killing(plan.scenario, plan.points[middle][SPEED], tmp_path / "killing")
-    plan = replace(plan, scenario=killing)
-    killing.file.touch()
+    killing = float(plan.points[middle][SPEED])
+
+    def sent(scenario: Scenario) -> object:
+        """One of the scenarios ends the process that reads it."""
+        deadly = scenario.machine.speed == killing  # type: ignore[attr-defined]
+        return (end_process, ()) if deadly else scenario.__reduce_ex__(2)
+
+    monkeypatch.setitem(copyreg.dispatch_table, Scenario, sent)
     outcome = sweep(plan, tmp_path / "store", workers=1)
     assert (outcome.done, outcome.killed) == (number - 1, 1)
     table = columns(tmp_path / "store")
     assert table["status"] == ["done" if n != middle else "killed" for n in range(number)]
-    assert table["reason"][middle] == ProcessEndedError(0, 0.0, -signal.SIGKILL).reason
-    killing.file.unlink()
+    assert table["reason"][middle] == ProcessEndedError.reason
+    monkeypatch.undo()
     outcome = sweep(plan, tmp_path / "store", workers=1)
     assert (outcome.done, outcome.found) == (number, number - 1)
     assert sorted(rows(tmp_path / "store")) == sorted(columns(tmp_path / "store")["key"])
