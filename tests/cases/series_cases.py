@@ -109,8 +109,8 @@ def exudyn_binary(end: bytes = b"\xff\xff\xff\xff") -> bytes:
     return head + b"".join(rows) + end
 
 
-def in_process() -> dict[str, bytes]:
-    """A file of every format that is read in this process, by its name."""
+def files() -> dict[str, bytes]:
+    """A file of every format but MATLAB's, by its name."""
     return {
         "table.csv": CSV.encode(),
         "free_fall.res": (DATA / "free_fall.res").read_bytes(),
@@ -122,8 +122,8 @@ def in_process() -> dict[str, bytes]:
     }
 
 
-def apart() -> dict[str, bytes]:
-    """A file of every format that is read in a process of its own."""
+def matlab_files() -> dict[str, bytes]:
+    """A file of every version of MATLAB's."""
     return {
         "v4.mat": matlab("4"), "v5.mat": matlab("5"), "v7.mat": matlab("5", True), "v73.mat": matlab_73(),
     }  # fmt: skip

@@ -26,10 +26,9 @@ from pathlib import Path
 
 import numpy as np
 
-from support_exudyn.files.series.asked import Asked
 from support_exudyn.files.series.columns import Column, series_file
-from support_exudyn.files.series.named_series import SeriesFile
-from support_exudyn.files.series.plain_text import text_of
+from support_exudyn.files.series.named_series import Asked, SeriesFile
+from support_exudyn.files.series.text_tables import text_of
 from user_forces.values.value import InputError, short
 
 FIRST = re.compile(rb"\s*A\.R\d\b|MotionSolve\b[^\n]*Plot File|[^\n]{0,200}RecurDyn", re.IGNORECASE)

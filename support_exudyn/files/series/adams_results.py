@@ -7,179 +7,131 @@ and the steps, whose numbers are broken over lines in the order of the ids of th
     <Entity name="PART_2_XFORM"><Component name="Y" unitsValue="inch" id="3" /></Entity>
     </StepMap><Data><Step type="dynamic"> 0.01 0 -0.0194 ... </Step></Data></Analysis></Results>
 
-The parser is expat, which is given the file piece by piece: nothing is kept but the numbers that are wanted.
-Such files declare no entities, so that a declaration of the document's type, by which few bytes could become
-gigabytes, is refused. Step maps as of genuine files of Adams 2015 to 2022, and of VI-CarRealTime.
+Elements are read one after the other and dropped, so that nothing is kept but the numbers that are wanted.
+Step maps as of genuine files of Adams 2015 to 2022, and of VI-CarRealTime.
 """
 
 from __future__ import annotations
 
+import re
+import xml.etree.ElementTree as ElementTree
 from array import array
-from collections.abc import Mapping
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-from xml.parsers import expat
 
 import numpy as np
 
 from support_exudyn.files.free_memory import available
-from support_exudyn.files.series.adams_units import adams_unit
-from support_exudyn.files.series.asked import Asked
 from support_exudyn.files.series.columns import Column, series_file
-from support_exudyn.files.series.named_series import SeriesFile
-from support_exudyn.files.series.titles import split_title
+from support_exudyn.files.series.named_series import Asked, SeriesFile
+from support_exudyn.files.series.units import as_pint_writes, is_unit, split_title
 from user_forces.values.value import InputError, short
 
-PIECE = 2**20  # bytes that are read at a time
-DEEPEST = 32  # elements in elements; such files have 5
-LONGEST = 2**26  # bytes of a tag; those of genuine files have a few hundred
-COMPONENTS = 2_000_000  # that a map may have
-LETTERS = 64  # of a number, with blanks and line ends
-SKIPPED = ("input",)  # steps of the model as it was given, before it is assembled
-FIRST_LOOK = 256  # steps, after which it is known how much memory the file takes
+SKIPPED = "input"  # the step of the model as it was given, before it is assembled
+FIRST_CHECK = 256  # steps, after which it is known how much memory the file takes
 SHARE = 0.8  # of the memory that is free
+Element = ElementTree.Element
 
 
+@dataclass
 class _Component:
     """What a number of a step is."""
 
-    __slots__ = ("name", "number", "unit")
-
-    def __init__(self, name: str, unit: str | None, number: int) -> None:
-        self.name, self.unit, self.number = name, unit, number
+    name: str
+    unit: str | None
+    number: int
 
 
 class AdamsReading:
-    """What has been read of a file so far. Arguments: its path, its size [bytes], and what is asked of it."""
+    """The numbers of an analysis of a file.
 
-    def __init__(self, path: Path, size: int, asked: Asked) -> None:
-        self._path, self._size, self._asked = path, size, asked
+    path: of the file. asked: which analysis and which series are wanted.
+    """
+
+    def __init__(self, path: Path, asked: Asked) -> None:
+        self._path, self._asked = path, asked
         self.analyses: list[str] = []
         self.notes: list[str] = []
         self.numbers = array("d")
         self.columns: list[_Component] = []  # of a row of `numbers`; the first is time
-        self._map: dict[int, _Component] = {}
         self._places: list[int] = []  # in a step, of `columns`
-        self._depth = self._steps = self._letters = 0
-        self._entity = self._time_unit = ""
-        self._chosen = self._in_map = False
-        self._text: list[str] | None = None
-        parser = expat.ParserCreate()
-        parser.buffer_text, parser.buffer_size = True, PIECE
-        parser.StartDoctypeDeclHandler = self._refuse_declaration
-        parser.StartElementHandler, parser.EndElementHandler = self._start, self._end
-        parser.CharacterDataHandler = self._characters
-        self._parser = parser
+        self._width = self._steps = 0
+        self._time_unit = ""
 
     def read(self) -> None:
-        """Read the file. Raises InputError with the line if it is none, or damaged."""
-        done = 0
+        """Read the file. Raises InputError if it is none, or damaged, with the line or the step."""
+        size = max(1, self._path.stat().st_size)
         try:
             with self._path.open("rb") as file:
-                while piece := file.read(PIECE):
-                    self._parser.Parse(piece, False)
-                    done += len(piece)
-                    if done - self._parser.CurrentByteIndex > LONGEST:
-                        raise self._wrong("a tag has no end", "tags of a few hundred letters")
-                    self._asked.progress(min(1.0, done / max(1, self._size)))
-                self._parser.Parse(b"", True)
-        except expat.ExpatError as error:
-            said = expat.ErrorString(error.code)
+                for event, element in self._elements(ElementTree.iterparse(file, ("start", "end"))):
+                    if event == "end":
+                        self._end(element, file.tell() / size)
+                        self._asked.progress(min(1.0, file.tell() / size))
+        except ElementTree.ParseError as error:
+            line, column = error.position
+            said = str(error).partition(":")[0]
             raise InputError(
-                f"{self._path}: line {error.lineno}, column {error.offset + 1}: {said}; allowed: the whole of "
-                "an ADAMS result file"
+                f"{self._path}: line {line}, column {column + 1}: {said}; allowed: the whole of an ADAMS "
+                "result file"
             ) from None
-        except (LookupError, UnicodeError, ValueError) as error:
-            if isinstance(error, InputError):
-                raise
+        except (LookupError, UnicodeError) as error:
             raise self._wrong(f"is no text in its encoding ({error})", "UTF-8") from None
 
+    def _elements(self, events: Iterator[tuple[str, Element]]) -> Iterator[tuple[str, Element]]:
+        """The elements of the analysis that is wanted, at their ends; those that have been read are dropped."""
+        chosen = False
+        first = True
+        for event, element in events:
+            name = _name(element)
+            if first and name != "Results":
+                raise self._wrong(f"is XML of {short(name)}", "ADAMS result files, of <Results>")
+            first = False
+            if name == "Analysis" and event == "start":
+                chosen = self._chooses(element.get("name", ""))
+            if chosen:
+                yield event, element
+            if event == "end" and name in ("Step", "StepMap", "Analysis"):
+                element.clear()
+
     def _wrong(self, said: str, allowed: str) -> InputError:
-        where = f", entity {short(self._entity)}" if self._entity else ""
-        line = self._parser.CurrentLineNumber
-        return InputError(f"{self._path}: line {line}{where}: {said}; allowed: {allowed}")
+        return InputError(f"{self._path}: {said}; allowed: {allowed}")
 
-    def _refuse_declaration(self, *_: Any) -> None:
-        raise self._wrong("declares a document type", "none, for ADAMS writes none")
-
-    # --- elements ---
-
-    def _start(self, tag: str, attributes: Mapping[str, str]) -> None:
-        self._depth += 1
-        if self._depth > DEEPEST:
-            raise self._wrong("elements are nested too deep", f"{DEEPEST} levels")
-        name = tag.rpartition(":")[2]
-        if self._depth == 1 and name != "Results":
-            raise self._wrong(f"is XML of {short(name)}", "ADAMS result files, of <Results>")
-        if self._text is not None:
-            raise self._wrong(f"{short(name)} in a step", "numbers")
-        if name == "Analysis":
-            self._begin_analysis(attributes.get("name", ""))
-        elif not self._chosen:
-            return
-        elif name == "Units":
-            self._time_unit = attributes.get("time", "")
-        elif name == "StepMap":
-            self._begin_map()
-        elif name == "Entity":
-            self._entity = attributes.get("name", "")
-        elif name == "Component" and self._in_map:
-            self._component(attributes)
-        elif name == "Step" and attributes.get("type", "") not in SKIPPED:
-            self._text, self._letters = [], 0
-
-    def _end(self, tag: str) -> None:
-        self._depth -= 1
-        name = tag.rpartition(":")[2]
-        if name == "Analysis":
-            self._chosen = False
-        elif name == "Entity":
-            self._entity = ""
-        elif name == "StepMap" and self._in_map:
-            self._end_map()
-        elif name == "Step" and self._text is not None:
-            self._step("".join(self._text))
-            self._text = None
-
-    def _characters(self, text: str) -> None:
-        if self._text is None:
-            return
-        self._text.append(text)
-        self._letters += len(text)
-        if self._letters > LETTERS * max(16, len(self._map)):
-            raise self._wrong("a step has more letters than numbers need", f"{len(self._map)} numbers")
-
-    def _begin_analysis(self, name: str) -> None:
+    def _chooses(self, name: str) -> bool:
+        """Whether an analysis that begins is the one that is wanted."""
         self.analyses.append(name)
         wanted = self._asked.analysis
-        self._chosen = name == wanted if wanted is not None else len(self.analyses) == 1
-        if self._chosen and self.columns:
+        chosen = name == wanted if wanted is not None else len(self.analyses) == 1
+        if chosen and self.columns:
             raise self._wrong(f"a second analysis {short(name)}", "one of each name")
+        return chosen
 
-    # --- the map ---
+    def _end(self, element: Element, share: float) -> None:
+        """Take what an element has. share: of the file that is read."""
+        name = _name(element)
+        if name == "Units":
+            self._time_unit = element.get("time", "")
+        elif name == "StepMap":
+            self._take_map(element)
+        elif name == "Step" and element.get("type", "") != SKIPPED:
+            self._take_step(element.text or "")
+            if self._steps >= FIRST_CHECK and self._steps & (self._steps - 1) == 0:
+                self._check_room(share)
 
-    def _begin_map(self) -> None:
+    def _take_map(self, step_map: Element) -> None:
+        """Choose what is kept of a step."""
         if self.columns:
             raise self._wrong("a second map of steps in one analysis", "one")
-        self._in_map, self._map = True, {}
-
-    def _component(self, attributes: Mapping[str, str]) -> None:
-        try:
-            number = int(attributes["id"])
-            name = attributes["name"]
-        except (KeyError, ValueError):
-            raise self._wrong("a component without a name or a number as its id", "both") from None
-        if number < 1 or number in self._map or len(self._map) >= COMPONENTS:
-            raise self._wrong(f"id {number} of component {short(name)}", "each number from 1 on once")
-        unit = adams_unit(attributes.get("unitsValue", ""))
-        if unit is None and (label := attributes.get("plotLabel", "")):
-            unit = split_title(label)[1] if split_title(label)[1] is not None else _bare(label)
-        self._map[number] = _Component(f"{self._entity}.{name}", unit, number)
-
-    def _end_map(self) -> None:
-        """Choose what is kept of a step."""
-        self._in_map = False
-        ordered = [self._map[number] for number in sorted(self._map)]
+        found: dict[int, _Component] = {}
+        for entity in step_map:
+            for item in entity:
+                one = self._component(entity.get("name", ""), item)
+                if one.number < 1 or one.number in found:
+                    raise self._wrong(
+                        f"id {one.number} of component {short(one.name)}", "each number from 1 on once"
+                    )
+                found[one.number] = one
+        ordered = [found[number] for number in sorted(found)]
         times = [n for n, one in enumerate(ordered) if one.name.casefold() == "time.time"]
         if len(times) != 1:
             raise self._wrong(f"{len(times)} components TIME", "one, of the entity time")
@@ -192,45 +144,49 @@ class AdamsReading:
                 one.name = f"{one.name}#{one.number}"
             known.add(one.name)
         kept = [n for n, one in enumerate(ordered) if n != times[0] and self._asked.wants(one.name)]
-        self._places = [times[0], *kept]
+        self._width, self._places = len(ordered), [times[0], *kept]
         self.columns = [ordered[n] for n in self._places]
 
-    # --- steps ---
+    def _component(self, entity: str, item: Element) -> _Component:
+        try:
+            number, name = int(item.attrib["id"]), item.attrib["name"]
+        except (KeyError, ValueError):
+            said = f"entity {short(entity)}: a component without a name or a number as its id"
+            raise self._wrong(said, "both") from None
+        unit = adams_unit(item.get("unitsValue", ""))
+        if unit is None and (label := item.get("plotLabel", "").strip()):
+            bare = label[:1] == "(" and label[-1:] == ")"  # such as (RPM)
+            unit = adams_unit(label[1:-1]) if bare else split_title(label)[1]
+        return _Component(f"{entity}.{name}", unit, number)
 
-    def _step(self, text: str) -> None:
+    def _take_step(self, text: str) -> None:
         if not self.columns:
             raise self._wrong("a step before the map of steps", "the map first")
         self._steps += 1
         words = text.split()
-        if len(words) != len(self._map):
-            raise self._wrong(
-                f"step {self._steps} has {len(words)} numbers", f"{len(self._map)}, as the map has"
-            )
+        if len(words) != self._width:
+            raise self._wrong(f"step {self._steps} has {len(words)} numbers", f"{self._width}, as the map has")
         try:
             if "_" in text:  # which Python takes for a number's
                 raise ValueError
             self.numbers.extend([float(words[n]) for n in self._places])
         except ValueError:
             raise self._wrong(f"step {self._steps} has what is no number", "numbers such as 1.5e-3") from None
-        if self._steps >= FIRST_LOOK and self._steps & (self._steps - 1) == 0:
-            self._check_room()
 
-    def _check_room(self) -> None:
-        """Raise InputError if the numbers of the whole file will not fit into memory."""
+    def _check_room(self, share: float) -> None:
+        """Raise InputError if the numbers of the whole file, of which a share is read, need too much memory."""
         taken = 8 * len(self.numbers)
-        needed = taken * self._size / max(1, self._parser.CurrentByteIndex)
-        there = SHARE * (available() + taken)
+        needed, there = taken / max(share, 1e-9), SHARE * (available() + taken)
         if needed > there:
-            raise InputError(
-                f"{self._path}: {len(self.columns)} series of it take {needed / 1e9:.3g} GB, and "
-                f"{there / 1e9:.3g} GB are free; allowed: fewer, by their names or patterns of them"
+            said = (
+                f"{len(self.columns)} series of it take {needed / 1e9:.3g} GB, and {there / 1e9:.3g} are free"
             )
+            raise self._wrong(said, "fewer, by their names or patterns of them")
 
 
-def _bare(label: str) -> str | None:
-    """The unit of a label that is one in brackets, `(RPM)`."""
-    inside = label.strip()
-    return adams_unit(inside[1:-1]) if inside[:1] == "(" and inside[-1:] == ")" else None
+def _name(element: Element) -> str:
+    """The name of an element without its namespace."""
+    return str(element.tag).rpartition("}")[2]
 
 
 def read_adams_results(path: Path, asked: Asked) -> SeriesFile:
@@ -239,7 +195,7 @@ def read_adams_results(path: Path, asked: Asked) -> SeriesFile:
     Steps of the model as it was given, before it is assembled, are left out. Raises InputError for what is no
     such file, damaged, or more than fits into memory; OSError if it cannot be read.
     """
-    found = AdamsReading(path, path.stat().st_size, asked)
+    found = AdamsReading(path, asked)
     found.read()
     if not found.columns:
         known = ", ".join(map(short, found.analyses[:5])) or "none"
@@ -258,3 +214,30 @@ def read_adams_results(path: Path, asked: Asked) -> SeriesFile:
     rows = np.frombuffer(found.numbers, dtype=np.float64).reshape(-1, len(found.columns))
     columns = [Column(one.name, one.unit, rows[:, n]) for n, one in enumerate(found.columns)]
     return series_file(path, "ADAMS result file", [(columns[0], columns[1:])], asked, found.notes)
+
+
+# --- units as ADAMS writes them, in words that pint reads ---
+
+WORD = re.compile(r"[A-Za-z_]+")
+NAMES = {  # those that pint does not know, or reads otherwise
+    "pound_mass": "pound", "kpound_mass": "kilopound", "ounce_mass": "ounce", "kpound_force": "kilopound_force",
+    "knewton": "kilonewton", "kgf": "kilogram_force", "hz": "hertz", "angular_minutes": "arcminute",
+    "angular_seconds": "arcsecond", "kw": "kilowatt", "kwh": "kilowatt_hour", "volt": "volt",
+}  # fmt: skip
+
+
+def adams_unit(text: str) -> str | None:
+    """The unit of `newton-meter`, `inch/sec**2` or `no_units`; None if there is none, or pint reads none."""
+    text = text.strip()
+    if not text:
+        return None
+    found = WORD.sub(lambda word: _word(word.group()), text)
+    return as_pint_writes(found) if is_unit(found) else None
+
+
+def _word(word: str) -> str:
+    if word in NAMES:
+        return NAMES[word]
+    if word.lower() in NAMES:
+        return NAMES[word.lower()]
+    return word.lower() if word.lower() != word and not is_unit(word) else word

@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.files.series.asked import Asked
-from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
+from support_exudyn.files.series.named_series import Asked, NamedSeries, SeriesFile
 from support_exudyn.files.series.units import as_pint_writes, is_time, scaled, unit_checked
 from user_forces.values.value import InputError, cleaned, short
 

@@ -15,12 +15,10 @@ from pathlib import Path
 import numpy as np
 
 from support_exudyn.files.free_memory import available
-from support_exudyn.files.series.asked import Asked
 from support_exudyn.files.series.columns import Column, Numbers, series_file
-from support_exudyn.files.series.named_series import SeriesFile
-from support_exudyn.files.series.plain_text import lines_of, text_of
+from support_exudyn.files.series.named_series import Asked, SeriesFile
 from support_exudyn.files.series.table_layout import TableLayout
-from support_exudyn.files.series.text_tables import numbers_of
+from support_exudyn.files.series.text_tables import lines_of, numbers_of, text_of
 from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, short
 

@@ -1,31 +1,26 @@
 """Series of our own files: runs as `Result.save` writes them, and channels as `export --to hdf5` does.
 
-Here a run gives its channels without their numerical errors; `Result.load` gives those, too. What was exported
-has no digest by which damage is seen, so that it is read in a process of its own.
+Here a run gives its channels without their numerical errors; `Result.load` gives those, too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
 
 from support_exudyn.files.free_memory import available
 from support_exudyn.files.hdf5 import HDF5, check_checksum, series_in
-from support_exudyn.files.series.apart import read_apart
-from support_exudyn.files.series.asked import Asked
 from support_exudyn.files.series.columns import Column, Numbers, series_file
-from support_exudyn.files.series.named_series import SeriesFile
-from support_exudyn.files.whole_file import check_is_file, contents
+from support_exudyn.files.series.named_series import Asked, SeriesFile
+from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, cleaned
 
 RUN = "support_exudyn result 6"  # what the file of a run begins with
 OLDER = "support_exudyn result 5"  # without statistics from every step
 EXPORTED = "support_exudyn channels 1"  # the attribute "format" of exported channels
-READER = "support_exudyn.files.series.own_runs:exported_arrays"
 DAMAGES = (OSError, LookupError, AttributeError, TypeError, ValueError, RuntimeError, MemoryError)
 
 
@@ -47,7 +42,7 @@ def read_own_run(path: Path, asked: Asked) -> SeriesFile:
     data = contents(path, available() // 2)
     try:
         check_checksum(data, format_of(data))
-        columns = [Column(said["name"], said["unit"], values[:, 0]) for said, values in _channels(data)]
+        columns = [Column(name, unit, values) for name, unit, values in _channels(data)]
     except DAMAGES as error:
         raise InputError(
             f"{path}: is no whole run of this program ({cleaned(str(error))}); allowed: what `run` writes"
@@ -65,30 +60,29 @@ def read_exported(path: Path, asked: Asked) -> SeriesFile:
 
     Raises InputError if it is none, or damaged; OSError if it cannot be read.
     """
-    check_is_file(path, available() // 4)
-    found = read_apart(READER, path, "HDF5 file that `export --to hdf5` has written")
-    columns = [Column(said["name"], said["unit"], values[:, 0]) for said, values in found]
+    data = contents(path, available() // 4)
+    try:
+        with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
+            if _words(file.attrs.get("format", "")) != EXPORTED:
+                raise ValueError(f"its attribute 'format' is not {EXPORTED!r}")
+        columns = [Column(name, unit, values) for name, unit, values in _channels(data)]
+    except DAMAGES as error:
+        raise InputError(
+            f"{path}: is no HDF5 file that `export --to hdf5` has written ({cleaned(str(error))}); allowed: a "
+            "whole one"
+        ) from None
     return _over_time(path, "channels that this program has exported", columns, asked)
 
 
-def exported_arrays(path: Path) -> Iterator[tuple[dict[str, Any], Numbers]]:
-    """Exported channels, each with its name and unit. Raises ValueError for what are none."""
-    data = path.read_bytes()
-    with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
-        if _words(file.attrs.get("format", "")) != EXPORTED:
-            raise ValueError(f"its attribute 'format' is not {EXPORTED!r}")
-    yield from _channels(data)
-
-
-def _channels(data: bytes) -> Iterator[tuple[dict[str, Any], Numbers]]:
+def _channels(data: bytes) -> Iterator[tuple[str, str, Numbers]]:
+    """Names, units and values (n,) of the channels. Raises ValueError for what are none."""
     with h5py.File(h5py.h5f.open_file_image(data), "r") as file:
         found = series_in(file["channels"])
     for name, one in found.items():
         unit = _words(one.attributes["unit"])
         if one.values.ndim != 1:
             raise ValueError(f"channel {name!r} is of shape {one.values.shape}, not of one dimension")
-        said = {"name": name, "unit": "" if unit == "1" else unit}
-        yield said, np.asarray(one.values, dtype=np.float64).reshape(-1, 1)
+        yield name, "" if unit == "1" else unit, np.asarray(one.values, dtype=np.float64)
 
 
 def _over_time(path: Path, kind: str, columns: list[Column], asked: Asked) -> SeriesFile:

@@ -8,11 +8,9 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.files.free_memory import available
-from support_exudyn.files.series.asked import Asked
 from support_exudyn.files.series.columns import Column, is_named_time, places_of_times, series_file
-from support_exudyn.files.series.named_series import SeriesFile
-from support_exudyn.files.series.titles import split_title
-from support_exudyn.files.series.units import as_pint_writes, is_time, is_unit
+from support_exudyn.files.series.named_series import Asked, SeriesFile
+from support_exudyn.files.series.units import as_pint_writes, is_time, is_unit, split_title
 from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, cleaned, short
 

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from support_exudyn.files.series.adams_requests import is_request_file, read_adams_requests
 from support_exudyn.files.series.adams_results import read_adams_results
-from support_exudyn.files.series.asked import Asked, Progress, silent
 from support_exudyn.files.series.exudyn_files import (
     is_exudyn_binary,
     is_exudyn_text,
@@ -16,11 +15,10 @@ from support_exudyn.files.series.exudyn_files import (
     read_exudyn_text,
 )
 from support_exudyn.files.series.matlab import is_matlab, read_matlab
-from support_exudyn.files.series.named_series import SeriesFile
+from support_exudyn.files.series.named_series import Asked, Progress, SeriesFile, silent
 from support_exudyn.files.series.own_runs import is_exported, is_run, read_exported, read_own_run
 from support_exudyn.files.series.parquet import is_parquet, read_parquet
-from support_exudyn.files.series.plain_text import UTF_16
-from support_exudyn.files.series.text_tables import read_text_table
+from support_exudyn.files.series.text_tables import UTF_16, read_text_table
 from support_exudyn.files.whole_file import check_is_file, missing_file
 from user_forces.values.value import InputError, short
 

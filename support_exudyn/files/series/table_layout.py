@@ -9,8 +9,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from support_exudyn.files.series.titles import split_title
-from support_exudyn.files.series.units import as_pint_writes, is_unit
+from support_exudyn.files.series.units import as_pint_writes, is_unit, split_title
 from user_forces.values.value import InputError, short
 
 BLANKS = " "  # any number of blanks and tabs

@@ -6,17 +6,19 @@ What separates items, whether decimals have a comma and where titles stand is fo
 
 from __future__ import annotations
 
+import codecs
+import io
 import re
 from array import array
+from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
-from support_exudyn.files.series.asked import Asked
+from support_exudyn.files.free_memory import available
 from support_exudyn.files.series.columns import Column, Numbers, places_of_times, series_file
-from support_exudyn.files.series.named_series import SeriesFile
-from support_exudyn.files.series.plain_text import lines_of, text_of
+from support_exudyn.files.series.named_series import Asked, SeriesFile
 from support_exudyn.files.series.table_layout import (
     BLANKS,
     COMMENT,
@@ -26,6 +28,7 @@ from support_exudyn.files.series.table_layout import (
     TableLayout,
     layout,
 )
+from support_exudyn.files.whole_file import contents
 from user_forces.values.value import InputError, short
 
 BLOCK = 2**24  # bytes that are parsed at a time, more than a line has
@@ -150,3 +153,43 @@ def _over_times(
     ends = [*times[1:], len(columns)]
     groups = [(columns[start], columns[start + 1 : end]) for start, end in zip(times, ends, strict=True)]
     return groups, [f"{len(times)} columns of times; each is of the columns to its right, up to the next."]
+
+
+# --- text of files that others have written ---
+
+SHARE = 12  # of the memory that is free, one part is for the file; the worst, "1;1;1", takes ten times itself
+UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+ALLOWED = "text in UTF-8, UTF-16 or Windows-1252"
+
+
+def text_of(path: Path) -> tuple[bytes, list[str]]:
+    """The text of a file in UTF-8, its lines ended by line feeds, and what is told of it.
+
+    Raises InputError for what is no text, or more than fits into memory; OSError if it cannot be read.
+    """
+    data, notes = contents(path, available() // SHARE), []
+    if data.startswith(UTF_16):
+        data = _decoded(path, data, "utf-16").encode()
+    data = data.removeprefix(codecs.BOM_UTF8)
+    if b"\0" in data:
+        raise InputError(f"{path}: byte {data.index(0)} is 0, which no text has; allowed: {ALLOWED}")
+    try:
+        data.decode()
+    except UnicodeDecodeError:
+        data = _decoded(path, data, "cp1252").encode()
+        notes.append("The text is not in UTF-8; it was read as Windows-1252.")
+    if b"\r" in data:
+        data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    return data, notes
+
+
+def _decoded(path: Path, data: bytes, encoding: str) -> str:
+    try:
+        return data.decode(encoding)
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: byte {error.start} is no text; allowed: {ALLOWED}") from None
+
+
+def lines_of(data: bytes) -> Iterator[str]:
+    """The lines of a text in UTF-8."""
+    return (line.decode(errors="replace").rstrip("\n") for line in io.BytesIO(data))

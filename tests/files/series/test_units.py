@@ -9,10 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn.files.series.adams_units import adams_unit
+from support_exudyn.files.series.adams_results import adams_unit
 from support_exudyn.files.series.named_series import NamedSeries
-from support_exudyn.files.series.titles import split_title
-from support_exudyn.files.series.units import converted, is_unit
+from support_exudyn.files.series.units import converted, is_unit, split_title
 from user_forces import InputError
 
 
