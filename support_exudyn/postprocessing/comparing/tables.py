@@ -155,8 +155,10 @@ def notes(pair: ComparedPair) -> Iterator[str]:
             if missing := int(np.count_nonzero(~np.isfinite(values))):
                 yield f"{name}: {file.name} has no value at {missing} of {values.size} times"
     yield from _times(pair)
-    if pair.left_out:
-        yield f"left out: {_some(list(pair.left_out))}; {next(iter(pair.left_out.values()))}"
+    lacking = [name for name in pair.left_out if name not in pair.other.columns]
+    for names in (lacking, [name for name in pair.left_out if name not in lacking]):
+        if names:
+            yield f"left out: {_some(names)}; {pair.left_out[names[0]]}"
 
 
 def _some(names: list[str]) -> str:
