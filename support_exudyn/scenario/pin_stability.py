@@ -14,7 +14,7 @@ import numpy as np
 
 from support_exudyn.mechanics.acting_loads import add_load, load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.continuation import conditions_of, moved_on
+from support_exudyn.mechanics.closing import conditions_of, moved_on, newton
 from support_exudyn.mechanics.drive_acceleration import accelerations
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of, weight_of
 from support_exudyn.mechanics.loaded_journal import loaded_journals
@@ -26,7 +26,6 @@ from support_exudyn.mechanics.pin_stability import (
     with_friction,
     without_state,
 )
-from support_exudyn.mechanics.postures import posture
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.drives.drive import Reciprocating
 from support_exudyn.model.pins import ClearancePin
@@ -180,7 +179,7 @@ class _Way:
         The first equilibria follow from the postures with the journal in the middle; with it there the machine
         stands a little otherwise, and with it the load.
         """
-        position, sign = self.position, 1.0 if second else -1.0
+        position, sign, conditions = self.position, 1.0 if second else -1.0, conditions_of(self.closed.linkage)
         for last in (False, True):
             journals = self._journals(name, second, position)
             found = [_slides(journal, contact) for journal in journals]
@@ -188,9 +187,10 @@ class _Way:
                 break
             laid = []
             for at, time, pin in zip(position, self.times.tolist(), found, strict=True):
-                x, y = (0.0, 0.0) if pin is None else (sign * pin.place).tolist()
-                moved = posture(self.closed, at, {name: (x, y)}, _travels(self.scenario, self.closed, time))
-                laid.append(at if moved is None else moved)
+                offset = {} if pin is None else {name: tuple((sign * pin.place).tolist())}
+                targets = conditions.targets(_travels(self.scenario, self.closed, time), offset)
+                moved = newton(conditions, conditions.arms * at, targets, conditions.size)
+                laid.append(at if moved is None else moved / conditions.arms)
             position = np.array(laid)
         return journals, found
 

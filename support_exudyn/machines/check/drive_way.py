@@ -14,8 +14,7 @@ import numpy as np
 from support_exudyn.machines.check.freedoms import in_line, listed
 from support_exudyn.machines.check.statics import Array, Statics, statics
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.closing import Conditions
-from support_exudyn.mechanics.continuation import moved_on, tangent
+from support_exudyn.mechanics.closing import Conditions, moved_on, tangent
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import ActingLoad
@@ -169,7 +168,7 @@ def way_of(
     A crank that turns right round in one direction is not turned in the other.
 
     Arguments:
-        conditions: of `continuation.conditions_of`, which hold as the linkage is moved.
+        conditions: of `closing.conditions_of`, which hold as the linkage is moved.
         linkage: whose forces are computed; its bodies are those of the conditions.
         drives: names of the driven parts; several actuators extend alike.
         goal: ends of the travel that are tried [rad], [m], at most 0 and at least 0.

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.machines.check.drive_way import DriveWay
-from support_exudyn.mechanics.closing import Conditions
-from support_exudyn.mechanics.continuation import moved_on
+from support_exudyn.mechanics.closing import Conditions, moved_on
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import Linkage, PinPlace
 from user_forces.values.value import Vector2
