@@ -144,7 +144,8 @@ class ConstraintRows:
             plane = np.ones((1, len(self._turns), 1))  # in it all turn about the same
             about = plane if self._about is None else motion.turned(self._turned_by, self._about)
             found[self._turns, :, shifts:] += self._shares[..., None, None] * np.moveaxis(about, 0, -1)[:, None]
-        by_instant = np.moveaxis(found[:, :bodies].reshape(self._count, -1, motion.count), -1, 0)
+        width = bodies * motion.FREEDOMS
+        by_instant = np.moveaxis(found[:, :bodies].reshape(self._count, width, motion.count), -1, 0)
         return np.ascontiguousarray(by_instant)
 
     def values(self, motion: BodyMotion) -> Series:

@@ -167,13 +167,7 @@ def test_what_has_no_unit_or_another_kind_is_left_out(folder: Path, capsys: pyte
     assert ended("marked.csv same.csv kind.csv --json --junit x.xml") == 0
     files = json.loads(capsys.readouterr().out)["files"]
     assert [list(one["channels"]) for one in files.values()] == [["tip.x", "pin.force"], ["tip.x"]]
-<<<<<<< HEAD
     assert 'compare.toml, [files."marked.csv".units] "Marker" = "mm"' in files["same.csv"]["left_out"]["Marker"]
-=======
-    assert (
-        'compare.toml, [files."marked.csv".units] "Marker" = "mm"' in files["same.csv"]["left_out"]["Marker"]
-    )
->>>>>>> a21c1365 (One Newton method and one continuation for all postures; constraint rows of all joints evaluated at once)
     assert any(note.startswith("left out: pin.force, Marker; ") for note in files["kind.csv"]["notes"])
     skipped = ElementTree.parse(folder / "x.xml").getroot().findall("testsuite/testcase[skipped]")
     assert [case.get("name") for case in skipped] == ["Marker", "pin.force", "Marker"]
