@@ -33,8 +33,8 @@ def test_speed_is_the_derivative_of_the_extension(drive: Drive, t: float) -> Non
     h = 1e-3 if isinstance(drive, Steady) else 1e-5
     assume(all(abs(t - b) > 2.0 * h for b in drive.breaks))
     slope = (drive.extension(t + h) - drive.extension(t - h)) / (2.0 * h)
-    # central difference: third derivative times h^2/6; rounding of 2 m, of 12 s times the rate, and of phases up to
-    # 750 rad at 1e-13 rad, over h
+    # central difference: third derivative times h^2/6; rounding of 2 m, of 12 s times the rate, and of phases
+    # up to 750 rad at 1e-13 rad, over h
     third, rounding = 0.0, 1e-10
     if isinstance(drive, Stroke):
         third = 12.0 * 2.0 / (drive.end - drive.start) ** 3
