@@ -108,9 +108,11 @@ class SpatialStatics:
                 f"machine in space: {rest:.3g} N of the roof force {roof.force:.6g} N are not balanced; "
                 "allowed: pushes of its cylinders that hold it"
             )
-        loads = {name: bearing_load(self.motion, rows, -found[None], name) for name in self.linkage.bearings}
-        forces, moments = ({name: load[k][0] for name, load in loads.items()} for k in (0, 1))
-        return Twist(forces, moments)
+        twist = Twist({}, {})
+        for name in self.linkage.bearings:
+            force, moment = bearing_load(self.motion, rows, -found[None], name)
+            twist.bearings[name], twist.moments[name] = force[0], moment[0]
+        return twist
 
     def legs_alone(self, x: float, aside: float, limits: Mapping[str, Limits]) -> float:
         """The largest roof force [N] at x, z [m] with no roll passed on by the canopy's joints; 0 if none.
