@@ -115,6 +115,7 @@ class ContactPlace:
         play: by how much the journal can go either way [m].
         direction: of a slot in the start posture [rad]; of a bore 0.
         arm: of corners at two ends of a block, from its middle [m]; else 0.
+        on_block: whether the bore is the face of a falling block, which does not turn.
     """
 
     of: str
@@ -127,6 +128,7 @@ class ContactPlace:
     play: float
     direction: float = 0.0
     arm: float = 0.0
+    on_block: bool = False
 
     @property
     def in_slot(self) -> bool:
@@ -266,6 +268,7 @@ def block_places(blocks: Mapping[str, FallingBlock], gravity: Vector2) -> dict[s
             journal_point=block.point,
             play=min(block.first_depth(gravity) or PLAY, PLAY),
             direction=block.slope,
+            on_block=True,
         )
         for name, block in blocks.items()
     }
