@@ -10,7 +10,7 @@ import numpy as np
 
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.postures import laid_out
-from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, pinned
+from support_exudyn.model.linkage import GROUND, Linkage, pinned
 from tests.drawn.drawn_linkages import Place, apex, bar_of, towards
 
 
@@ -53,12 +53,3 @@ def lengthened(linkage: Linkage, pins: Mapping[str, str], by: float) -> Linkage:
         point: Place = getattr(pin, field)
         changed[name] = replace(pin, **{field: (point[0] + step[0], point[1] + step[1])})
     return replace(linkage, pins=changed)
-
-
-def sides(linkage: Linkage, loop: Mapping[str, tuple[str, str]]) -> dict[str, float]:
-    """Distances between two pins of each body of a loop [m]."""
-
-    def at(pin: PinPlace, body: str) -> Place:
-        return pin.first_point if pin.first == body else pin.second_point
-
-    return {body: math.dist(*(at(linkage.pins[pin], body) for pin in pins)) for body, pins in loop.items()}

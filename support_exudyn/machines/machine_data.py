@@ -2,12 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from support_exudyn.machines.strength.strength_data import StrengthData
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.machine import Machine
-from user_forces.values.names import Named, no_attribute
+from user_forces.values.names import Named
 from user_forces.values.sourced import SourcedNumber
 
 
@@ -44,8 +43,3 @@ class MachineData:
         """Let what is asked for by a wrong name be told with those that look like it."""
         object.__setattr__(self, "bore_radii", Named(self.bore_radii, "pin with a bore_radius_mm"))
         object.__setattr__(self, "actuators", Named(self.actuators, "actuator with masses"))
-
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> object:
-            return no_attribute(self, name)

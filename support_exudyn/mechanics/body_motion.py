@@ -12,17 +12,17 @@ Arrays have the instants first, then the bodies in the order of the linkage.
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND, ROUNDING, LinearActuator, Linkage, Slide
 from support_exudyn.model.plane_geometry import minus, rotated
 from support_exudyn.model.spatial_linkage import SpatialActuator, SpatialLinkage
-from user_forces.values.value import Vector2
 
 COORDINATES = 7  # of a body in space
 UNTURNED = np.array([1.0, 0.0, 0.0, 0.0])
@@ -53,7 +53,6 @@ class Motion(ABC):
     linkage: Any
     position: Series
     velocity: Series
-    _known: dict[str, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     SHIFTS: ClassVar[int]  # directions in which a body shifts: the first of its velocities
     FREEDOMS: ClassVar[int]  # velocities of a body: of its centre, then its spin
@@ -80,9 +79,22 @@ class Motion(ABC):
     def centre(self, body: str) -> tuple[Series, Series]:
         """Displacement of a body's centre of mass since the start [m], and its velocity [m/s], (n, d) each."""
 
+    @property
     @abstractmethod
+    def centres(self) -> Series:
+        """Centres of mass of all bodies, and the ground's origin as the last, (n, b + 1, d) [m]."""
+
+    @abstractmethod
+    def turned(self, bodies: npt.NDArray[np.int_], vectors: Series) -> Series:
+        """Vectors of the start posture (..., d) that turn with bodies of these numbers (...), (n, ..., d).
+
+        The ground's number is that after the last body.
+        """
+
     def carried(self, body: str, vector: Any) -> Series:
         """A vector of the start posture that turns with a body or rests with the ground, (n, d)."""
+        number = np.array([len(self._indices) if body == GROUND else self._indices[body]])
+        return self.turned(number, np.array([vector], dtype=np.float64))[:, 0]
 
     @abstractmethod
     def spin(self, body: str) -> Series:
@@ -94,7 +106,7 @@ class Motion(ABC):
 
     @abstractmethod
     def moment(self, arm: Series, force: Series) -> Series:
-        """Moment arm x force, (n, 1) in the plane and (n, 3) in space, of (n, d) each."""
+        """Moment arm x force, (..., 1) in the plane and (..., 3) in space, of (..., d) each."""
 
     def arm(self, body: str, point: Any) -> Series:
         """The vector from a body's centre of mass to a point (n, d) [m]; 0 on the ground."""
@@ -136,15 +148,6 @@ class Motion(ABC):
         return replace(self, position=self.position + time[:, None] * self.velocity)
 
 
-class BodySeries(NamedTuple):
-    """Centre of mass [m], and cosine and sine of the turn of a body of the plane, (n,) each and contiguous."""
-
-    x: Series
-    y: Series
-    cos: Series
-    sin: Series
-
-
 def pairs(x: Series, y: Series) -> Series:
     """Vectors (n, 2) of their columns, each of which is contiguous: working by columns is ten times faster."""
     found = np.empty((2, len(x)))
@@ -164,16 +167,6 @@ class BodyMotion(Motion):
         """See `Motion`."""
         return self.velocity
 
-    def body(self, name: str) -> BodySeries:
-        """Where a body is; every point of it asks for that."""
-        if name not in self._known:
-            i, centre = self.first(name), self.linkage.bodies[name].centre
-            turn = self.position[:, i + 2]
-            x, y = self.position[:, i] + centre[0], self.position[:, i + 1] + centre[1]
-            self._known[name] = BodySeries(x, y, np.cos(turn), np.sin(turn))
-        found: BodySeries = self._known[name]
-        return found
-
     def centre(self, body: str) -> tuple[Series, Series]:
         """See `Motion`."""
         i = self.first(body)
@@ -187,13 +180,28 @@ class BodyMotion(Motion):
         """See `Motion`."""
         return np.zeros(len(self.position)) if body == GROUND else self.velocity[:, self.first(body) + 2]
 
-    def carried(self, body: str, vector: Any) -> Series:
+    @cached_property
+    def centres(self) -> Series:
         """See `Motion`."""
-        x, y = vector
-        if body == GROUND:
-            return pairs(np.full(self.count, x, dtype=float), np.full(self.count, y, dtype=float))
-        at = self.body(body)
-        return pairs(at.cos * x - at.sin * y, at.sin * x + at.cos * y)
+        found = np.zeros((self.count, len(self.linkage.bodies) + 1, 2))
+        found[:, :-1] = self.position.reshape(self.count, -1, 3)[..., :2]
+        found[:, :-1] += [body.centre for body in self.linkage.bodies.values()]
+        return found
+
+    @cached_property
+    def _turns(self) -> tuple[Series, Series]:
+        """Cosine and sine of the turns of all bodies, and of the ground as the last, (n, b + 1) each."""
+        turns = np.zeros((self.count, len(self.linkage.bodies) + 1))
+        turns[:, :-1] = self.position[:, 2::3]
+        return np.cos(turns), np.sin(turns)
+
+    def turned(self, bodies: npt.NDArray[np.int_], vectors: Series) -> Series:
+        """See `Motion`."""
+        (cos, sin), x, y = self._turns, vectors[..., 0], vectors[..., 1]
+        c, s = cos[:, bodies], sin[:, bodies]
+        found = np.empty((2, *c.shape))  # working by columns is ten times faster
+        found[0], found[1] = c * x - s * y, s * x + c * y
+        return np.moveaxis(found, 0, -1)
 
     def swept(self, spin: Series, arm: Series) -> Series:
         """See `Motion`."""
@@ -201,20 +209,7 @@ class BodyMotion(Motion):
 
     def moment(self, arm: Series, force: Series) -> Series:
         """See `Motion`."""
-        return (arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0])[:, None]
-
-    def place(self, body: str, point: Any) -> Series:
-        """See `Motion`; velocities may be missing."""
-        return pairs(*self.coordinates(body, point))
-
-    def coordinates(self, body: str, point: Vector2) -> tuple[Series, Series]:
-        """Coordinates of a point of the start posture over time [m], (n,) each."""
-        if body == GROUND:
-            still = np.zeros(len(self.position))
-            return still + point[0], still + point[1]
-        x, y = minus(point, self.linkage.bodies[body].centre)
-        at = self.body(body)
-        return at.x + (at.cos * x - at.sin * y), at.y + (at.sin * x + at.cos * y)
+        return (arm[..., 0] * force[..., 1] - arm[..., 1] * force[..., 0])[..., None]
 
     def sliding(self, slide: Slide) -> tuple[Series, Series]:
         """Direction of a guide (n, 2), and speed of its point along the guide (n,) [m/s]."""
@@ -295,11 +290,22 @@ class SpatialMotion(Motion):
         """See `Motion`."""
         return np.zeros((self.count, 3)) if body == GROUND else self.spins[:, self._indices[body]]
 
-    def carried(self, body: str, vector: Any) -> Series:
+    @cached_property
+    def centres(self) -> Series:
         """See `Motion`."""
-        if body == GROUND:
-            return np.tile(np.asarray(vector, dtype=np.float64), (self.count, 1))
-        return np.asarray(self.rotations[:, self._indices[body]] @ np.asarray(vector))
+        found = np.zeros((self.count, len(self.linkage.bodies) + 1, 3))
+        found[:, :-1] = self.displacement + [body.centre for body in self.linkage.bodies.values()]
+        return found
+
+    @cached_property
+    def _turns(self) -> Series:
+        """Rotations of all bodies, and of the ground as the last, (n, b + 1, 3, 3)."""
+        ground = np.broadcast_to(np.eye(3), (self.count, 1, 3, 3))
+        return np.concatenate([self.rotations, ground], axis=1)
+
+    def turned(self, bodies: npt.NDArray[np.int_], vectors: Series) -> Series:
+        """See `Motion`."""
+        return np.asarray((self._turns[:, bodies] @ vectors[..., None])[..., 0])
 
     def swept(self, spin: Series, arm: Series) -> Series:
         """See `Motion`."""

@@ -1,53 +1,77 @@
-"""What a linkage has to meet to be closed, and how far it is from that."""
+"""What a linkage has to meet to be closed, how far a posture is from that, and the way to where it is met.
+
+One Newton method and one continuation serve all: drawings that are assembled, drives that are followed, and
+journals out of the middle of their bores.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
 from support_exudyn.mechanics.kinetics import REPEATED, Kinetics, Matrix, joints_of, kinetics_of
-from support_exudyn.mechanics.postures import CLOSED, ROUNDINGS, missing
 from support_exudyn.model.linkage import GROUND, Linkage
 from user_forces.values.value import Vector2
 
-JOINTS = ("pins", "actuators", "cranks", "slides", "gears")  # fields of a linkage that hold its parts together
+JOINTS = ("cranks", "actuators", "gears", "slides", "pins")  # fields of a linkage that hold its parts together
+DRIVEN = ("cranks", "actuators")
+CLOSED = 1e-13  # [m]
+ROUNDINGS = 8.0  # of the coordinates
+LEAST_ARM = 0.1  # of the drawing's size: by this the turn of a small body is counted
+ROUNDS = 8  # of Newton's method after a step of the continuation
+
+FARTHEST_STEP = 0.05  # of the linkage's size
+LARGEST_TURN = 0.2  # [rad] in a step
+CURVED = 0.25  # of a step: by how much the posture may lie beside the tangent
+FINEST = 2.0**-34  # of the way between two postures: a step so short is none
+SINGULAR = 1e-5  # of the largest singular value: below, the direction is taken from the way that led there
+AGAINST = 1e-3  # of what is driven: what a movement may leave of it
+
 PRECISE, EVALUATIONS = 1e-10, 60  # of a search for the least gaps
 NEARLY = 1e-3  # of the drawing's size: gaps from which on Newton's method closes what can be closed
 LESS = 0.8  # of what was open before: if a step leaves more, rounding is reached
-LEAST_ARM = 0.1  # of the drawing's size: by this the turn of a small body is counted
 ASIDE = 1e-3  # of the machine's size: how far it is moved to see whether a freedom lasts
-ROUNDS = 8  # of Newton's method there
+NONE: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
 class Conditions:
-    """What a linkage has to meet: its joints, and the angles and lengths that are asked for.
+    """What a linkage has to meet: its joints, and the angles, lengths and offsets that are given.
+
+    Postures are coordinates of all bodies from the drawing on, counted by `arms` (n,) [m].
 
     Arguments:
-        linkage: the drawing; its cranks and actuators are those whose angle or length is asked for.
-        travels: by actuator and crank, how far it has to move from where it is drawn [m], [rad].
+        linkage: the drawing; its cranks and actuators are those whose angle or length is given.
+        travels: by actuator and crank, how far it has to move from where it is drawn [m], [rad]; else 0.
         origins: by guide, where its line passes on the body that carries it [m], as drawn.
-        together: whether the two points of pins coincide; else they stay as far apart as drawn.
+        offsets: by pin, centre of its second body's point minus that of the first [m]; else as drawn.
     """
 
     linkage: Linkage
-    travels: Mapping[str, float]
-    origins: Mapping[str, Vector2]
-    together: bool = True
+    travels: Mapping[str, float] = field(default_factory=dict)
+    origins: Mapping[str, Vector2] = field(default_factory=dict)
+    offsets: Mapping[str, Vector2] = field(default_factory=dict)
 
     @cached_property
     def kinetics(self) -> Kinetics:
-        """Matrices of what holds it together."""
+        """Matrices of what holds the linkage together."""
         return kinetics_of(self.linkage)
 
     @property
     def size(self) -> float:
         """The larger of length and height of the drawing [m]."""
         return self.kinetics.size
+
+    @cached_property
+    def still(self) -> Matrix:
+        """The posture of the drawing (n,)."""
+        return np.zeros(3 * len(self.linkage.bodies))
 
     @cached_property
     def arms(self) -> Matrix:
@@ -60,19 +84,6 @@ class Conditions:
         return np.array([count for arm in arms.values() for count in (1.0, 1.0, arm)])
 
     @cached_property
-    def shift(self) -> Matrix:
-        """By how much the line of each guide misses its point in the drawing, beside zeros (m,) [m]."""
-        shift = np.zeros(len(self.kinetics.owners()))
-        seen = set()
-        for row, (kind, name) in enumerate(self.kinetics.owners()):
-            if kind == "slides" and name in self.origins and name not in seen:
-                seen.add(name)
-                slide = self.linkage.slides[name]
-                x, y = np.subtract(slide.point, self.origins[name])
-                shift[row] = math.cos(slide.direction) * y - math.sin(slide.direction) * x
-        return shift
-
-    @cached_property
     def counts(self) -> Matrix:
         """See `Kinetics.counts`."""
         return self.kinetics.counts
@@ -82,16 +93,45 @@ class Conditions:
         """How far open counts as closed [m]: some roundings, less for what is smaller than a metre."""
         return max(CLOSED * min(1.0, self.size), ROUNDINGS * math.ulp(self.linkage.farthest))
 
-    def short(self, moved: Matrix, travels: Mapping[str, float] | None = None) -> Matrix:
+    @cached_property
+    def _first_rows(self) -> dict[tuple[str, str], int]:
+        """The first row of every joint and driven part, by the field of the linkage and its name."""
+        return {owner: row for row, owner in reversed([*enumerate(self.kinetics.owners())])}
+
+    @cached_property
+    def _drawn(self) -> Matrix:
+        """What constraints hold where all joints are closed and driven parts are as drawn (m,) [m], [rad]."""
+        values = self.kinetics.values(self.still)
+        for name, origin in self.origins.items():
+            slide = self.linkage.slides[name]
+            x, y = np.subtract(slide.point, origin)
+            values[self._first_rows["slides", name]] = (
+                math.sin(slide.direction) * x - math.cos(slide.direction) * y
+            )
+        return values
+
+    def targets(self, travels: Mapping[str, float], offsets: Mapping[str, Vector2]) -> Matrix:
+        """What constraints hold where all is met (m,) [m], [rad], with these travels and offsets."""
+        found = self._drawn.copy()
+        for part in DRIVEN:
+            for name in getattr(self.linkage, part):
+                found[self._first_rows[part, name]] += travels.get(name, 0.0)
+        for name, offset in offsets.items():
+            row = self._first_rows["pins", name]
+            found[row : row + 2] = offset
+        return found
+
+    @cached_property
+    def _own_targets(self) -> Matrix:
+        return self.targets(self.travels, self.offsets)
+
+    def short(self, moved: Matrix, targets: Matrix | None = None) -> Matrix:
         """What each condition is short of (m,) [m], angles by the size of the drawing.
 
-        Arguments:
-            moved: coordinates counted by `arms` (n,) [m].
-            travels: in place of those of these conditions.
+        targets: of `targets`; by default with the own travels and offsets.
         """
-        offsets = dict.fromkeys(self.linkage.pins, (0.0, 0.0)) if self.together else {}
-        found = missing(self.kinetics, moved / self.arms, offsets, self.travels if travels is None else travels)
-        return self.counts * (found - self.shift)
+        found = self._own_targets if targets is None else targets
+        return np.asarray(self.counts * (found - self.kinetics.values(moved / self.arms)))
 
     def rows(self, moved: Matrix) -> Matrix:
         """Rates of the conditions (m, n), of coordinates counted by `arms`."""
@@ -108,22 +148,127 @@ class Conditions:
             kind: {name: one for name, one in getattr(self.linkage, kind).items() if (kind, name) in names}
             for kind in JOINTS
         }
-        return replace(self, linkage=replace(self.linkage, **kept))
+        return replace(
+            self,
+            linkage=replace(self.linkage, **kept),
+            origins={name: one for name, one in self.origins.items() if name in kept["slides"]},
+            offsets={name: one for name, one in self.offsets.items() if name in kept["pins"]},
+        )
 
     @property
     def names(self) -> list[tuple[str, str]]:
         """All driven parts and joints, each by its field of the linkage and its name."""
-        kinds = ("cranks", "actuators", "gears", "slides", "pins")
-        return [(kind, name) for kind in kinds for name in getattr(self.linkage, kind)]
+        return [(kind, name) for kind in JOINTS for name in getattr(self.linkage, kind)]
 
     @property
     def driven(self) -> list[tuple[str, str]]:
-        """Those whose angle or length is asked for."""
-        return [(kind, name) for kind, name in self.names if kind in ("cranks", "actuators")]
+        """Those whose angle or length is given."""
+        return [(kind, name) for kind, name in self.names if kind in DRIVEN]
+
+
+def conditions_of(linkage: Linkage) -> Conditions:
+    """What a linkage meets as its driven parts move it: its pins stay as they are at the start."""
+    return Conditions(linkage)
+
+
+def newton(
+    conditions: Conditions,
+    near: Matrix,
+    targets: Matrix,
+    farthest: float,
+    *,
+    rounds: int = ROUNDS,
+    light: Matrix | float = 1.0,
+) -> Matrix | None:
+    """The posture next to another that meets targets, by Newton's method; None if it does not get there.
+
+    Arguments:
+        near: posture from which it starts.
+        targets: of `Conditions.targets` (m,).
+        farthest: how far from the start the posture may lie [m].
+        rounds: how many steps at most.
+        light: of all steps that close the same, that is taken whose quotient by this is the least.
+    """
+    # coordinates of a crank that has turned for long are rounded more
+    enough = max(conditions.enough, ROUNDINGS * math.ulp(float(np.abs(near).max())))
+    moved, farthest = near, max(farthest, 10.0 * enough)
+    for _ in range(rounds):
+        short = conditions.short(moved, targets)
+        if np.abs(short).max(initial=0.0) < enough:
+            return moved
+        moved = moved + light * np.linalg.lstsq(conditions.rows(moved) * light, short, rcond=REPEATED)[0]
+        if not np.abs(moved - near).max() <= farthest:
+            return None
+    return None
+
+
+def moved_on(
+    conditions: Conditions,
+    start: Matrix,
+    travels: Mapping[str, float] | None = None,
+    along: Matrix | None = None,
+) -> tuple[Matrix, float]:
+    """The posture to which a linkage moves as what is open of its conditions closes, and the share that does.
+
+    On the way all that is open closes in proportion: gaps of a drawing, or the rest of the travels of driven
+    parts. A step goes along the tangent and is short enough that what is left for Newton's method is little of
+    it; at a fold, where the linkage locks, steps vanish.
+
+    Arguments:
+        conditions: that are met at the end of the way.
+        start: posture from which it goes (n,) [m].
+        travels: at the end of the way; by default those of the conditions.
+        along: the movement that is expected (n,) [m]. It tells which way to go on where all bars lie in line.
+
+    Returns coordinates (n,), those at the end of the way or where the linkage locks or opens, and the share, 1
+    if all is closed.
+    """
+    targets = conditions.targets(conditions.travels if travels is None else travels, conditions.offsets)
+    moved, share, step = start, 0.0, 1.0
+    ahead = conditions.short(start, targets)
+    if np.abs(ahead).max(initial=0.0) < conditions.enough:
+        return start, 1.0
+    turns = np.arange(start.size) % 3 == 2
+    while share < 1.0:
+        direction = tangent(conditions, moved, ahead, along)
+        if direction is None:
+            return moved, share
+        far = np.abs(direction).max() / (FARTHEST_STEP * conditions.size)
+        far = max(far, np.abs(direction / conditions.arms)[turns].max() / LARGEST_TURN)
+        step = min(2.0 * step, 1.0 - share, 1.0 / max(far, 1.0))
+        while True:
+            at = share + step if step < 1.0 - share else 1.0
+            near, most = moved + step * direction, CURVED * step * np.abs(direction).max()
+            found = newton(conditions, near, targets - (1.0 - at) * ahead / conditions.counts, most)
+            if found is not None:
+                break
+            step /= 2.0
+            if step < FINEST:
+                return moved, share
+        moved, share, along = found, at, direction
+    return moved, share
+
+
+def tangent(conditions: Conditions, moved: Matrix, ahead: Matrix, along: Matrix | None = None) -> Matrix | None:
+    """The movement (n,) [m] that changes conditions by so much (m,), to first order; None if there is none.
+
+    Of several the least; where a posture leaves a direction open, that part of the movement is as `along` (n,).
+    """
+    left, values, right = np.linalg.svd(conditions.rows(moved), full_matrices=False)
+    # next to a fold the little that is left of a direction is what moves the linkage, unlike in a change point
+    needed = np.abs(left.T @ ahead) > AGAINST * np.linalg.norm(ahead)
+    clear = values > np.where(needed, REPEATED, SINGULAR) * values.max(initial=0.0)
+    shares = left.T[clear] @ ahead
+    if np.linalg.norm(ahead - left.T[clear].T @ shares) > AGAINST * np.linalg.norm(ahead):
+        return None
+    found: Matrix = right[clear].T @ (shares / values[clear])
+    if along is not None and not clear.all():
+        found = found + right[~clear].T @ (right[~clear] @ along)
+    return found
 
 
 def nearest(conditions: Conditions, start: Matrix) -> Matrix:
-    """Coordinates (n,) in which the least is open, in the sum of squares, near a start."""
+    """The posture (n,) in which the least is open, in the sum of squares, near a start."""
     from scipy.optimize import least_squares  # slow to import
 
     if not conditions.names:
@@ -146,13 +291,13 @@ def nearest(conditions: Conditions, start: Matrix) -> Matrix:
 
 
 def beside(conditions: Conditions, rates: Sequence[Matrix]) -> Matrix:
-    """Coordinates (n,) a little beside the start, on the ways in which a linkage can still move.
+    """A posture (n,) a little beside the drawing, on the ways in which a linkage can still move.
 
     Arguments:
-        conditions: that hold.
+        conditions: that hold in the drawing.
         rates: of each way, of all coordinates counted by `arms` (n,), the largest about 1.
     """
-    moved = np.zeros(3 * len(conditions.linkage.bodies))
+    moved = conditions.still
     for one, share in zip(rates, np.linspace(1.0, 2.0, len(rates)), strict=True):
         moved = moved + ASIDE * share * conditions.size * one
     for _ in range(ROUNDS):
@@ -166,7 +311,7 @@ def repeated_count(conditions: Conditions) -> tuple[int, bool]:
 
     The start posture is then a dead centre or a change point.
     """
-    left, values, right = np.linalg.svd(conditions.rows(np.zeros(3 * len(conditions.linkage.bodies))))
+    left, values, right = np.linalg.svd(conditions.rows(conditions.still))
     rank = _rank(values)
     repeats = len(left) - rank
     if repeats == 0:

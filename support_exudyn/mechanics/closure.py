@@ -5,23 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import replace
-from types import MappingProxyType
 
 import numpy as np
 
-from support_exudyn.mechanics.closing import Conditions, nearest
-from support_exudyn.mechanics.continuation import moved_on
+from support_exudyn.mechanics.closing import NONE, Conditions, moved_on, nearest
 from support_exudyn.mechanics.kinetics import Matrix, joints_of, kinetics_of
-from support_exudyn.mechanics.open_loop import refusal
 from support_exudyn.mechanics.postures import laid_out
 from support_exudyn.model.linkage import Body, Crank, Linkage
 from user_forces.values.value import InputError, Vector2
 
-NONE: Mapping[str, float] = MappingProxyType({})
-NO_POINTS: Mapping[str, Vector2] = MappingProxyType({})
 NUDGE = 0.02  # of the drawing's size
 APART = 5.0 * NUDGE  # of the drawing's size: postures farther apart are on two branches
 SINGULAR = 1e-6  # singular values of a posture's conditions below this are none: a dead centre
+TRIES, FEW = 8, 4  # starts from which all joints, or some of them, are closed
+WORDS = {"pins": "pin", "slides": "guide", "gears": "gear", "actuators": "actuator", "cranks": "crank"}
 
 
 def assembled(
@@ -29,7 +26,7 @@ def assembled(
     angles: Mapping[str, float] = NONE,
     lengths: Mapping[str, float] = NONE,
     *,
-    origins: Mapping[str, Vector2] = NO_POINTS,
+    origins: Mapping[str, Vector2] = NONE,
     held: Collection[str] = (),
 ) -> Linkage:
     """The linkage in the posture in which its joints are closed, on the branch of its drawing.
@@ -50,11 +47,11 @@ def assembled(
 
     Returns the linkage laid out there; its pins' two points coincide, points of guides lie on their lines.
 
-    Raises InputError that names the loop that does not close, driven parts that fight, a body without a
+    Raises InputError that names the joints and driven parts that cannot be met together, a body without a
     joint, or what the drawing leaves open.
     """
     _check_asked(drawing, angles, lengths, origins)
-    check_hanging(drawing, held)
+    _check_hanging(drawing, held)
     asked = replace(
         drawing,
         cranks={body: Crank(body=body) for body in angles},
@@ -65,14 +62,14 @@ def assembled(
         for body, angle in angles.items()
     }
     travels |= {name: length - drawing.actuators[name].start_length for name, length in lengths.items()}
-    conditions = Conditions(asked, travels, origins)
-    found = posture_of(conditions)
+    conditions = Conditions(asked, travels, origins, dict.fromkeys(drawing.pins, (0.0, 0.0)))
+    found = _posture_of(conditions)
     return _with_exact_numbers(laid_out(kinetics_of(drawing), found / conditions.arms), angles)
 
 
-def posture_of(conditions: Conditions) -> Matrix:
+def _posture_of(conditions: Conditions) -> Matrix:
     """Coordinates, counted by arms (n,), in which a drawing is closed; see `assembled`."""
-    drawn = np.zeros(3 * len(conditions.linkage.bodies))
+    drawn = conditions.still
     if conditions.closed(drawn):
         return drawn
     found = _from(conditions, drawn)
@@ -83,7 +80,7 @@ def posture_of(conditions: Conditions) -> Matrix:
     sides = (found, _from(conditions, aside), _from(conditions, -aside))
     ways = [way for way in sides if way is not None]
     if not ways:
-        raise InputError(refusal(conditions))
+        raise InputError(_refusal(conditions))
     if max(np.abs(way - ways[0]).max() for way in ways) > APART * conditions.size:
         raise InputError(_ambiguous(conditions, ways))
     return ways[0]
@@ -106,7 +103,7 @@ def _rank(conditions: Conditions, moved: Matrix) -> int:
     return int(np.linalg.matrix_rank(conditions.rows(moved), tol=SINGULAR))
 
 
-def check_hanging(linkage: Linkage, held: Collection[str] = ()) -> None:
+def _check_hanging(linkage: Linkage, held: Collection[str] = ()) -> None:
     """Raise InputError that names bodies that no pin, guide, actuator or crank joins to anything.
 
     held: bodies that need no joint.
@@ -170,3 +167,107 @@ def _with_exact_numbers(linkage: Linkage, angles: Mapping[str, float]) -> Linkag
         bodies={name: exact(name, body) for name, body in linkage.bodies.items()},
         pins={name: replace(pin, second_point=pin.first_point) for name, pin in linkage.pins.items()},
     )
+
+
+# --- what does not close ---
+
+
+def _refusal(conditions: Conditions) -> str:
+    """The message on a drawing that cannot be closed: the fewest parts that cannot be met together."""
+    elsewhere = _closest(conditions, TRIES)
+    if conditions.closed(elsewhere):
+        return (
+            f"{_asked(conditions) or 'drawing'}: no way leads from the drawing to a closed posture; it closes "
+            f"elsewhere, for instance with {_angles(conditions, elsewhere)}; draw the bodies nearer to the "
+            "posture that is meant"
+        )
+    core = conditions
+    for part in conditions.names:
+        rest = core.of([name for name in core.names if name != part])
+        if rest.names and not rest.closed(_closest(rest, FEW)):
+            core = rest
+    joints = ", ".join(f"{WORDS[kind]} {name}" for kind, name in core.names if (kind, name) not in core.driven)
+    if not core.driven:
+        short = core.short(_closest(core, TRIES))
+        rows = core.kinetics.owners()
+        gaps = [
+            math.hypot(*short[[owner == part for owner in rows]]) for part in core.names if part[0] != "gears"
+        ]
+        return (
+            f"the chain of {joints} does not close: {1e3 * sum(gaps):.3g} mm stay open at best"
+            f"{_lengths(core)}; allowed: lengths that close; change one of them, or where the pins on the "
+            "ground lie"
+        )
+    last = core.driven[-1]
+    rest = core.of([name for name in core.names if name != last])
+    moved, share = moved_on(rest, core.still)
+    moved = moved if share == 1.0 else _closest(rest, TRIES)
+    if len(core.driven) > 1:
+        comes = f"; with the others {last[1]} comes to {_value(core, last, moved)}"
+        return (
+            f"{_asked(core)} contradict each other through {joints}{comes if rest.closed(moved) else ''}; "
+            "allowed: values that fit each other; leave one of them out, it follows from the others"
+        )
+    reach = _value(core, last, moved_on(core, moved)[0])
+    return (
+        f"{_asked(core)}: the chain of {joints} does not close there; from the drawing it comes as far as "
+        f"{reach}; allowed: what the lengths of these parts let it reach"
+    )
+
+
+def _closest(conditions: Conditions, tries: int) -> Matrix:
+    """The posture (n,) in which the least is open, from the drawing and from others drawn around it."""
+    random = np.random.default_rng(1)
+    bodies = len(conditions.linkage.bodies)
+    start, best, least = conditions.still, conditions.still, math.inf
+    for _ in range(tries):
+        found = nearest(conditions, start)
+        gap = float(np.linalg.norm(conditions.short(found)))
+        if gap < least:
+            best, least = found, gap
+        if conditions.closed(found):
+            break
+        start = random.uniform(-0.3, 0.3, 3 * bodies) * conditions.size
+        start[2::3] = random.uniform(-math.pi, math.pi, bodies) * conditions.arms[2::3]
+    return best
+
+
+def _asked(conditions: Conditions) -> str:
+    """The angles and lengths that are given, in words."""
+    linkage, found = conditions.linkage, []
+    for kind, name in conditions.driven:
+        travel = conditions.travels[name]
+        if kind == "cranks":
+            found.append(f"angle of {name} = {math.degrees(linkage.bodies[name].angle + travel):.4g} degrees")
+        else:
+            found.append(f"length of {name} = {1e3 * (linkage.actuators[name].start_length + travel):.4g} mm")
+    return " and ".join(found)
+
+
+def _value(conditions: Conditions, part: tuple[str, str], moved: Matrix) -> str:
+    """The angle or the length of a driven part in a posture."""
+    (kind, name), kinetics = part, conditions.kinetics
+    value = float(kinetics.values(moved / conditions.arms)[kinetics.owners().index(part)])
+    if kind == "cranks":
+        return f"{math.degrees(conditions.linkage.bodies[name].angle + value):.4g} degrees"
+    return f"{1e3 * value:.4g} mm"
+
+
+def _angles(conditions: Conditions, moved: Matrix) -> str:
+    """The angles of all bodies in a posture."""
+    turns = np.degrees(moved[2::3] / conditions.arms[2::3]).tolist()
+    return ", ".join(
+        f"{name} at {math.degrees(body.angle) + math.remainder(turn, 360.0):.4g} degrees"
+        for (name, body), turn in zip(conditions.linkage.bodies.items(), turns, strict=True)
+    )
+
+
+def _lengths(conditions: Conditions) -> str:
+    """Distances of the pins of each body that has two of them [mm], in words."""
+    points: dict[str, list[Vector2]] = {}
+    for pin in conditions.linkage.pins.values():
+        points.setdefault(pin.first, []).append(pin.first_point)
+        points.setdefault(pin.second, []).append(pin.second_point)
+    sides = {body: 1e3 * math.dist(*found) for body, found in points.items() if len(found) == 2}
+    said = ", ".join(f"{body} {length:.4g}" for body, length in sides.items())
+    return f" (between pins: {said} mm)" if said else ""

@@ -11,15 +11,14 @@ rigid canopy, repeats other rows. `independent` leaves such rows out, by which n
 shared among rows that repeat each other is beyond rigid bodies; see `reactions`.
 """
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import Any, Literal
 
 import numpy as np
 
-from support_exudyn.mechanics.body_motion import Motion, cross
+from support_exudyn.mechanics.body_motion import BodyMotion, Motion, cross
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND, Gear, LinearActuator, Linkage, PinPlace, Slide
 from support_exudyn.model.plane_geometry import rotated
@@ -29,14 +28,14 @@ from user_forces.values.value import Vector3
 SAME = 1e-6  # share of a row that must be new, else it repeats others
 SHIFT = 1e-5  # [m], [rad] by which bodies move on, at most, to compute how rows turn with them
 STILL = 1e-6  # [m/s], [rad/s] below which they move on by less: what is left then is far below rounding
+NO_LENGTH = np.finfo(np.float64).tiny  # [m], so that nothing is divided by zero
 Kind = Literal["actuator", "across_1", "across_2", "along", "tilt_1", "tilt_2", "turn"]
 SHIFTS: tuple[Kind, ...] = ("across_1", "across_2", "along")
 TURNS: tuple[Kind, ...] = ("tilt_1", "tilt_2", "turn")  # what holds turns about directions, not shifts
-FindArm = Callable[[str, Any], Series]
 
 
 @dataclass(frozen=True)
-class Constraint(ABC):
+class Constraint:
     """One constraint.
 
     part: field of the linkage that has its joint, such as "pins". name: of the joint. kind: what it holds.
@@ -46,43 +45,23 @@ class Constraint(ABC):
     name: str
     kind: Kind
 
-    @abstractmethod
-    def fill(self, motion: Motion, arm: FindArm, row: Series) -> None:
-        """Add the rate of what is held to a row of zeros (n, freedoms). arm: see `Motion.arm`."""
-
 
 @dataclass(frozen=True)
 class Distance(Constraint):
-    """The distance of foot and head of an actuator."""
-
-    ends: LinearActuator | SpatialActuator
-
-    def fill(self, motion: Motion, arm: FindArm, row: Series) -> None:
-        """See `Constraint`."""
-        along, ends = direction(motion, self.ends), self.ends
-        _add_point(motion, ends.head, arm(ends.head, ends.head_point), along, row)
-        _add_point(motion, ends.foot, arm(ends.foot, ends.foot_point), -along, row)
-
-
-@dataclass(frozen=True)
-class Shift(Constraint):
-    """A point of the second body from one of the first along a direction, which turns with the carrier."""
+    """The distance of a point of the second body from one of the first."""
 
     first: str
     first_point: Any
     second: str
     second_point: Any
+
+
+@dataclass(frozen=True)
+class Shift(Distance):
+    """A point of the second body from one of the first along a direction, which turns with the carrier."""
+
     direction: tuple[float, ...]
     carrier: str
-
-    def fill(self, motion: Motion, arm: FindArm, row: Series) -> None:
-        """See `Constraint`."""
-        along = motion.carried(self.carrier, self.direction)
-        _add_point(motion, self.second, arm(self.second, self.second_point), along, row)
-        _add_point(motion, self.first, arm(self.first, self.first_point), -along, row)
-        if self.carrier != GROUND:
-            apart = motion.place(self.second, self.second_point) - motion.place(self.first, self.first_point)
-            _add_turn(motion, self.carrier, motion.moment(along, apart), row)
 
 
 @dataclass(frozen=True)
@@ -96,12 +75,88 @@ class Turn(Constraint):
     direction: tuple[float, ...] = ()
     carrier: str = GROUND
 
-    def fill(self, motion: Motion, arm: FindArm, row: Series) -> None:
-        """See `Constraint`."""
-        del arm
-        about = motion.carried(self.carrier, self.direction) if self.direction else np.ones((motion.count, 1))
-        for body, share in self.shares:
-            _add_turn(motion, body, share * about, row)
+
+class ConstraintRows:
+    """Constraints of a linkage as arrays: all of them are evaluated at once, at all instants of a motion.
+
+    Bodies go by their numbers in the linkage; the ground is the last.
+
+    Arguments:
+        linkage: in its start posture.
+        held: what is held.
+    """
+
+    def __init__(self, linkage: Linkage | SpatialLinkage, held: Sequence[Constraint]) -> None:
+        number = {name: n for n, name in enumerate((*linkage.bodies, GROUND))}
+        axes = 3 if isinstance(linkage, SpatialLinkage) else 2
+        self._count = len(held)
+        lines = [one for one in held if isinstance(one, Distance)]
+        turns = [one for one in held if isinstance(one, Turn)]
+        self._lines = np.array([n for n, one in enumerate(held) if isinstance(one, Distance)], dtype=int)
+        self._turns = np.array([n for n, one in enumerate(held) if isinstance(one, Turn)], dtype=int)
+        # lines from a point of the first body to one of the second
+        starts = np.array([*(body.centre for body in linkage.bodies.values()), (0.0,) * axes])
+        self._ends = np.array([[number[one.first], number[one.second]] for one in lines], dtype=int)
+        self._ends = self._ends.reshape(-1, 2).T
+        places = np.array([[one.first_point, one.second_point] for one in lines]).reshape(-1, 2, axes)
+        self._arms = np.swapaxes(places, 0, 1) - starts[self._ends]
+        shifts = [one if isinstance(one, Shift) else None for one in lines]
+        self._distances = np.array([one is None for one in shifts], dtype=bool)
+        self._along = np.array([one.direction if one else (0.0,) * axes for one in shifts]).reshape(-1, axes)
+        self._carriers = np.array([number[one.carrier if one else GROUND] for one in shifts], dtype=int)
+        # sums of turns
+        self._shares = np.zeros((len(turns), len(number)))
+        for row, one in enumerate(turns):
+            for body, share in one.shares:
+                self._shares[row, number[body]] += share
+        self._about = np.array([one.direction for one in turns]) if axes == 3 else None
+        self._turned_by = np.array([number[one.carrier] for one in turns], dtype=int)
+
+    def _between(self, motion: Motion) -> tuple[Series, Series, Series]:
+        """Arms of both points (n, 2, k, d) [m], the way between them (n, k, d) [m], and the direction of it."""
+        arms = motion.turned(self._ends, self._arms)
+        places = motion.centres[:, self._ends] + arms
+        apart = places[:, 1] - places[:, 0]
+        along = motion.turned(self._carriers, self._along)
+        span = apart[:, self._distances]
+        lengths = np.linalg.norm(span, axis=-1, keepdims=True)
+        along[:, self._distances] = span / np.maximum(lengths, NO_LENGTH)
+        return arms, apart, along
+
+    def matrix(self, motion: Motion) -> Series:
+        """C: the rows of all that is held at every instant, (n, rows, freedoms)."""
+        bodies, shifts = len(motion.linkage.bodies), motion.SHIFTS
+        # instants are the last axis while rows are added up: several times faster for many
+        found = np.zeros((self._count, bodies + 1, motion.FREEDOMS, motion.count))
+
+        def add(rows: Series, owners: Series, columns: slice, parts: Series) -> None:
+            found[rows, owners, columns] += np.moveaxis(parts, 0, -1)
+
+        if self._lines.size:
+            arms, apart, along = self._between(motion)
+            for end, sign in ((1, 1.0), (0, -1.0)):
+                add(self._lines, self._ends[end], slice(shifts), sign * along)
+                add(
+                    self._lines, self._ends[end], slice(shifts, None), sign * motion.moment(arms[:, end], along)
+                )
+            add(self._lines, self._carriers, slice(shifts, None), motion.moment(along, apart))
+        if self._turns.size:
+            plane = np.ones((1, len(self._turns), 1))  # in it all turn about the same
+            about = plane if self._about is None else motion.turned(self._turned_by, self._about)
+            found[self._turns, :, shifts:] += self._shares[..., None, None] * np.moveaxis(about, 0, -1)[:, None]
+        width = bodies * motion.FREEDOMS
+        by_instant = np.moveaxis(found[:, :bodies].reshape(self._count, width, motion.count), -1, 0)
+        return np.ascontiguousarray(by_instant)
+
+    def values(self, motion: BodyMotion) -> Series:
+        """What is held at every instant of a motion in the plane, (n, rows): lengths [m] and turns [rad]."""
+        found = np.zeros((motion.count, self._count))
+        if self._lines.size:
+            _, apart, along = self._between(motion)
+            found[:, self._lines] = np.einsum("nki,nki->nk", along, apart)
+        if self._turns.size:
+            found[:, self._turns] = motion.position[:, 2::3] @ self._shares[:, :-1].T
+        return found
 
 
 def direction(motion: Motion, actuator: LinearActuator | SpatialActuator) -> Series:
@@ -110,35 +165,17 @@ def direction(motion: Motion, actuator: LinearActuator | SpatialActuator) -> Ser
     return np.asarray(span / np.linalg.norm(span, axis=1)[:, None])
 
 
-def _add_point(motion: Motion, body: str, arm: Series, along: Series, row: Series) -> None:
-    """Add the rate of a point of a body in a direction (n, d)."""
-    if body != GROUND:
-        i = motion.first(body)
-        row[:, i : i + motion.SHIFTS] += along
-        row[:, i + motion.SHIFTS : i + motion.FREEDOMS] += motion.moment(arm, along)
-
-
-def _add_turn(motion: Motion, body: str, about: Series, row: Series) -> None:
-    """Add the angular velocity of a body about a direction (n, 1 or 3)."""
-    if body != GROUND:
-        i = motion.first(body)
-        row[:, i + motion.SHIFTS : i + motion.FREEDOMS] += about
-
-
 def matrix(motion: Motion, held: Sequence[Constraint]) -> Series:
     """C: the rows of all that is held at every instant, (n, rows, freedoms)."""
-    found = np.zeros((motion.count, len(held), motion.FREEDOMS * len(motion.linkage.bodies)))
-    arm = cache(motion.arm)  # the rows of a joint ask for the same
-    for place, constraint in enumerate(held):
-        constraint.fill(motion, arm, found[:, place])
-    return found
+    return ConstraintRows(motion.linkage, held).matrix(motion)
 
 
 def turning(motion: Motion, held: Sequence[Constraint]) -> Series:
     """C' v at every instant, (n, rows): by how much the rows change as the bodies move on."""
     velocities = motion.velocities
     time = SHIFT / np.maximum(np.abs(velocities).max(axis=1, initial=0.0), STILL)
-    changed = matrix(motion.later(time), held) - matrix(motion.later(-time), held)
+    rows = ConstraintRows(motion.linkage, held)
+    changed = rows.matrix(motion.later(time)) - rows.matrix(motion.later(-time))
     found: Series = np.einsum("nrk,nk->nr", changed, velocities) / (2.0 * time)[:, None]
     return found
 
@@ -168,6 +205,11 @@ def joints_held(held: Sequence[Constraint]) -> dict[tuple[str, str], slice]:
     return {owner: slice(owners.index(owner), owners.index(owner) + owners.count(owner)) for owner in owners}
 
 
+def _actuator(name: str, one: LinearActuator | SpatialActuator) -> Constraint:
+    """A rigid actuator."""
+    return Distance("actuators", name, "actuator", one.foot, one.foot_point, one.head, one.head_point)
+
+
 # --- in the plane ---
 
 
@@ -180,7 +222,7 @@ def constraints_of(
     """
     pins, actuators = linkage.pins if ideal is None else ideal, linkage.actuators if rigid is None else rigid
     found = [row for name in pins for row in pin(name, linkage.pins[name])]
-    found += [Distance("actuators", name, "actuator", linkage.actuators[name]) for name in actuators]
+    found += [_actuator(name, linkage.actuators[name]) for name in actuators]
     found += [Turn("cranks", name, "turn", ((one.body, 1.0),)) for name, one in linkage.cranks.items()]
     found += [row for name, one in linkage.slides.items() for row in _guide(name, one)]
     return found + [_gear(name, one) for name, one in linkage.gears.items()]
@@ -249,4 +291,4 @@ def constraints_in_space(
     rows += [bearing_row(name, one, "along") for name, one in bearings if "along" in one.holds]
     rows += [bearing_row(name, one, kind) for name, one in closed if "tilt" in one.holds for kind in TURNS[:2]]
     rows += [bearing_row(name, one, "turn") for name, one in bearings if "turn" in one.holds]
-    return rows + [Distance("actuators", name, "actuator", linkage.actuators[name]) for name in rigid]
+    return rows + [_actuator(name, linkage.actuators[name]) for name in rigid]

@@ -7,22 +7,21 @@ a contact did at the records follows from the motion of its bodies and what it r
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from support_exudyn.mechanics.body_motion import BodyMotion, Motion
+from support_exudyn.mechanics.body_motion import Motion
 from support_exudyn.mechanics.constraints import Shift, matrix
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
-from support_exudyn.model.guides import Guide, GuideContact
-from support_exudyn.model.linkage import GROUND, Linkage, PinPlace, Slide
+from support_exudyn.model.guides import Guide
+from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.pins import ClearancePin
-from support_exudyn.model.plane_geometry import minus, plus, rotated
+from support_exudyn.model.plane_geometry import plus, rotated
 from support_exudyn.model.to_space import at
 from user_forces.contact import SHALLOWEST, Contact
 from user_forces.contact_state import PinMemory
@@ -102,31 +101,45 @@ def contact_rate(motion: Motion, place: Any, axes: Matrix) -> Matrix:
     return np.asarray(matrix(motion, rows)[0])
 
 
-class ContactPlace(ABC):
-    """A place at which two bodies may make contact.
+@dataclass(frozen=True)
+class ContactPlace:
+    """A place at which two bodies may make contact: a journal in its bore, or a point between walls.
 
-    of: what of the scenario it belongs to, such as "pins.rear_base". contact: geometry and laws. bore, journal:
-    names of the body that encloses, and of that which is enclosed. bore_point, journal_point: their centres in
-    the start posture [m]; of a slot a point of its middle line, and the corner. play: by how much the journal
-    can go either way [m].
+    Arguments:
+        of: what of the scenario the place belongs to, such as "pins.rear_base".
+        stem: what its channels begin with, such as "pin.rear_base".
+        contact: geometry and laws.
+        bore, journal: names of the body that encloses, and of that which is enclosed.
+        bore_point, journal_point: their centres in the start posture [m]; of a slot a point of its middle line,
+            and the corner.
+        play: by how much the journal can go either way [m].
+        direction: of a slot in the start posture [rad]; of a bore 0.
+        arm: of corners at two ends of a block, from its middle [m]; else 0.
+        on_block: whether the bore is the face of a falling block, which does not turn.
     """
 
     of: str
+    stem: str
     contact: Contact
     bore: str
     journal: str
     bore_point: Vector2
     journal_point: Vector2
     play: float
+    direction: float = 0.0
+    arm: float = 0.0
+    on_block: bool = False
 
     @property
-    @abstractmethod
-    def stem(self) -> str:
-        """What its channels begin with, such as "pin.rear_base"."""
+    def in_slot(self) -> bool:
+        """Whether only what is across counts."""
+        return self.contact.bearing.is_slot
 
-    @abstractmethod
     def axes(self, linkage: Linkage) -> float:
-        """Angle [rad] of the bore's axes in the start posture."""
+        """Angle [rad] of the bore's axes in the start posture: those of its body, or along a slot."""
+        if self.in_slot:
+            return self.direction
+        return 0.0 if self.bore == GROUND else linkage.bodies[self.bore].angle
 
     def rate(self, motion: Motion, axes: Matrix = PLANE) -> Matrix:
         """The matrix of the eccentricity's rate, or of slip and depth in a slot (2, freedoms).
@@ -136,9 +149,40 @@ class ContactPlace(ABC):
         """
         return contact_rate(motion, self, axes)
 
-    @abstractmethod
-    def series(self, motion: Any, memories: Series | Sequence[PinMemory]) -> ContactSeries:
-        """The contact at every record, with the memory that it has there."""
+    def series(self, motion: Motion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
+        """The contact at every record in the ground's axes, with the memory that it has there."""
+        bore, journal = motion.point(self.bore, self.bore_point), motion.point(self.journal, self.journal_point)
+        apart, rate = journal.position - bore.position, journal.velocity - bore.velocity
+        if not self.in_slot:
+            (x, y), (vx, vy) = apart.T, rate.T
+            moving = RelativeMotion(x, y, vx, vy, bore.spin, journal.spin)
+            return series(self.contact, moving, memories)
+        along, across = (motion.carried(self.bore, one) for one in self._directions(motion.SHIFTS))
+        x, y = _dot(apart, along), _dot(apart, across)
+        # in space only blocks have such a contact, which do not turn
+        spins = [one.spin if motion.SHIFTS == 2 else one.spin[:, 2] for one in (bore, journal)]
+        rise = _dot(rate, across) - spins[0] * x
+        found = series(
+            self.contact, RelativeMotion(np.zeros_like(x), y, _dot(rate, along), rise, *spins), memories
+        )
+        force = found.force_x[:, None] * along + found.force_y[:, None] * across
+        return replace(
+            found,
+            force_x=force[:, 0],
+            force_y=force[:, 1],
+            eccentricity_x=y * across[:, 0],
+            eccentricity_y=y * across[:, 1],
+        )
+
+    def _directions(self, dimensions: int) -> list[tuple[float, ...]]:
+        """Along a slot and across it, start posture."""
+        c, s = math.cos(self.direction), math.sin(self.direction)
+        return [(c, s, 0.0)[:dimensions], (-s, c, 0.0)[:dimensions]]
+
+    def in_space(self, lateral: float) -> ContactPlace:
+        """The same face of a block, so far to the right [m]."""
+        ends: dict[str, Any] = {end: at(getattr(self, end), lateral) for end in ("bore_point", "journal_point")}
+        return replace(self, **ends)
 
     def push(self, motion: Motion, contact: ContactSeries) -> tuple[Series, Series]:
         """Force of the bore on the journal [N], and the contact point at which it acts [m], (n, d) each."""
@@ -150,194 +194,86 @@ class ContactPlace(ABC):
         vectors[:, :2] = (contact.force_x, contact.force_y), (arm * x, arm * y)
         return vectors[0].T, point + vectors[1].T
 
-    @abstractmethod
     def depth(self, channels: Mapping[str, HasValues]) -> Series | None:
-        """The depth (n,) [m] among the channels of a run; None if it is not there."""
-
-    @abstractmethod
-    def loads(self, reactions: Mapping[str, Series]) -> Series:
-        """Force on the contact (2,) [N], from what constraints carry in its place, by pin or slide."""
-
-
-@dataclass(frozen=True)
-class PinContactPlace(ContactPlace):
-    """A clearance pin."""
-
-    name: str
-    place: PinPlace
-    pin: ClearancePin
-
-    def __post_init__(self) -> None:
-        """Tell bore and journal by the pin."""
-        ends = [(self.place.first, self.place.first_point), (self.place.second, self.place.second_point)]
-        bore, journal = ends if self.pin.bore == "first" else ends[::-1]
-        known = {
-            "of": f"pins.{self.name}",
-            "contact": self.pin.contact,
-            "play": self.pin.contact.bearing.clearance,
-        }
-        known |= {"bore": bore[0], "bore_point": bore[1], "journal": journal[0], "journal_point": journal[1]}
-        for name, item in known.items():
-            object.__setattr__(self, name, item)
-
-    def axes(self, linkage: Linkage) -> float:
-        """Those of the bore's body."""
-        return 0.0 if self.bore == GROUND else linkage.bodies[self.bore].angle
-
-    def series(self, motion: BodyMotion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
-        """The journal in its bore."""
-        bore, journal = motion.point(self.bore, self.bore_point), motion.point(self.journal, self.journal_point)
-        x, y = (journal.position - bore.position).T
-        vx, vy = (journal.velocity - bore.velocity).T
-        return series(self.contact, RelativeMotion(x, y, vx, vy, bore.spin, journal.spin), memories)
-
-    @property
-    def stem(self) -> str:
-        """That of the pin."""
-        return f"pin.{self.name}"
-
-    def depth(self, channels: Mapping[str, HasValues]) -> Series | None:
-        """That of the pin."""
+        """The depth (n,) [m] among the channels of a run, which is a gap that is negative; None without."""
+        gap = channels.get(f"{self.stem}.gap")
         found = channels.get(f"{self.stem}.depth")
-        return None if found is None else found.values
+        return -gap.values if gap is not None else None if found is None else found.values
 
     def loads(self, reactions: Mapping[str, Series]) -> Series:
-        """Force of the ideal pin."""
-        return reactions[self.of]
+        """Force on the contact (2,) [N] from what ideal joints carry in its place, by pin or guide; else 0.
 
-
-@dataclass(frozen=True)
-class GuideContactPlace(ContactPlace):
-    """A corner of a block, or a round pin, in a guide with clearance."""
-
-    name: str
-    slide: Slide
-    part: GuideContact
-    play: float
-
-    def __post_init__(self) -> None:
-        """Tell corner and middle line by the slide."""
-        slide, (point, middle, contact) = self.slide, self.part
-        guide = self.name.rpartition(".")[0]
-        known: dict[str, object] = {"of": f"guides.{guide}", "contact": contact}
-        known |= {"bore": slide.against, "journal": slide.body}
-        known["bore_point"] = plus(slide.point, rotated((0.0, middle), slide.direction))
-        known["journal_point"] = plus(slide.point, rotated(point, slide.direction))
-        for name, item in known.items():
-            object.__setattr__(self, name, item)
-
-    def axes(self, linkage: Linkage) -> float:
-        """Along the guide and across."""
-        del linkage
-        return self.slide.direction
-
-    def series(self, motion: Motion, memories: Series | Sequence[PinMemory]) -> ContactSeries:
-        """The corner between the walls, in the ground's axes."""
-        corner, origin = (
-            motion.point(self.journal, self.journal_point),
-            motion.point(self.bore, self.bore_point),
-        )
-        along, across = (motion.carried(self.bore, one) for one in self._directions(motion.SHIFTS))
-        apart, rate = corner.position - origin.position, corner.velocity - origin.velocity
-        x, y = _dot(apart, along), _dot(apart, across)
-        # in space only blocks have such a contact, which do not turn
-        spins = [one.spin if motion.SHIFTS == 2 else one.spin[:, 2] for one in (origin, corner)]
-        rise = _dot(rate, across) - spins[0] * x
-        moving = RelativeMotion(np.zeros_like(x), y, _dot(rate, along), rise, *spins)
-        found = series(self.contact, moving, memories)
-        force = found.force_x[:, None] * along + found.force_y[:, None] * across
-        return replace(
-            found,
-            force_x=force[:, 0],
-            force_y=force[:, 1],
-            eccentricity_x=y * across[:, 0],
-            eccentricity_y=y * across[:, 1],
-        )
-
-    @property
-    def stem(self) -> str:
-        """That of the corner."""
-        return f"guide.{self.name}"
-
-    def depth(self, channels: Mapping[str, HasValues]) -> Series | None:
-        """A gap that is negative."""
-        found = channels.get(f"{self.stem}.gap")
-        return None if found is None else -found.values
-
-    def loads(self, reactions: Mapping[str, Series]) -> Series:
-        """Its part of the ideal guide's force and moment: two corners carry both."""
+        Two corners carry both the force and the moment of a guide.
+        """
+        if self.of not in reactions:  # a block, in whose place no joint stands
+            return np.zeros(2)
+        if not self.in_slot:
+            return reactions[self.of]
         force, moment = (*reactions[self.of], 0.0)[:2]
-        arm = abs(self.part.point[0])
-        share = abs(force) if arm == 0.0 else 0.5 * (abs(force) + abs(moment) / arm)
-        across = np.array([-math.sin(self.slide.direction), math.cos(self.slide.direction)])
-        return np.asarray(share * across)
-
-    def _directions(self, dimensions: int) -> list[tuple[float, ...]]:
-        """Of the guide and across it, start posture."""
-        c, s = math.cos(self.slide.direction), math.sin(self.slide.direction)
-        return [(c, s, 0.0)[:dimensions], (-s, c, 0.0)[:dimensions]]
-
-
-@dataclass(frozen=True)
-class BlockContactPlace(GuideContactPlace):
-    """The face of a falling block, which a point of the machine may meet: a slot with one wall.
-
-    The block is the bore. It has no play; that by which steps and errors go is the depth of its first blow, or
-    PLAY if that is less.
-    """
-
-    @property
-    def stem(self) -> str:
-        """The block's name."""
-        return self.name
-
-    def __post_init__(self) -> None:
-        """Tell of what load it is."""
-        super().__post_init__()
-        object.__setattr__(self, "of", f"loads.{self.name}")
-
-    def loads(self, reactions: Mapping[str, Series]) -> Series:
-        """Nothing: no joint stands in its place."""
-        del reactions
-        return np.zeros(2)
-
-    def in_space(self, lateral: float) -> BlockContactPlace:
-        """The same face, so far to the right [m]."""
-        found = replace(self)
-        for end in ("bore_point", "journal_point"):
-            object.__setattr__(found, end, at(getattr(self, end), lateral))
-        return found
+        share = 0.5 * (abs(force) + abs(moment) / self.arm) if self.arm else abs(force)
+        return np.asarray(share * np.array([-math.sin(self.direction), math.cos(self.direction)]))
 
 
 def contact_places(
     linkage: Linkage, pins: Mapping[str, ClearancePin], guides: Mapping[str, Guide]
 ) -> dict[str, ContactPlace]:
     """All places by name: of pins, then of guides, as "guide.upper_left"."""
-    found: dict[str, ContactPlace] = {n: PinContactPlace(n, linkage.pins[n], pin) for n, pin in pins.items()}
-    return found | dict(_of_guides(linkage, guides))
-
-
-def _of_guides(linkage: Linkage, guides: Mapping[str, Guide]) -> Iterator[tuple[str, ContactPlace]]:
+    found: dict[str, ContactPlace] = {}
+    for name, pin in pins.items():
+        place = linkage.pins[name]
+        ends = [(place.first, place.first_point), (place.second, place.second_point)]
+        (bore, bore_point), (journal, point) = ends if pin.bore == "first" else ends[::-1]
+        found[name] = ContactPlace(
+            of=f"pins.{name}",
+            stem=f"pin.{name}",
+            contact=pin.contact,
+            bore=bore,
+            journal=journal,
+            bore_point=bore_point,
+            journal_point=point,
+            play=pin.contact.bearing.clearance,
+        )
     for name, guide in guides.items():
-        for part, contact in guide.contacts().items():
-            slide = linkage.slides[name]
-            play = contact.contact.bearing.clearance - abs(contact.point[1])
-            yield f"{name}.{part}", GuideContactPlace(f"{name}.{part}", slide, contact, play)
+        slide = linkage.slides[name]
+        for part, (corner, middle, contact) in guide.contacts().items():
+            found[f"{name}.{part}"] = ContactPlace(
+                of=f"guides.{name}",
+                stem=f"guide.{name}.{part}",
+                contact=contact,
+                bore=slide.against,
+                journal=slide.body,
+                bore_point=plus(slide.point, rotated((0.0, middle), slide.direction)),
+                journal_point=plus(slide.point, rotated(corner, slide.direction)),
+                play=contact.bearing.clearance - abs(corner[1]),
+                direction=slide.direction,
+                arm=abs(corner[0]),
+            )
+    return found
+
+
+def block_places(blocks: Mapping[str, FallingBlock], gravity: Vector2) -> dict[str, ContactPlace]:
+    """The faces of blocks, which a point of the machine may meet, by the blocks' names, under gravity [m/s^2].
+
+    The block is the bore, a slot with one wall. It has no play; that by which steps and errors go is the depth
+    of its first blow, or PLAY if that is less.
+    """
+    return {
+        name: ContactPlace(
+            of=f"loads.{name}",
+            stem=name,
+            contact=block.contact,
+            bore=name,
+            journal=block.body,
+            bore_point=block.reference,
+            journal_point=block.point,
+            play=min(block.first_depth(gravity) or PLAY, PLAY),
+            direction=block.slope,
+            on_block=True,
+        )
+        for name, block in blocks.items()
+    }
 
 
 def _dot(one: Series, other: Series) -> Series:
     found: Series = np.einsum("ni,ni->n", one, other)
     return found
-
-
-def block_places(blocks: Mapping[str, FallingBlock], gravity: Vector2) -> dict[str, BlockContactPlace]:
-    """The faces of blocks by the blocks' names, under gravity [m/s^2]."""
-    return {
-        name: BlockContactPlace(
-            name,
-            Slide(body=block.body, point=block.reference, direction=block.slope, against=name),
-            GuideContact(rotated(minus(block.point, block.reference), -block.slope), 0.0, block.contact),
-            min(block.first_depth(gravity) or PLAY, PLAY),
-        )
-        for name, block in blocks.items()
-    }

@@ -8,8 +8,7 @@ from itertools import pairwise, takewhile
 
 import numpy as np
 
-from support_exudyn.mechanics.closing import Conditions
-from support_exudyn.mechanics.continuation import conditions_of, moved_on
+from support_exudyn.mechanics.closing import Conditions, conditions_of, moved_on
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import Linkage
@@ -20,10 +19,10 @@ MOST_TURNS = 64  # of a crank that moves the linkage alone, until all has come b
 EVERY = 4  # samples of a run of several drives: in each such one a crank that turns fast turns right round
 SAME = 1e-7  # of the size: how near all has to come back
 DETERMINED = 1e-9  # singular values below this are of movements that no drive determines
-SAMPLES = 32  # of a stretch without breaks, and of a period
+SAMPLES = 16  # of a stretch without breaks, and of a period
 MOST_SAMPLES = 1024  # of a stretch; an oscillation that lasts longer has reached its extremes by then
+HALVINGS = 60
 MOST_REMEMBERED = 64
-Travels = Mapping[str, float]
 
 _followed: list[tuple[Linkage, dict[str, Drive], float]] = []  # scenarios are checked again and again
 
@@ -31,9 +30,9 @@ _followed: list[tuple[Linkage, dict[str, Drive], float]] = []  # scenarios are c
 def follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> None:
     """Raise InputError unless the linkage closes from the start posture on, as the drives go.
 
-    If one drive alone moves, all that it does within its span is looked at, of a crank no more than until the
-    linkage has come back to its start. If several move, postures are looked at in order of time; of a crank
-    that turns over and over, whole revolutions are left out.
+    If all parts that move do so alike, they are followed over their span, a crank no farther than until the
+    linkage has come back to its start. Otherwise postures are computed in order of time; of a crank that turns
+    over and over, whole revolutions are left out.
 
     A linkage that can move with all drives held is not checked: forces decide where it goes. Neither is a
     linkage of which a driven part has no drive, such as a cylinder with an inlet. Nothing is checked from the
@@ -46,7 +45,15 @@ def follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> No
     """
     if not drives.keys() >= set(linkage.driven) or (linkage, drives, duration) in _followed:
         return
-    _follow(linkage, drives, duration)
+    conditions = conditions_of(linkage)
+    values = np.linalg.svd(conditions.rows(conditions.still), compute_uv=False)
+    moving = {name: drive for name, drive in drives.items() if drive.span(duration) != (0.0, 0.0)}
+    if moving and np.count_nonzero(values > DETERMINED) == conditions.still.size:
+        first, *others = moving.values()
+        if all(drive == first for drive in others) and not (others and moving.keys() & linkage.cranks.keys()):
+            _alike(conditions, tuple(moving), first, duration)
+        else:
+            _together(conditions, moving, duration)
     _followed[:] = [*_followed[1 - MOST_REMEMBERED :], (linkage, dict(drives), duration)]
 
 
@@ -60,33 +67,20 @@ def times(drives: Sequence[Drive], duration: float) -> Iterator[float]:
         yield from np.linspace(first, last, count + 1)[1:].tolist()
 
 
-def _follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> None:
-    conditions = conditions_of(linkage)
-    start = np.zeros(3 * len(linkage.bodies))
-    values = np.linalg.svd(conditions.rows(start), compute_uv=False)
-    if np.count_nonzero(values > DETERMINED) < start.size:
-        return
-    moving = {name: drive for name, drive in drives.items() if drive.span(duration) != (0.0, 0.0)}
-    if len(moving) == 1:
-        ((name, drive),) = moving.items()
-        _alone(conditions, name, drive, duration)
-    elif moving:
-        _together(conditions, moving, duration)
-
-
-def _alone(conditions: Conditions, name: str, drive: Drive, duration: float) -> None:
-    """Follow the only drive that moves, over its span."""
+def _alike(conditions: Conditions, names: Sequence[str], drive: Drive, duration: float) -> None:
+    """Follow a crank, or actuators that extend alike, over the span of their drive."""
     extensions = list(takewhile(math.isfinite, map(drive.extension, times((drive,), duration))))
     low, high = min(0.0, *extensions), max(0.0, *extensions)
-    crank = name in conditions.linkage.cranks
-    start = np.zeros(3 * len(conditions.linkage.bodies))
+    crank = names[0] in conditions.linkage.cranks
     for goal in (one for one in (high, low) if one != 0.0):
-        moved, reached = start, 0.0
+        moved, reached = conditions.still, 0.0
         for _ in range(MOST_TURNS):
             following = reached + math.copysign(min(abs(goal - reached), TURN), goal) if crank else goal
-            moved, share = moved_on(conditions, moved, {name: following})
+            moved, share = moved_on(conditions, moved, dict.fromkeys(names, following))
             if share < 1.0:
-                _refuse(conditions.linkage, drive, name, reached + share * (following - reached), duration)
+                limit = reached + share * (following - reached)
+                when = _reached(drive, limit, duration)
+                raise InputError(_message(names, dict.fromkeys(names, limit), conditions.linkage, when))
             reached = following
             if crank and _has_come_back(conditions, moved):
                 return
@@ -101,30 +95,28 @@ def _has_come_back(conditions: Conditions, moved: Matrix) -> bool:
     return bool(np.abs(off).max() < SAME * conditions.size)
 
 
-def _refuse(linkage: Linkage, drive: Drive, name: str, limit: float, duration: float) -> None:
-    """Name the drive, and when it comes to its limit."""
-    beyond = math.copysign(1.0, limit) if limit else 0.0
+def _reached(drive: Drive, limit: float, duration: float) -> float:
+    """The time [s] at which a drive first goes beyond a limit."""
+
+    def beyond(time: float) -> bool:
+        extension = drive.extension(time)
+        return (extension - limit) * limit > 0.0 if limit else extension != 0.0
+
     last, first = 0.0, duration
     for time in times((drive,), duration):
-        extension = drive.extension(time)
-        if beyond * (extension - limit) > 0.0 if beyond else extension != 0.0:
+        if beyond(time):
             first = time
             break
         last = time
-    for _ in range(60):
+    for _ in range(HALVINGS):
         middle = 0.5 * (last + first)
-        extension = drive.extension(middle)
-        if beyond * (extension - limit) > 0.0 if beyond else extension != 0.0:
-            first = middle
-        else:
-            last = middle
-    raise InputError(_said([name], {name: limit}, linkage, last))
+        last, first = (last, middle) if beyond(middle) else (middle, first)
+    return last
 
 
 def _together(conditions: Conditions, drives: Mapping[str, Drive], duration: float) -> None:
     """Follow several drives in order of time."""
-    linkage = conditions.linkage
-    moved = np.zeros(3 * len(linkage.bodies))
+    linkage, moved = conditions.linkage, conditions.still
     last, gone = 0.0, dict.fromkeys(drives, 0.0)
     true = {name: drive.extension(0.0) for name, drive in drives.items()}
     for number, time in enumerate(times(tuple(drives.values()), duration)):
@@ -140,23 +132,16 @@ def _together(conditions: Conditions, drives: Mapping[str, Drive], duration: flo
             goal[name] = gone[name] + step
         reached, share = moved_on(conditions, moved, goal)
         if share < 1.0:
-            stuck = [
-                one for one in drives if goal[one] != gone[one] and _locks(conditions, moved, gone, goal, one)
-            ]
-            told = stuck if len(stuck) == 1 else list(drives)
+            # which of them cannot go on by itself
+            alone = {name: {**gone, name: goal[name]} for name in drives if goal[name] != gone[name]}
+            stuck = [name for name, ends in alone.items() if moved_on(conditions, moved, ends)[1] < 1.0]
             when = last + share * (time - last)
-            raise InputError(
-                _said(told, {name: drive.extension(when) for name, drive in drives.items()}, linkage, when)
-            )
+            extensions = {name: drive.extension(when) for name, drive in drives.items()}
+            raise InputError(_message(stuck if len(stuck) == 1 else list(drives), extensions, linkage, when))
         last, moved, gone, true = time, reached, goal, following
 
 
-def _locks(conditions: Conditions, moved: Matrix, before: Travels, after: Travels, name: str) -> bool:
-    """Whether one drive cannot go on by itself."""
-    return moved_on(conditions, moved, {**before, name: after[name]})[1] < 1.0
-
-
-def _said(stuck: list[str], extensions: Travels, linkage: Linkage, time: float) -> str:
+def _message(stuck: Sequence[str], extensions: Mapping[str, float], linkage: Linkage, time: float) -> str:
     """The message on drives that cannot be followed beyond a time [s]."""
     reached = ", ".join(
         f"{name} turned by {math.degrees(extension):.4f} degrees"

@@ -24,6 +24,7 @@ from support_exudyn.mechanics.constraints import (
     SAME,
     TURNS,
     Constraint,
+    ConstraintRows,
     Shift,
     constraints_of,
     matrix,
@@ -75,7 +76,11 @@ class Kinetics:
 
     def instant(self, position: Matrix) -> Instant:
         """Masses and constraints at a position (n,)."""
-        return Instant(self.motion(position), self.constraints, self.size)
+        return Instant(self.motion(position), self.constraints, self.size, self._rows)
+
+    @cached_property
+    def _rows(self) -> ConstraintRows:
+        return ConstraintRows(self.linkage, self.constraints)
 
     @cached_property
     def size(self) -> float:
@@ -111,6 +116,10 @@ class Kinetics:
     def rows(self, position: Matrix) -> Matrix:
         """Jacobian C, (m, n), see `constraints_of`."""
         return self.instant(position).rows
+
+    def values(self, position: Matrix) -> Matrix:
+        """What the constraints hold, (m,): lengths [m] and turns [rad]."""
+        return np.asarray(self._rows.values(self.motion(position))[0])
 
     def owners(self) -> list[tuple[str, str]]:
         """Of each of the rows, the field of the linkage and the name of the part that it is of."""
@@ -172,17 +181,19 @@ class Instant:
     """Masses and constraints of one instant, in the plane or in space.
 
     motion: of that instant. held: the constraints. size: length [m] by which turns count where constraints
-    repeat each other.
+    repeat each other. arrays: of the constraints, where they are known.
     """
 
     motion: Motion
     held: Sequence[Constraint]
     size: float = 1.0
+    arrays: ConstraintRows | None = None
 
     @cached_property
     def rows(self) -> Matrix:
         """C, (m, n)."""
-        return np.asarray(matrix(self.motion, self.held)[0])
+        arrays = self.arrays or ConstraintRows(self.motion.linkage, self.held)
+        return np.asarray(arrays.matrix(self.motion)[0])
 
     @cached_property
     def mass(self) -> Matrix:

@@ -14,10 +14,10 @@ import numpy as np
 
 from support_exudyn.mechanics.acting_loads import add_load, load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.continuation import conditions_of, moved_on
+from support_exudyn.mechanics.closing import conditions_of, moved_on, newton
+from support_exudyn.mechanics.constraints import constraints_of
 from support_exudyn.mechanics.drive_acceleration import accelerations
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of, weight_of
-from support_exudyn.mechanics.loaded_journal import loaded_journals
 from support_exudyn.mechanics.pin_stability import (
     LoadedJournal,
     SlidingPin,
@@ -26,7 +26,7 @@ from support_exudyn.mechanics.pin_stability import (
     with_friction,
     without_state,
 )
-from support_exudyn.mechanics.postures import posture
+from support_exudyn.mechanics.reactions import equations
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.drives.drive import Reciprocating
 from support_exudyn.model.pins import ClearancePin
@@ -180,7 +180,7 @@ class _Way:
         The first equilibria follow from the postures with the journal in the middle; with it there the machine
         stands a little otherwise, and with it the load.
         """
-        position, sign = self.position, 1.0 if second else -1.0
+        position, sign, conditions = self.position, 1.0 if second else -1.0, conditions_of(self.closed.linkage)
         for last in (False, True):
             journals = self._journals(name, second, position)
             found = [_slides(journal, contact) for journal in journals]
@@ -188,25 +188,56 @@ class _Way:
                 break
             laid = []
             for at, time, pin in zip(position, self.times.tolist(), found, strict=True):
-                x, y = (0.0, 0.0) if pin is None else (sign * pin.place).tolist()
-                moved = posture(self.closed, at, {name: (x, y)}, _travels(self.scenario, self.closed, time))
-                laid.append(at if moved is None else moved)
+                offset = {} if pin is None else {name: tuple((sign * pin.place).tolist())}
+                targets = conditions.targets(_travels(self.scenario, self.closed, time), offset)
+                moved = newton(conditions, conditions.arms * at, targets, conditions.size)
+                laid.append(at if moved is None else moved / conditions.arms)
             position = np.array(laid)
         return journals, found
 
     def _journals(self, name: str, second: bool, position: Series) -> list[LoadedJournal]:
+        """What the journal feels at all positions (n, 3 bodies), were it free in its bore and all else held."""
         scenario, linkage = self.scenario, self.closed.linkage
         velocity = np.array(
             [self._velocity(at, t) for at, t in zip(position, self.times.tolist(), strict=True)]
         )
         motion = BodyMotion(linkage, position, velocity)
         forces = weight_of(motion, scenario.gravity) + _loaded(scenario, motion, self.times)
-        return loaded_journals(linkage, name, second, position, velocity, self.driven, forces)
+        multipliers = equations(motion, constraints_of(linkage), self.driven).solve(forces)[1]
+        pins = tuple(linkage.pins)
+        first = 2 * pins.index(name)
+        sign = 1.0 if second else -1.0
+        loads = -sign * multipliers[:, first : first + 2]
+        opened = kinetics_of(linkage, [other for other in pins if other != name])
+        return [
+            _journal(opened, name, sign, at, speeds, load)
+            for at, speeds, load in zip(position, velocity, loads, strict=True)
+        ]
 
     def _velocity(self, position: Matrix, time: float) -> Matrix:
         """Of all bodies as they are driven (n,)."""
         rates = self.closed.rates(lambda name: self.scenario.drive_of(name).speed(time))
         return self.closed.respond(position, np.zeros_like(position), rates)[0]
+
+
+def _journal(
+    opened: Kinetics, name: str, sign: float, position: Series, velocity: Series, load: Series
+) -> LoadedJournal:
+    place = opened.linkage.pins[name]
+    rate = sign * opened.relative(position, place)[1]
+    answer = opened.respond(position, rate.T, 0.0)[0]  # velocities by impulses on the journal
+    inverse_mass = rate @ answer
+    by_velocity = answer @ np.linalg.pinv(inverse_mass, hermitian=True)
+    bodies: Sequence[str] = (place.second, place.first) if sign > 0.0 else (place.first, place.second)
+    journal, bore = (opened.turning(position.size, body) for body in bodies)
+    return LoadedJournal(
+        inverse_mass=0.5 * (inverse_mass + inverse_mass.T),
+        load=load,
+        journal_turn=journal @ by_velocity,
+        bore_turn=bore @ by_velocity,
+        journal_spin=float(journal @ velocity),
+        bore_spin=float(bore @ velocity),
+    )
 
 
 def _slides(journal: LoadedJournal, contact: JournalContact) -> SlidingPin | None:

@@ -12,9 +12,8 @@ from pydantic import Field
 
 from support_exudyn.mechanics.channel_table import Parts, channel_definitions
 from support_exudyn.mechanics.channels import ALL_CHANNELS, ChannelDefinition
-from support_exudyn.mechanics.closing import Conditions
+from support_exudyn.mechanics.closing import Conditions, conditions_of
 from support_exudyn.mechanics.contact_places import ContactPlace, block_places, contact_places
-from support_exudyn.mechanics.continuation import conditions_of
 from support_exudyn.mechanics.joint_friction import friction_joints
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
 from support_exudyn.mechanics.law_masses import guide_with_mass, lacks_mass, with_mass

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from support_exudyn.mechanics.acting_loads import largest_forces, strain_rates
+from support_exudyn.mechanics.constraints import joints_held
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of
 from support_exudyn.model.drives.drive import Reciprocating, Stroke
@@ -167,17 +168,11 @@ def _static_loads(scenario: ScenarioData, closed: Kinetics) -> list[dict[str, Ma
     still, forces = np.zeros(weight.size), [weight]
     if scenario.acting_loads:
         forces.append(weight + largest_forces(closed, scenario.acting_loads, scenario.duration))
-    return [_by_joint(closed, closed.respond(still, force, 0.0)[1]) for force in forces]
-
-
-def _by_joint(closed: Kinetics, reactions: Matrix) -> dict[str, Matrix]:
-    """Reactions of pins and guides: force in either direction, force across and moment."""
-    found = {f"pins.{name}": reactions[2 * n : 2 * n + 2] for n, name in enumerate(closed.linkage.pins)}
-    first = closed.driven().stop
-    for name, slide in closed.linkage.slides.items():
-        found[f"guides.{name}"] = reactions[first : first + slide.conditions]
-        first += slide.conditions
-    return found
+    fields = {"pins": "pins", "slides": "guides"}
+    held = joints_held(closed.constraints).items()
+    joints = {f"{fields[part]}.{name}": rows for (part, name), rows in held if part in fields}
+    reactions = [closed.respond(still, force, 0.0)[1] for force in forces]
+    return [{name: one[rows] for name, rows in joints.items()} for one in reactions]
 
 
 def _compliant(scenario: ScenarioData) -> list[float]:

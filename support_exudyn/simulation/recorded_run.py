@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from support_exudyn.scenario.recorded_channels import Channel
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.provenance import WARNINGS
 from user_forces.contact_state import Onset
-from user_forces.values.names import Named, UnknownNameError, no_attribute
+from user_forces.values.names import Named, UnknownNameError
 from user_forces.values.value import InputError, short
 
 
@@ -62,11 +61,6 @@ class RecordedRun:
         kinds["oil_events"] = "hydraulic leg with elements"
         for name, kind in kinds.items():
             object.__setattr__(self, name, Named(getattr(self, name), kind))
-
-    if not TYPE_CHECKING:  # for people: who checks types is told of every wrong name
-
-        def __getattr__(self, name: str) -> Any:
-            return no_attribute(self, name, f"; channels are taken by name, {type(self).__name__}['time']")
 
     @property
     def warnings(self) -> tuple[str, ...]:

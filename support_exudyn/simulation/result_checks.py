@@ -219,5 +219,5 @@ def joints_apart(scenario: Scenario, outcome: Outcome) -> Series | None:
 
 def _apart(motion: BodyMotion, one: tuple[str, Vector2], other: tuple[str, Vector2]) -> tuple[Series, Series]:
     """How far a point of a body is from one of another, in both directions (n,) [m]."""
-    (x, y), (other_x, other_y) = motion.coordinates(*one), motion.coordinates(*other)
+    (x, y), (other_x, other_y) = motion.place(*one).T, motion.place(*other).T
     return x - other_x, y - other_y

@@ -120,29 +120,21 @@ def test_four_bar_closes(turn: float) -> None:
 
 
 @given(turn=st.floats(-0.3, 0.3), canopy=st.floats(-0.3, 0.3))
-def test_canopy_is_rigid_and_turned_as_told(turn: float, canopy: float) -> None:
+def test_bars_and_canopy_are_rigid_and_turned_as_told(turn: float, canopy: float) -> None:
     posture = SUPPORT.posture(turn, canopy)
     assert posture is not None
-    for name in ("front_head", "rear_head", "tip"):
-        before, after = getattr(SUPPORT, name), place(posture, name)
-        # rounding of lengths up to 3 m
-        assert distance(posture.hinge, after) == pytest.approx(distance(SUPPORT.hinge, before), abs=2e-15)
-        turned = degrees(posture.hinge, after) - degrees(SUPPORT.hinge, before)
-        # rounding of angles up to 180 degrees
-        assert math.remainder(turned - math.degrees(canopy), 360.0) == pytest.approx(0.0, abs=1e-12)
-
-
-@given(turn=st.floats(-0.3, 0.3))
-def test_turns_in_a_posture_are_those_of_the_bars(turn: float) -> None:
-    posture = SUPPORT.posture(turn, 0.0)
-    assert posture is not None
-    front = degrees(SUPPORT.front_base, posture.front_shield) - degrees(
-        SUPPORT.front_base, SUPPORT.front_shield
-    )
-    shield = degrees(posture.rear_shield, posture.hinge) - degrees(SUPPORT.rear_shield, SUPPORT.hinge)
-    rear = degrees(SUPPORT.rear_base, posture.rear_shield) - degrees(SUPPORT.rear_base, SUPPORT.rear_shield)
-    # rounding of angles up to 180 degrees and of lengths of 0.36 m
-    for turned, told in ((front, posture.front_link), (shield, posture.shield), (rear, posture.rear_link)):
+    bars = [("hinge", name, canopy) for name in ("front_head", "rear_head", "tip")]
+    bars += [
+        ("front_base", "front_shield", posture.front_link),
+        ("rear_base", "rear_shield", posture.rear_link),
+        ("rear_shield", "hinge", posture.shield),
+    ]
+    for start, end, told in bars:
+        before = getattr(SUPPORT, start), getattr(SUPPORT, end)
+        after = place(posture, start) if start in START_MM else before[0], place(posture, end)
+        # rounding of lengths up to 3 m, and of angles up to 180 degrees
+        assert distance(*after) == pytest.approx(distance(*before), abs=2e-15)
+        turned = degrees(*after) - degrees(*before)
         assert math.remainder(turned - math.degrees(told), 360.0) == pytest.approx(0.0, abs=1e-12)
 
 

@@ -41,21 +41,6 @@ def test_the_tip_wanders_less_than_the_rule_allows(shield: TwoLegShield) -> None
     assert max(tips) - min(tips) < 0.0125
 
 
-def test_column_rates_are_derivatives_of_lengths(shield: TwoLegShield) -> None:
-    """Against central differences of the closed form; error h^2 times third derivatives of some metres."""
-    h = 1e-5
-    for turns in ((0.1, 0.0), (-0.2, 0.05), (0.2, -0.1)):
-        here = shield.posture(*turns)
-        assert here is not None
-        for n in range(2):
-            ahead = shield.posture(*(t + h * (k == n) for k, t in enumerate(turns)))
-            behind = shield.posture(*(t - h * (k == n) for k, t in enumerate(turns)))
-            assert ahead is not None
-            assert behind is not None
-            slope = np.subtract(shield.column_lengths(ahead), shield.column_lengths(behind)) / (2.0 * h)
-            assert shield.column_rates(here)[:, n] == pytest.approx(slope, abs=1e-8)
-
-
 def test_the_ram_follows_the_leg_within_a_nanometre(shield: TwoLegShield, scenario: Scenario) -> None:
     """Against lengths of closed-form postures between the points that the curve was made from."""
     ram, leg = scenario.drive_of("ram"), scenario.drive_of("leg")

@@ -1,3 +1,5 @@
+"""Drives as they are contracted: a speed that is the derivative, jumps at breaks, a span that is kept."""
+
 from __future__ import annotations
 
 import math
@@ -7,47 +9,81 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from support_exudyn import CubicStep, Reciprocating, Steady, UniformSpeed
+from support_exudyn.model.drives.drive import Drive, Stroke
 from tests.analytic import adams_step
 from tests.ranges import from_zero
 from user_forces import InputError
 
-Stroke = CubicStep | UniformSpeed
-
-kinds = st.sampled_from([CubicStep, UniformSpeed])
-strokes = st.floats(-2.0, 2.0)
-starts = from_zero(5.0)
-lengths = st.floats(0.1, 5.0)
-times = st.floats(-1.0, 12.0)
-rates = st.floats(-1e3, 1e3)
+LONGEST = 12.0  # [s]
 
 
-def drive(kind: type[Stroke], stroke: float, start: float, length: float) -> Stroke:
+def stroke_of(kind: type[Stroke], stroke: float, start: float, length: float) -> Stroke:
     return kind(stroke=stroke, start=start, end=start + length)
 
 
-@given(kind=kinds, stroke=strokes, start=starts, length=lengths, t=times)
-def test_speed_is_the_derivative_of_the_extension(
-    kind: type[Stroke], stroke: float, start: float, length: float, t: float
-) -> None:
-    chosen, h = drive(kind, stroke, start, length), 1e-5
-    assume(all(abs(t - b) > 2.0 * h for b in chosen.breaks))
-    slope = (chosen.extension(t + h) - chosen.extension(t - h)) / (2.0 * h)
-    # central difference: third derivative 12 stroke/length^3 times h^2/6, and rounding of 2 m over h
-    assert chosen.speed(t) == pytest.approx(slope, abs=12.0 * 2.0 / length**3 * h**2 / 6.0 + 1e-10)
+sizes, starts, lengths = st.floats(-2.0, 2.0), from_zero(5.0), st.floats(0.1, 5.0)
+strokes = st.builds(stroke_of, st.sampled_from([CubicStep, UniformSpeed]), sizes, starts, lengths)
+reciprocating = st.builds(Reciprocating, stroke=sizes, period=st.floats(0.1, 10.0))
+drives = st.one_of(strokes, reciprocating, st.builds(Steady, rate=st.floats(-1e3, 1e3)))
+times, durations, shares = st.floats(-1.0, LONGEST), st.floats(0.01, LONGEST), st.floats(0.0, 1.0)
 
 
-@given(kind=kinds, stroke=strokes, start=starts, length=lengths, beyond=st.floats(1e-6, 5.0))
+@given(drive=drives, t=times)
+def test_speed_is_the_derivative_of_the_extension(drive: Drive, t: float) -> None:
+    h = 1e-3 if isinstance(drive, Steady) else 1e-5
+    assume(all(abs(t - b) > 2.0 * h for b in drive.breaks))
+    slope = (drive.extension(t + h) - drive.extension(t - h)) / (2.0 * h)
+    # central difference: third derivative times h^2/6; rounding of 2 m, of 12 s times the rate, and of phases
+    # up to 750 rad at 1e-13 rad, over h
+    third, rounding = 0.0, 1e-10
+    if isinstance(drive, Stroke):
+        third = 12.0 * 2.0 / (drive.end - drive.start) ** 3
+    elif isinstance(drive, Reciprocating):
+        third, rounding = drive.frequency**3, 4e-8
+    elif isinstance(drive, Steady):
+        rounding = 2e-12 * abs(drive.rate) + 1e-12
+    assert drive.speed(t) == pytest.approx(slope, abs=third * h**2 / 6.0 + rounding)
+
+
+@given(drive=drives)
+def test_speed_jumps_at_the_breaks_and_at_no_start_of_what_moves_already(drive: Drive) -> None:
+    h = 1e-9
+    # acceleration of at most 6 stroke/length^2 = 1200 m/s^2, or stroke/2 w^2 = 4000 m/s^2, over 1 ns
+    change = 2e-6 if isinstance(drive, Stroke) else 5e-6
+    for t in drive.breaks:
+        assert drive.speed_jump(t) == pytest.approx(drive.speed(t + h) - drive.speed(t), abs=change)
+    if isinstance(drive, Steady):
+        assert drive.initial_speed == drive.speed(0.0) == drive.rate
+        assert drive.speed_jump(0.0) == drive.extension(0.0) == 0.0
+
+
+@given(drive=drives, duration=durations, share=shares)
+def test_extension_stays_within_the_span_and_reaches_it(drive: Drive, duration: float, share: float) -> None:
+    lowest, highest = drive.span(duration)
+    rounding = 5e-16 * (max(1.0, abs(lowest), highest) if isinstance(drive, Steady) else 1.0)  # of 2 m
+    assert lowest - rounding <= drive.extension(share * duration) <= highest + rounding
+    farthest = drive.extension(duration)
+    if isinstance(drive, Stroke):
+        farthest = drive.stroke  # the whole stroke, also where the run ends before
+    if isinstance(drive, Reciprocating):
+        farthest = drive.extension(min(duration, 0.5 * drive.period))
+    assert lowest + highest == pytest.approx(farthest, abs=rounding)
+
+
+# --- strokes ---
+
+
+@given(drive=strokes, beyond=st.floats(1e-6, 5.0))
 def test_actuators_rest_before_the_start_and_at_their_stroke_after_the_end(
-    kind: type[Stroke], stroke: float, start: float, length: float, beyond: float
+    drive: Stroke, beyond: float
 ) -> None:
-    chosen = drive(kind, stroke, start, length)
-    assert (chosen.extension(start - beyond), chosen.speed(start - beyond)) == (0.0, 0.0)
-    assert (chosen.extension(chosen.end + beyond), chosen.speed(chosen.end + beyond)) == (stroke, 0.0)
+    assert (drive.extension(drive.start - beyond), drive.speed(drive.start - beyond)) == (0.0, 0.0)
+    assert (drive.extension(drive.end + beyond), drive.speed(drive.end + beyond)) == (drive.stroke, 0.0)
 
 
-@given(stroke=strokes, start=starts, length=lengths, t=times)
+@given(stroke=sizes, start=starts, length=lengths, t=times)
 def test_cubic_step_is_the_step_function(stroke: float, start: float, length: float, t: float) -> None:
-    chosen = drive(CubicStep, stroke, start, length)
+    chosen = stroke_of(CubicStep, stroke, start, length)
     # the same polynomial in another order: rounding of 2 m
     assert chosen.extension(t) == pytest.approx(adams_step(t, start, 0.0, start + length, stroke), abs=2e-15)
 
@@ -65,67 +101,14 @@ def test_uniform_speed_at_its_jumps_is_the_speed_before() -> None:
     assert UniformSpeed().speed(5.0) == 0.25
 
 
-@given(kind=kinds, stroke=strokes, start=starts, length=lengths)
-def test_speed_jumps_at_the_breaks_as_told(
-    kind: type[Stroke], stroke: float, start: float, length: float
-) -> None:
-    chosen, h = drive(kind, stroke, start, length), 1e-9
-    for t in chosen.breaks:
-        # the cubic step's acceleration, at most 6 stroke/length^2 = 1200 m/s^2, over 1 ns
-        assert chosen.speed_jump(t) == pytest.approx(chosen.speed(t + h) - chosen.speed(t), abs=2e-6)
-
-
-@given(
-    kind=kinds,
-    stroke=strokes,
-    start=starts,
-    length=lengths,
-    duration=st.floats(0.1, 12.0),
-    share=st.floats(0.0, 1.0),
-)
-def test_extension_stays_within_the_span(
-    kind: type[Stroke], stroke: float, start: float, length: float, duration: float, share: float
-) -> None:
-    chosen = drive(kind, stroke, start, length)
-    lowest, highest = chosen.span(duration)
-    # rounding of 2 m
-    assert lowest - 5e-16 <= chosen.extension(share * duration) <= highest + 5e-16
-    # the whole stroke, also where the run ends before
-    assert {lowest, highest} == {0.0, stroke}
-
-
-# --- a crank that has been turning for long ---
-
-
-@given(rate=rates, t=st.floats(0.0, 12.0))
-def test_steady_speed_is_the_derivative_of_the_angle(rate: float, t: float) -> None:
-    crank, h = Steady(rate=rate), 1e-3
-    slope = (crank.extension(t + h) - crank.extension(t - h)) / (2.0 * h)
-    # a straight line: rounding of 12 s times the rate, over 2 ms
-    assert crank.speed(t) == pytest.approx(slope, rel=2e-12, abs=1e-12)
-
-
-@given(rate=rates)
-def test_a_steady_crank_begins_at_its_start_angle_and_at_speed(rate: float) -> None:
-    crank = Steady(rate=rate)
-    assert crank.extension(0.0) == 0.0
-    # it has its speed from the start on: nothing jumps
-    assert crank.initial_speed == crank.speed(0.0) == rate
-    assert crank.speed_jump(0.0) == 0.0
+@pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
+@pytest.mark.parametrize("end", [3.0, 2.0])
+def test_end_before_the_start_is_refused(kind: type[Stroke], end: float) -> None:
+    with pytest.raises(InputError, match=rf"{kind.__name__}: end = {end} s: allowed: > start = 3\.0 s"):
+        kind(start=3.0, end=end)
 
 
 # --- raised and lowered over and over ---
-
-periods = st.floats(0.1, 10.0)
-
-
-@given(stroke=strokes, period=periods, t=times)
-def test_speed_of_reciprocating_is_the_derivative(stroke: float, period: float, t: float) -> None:
-    chosen, h = Reciprocating(stroke=stroke, period=period), 1e-5
-    slope = (chosen.extension(t + h) - chosen.extension(t - h)) / (2.0 * h)
-    # central difference: third derivative stroke/2 w^3 times h^2/6; rounding of 2 m, and of phases up to
-    # 750 rad at 1e-13 rad, over h
-    assert chosen.speed(t) == pytest.approx(slope, abs=chosen.frequency**3 * h**2 / 6.0 + 4e-8)
 
 
 def test_reciprocating_by_hand() -> None:
@@ -138,32 +121,10 @@ def test_reciprocating_by_hand() -> None:
     assert Reciprocating(period=1.0).stroke == 0.5
 
 
-@given(stroke=strokes, period=periods, duration=st.floats(0.01, 12.0), share=st.floats(0.0, 1.0))
-def test_reciprocating_stays_within_the_span_and_reaches_it(
-    stroke: float, period: float, duration: float, share: float
-) -> None:
-    chosen = Reciprocating(stroke=stroke, period=period)
-    lowest, highest = chosen.span(duration)
-    # rounding of 2 m
-    assert lowest - 5e-16 <= chosen.extension(share * duration) <= highest + 5e-16
-    farthest = chosen.extension(min(duration, 0.5 * period))
-    assert lowest + highest == pytest.approx(farthest, abs=5e-16)
-
-
 @pytest.mark.parametrize("period", [0.0, -1.0, float("nan")])
 def test_a_period_that_makes_no_sense_is_refused(period: float) -> None:
     with pytest.raises(InputError, match=rf"Reciprocating\.period = {period}: "):
         Reciprocating(period=period)
-
-
-# --- bad input, and back from data ---
-
-
-@pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
-@pytest.mark.parametrize("end", [3.0, 2.0])
-def test_end_before_the_start_is_refused(kind: type[Stroke], end: float) -> None:
-    with pytest.raises(InputError, match=rf"{kind.__name__}: end = {end} s: allowed: > start = 3\.0 s"):
-        kind(start=3.0, end=end)
 
 
 @given(periods=st.integers(1, 10**6), t=st.integers(0, 4096))

@@ -12,7 +12,6 @@ from support_exudyn.model.plane_geometry import (
     distance,
     minus,
     moved,
-    plus,
     rotated,
     side,
 )
@@ -34,15 +33,6 @@ def test_quarter_turn_is_counter_clockwise() -> None:
 )
 def test_direction_is_measured_from_x_counter_clockwise(b: tuple[float, float], angle: float) -> None:
     assert direction((1.0, 1.0), b) == angle
-
-
-@given(a=points, angle=angles, length=st.floats(0.1, 10.0))
-def test_direction_and_distance_lead_from_one_point_to_the_other(
-    a: tuple[float, float], angle: float, length: float
-) -> None:
-    b = plus(a, rotated((length, 0.0), angle))
-    # rounding of coordinates up to 20
-    assert plus(a, rotated((distance(a, b), 0.0), direction(a, b))) == pytest.approx(b, abs=1e-14)
 
 
 @given(a=points, b=points, origin=points, to=points, angle=angles)

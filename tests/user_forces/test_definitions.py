@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 import pickle
 from abc import ABC, abstractmethod
-from functools import cached_property
 from typing import ClassVar
 
 import pytest
@@ -85,27 +84,6 @@ def test_classes_that_others_derive_from_may_lack_methods() -> None:
     for kind in (Group, Further, Hysteresis):
         with pytest.raises(InputError, match=r"is a kind of values; allowed"):
             kind(share=1.0)  # type: ignore[abstract, call-arg]
-
-
-def test_a_wrong_attribute_is_told_with_those_that_look_like_it() -> None:
-    with pytest.raises(
-        AttributeError, match=r"CubicStep has no attribute 'strok'; did you mean stroke"
-    ) as told:
-        CubicStep().strok  # type: ignore[attr-defined] # noqa: B018
-    assert str(pickle.loads(pickle.dumps(told.value))) == str(told.value)  # as from another process
-    assert not hasattr(CubicStep(), "_repr_png_")
-    assert copy.deepcopy(CubicStep()) == CubicStep() == pickle.loads(pickle.dumps(CubicStep()))
-
-
-def test_an_attribute_error_inside_a_property_stays_what_it_was() -> None:
-    @value
-    class Broken(Value):
-        @cached_property
-        def whole(self) -> object:
-            return (1.0).parts  # type: ignore[attr-defined]
-
-    with pytest.raises(AttributeError, match="parts"):
-        Broken().whole  # noqa: B018
 
 
 def test_a_wrong_field_and_a_wrong_name_are_told_with_those_that_look_like_them() -> None:

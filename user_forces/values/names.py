@@ -54,33 +54,3 @@ def meant(name: Any, known: Iterable[str]) -> str:
         return "there are none"
     more = f" and {len(names) - NEAR} more" if len(names) > NEAR else ""
     return f"there are {', '.join(map(repr, names[:NEAR]))}{more}"
-
-
-class UnknownAttributeError(AttributeError):
-    """An attribute that is not there, in a sentence that is made when it is read: `getattr` asks in vain."""
-
-    def __init__(self, name: str, obj: Any, more: str = "") -> None:
-        super().__init__(name=name, obj=obj)
-        self._asked, self._more = name, more
-
-    def __str__(self) -> str:
-        known = [one for one in dir(self.obj) if not one.startswith("_")]
-        near = get_close_matches(self._asked[:LETTERS], known, NEAR, LIKE)
-        guess = f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(known)}"
-        return f"{type(self.obj).__name__} has no attribute {self._asked!r}; {guess}{self._more}"
-
-    def __reduce__(self) -> tuple[type[AttributeError], tuple[str]]:
-        return AttributeError, (str(self),)
-
-
-def no_attribute(item: Any, name: str, more: str = "") -> Any:
-    """What `__getattr__` of a data class does with a name that it has not: AttributeError in a sentence.
-
-    more: another way out, such as "; channels are taken by result['tip.x']".
-    """
-    kind = type(item)
-    if any(name in vars(one) for one in kind.__mro__):  # a property that failed inside: let it say so itself
-        return object.__getattribute__(item, name)
-    if name.startswith("_"):  # asked for by Python and by notebooks, of everything
-        raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}", name=name, obj=item)
-    raise UnknownAttributeError(name, item, more)

@@ -20,7 +20,7 @@ from abc import ABC
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from difflib import get_close_matches
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
+from typing import Annotated, Any, ClassVar, TypeVar
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, ValidationError
@@ -28,7 +28,7 @@ from pydantic.dataclasses import dataclass as pydantic_dataclass
 from typing_extensions import Self, dataclass_transform
 
 from user_forces.values import places
-from user_forces.values.names import Named, no_attribute
+from user_forces.values.names import Named
 from user_forces.values.texts import InputError as InputError
 from user_forces.values.texts import check_names as check_names
 from user_forces.values.texts import cleaned as cleaned
@@ -132,11 +132,6 @@ class Value:
         """
         fields = {field.name for field in dataclasses.fields(self)}  # type: ignore[arg-type]
         return {name: item for name, item in vars(self).items() if name in fields or isinstance(item, type)}
-
-    if not TYPE_CHECKING:  # for people: who checks types is told of every wrong name
-
-        def __getattr__(self, name: str) -> Any:
-            return no_attribute(self, name)
 
     def to_data(self) -> dict[str, Any]:
         """Plain data (dict, list, str, float, int, bool, None) from which `from_data` rebuilds."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
@@ -14,8 +14,7 @@ import numpy as np
 from support_exudyn.machines.check.freedoms import in_line, listed
 from support_exudyn.machines.check.statics import Array, Statics, statics
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.closing import Conditions
-from support_exudyn.mechanics.continuation import moved_on, tangent
+from support_exudyn.mechanics.closing import Conditions, moved_on, tangent
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import ActingLoad
@@ -27,6 +26,7 @@ NONE = 1e-9  # of the largest rate on the way: what moves slower stands still
 FOUND = 1e-12  # of the way: how closely a point on it is located
 STEPS_BEYOND = 60  # of a search beyond an end
 TURN = 2.0 * math.pi
+Station = tuple[float, Matrix]  # travel [rad] or [m], and coordinates counted by arms
 
 
 @dataclass(frozen=True)
@@ -169,7 +169,7 @@ def way_of(
     A crank that turns right round in one direction is not turned in the other.
 
     Arguments:
-        conditions: of `continuation.conditions_of`, which hold as the linkage is moved.
+        conditions: of `closing.conditions_of`, which hold as the linkage is moved.
         linkage: whose forces are computed; its bodies are those of the conditions.
         drives: names of the driven parts; several actuators extend alike.
         goal: ends of the travel that are tried [rad], [m], at most 0 and at least 0.
@@ -177,205 +177,181 @@ def way_of(
         loads: that act besides the weight, by name.
         farther: how far beyond both ends a dead centre is searched for [m].
     """
-    start = np.zeros(3 * len(linkage.bodies))
-    up = list(_march(conditions, drives, (0.0, goal[1]), start, steps))
+    route = _Route(conditions, drives, [(0.0, conditions.still)])
+    up = list(route.march((0.0, goal[1]), conditions.still, steps))
     reached = up[-1][0] if up else 0.0
-    down: list[tuple[float, Matrix]] = []
+    down: list[Station] = []
     if not (drives[0] in linkage.cranks and goal[1] and reached == goal[1]):
-        down = list(_march(conditions, drives, (0.0, goal[0]), start, steps))
+        down = list(route.march((0.0, goal[0]), conditions.still, steps))
+    route = _Route(conditions, drives, [*down[::-1], (0.0, conditions.still), *up])
     ends = down[-1][0] if down else 0.0, reached
-    stations = [*down[::-1], (0.0, start), *up]
-    rates = [_rates(conditions, stations, n, drives) for n in range(len(stations))]
     locked = [end for end, asked, tried in zip(ends, goal, (down, up), strict=True) if tried and end != asked]
-    points = [_dead_centre(conditions, end, stations) for end in locked]
     if goal[1] and not up and not down:
-        points.append(_dead_centre(conditions, 0.0, stations))
-    inner = [n for n in range(len(stations)) if not any(stations[n][0] == end for end in locked)]
-    points += _on_the_way(conditions, drives, [stations[n] for n in inner], [rates[n] for n in inner])
+        locked = [0.0]
+    points = [route.dead_centre(one) for one in route.stations for end in locked if one[0] == end]
+    rates = [route.rates(n) for n in range(len(route.stations))]
+    inner = [n for n, (travel, _) in enumerate(route.stations) if travel not in locked or (not up and not down)]
+    within = _Route(conditions, drives, [route.stations[n] for n in inner])
+    points += within.turning_back([rates[n] for n in inner])
+    points += within.change_points()
     fastest = np.max([np.abs(one).reshape(-1, 3).max(axis=1) for one in rates], axis=0)
     resting = [GROUND, *(n for n, v in zip(linkage.bodies, fastest, strict=True) if v < STILL * fastest.max())]
+    positions = [(travel, moved / conditions.arms) for travel, moved in route.stations]
     return DriveWay(
         drives=drives,
         linkage=linkage,
-        moved=[_station(conditions, linkage, *one, loads) for one in stations],
+        moved=[Moved(travel, at, statics(linkage, at, loads=loads)) for travel, at in positions],
         goal=goal,
         ends=ends,
         points=sorted(points, key=lambda one: one.travel),
-        beyond=(
-            _beyond(conditions, drives, stations[0], -farther),
-            _beyond(conditions, drives, stations[-1], farther),
-        ),
+        beyond=(route.beyond(route.stations[0], -farther), route.beyond(route.stations[-1], farther)),
         resting=resting,
         reach=_reach(linkage, drives, resting),
     )
 
 
-def _beyond(
-    conditions: Conditions, drives: tuple[str, ...], last: tuple[float, Matrix], farther: float
-) -> WayPoint | None:
-    """The dead centre that lies at most so far [m] beyond a posture; None if there is none."""
-    travel, moved = last
-    found = list(_march(conditions, drives, (travel, travel + farther), moved, STEPS_BEYOND))
-    if not farther or (found and found[-1][0] == travel + farther):
-        return None
-    end, there = found[-1] if found else last
-    return WayPoint("dead centre", end, why=in_line(conditions, there, conditions.rows(there))[0])
+@dataclass(frozen=True)
+class _Route:
+    """Postures of a linkage in the order of the travel of its driven parts, each with its travel."""
 
+    conditions: Conditions
+    drives: tuple[str, ...]
+    stations: Sequence[Station]
 
-def _station(
-    conditions: Conditions, linkage: Linkage, travel: float, moved: Matrix, loads: Mapping[str, ActingLoad]
-) -> Moved:
-    position = moved / conditions.arms
-    return Moved(travel, position, statics(linkage, position, loads=loads))
+    def march(self, way: tuple[float, float], start: Matrix, steps: int) -> Iterator[Station]:
+        """Postures step by step, from one travel to another, as far as the linkage closes on the same way."""
+        first, goal = way
+        moved, reached, along = start, first, None
+        for number in range(1, steps + 1 if goal != first else 0):
+            wanted, before = first + (goal - first) * (number / steps), moved  # the last is the goal to the bit
+            moved, share = moved_on(self.conditions, before, dict.fromkeys(self.drives, wanted), along)
+            along = moved - before
+            if share < 1.0:
+                if share > 0.0:
+                    yield reached + share * (wanted - reached), moved
+                return
+            yield wanted, moved
+            reached = wanted
 
+    def dead_centre(self, station: Station) -> WayPoint:
+        """A posture as a dead centre, with what lies in line there."""
+        travel, moved = station
+        why = in_line(self.conditions, moved, self.conditions.rows(moved))[0]
+        return WayPoint("dead centre", travel, why=why)
 
-def _march(
-    conditions: Conditions, drives: tuple[str, ...], way: tuple[float, float], start: Matrix, steps: int
-) -> Iterator[tuple[float, Matrix]]:
-    """Travel and coordinates, step by step as far as the linkage closes on the same way."""
-    first, goal = way
-    moved, reached, along = start, first, None
-    for number in range(1, steps + 1 if goal != first else 0):
-        wanted, before = first + (goal - first) * (number / steps), moved  # the last is the goal to the bit
-        moved, share = moved_on(conditions, before, dict.fromkeys(drives, wanted), along)
-        along = moved - before
-        if share < 1.0:
-            if share > 0.0:
-                yield reached + share * (wanted - reached), moved
-            return
-        yield wanted, moved
-        reached = wanted
+    def beyond(self, last: Station, farther: float) -> WayPoint | None:
+        """The dead centre that lies at most so far [m] beyond a posture; None if there is none."""
+        travel, moved = last
+        found = list(self.march((travel, travel + farther), moved, STEPS_BEYOND))
+        if not farther or (found and found[-1][0] == travel + farther):
+            return None
+        return self.dead_centre(found[-1] if found else last)
 
+    def between(self, number: int, travel: float) -> Matrix:
+        """The posture at a travel, reached from a station in the direction of the next."""
+        start = self.stations[number][1]
+        along = self.stations[number + 1][1] - start
+        return moved_on(self.conditions, start, dict.fromkeys(self.drives, travel), along)[0]
 
-def _rows(conditions: Conditions, drives: tuple[str, ...]) -> list[int]:
-    kind = "cranks" if drives[0] in conditions.linkage.cranks else "actuators"
-    return [conditions.kinetics.owners().index((kind, name)) for name in drives]
+    @property
+    def _rows(self) -> list[int]:
+        """Of the driven parts among all conditions."""
+        kind = "cranks" if self.drives[0] in self.conditions.linkage.cranks else "actuators"
+        return [self.conditions.kinetics.owners().index((kind, name)) for name in self.drives]
 
+    def rates(self, number: int) -> Matrix:
+        """Rates of all coordinates at a station, counted by arms, by that of the drives (n,); 0 if it locks."""
+        before = self.stations[max(number - 1, 0)]
+        after = self.stations[min(number + 1, len(self.stations) - 1)]
+        along = None if after[0] == before[0] else (after[1] - before[1]) / (after[0] - before[0])
+        return self._rates_at(self.stations[number][1], along)
 
-def _rates(
-    conditions: Conditions, stations: list[tuple[float, Matrix]], number: int, drives: tuple[str, ...]
-) -> Matrix:
-    """Rates of all coordinates at a station, counted by arms, per rate of the drives (n,); 0 if it locks."""
-    rows, ahead = _rows(conditions, drives), np.zeros(len(conditions.counts))
-    ahead[rows] = conditions.counts[rows]
-    before, after = stations[max(number - 1, 0)], stations[min(number + 1, len(stations) - 1)]
-    along = None if after[0] == before[0] else (after[1] - before[1]) / (after[0] - before[0])
-    found = tangent(conditions, stations[number][1], ahead, along)
-    return np.zeros(stations[0][1].size) if found is None else found
+    def _rates_at(self, moved: Matrix, along: Matrix | None = None) -> Matrix:
+        ahead = np.zeros(len(self.conditions.counts))
+        ahead[self._rows] = self.conditions.counts[self._rows]
+        found = tangent(self.conditions, moved, ahead, along)
+        return np.zeros(moved.size) if found is None else found
 
-
-def _dead_centre(conditions: Conditions, end: float, stations: list[tuple[float, Matrix]]) -> WayPoint:
-    moved = next(moved for travel, moved in stations if travel == end)
-    return WayPoint("dead centre", end, why=in_line(conditions, moved, conditions.rows(moved))[0])
-
-
-def _on_the_way(
-    conditions: Conditions,
-    drives: tuple[str, ...],
-    stations: list[tuple[float, Matrix]],
-    rates: list[Matrix],
-) -> Iterator[WayPoint]:
-    """Where parts on the ground turn back, and where the linkage could go on otherwise."""
-    (first, *others), fastest = _rows(conditions, drives), float(np.max(np.abs(rates)))
-    for part, row in _outputs(conditions, drives).items():
-
-        def speed(moved: Matrix, row: Matrix = row) -> float:
-            return float(row @ _rates(conditions, [(0.0, moved)], 0, drives))
-
-        speeds = [float(row @ one) for one in rates]
-        if max(map(abs, speeds)) < STILL * fastest:
-            continue
-        for travel, moved in _zeros(conditions, drives, stations, speeds, speed):
-            rows = conditions.rows(moved)
-            rows[others] -= rows[first]  # what is driven alike stays so
-            rows[first] = row  # the part that turns back held in place of the drive
-            yield WayPoint("turns back", travel, part, in_line(conditions, moved, rows)[0])
-    yield from _change_points(conditions, drives, stations)
-
-
-def _change_points(
-    conditions: Conditions, drives: tuple[str, ...], stations: list[tuple[float, Matrix]]
-) -> Iterator[WayPoint]:
-    """Where one condition more than elsewhere repeats the others: the linkage could go on otherwise."""
-    from scipy.optimize import minimize_scalar  # slow to import
-
-    values = np.array([np.linalg.svd(conditions.rows(moved), compute_uv=False) for _, moved in stations])
-    rank = int(np.count_nonzero(np.median(values, axis=0) > SINGULAR))
-    least = values[:, rank - 1]
-    for n in range(1, len(stations) - 1):
-        if not (least[n] <= least[n - 1] and least[n] < least[n + 1]) or least[n] > NEAR_SINGULAR:
-            continue
-
-        def at(x: float, n: int = n) -> Matrix:
-            moved = stations[n - 1][1]
-            along = stations[n][1] - moved
-            return moved_on(conditions, moved, dict.fromkeys(drives, x), along)[0]
-
-        found = minimize_scalar(
-            lambda x: float(np.linalg.svd(conditions.rows(at(x)), compute_uv=False)[rank - 1]),
-            bounds=(stations[n - 1][0], stations[n + 1][0]), method="bounded", options={"xatol": 1e-10},
-        )  # fmt: skip
-        if found.fun < SINGULAR:
-            rows = conditions.rows(at(float(found.x)))
-            yield WayPoint("change point", float(found.x), why=in_line(conditions, at(float(found.x)), rows)[0])
-
-
-def _outputs(conditions: Conditions, drives: tuple[str, ...]) -> dict[str, Matrix]:
-    """Rows that give the rate of what is pinned to the ground or slides on it, but for the driven part."""
-    linkage, size = conditions.linkage, 3 * len(conditions.linkage.bodies)
-    rows: dict[str, Matrix] = {}
-    own = linkage.cranks[drives[0]].body if drives[0] in linkage.cranks else ""
-    for pin in linkage.pins.values():
-        if GROUND in (pin.first, pin.second):
-            body = pin.second if pin.first == GROUND else pin.first
-            rows[body] = conditions.kinetics.turning(size, body) / conditions.arms
-    for slide in linkage.slides.values():
-        if slide.against == GROUND and slide.body not in rows:
-            row = np.zeros(size)
-            first = conditions.kinetics.first(slide.body)
-            row[first : first + 2] = math.cos(slide.direction), math.sin(slide.direction)
-            rows[slide.body] = row
-    return {body: conditions.size * row for body, row in rows.items() if body != own}
-
-
-def _zeros(
-    conditions: Conditions,
-    drives: tuple[str, ...],
-    stations: list[tuple[float, Matrix]],
-    values: Sequence[float],
-    value: Callable[[Matrix], float],
-) -> Iterator[tuple[float, Matrix]]:
-    """Travels and postures at which a value passes zero."""
-    from scipy.optimize import brentq  # slow to import
-
-    most = max(map(abs, values), default=0.0)
-    if not most > 0.0 or max(values) - min(values) < NONE * most:
-        return
-    still = [abs(one) < NONE * most for one in values]
-    closed = math.isclose(stations[-1][0] - stations[0][0], TURN, rel_tol=1e-12) and (
-        drives[0] in conditions.linkage.cranks
-    )
-    for n, (travel, moved) in enumerate(stations):
-        if still[n]:
-            before = n - 1 if n else (len(stations) - 2 if closed else -1)
-            if before >= 0 and n + 1 < len(stations) and values[before] * values[n + 1] < 0.0:
-                yield travel, moved
-        elif n + 1 < len(stations) and not still[n + 1] and values[n] * values[n + 1] < 0.0:
-            ahead, along = stations[n + 1][0], stations[n + 1][1] - moved
-
-            def on_the_way(
-                x: float, travel: float = travel, moved: Matrix = moved, along: Matrix = along
-            ) -> Matrix:
-                return moved_on(conditions, moved, dict.fromkeys(drives, x), along)[0]
-
-            def rate(x: float, way: Callable[[float], Matrix] = on_the_way) -> float:
-                return value(way(x))
-
-            if rate(travel) * rate(ahead) > 0.0:  # rounding next to where all bars lie in line
-                yield (travel, moved) if abs(values[n]) < abs(values[n + 1]) else stations[n + 1]
+    def turning_back(self, rates: Sequence[Matrix]) -> Iterator[WayPoint]:
+        """Where parts on the ground stand still for a moment; rates: at all stations."""
+        (first, *others), fastest = self._rows, float(np.max(np.abs(rates)))
+        for part, row in self._outputs().items():
+            speeds = [float(row @ one) for one in rates]
+            if max(map(abs, speeds)) < STILL * fastest:
                 continue
-            found = float(brentq(rate, travel, ahead, xtol=FOUND * max(abs(travel), abs(ahead))))
-            yield found, on_the_way(found)
+            for travel, moved in self._zeros(speeds, row):
+                rows = self.conditions.rows(moved)
+                rows[others] -= rows[first]  # what is driven alike stays so
+                rows[first] = row  # the part that turns back held in place of the drive
+                yield WayPoint("turns back", travel, part, in_line(self.conditions, moved, rows)[0])
+
+    def _outputs(self) -> dict[str, Matrix]:
+        """Rows that give the rate of what is pinned to the ground or slides on it, but for the driven part."""
+        conditions, linkage = self.conditions, self.conditions.linkage
+        rows: dict[str, Matrix] = {}
+        own = linkage.cranks[self.drives[0]].body if self.drives[0] in linkage.cranks else ""
+        for pin in linkage.pins.values():
+            if GROUND in (pin.first, pin.second):
+                body = pin.second if pin.first == GROUND else pin.first
+                rows[body] = conditions.kinetics.turning(conditions.still.size, body) / conditions.arms
+        for slide in linkage.slides.values():
+            if slide.against == GROUND and slide.body not in rows:
+                row = conditions.still.copy()
+                first = conditions.kinetics.first(slide.body)
+                row[first : first + 2] = math.cos(slide.direction), math.sin(slide.direction)
+                rows[slide.body] = row
+        return {body: conditions.size * row for body, row in rows.items() if body != own}
+
+    def _zeros(self, values: Sequence[float], row: Matrix) -> Iterator[Station]:
+        """Where the rate that a row gives passes zero; values: at all stations."""
+        from scipy.optimize import brentq  # slow to import
+
+        stations = self.stations
+        most = max(map(abs, values), default=0.0)
+        if not most > 0.0 or max(values) - min(values) < NONE * most:
+            return
+        still = [abs(one) < NONE * most for one in values]
+        closed = math.isclose(stations[-1][0] - stations[0][0], TURN, rel_tol=1e-12) and (
+            self.drives[0] in self.conditions.linkage.cranks
+        )
+        for n, (travel, moved) in enumerate(stations):
+            if still[n]:
+                before = n - 1 if n else (len(stations) - 2 if closed else -1)
+                if before >= 0 and n + 1 < len(stations) and values[before] * values[n + 1] < 0.0:
+                    yield travel, moved
+            elif n + 1 < len(stations) and not still[n + 1] and values[n] * values[n + 1] < 0.0:
+                ahead = stations[n + 1][0]
+
+                def rate(x: float, n: int = n) -> float:
+                    return float(row @ self._rates_at(self.between(n, x)))
+
+                if rate(travel) * rate(ahead) > 0.0:  # rounding next to where all bars lie in line
+                    yield (travel, moved) if abs(values[n]) < abs(values[n + 1]) else stations[n + 1]
+                    continue
+                found = float(brentq(rate, travel, ahead, xtol=FOUND * max(abs(travel), abs(ahead))))
+                yield found, self.between(n, found)
+
+    def change_points(self) -> Iterator[WayPoint]:
+        """Where one condition more than elsewhere repeats the others: the linkage could go on otherwise."""
+        from scipy.optimize import minimize_scalar  # slow to import
+
+        def left(moved: Matrix) -> Matrix:
+            return np.asarray(np.linalg.svd(self.conditions.rows(moved), compute_uv=False))
+
+        values = np.array([left(moved) for _, moved in self.stations])
+        rank = int(np.count_nonzero(np.median(values, axis=0) > SINGULAR))
+        least = values[:, rank - 1]
+        for n in range(1, len(self.stations) - 1):
+            if not (least[n] <= least[n - 1] and least[n] < least[n + 1]) or least[n] > NEAR_SINGULAR:
+                continue
+            found = minimize_scalar(
+                lambda x, n=n: float(left(self.between(n - 1, x))[rank - 1]), method="bounded",
+                bounds=(self.stations[n - 1][0], self.stations[n + 1][0]), options={"xatol": 1e-10},
+            )  # fmt: skip
+            if found.fun < SINGULAR:
+                moved = self.between(n - 1, float(found.x))
+                why = in_line(self.conditions, moved, self.conditions.rows(moved))[0]
+                yield WayPoint("change point", float(found.x), why=why)
 
 
 def _reach(linkage: Linkage, drives: tuple[str, ...], resting: Sequence[str]) -> dict[str, int]:

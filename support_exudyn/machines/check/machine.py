@@ -29,8 +29,7 @@ from support_exudyn.machines.check.transmission import (
 )
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.mechanics.closing import Conditions, beside
-from support_exudyn.mechanics.continuation import conditions_of
+from support_exudyn.mechanics.closing import Conditions, beside, conditions_of
 from support_exudyn.model.linkage import GROUND, Linkage
 from user_forces.values.value import InputError
 

@@ -19,16 +19,17 @@ class CheckTable:
     rows: Sequence[Sequence[str]]
 
     def lines(self) -> Iterator[str]:
-        """The table as text: the first column to the left, numbers to the right."""
-        table = [self.header, *self.rows]
-        widths = [max(len(row[n]) for row in table) for n in range(len(self.header))]
+        """The table as text."""
         yield self.title
-        for row in table:
-            cells = [
-                row[0].ljust(widths[0]),
-                *(cell.rjust(w) for cell, w in zip(row[1:], widths[1:], strict=True)),
-            ]
-            yield "  " + "  ".join(cells).rstrip()
+        yield from aligned([self.header, *self.rows])
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Rows of cells as lines: the first column to the left, numbers to the right."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for first, *others in rows:
+        cells = [first.ljust(widths[0]), *map(str.rjust, others, widths[1:])]
+        yield ("  " + "  ".join(cells)).rstrip()
 
 
 @dataclass(frozen=True)

@@ -2,20 +2,23 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import islice
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.acting_loads import forces_at_rest
-from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
+from support_exudyn.mechanics.closing import DRIVEN, conditions_of
+from support_exudyn.mechanics.constraints import joints_held
+from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.value import Vector2
 
 Array = npt.NDArray[np.float64]
 GRAVITY: Vector2 = (0.0, -9.81)
+SAME = 1e-9  # singular values of rows below this are of rounding
 
 
 @dataclass(frozen=True)
@@ -58,19 +61,10 @@ def statics(
     forces = np.linalg.lstsq(rows.T, -weight, rcond=None)[0]
     residual = float(np.abs(rows.T @ forces + weight).max()) + np.finfo(float).eps * float(np.abs(weight).max())
     error = residual * float(np.linalg.norm(np.linalg.pinv(rows.T), 2)) * len(weight) ** 0.5
-    pins: dict[str, Array] = {}
-    first = 0
-    for name in linkage.pins:
-        pins[name], first = np.array(forces[first : first + 2]), first + 2
-    taken = iter(forces[first:].tolist())
-    return Statics(
-        pins,
-        {name: next(taken) for name in linkage.actuators},
-        {name: next(taken) for name in linkage.cranks},
-        {name: list(islice(taken, one.conditions))[0] for name, one in linkage.slides.items()},  # noqa: RUF015 - takes both
-        {name: next(taken) for name in linkage.gears},
-        error,
-    )
+    found: dict[str, dict[str, Any]] = {part: {} for part in ("pins", "actuators", "cranks", "slides", "gears")}
+    for (part, name), held in joints_held(kinetics.constraints).items():
+        found[part][name] = forces[held] if part == "pins" else float(forces[held][0])
+    return Statics(**found, error=error)
 
 
 @dataclass(frozen=True)
@@ -118,9 +112,9 @@ def mobility(linkage: Linkage) -> DegreesOfFreedom:
     bodies, pins, gears = len(linkage.bodies), len(linkage.pins), len(linkage.gears)
     slots = sum(slide.turns for slide in linkage.slides.values())
     blocks = len(linkage.slides) - slots
-    kinetics = kinetics_of(linkage)
-    rows = kinetics.rows(np.zeros(3 * bodies))
-    held = [kind in ("actuators", "cranks") and name in linkage.driven for kind, name in kinetics.owners()]
+    conditions = conditions_of(linkage)
+    rows, owners = conditions.rows(conditions.still), conditions.kinetics.owners()
+    held = np.array([kind in DRIVEN and name in linkage.driven for kind, name in owners], dtype=bool)
     struts = len(linkage.actuators) + len(linkage.cranks) - len(linkage.driven)
     return DegreesOfFreedom(
         bodies=bodies,
@@ -131,17 +125,12 @@ def mobility(linkage: Linkage) -> DegreesOfFreedom:
         struts=struts,
         driven=len(linkage.driven),
         counted=3 * bodies - 2 * pins - 2 * blocks - slots - gears - struts,
-        free=3 * bodies - _rank(rows[~np.array(held, dtype=bool)], kinetics),
-        left=3 * bodies - _rank(rows, kinetics),
+        free=3 * bodies - _rank(rows[~held]),
+        left=3 * bodies - _rank(rows),
     )
 
 
-def _rank(rows: np.ndarray, kinetics: Kinetics) -> int:
-    """Rank with turns counted by the path of a point at a typical distance, so that units do not matter."""
-    points = np.array([body.centre for body in kinetics.linkage.bodies.values()])
-    points = np.vstack([points, *([pin.first_point] for pin in kinetics.linkage.pins.values())])
-    size = max(float(np.ptp(points, axis=0).max()), 1e-9)
-    scaled = rows.copy()
-    scaled[:, 2::3] /= size
-    lengths = np.linalg.norm(scaled, axis=1, keepdims=True)
-    return int(np.linalg.matrix_rank(scaled / np.where(lengths > 0.0, lengths, 1.0), tol=1e-9))
+def _rank(rows: Array) -> int:
+    """Rank of rows, each as long as the others."""
+    lengths = np.linalg.norm(rows, axis=1, keepdims=True)
+    return int(np.linalg.matrix_rank(rows / np.where(lengths > 0.0, lengths, 1.0), tol=SAME))

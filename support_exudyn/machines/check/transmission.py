@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.machines.check.drive_way import DriveWay
-from support_exudyn.mechanics.closing import Conditions
-from support_exudyn.mechanics.continuation import moved_on
+from support_exudyn.mechanics.closing import Conditions, moved_on
 from support_exudyn.mechanics.kinetics import Matrix
-from support_exudyn.model.linkage import Linkage, PinPlace
+from support_exudyn.model.linkage import PinPlace
 from user_forces.values.value import Vector2
 
 LEAST = math.radians(40.0)  # below it, or above 180 degrees less it, forces are large and play is felt
@@ -67,62 +66,52 @@ class TransmissionAngle:
 
 def transmission_angles(conditions: Conditions, way: DriveWay) -> Iterator[TransmissionAngle]:
     """Those of all couplers between two links that turn or slide on what rests while this drive moves."""
-    linkage, reach = way.linkage, way.reach
-    for name, pin in linkage.pins.items():
+    for name, pin in way.linkage.pins.items():
         for coupler, output in ((pin.first, pin.second), (pin.second, pin.first)):
-            if coupler in way.resting or output in way.resting:
+            if coupler in way.resting or way.reach.get(output, -1) != way.reach.get(coupler, -3) + 1:
                 continue
-            if reach.get(output, -1) != reach.get(coupler, -3) + 1:
+            behind = _driver_pin(way, coupler, name)
+            angle = behind and _angle_at(conditions, way, (behind, name), coupler, output)
+            if not angle:
                 continue
-            behind = _driver_pin(linkage, way, coupler, name)
-            if behind is None:
-                continue
-            yield from _angle(conditions, way, (behind, name), coupler, output)
+            angles = [angle(one.position) for one in way.moved]
+            least, largest = (
+                _extreme(conditions, way, int(np.argmax(np.multiply(sign, angles))), angle, sign)
+                for sign in (-1.0, 1.0)
+            )
+            yield TransmissionAngle(name, coupler, output, angles, least, largest)
 
 
-def _driver_pin(linkage: Linkage, way: DriveWay, coupler: str, ahead: str) -> str | None:
+def _driver_pin(way: DriveWay, coupler: str, ahead: str) -> str | None:
     """The pin by which a coupler is moved, by a body that is joined to what rests; None if there is no such."""
-    for name, pin in linkage.pins.items():
+    pins, slides = way.linkage.pins.items(), way.linkage.slides.values()
+    for name, pin in pins:
         other = _other(pin, coupler)
         if name != ahead and other and way.reach.get(other, -3) == way.reach[coupler] - 1:
-            frame = [_other(one, other) for one in linkage.pins.values()]
-            frame += [one.against for one in linkage.slides.values() if one.body == other]
+            frame = [_other(one, other) for _, one in pins] + [
+                one.against for one in slides if one.body == other
+            ]
             if any(one in way.resting for one in frame):
                 return name
     return None
 
 
-def _angle(
+def _angle_at(
     conditions: Conditions, way: DriveWay, pins: tuple[str, str], coupler: str, output: str
-) -> Iterator[TransmissionAngle]:
-    """The angle at an output that is pinned to what rests, or slides on it."""
+) -> Callable[[Matrix], float] | None:
+    """The angle [rad] in a posture at an output that is pinned to what rests, or slides on it; else None."""
     linkage, kinetics = way.linkage, conditions.kinetics
+    foot, top = (_point(linkage.pins[name], coupler) for name in pins)
 
     def line(position: Matrix, body: str, first: Vector2, second: Vector2) -> Matrix:
-        way: Matrix = kinetics.point(position, body, second)[0] - kinetics.point(position, body, first)[0]
-        return way
+        span: Matrix = kinetics.point(position, body, second)[0] - kinetics.point(position, body, first)[0]
+        return span
 
-    def told(angle: Callable[[Matrix], float]) -> TransmissionAngle:
-        angles = [angle(one.position) for one in way.moved]
-        least, largest = (
-            _extreme(conditions, way, int(np.argmax(np.multiply(sign, angles))), angle, sign)
-            for sign in (-1.0, 1.0)
-        )
-        return TransmissionAngle(pins[1], coupler, output, angles, least, largest)
-
-    top = _point(linkage.pins[pins[1]], coupler)
-    foot = _point(linkage.pins[pins[0]], coupler)
+    start = _point(linkage.pins[pins[1]], output)
     for pin in linkage.pins.values():
-        if _other(pin, output) in way.resting:
-            ends = _point(linkage.pins[pins[1]], output), _point(pin, output)
-            if math.dist(*ends) == 0.0:
-                continue
-
-            def to_link(position: Matrix, ends: tuple[Vector2, Vector2] = ends) -> float:
-                return _between(line(position, coupler, top, foot), line(position, output, *ends))
-
-            yield told(to_link)
-            return
+        if _other(pin, output) in way.resting and _point(pin, output) != start:
+            end = _point(pin, output)
+            return lambda at: _between(line(at, coupler, top, foot), line(at, output, start, end))
     for slide in linkage.slides.values():
         if slide.body == output and slide.against in way.resting:
             normal = np.array([-math.sin(slide.direction), math.cos(slide.direction)])
@@ -131,8 +120,8 @@ def _angle(
                 angle = _between(line(position, coupler, top, foot), normal)
                 return min(angle, math.pi - angle)
 
-            yield told(to_normal)
-            return
+            return to_normal
+    return None
 
 
 def _extreme(

@@ -14,7 +14,7 @@ over by Q e. Two limits are told, between which a support with its elastic parts
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -30,11 +30,12 @@ from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, Roof
 from support_exudyn.machines.strength.strength_data import StrengthData
 from support_exudyn.machines.strength.used_postures import UsedPosture
 from support_exudyn.mechanics.body_motion import SpatialMotion
-from support_exudyn.mechanics.constraints import SAME, Constraint, constraints_in_space, matrix
+from support_exudyn.mechanics.constraints import SAME, constraints_in_space, matrix
 from support_exudyn.mechanics.kinetics import weight_of
+from support_exudyn.mechanics.reactions import bearing_load
 from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.spatial_linkage import SpatialLinkage
-from support_exudyn.model.to_space import FILE_KEYS, Width
+from support_exudyn.model.to_space import FILE_KEYS
 from user_forces.values.value import InputError
 
 UNBALANCED = 1e-7  # of the roof force: what may be left of it for rounding
@@ -89,9 +90,9 @@ class SpatialStatics:
         """
         one = self.linkage.actuators
         driven = [row for row in constraints_in_space(self.linkage, (), one) if row.kind == "actuator"]
-        forces = np.array([part.share * pushes[part.actuator] for part in one.values()])
+        push = np.array([part.share * pushes[part.actuator] for part in one.values()])
         given = self.weight + roof.force * self.roof(roof.x, aside)
-        given = given + matrix(self.motion, driven)[0].T @ forces
+        given = given + matrix(self.motion, driven)[0].T @ push
         rows = constraints_in_space(self.linkage)
         c = matrix(self.motion, rows)[0].T
         found = np.linalg.lstsq(c, -given, rcond=None)[0]
@@ -107,7 +108,11 @@ class SpatialStatics:
                 f"machine in space: {rest:.3g} N of the roof force {roof.force:.6g} N are not balanced; "
                 "allowed: pushes of its cylinders that hold it"
             )
-        return Twist(*_by_bearing(self, rows, found))
+        twist = Twist({}, {})
+        for name in self.linkage.bearings:
+            force, moment = bearing_load(self.motion, rows, -found[None], name)
+            twist.bearings[name], twist.moments[name] = force[0], moment[0]
+        return twist
 
     def legs_alone(self, x: float, aside: float, limits: Mapping[str, Limits]) -> float:
         """The largest roof force [N] at x, z [m] with no roll passed on by the canopy's joints; 0 if none.
@@ -137,18 +142,6 @@ class SpatialStatics:
     def _on_canopy(self, bearing: str) -> bool:
         one = self.linkage.bearings[bearing]
         return self.canopy in (one.first, one.second)
-
-
-def _by_bearing(
-    space: SpatialStatics, rows: list[Constraint], found: Array
-) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Forces and moments of the bearings in the ground's axes; machines of a plane have axes along z."""
-    place = {"across_1": 0, "across_2": 1, "along": 2, "tilt_1": 0, "tilt_2": 1}
-    forces = {name: np.zeros(3) for name in space.linkage.bearings}
-    moments = {name: np.zeros(3) for name in space.linkage.bearings}
-    for row, load in zip(rows, found.tolist(), strict=True):
-        (moments if row.kind.startswith("tilt") else forces)[row.name][place[row.kind]] = load
-    return forces, moments
 
 
 # --- over the height ---
@@ -185,32 +178,25 @@ def untold(data: MachineData, strength: StrengthData) -> str:
         return "a single leg leaves open where along the canopy the roof force is"
     if width is None or not (width.spreads or width.pairs or width.actuators):
         return "no lateral dimensions of its bodies are known"
-    missing = [*_missing(linkage, strength, width, isinstance(data.machine, FourBarShield))]
-    if missing:
+    several = [name for name, one in strength.cylinders.items() if one.count > 1]
+    needed = {
+        "spreads": [name for name in linkage.bodies if width.spreads.get(name, 0.0) <= 0.0],
+        "pairs": [
+            name for name in PAIRS if isinstance(data.machine, FourBarShield) and name not in width.pairs
+        ],
+        "actuators": [name for name in several if name not in width.actuators],
+    }
+    if missing := [f"{FILE_KEYS[kind]}.{name}" for kind, names in needed.items() for name in names]:
         return f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing"
-    return "; ".join(_contradictions(strength, width))
-
-
-def _missing(linkage: Linkage, strength: StrengthData, width: Width, shield: bool) -> Iterator[str]:
-    """Keys of the lateral dimensions that are needed and not there."""
-    for name in linkage.bodies:
-        if width.spreads.get(name, 0.0) <= 0.0:
-            yield f"{FILE_KEYS['spreads']}.{name}"
-    for name in PAIRS if shield else ():
-        if name not in width.pairs:
-            yield f"{FILE_KEYS['pairs']}.{name}"
-    for name, one in strength.cylinders.items():
-        if one.count > 1 and name not in width.actuators:
-            yield f"{FILE_KEYS['actuators']}.{name}"
-
-
-def _contradictions(strength: StrengthData, width: Width) -> Iterator[str]:
+    wrong = []
     for name, one in strength.cylinders.items():
         where = f"strength.cylinders.{name}.count = {one.count}"
         if one.count == 1 and name in width.actuators:
-            yield f"{where} and {FILE_KEYS['actuators']}.{name}, the distance of two; allowed: one of them"
+            pair = f"{FILE_KEYS['actuators']}.{name}"
+            wrong.append(f"{where} and {pair}, the distance of two; allowed: one of them")
         elif one.count > MOST:
-            yield f"{where}; allowed: 1 in the middle or 2 beside it"
+            wrong.append(f"{where}; allowed: 1 in the middle or 2 beside it")
+    return "; ".join(wrong)
 
 
 def _in_posture(

@@ -6,6 +6,7 @@ import math
 import textwrap
 from collections.abc import Iterator, Sequence
 
+from support_exudyn.machines.check.report import aligned
 from support_exudyn.machines.check.support_rules import RULE, WANDER
 from support_exudyn.machines.strength.assessment import FACTORS, FRICTION
 from support_exudyn.machines.strength.results import OffMiddle, PinLoad, StandReport, SupportForce
@@ -59,7 +60,7 @@ def _cylinders(report: StandReport) -> Iterator[str]:
                 _kn(one.pull),
             )
         )
-    yield from _table(rows)
+    yield from aligned(rows)
 
 
 def _support(report: StandReport) -> Iterator[str]:
@@ -84,7 +85,7 @@ def _support(report: StandReport) -> Iterator[str]:
                 *ends,
             )
         )
-    yield from _table(rows)
+    yield from aligned(rows)
     yield "  place: of the resultant at yield, from the rear end of the canopy; mu: the roof rubs, + forward"
     if single:
         yield (
@@ -125,7 +126,7 @@ def _over(report: StandReport) -> Iterator[str]:
         most = one.largest
         told = (_kn(most.force), _mm(most.x - one.contact.rear))
         rows.append((_mm(one.contact.height), *(_kn(one.force) for one in places), *told))
-    yield from _table(rows)
+    yield from aligned(rows)
 
 
 def _pins(report: StandReport) -> Iterator[str]:
@@ -135,7 +136,7 @@ def _pins(report: StandReport) -> Iterator[str]:
     ]
     for name, one in report.pins.items():
         rows.append((name, *_loads(one), *_safeties(one)))
-    yield from _table(rows)
+    yield from aligned(rows)
     yield "  alike: legs alike, smooth roof; any: any force of it the cylinders hold; rubs: so, rough roof"
     yield "  then safeties against yield of pin and eyes at 1.2 x any, and the least of them at 1.2 x rubs"
     yield from _yields(report)
@@ -184,7 +185,7 @@ def _buckled(report: StandReport) -> Iterator[str]:
                     f"{one.least / (FACTORS[1] * one.force):.2f}",
                 )
             )
-        yield from _table(rows)
+        yield from aligned(rows)
     for name, one in report.buckling.items():
         safety = one.least / one.force
         if safety < FACTORS[1]:
@@ -220,7 +221,7 @@ def _aside(report: StandReport) -> Iterator[str]:
     for one in found:
         worst = max(one.pins, key=lambda name: one.pins[name] - one.centred[name])
         rows.append(_aside_row(one, worst))
-    yield from _table(rows)
+    yield from aligned(rows)
     yield "  legs alone: no roll through the linkage, until one yields; torsion [kN m]: all of it, legs alike;"
     yield "  rigid links leave its share open. By forces: in the bearing where they grow most [kN], least"
     yield "  moments; by moments: the largest in a bearing of a link [kN m], least forces"
@@ -312,16 +313,6 @@ def _kn(force: float) -> str:
 
 def _mm(length: float) -> str:
     return f"{1e3 * length:.0f}" if abs(length) >= 0.1 else f"{round(1e3 * length, 1) + 0.0:.1f}"
-
-
-def _table(rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    widths = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
-    for row in rows:
-        first, *others = (
-            cell.ljust(w) if n == 0 else cell.rjust(w)
-            for n, (cell, w) in enumerate(zip(row, widths, strict=True))
-        )
-        yield ("  " + "  ".join([first, *others])).rstrip()
 
 
 def _folded(text: str, indent: str) -> list[str]:

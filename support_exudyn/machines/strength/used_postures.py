@@ -8,7 +8,7 @@ import numpy as np
 
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.mechanics.continuation import conditions_of, moved_on
+from support_exudyn.mechanics.closing import conditions_of, moved_on
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.postures import laid_out
 from support_exudyn.model.linkage import GROUND, Linkage

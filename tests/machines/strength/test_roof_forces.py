@@ -14,8 +14,7 @@ from support_exudyn.files.machines import shipped
 from support_exudyn.machines.check.statics import GRAVITY
 from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, RoofStatics
 from support_exudyn.machines.strength.used_postures import UsedPosture, used_postures
-from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.mechanics.postures import posture
+from support_exudyn.mechanics.closing import conditions_of, newton
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, TracePoint, pinned
 from user_forces import InputError
 
@@ -101,15 +100,15 @@ def test_the_work_of_actuators_is_that_against_roof_and_weight(
     forces = dict(zip(linkage.actuators, pushes, strict=True))
     roof = statics.balancing(forces)
     assert roof is not None
-    closed = kinetics_of(linkage)
+    conditions = conditions_of(linkage)
+    closed = conditions.kinetics
     step = 1e-4
-    start = np.zeros(3 * len(linkage.bodies))
     there = []
     for sign in (1.0, -1.0):
         travels = {name: sign * step * part for name, part in zip(linkage.actuators, way, strict=True)}
-        found = posture(closed, start, {}, travels)
+        found = newton(conditions, conditions.still, conditions.targets(travels, {}), 1.0)
         assert found is not None
-        there.append(found)
+        there.append(found / conditions.arms)
     height = statics.contact.height
     spots = [closed.point(one, "canopy", (roof.x, height))[0] for one in there]
     moved = spots[0] - spots[1]
@@ -204,9 +203,6 @@ def test_no_roof_force_within_the_limits_loads_a_pin_more_than_the_corners(
             continue  # the weight alone is too much
         for pin, force in statics.pins(roof).items():
             assert float(np.hypot(*force)) <= most[pin] * (1.0 + 1e-9)
-
-
-# --- metamorphic ---
 
 
 # --- refusals ---

@@ -19,7 +19,7 @@ from support_exudyn.formulations.exudyn.scene.load_item import add_load
 from support_exudyn.formulations.exudyn.scene.section_pin import SectionJournal, SectionPin
 from support_exudyn.formulations.exudyn.scene.sections import SectionPlace, section_places
 from support_exudyn.mechanics.constraints import frame_of
-from support_exudyn.mechanics.contact_places import BlockContactPlace, ContactPlace
+from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg, preloaded_legs
 from support_exudyn.mechanics.joint_friction import friction_joints
 from support_exudyn.mechanics.kinetics import Matrix
@@ -45,15 +45,13 @@ class SceneBuilder(JointBuilder):
             if (pin := scenario.clearance_pins.get(bearing.pin)) is not None:
                 found[name] = [*section_places(bearing, pin.contact, pin.bore, scenario.solver.sections)]
         for name, block in scenario.blocks.items():
-            place = scenario.contact_places[name]
-            assert isinstance(place, BlockContactPlace)
-            found[name] = 2 * [place.in_space(block.lateral)]
+            found[name] = 2 * [scenario.contact_places[name].in_space(block.lateral)]
         return found
 
     def add_contact(self, place: ContactPlace | SectionPlace) -> JointItem:
         """Add the connector of a contact."""
         bore, journal = self.frames(place)
-        block = isinstance(place, BlockContactPlace)  # its face turns as little as the ground
+        block = isinstance(place, ContactPlace) and place.on_block  # its face turns as little as the ground
         return JointItem(
             self.mbs,
             place.contact,
