@@ -73,6 +73,7 @@ class LineForce(ConnectorForce):
     def __init__(self, contact: Contact, at: Attachment, bore_spin: Callable[[], float]) -> None:
         super().__init__(contact, at, bore_spin)
         self.kernel = compiled_line_kernel(contact.force_kernel)
+        self._own = self.kernel, self.constants
 
     def __call__(self, mbs: Any, t: float, item: int, depth: float, rate: float, *settings: Any) -> Any:  # type: ignore[override]
         """Force [N] that pulls the markers together, at a depth [m] and its rate [m/s]."""

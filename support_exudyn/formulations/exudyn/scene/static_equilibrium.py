@@ -45,8 +45,8 @@ def find_static_equilibrium(scene: EngineScene) -> None:
 class EngineBalance:
     """The balance of forces and constraints that the engine computes, see `scene.equilibrium.Balance`.
 
-    Until `finish`, other user functions give the forces of contacts. The engine's own static solver would do
-    without the stiffness of constraints that turn.
+    Until `finish`, other kernels give the forces of contacts. The engine's own static solver would do without
+    the stiffness of constraints that turn.
     """
 
     def __init__(self, scene: EngineScene) -> None:
@@ -54,7 +54,7 @@ class EngineBalance:
         self._springs: dict[str, CentringSpring] = {}
         self.centre(1.0)
         for name, pin in scene.clearance_joints.items():
-            pin.item.set_force(self._held(name, pin))
+            pin.user_function.use(self._held(name, pin))
         engine: Any = exudyn  # the stubs of its solvers lack self
         self._solver, self._settings = engine.MainSolverStatic(), engine.SimulationSettings()
         self._settings.solution.file.write = False
@@ -72,7 +72,8 @@ class EngineBalance:
         """Let contacts give their own forces again."""
         self._solver.FinalizeSolver(self.mbs, self._settings)
         for pin in self.scene.clearance_joints.values():
-            pin.item.set_force(pin.user_function)
+            pin.user_function.use()
+            pin.user_function.calls = 0  # those of a run are counted
 
     def centre(self, share: float) -> None:
         """See `Balance`; journals stay where they have shifted to along their bores."""
@@ -110,7 +111,7 @@ class EngineBalance:
         return np.asarray(self._solver.GetSystemJacobian()[self._first :, : self._size])
 
     def _held(self, name: str, pin: ContactConnector) -> Callable[..., Any]:
-        """The user function of a contact that its spring holds."""
+        """The kernel of a contact that its spring holds, as its user function calls it."""
         kinematics, known = pin.contact.bearing.kinematics, pin.contact.bearing.constants
         law = pin.contact.normal
 
@@ -119,28 +120,14 @@ class EngineBalance:
             elastic = law.elastic_force(min(depth, spring.deepest)) if depth > 0.0 else 0.0
             return spring.force(depth, elastic)
 
-        def tension(mbs: Any, t: float, item: int, depth: float, *motion: Any) -> float:
-            return pull(depth)
+        def tension(depth: float, *motion: Any) -> tuple[float]:
+            return (pull(depth),)
 
         def force(x: float, y: float, vx: float, vy: float, *spins: Any) -> tuple[float, ...]:
             depth, rate, slip, nx, ny, arm = kinematics(x, y, vx, vy, spins[0], spins[1], *known)
             normal = pull(depth)
             return depth, rate, slip, normal, 0.0, -normal * nx, -normal * ny, arm, False, 0.0
 
-        in_axes = connector_kernel(force, pin.item.at, pin.contact.bearing.is_slot)
-
-        def user_function(
-            mbs: Any,
-            t: float,
-            item: int,
-            displacement: Any,
-            rotation: Any,
-            velocity: Any,
-            spin: Any,
-            *settings: Any,
-        ) -> list[float]:
-            motion = *displacement, *velocity, rotation[2], spin[2], 0.0
-            fx, fy, fz, moment, *_ = in_axes(*motion, True, 0.0, 0.0, 0.0, 0.0, ())
-            return [fx, fy, fz, 0.0, 0.0, moment]
-
-        return tension if pin.item.on_line else user_function
+        return (
+            tension if pin.item.on_line else connector_kernel(force, pin.item.at, pin.contact.bearing.is_slot)
+        )
