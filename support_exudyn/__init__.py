@@ -19,302 +19,119 @@ from support_exudyn.simulation import at_start as at_start
 # isort: split
 
 from support_exudyn.scenario.presentation import Presenter, present_by
-from user_forces.values.places import keep_classes, offered
+from user_forces.values.places import for_types, keep_classes, offered
 
 if TYPE_CHECKING:
-    from support_exudyn.files.machines import (
-        cylinders_and_rods,
-        load_machine,
-        load_support,
-        machine,
-        reference_support,
-    )
-    from support_exudyn.files.own_modules import trusted
-    from support_exudyn.files.scenarios.scenario_file import read_scenario
-    from support_exudyn.files.scenarios.simple_scenario import simple_scenario
-    from support_exudyn.machines.four_column_support import HydraulicSupport
-    from support_exudyn.machines.free_impact import ImpactStand
-    from support_exudyn.machines.planar_linkage import PlanarLinkage
-    from support_exudyn.machines.slider_crank import SliderCrank, ravn_slider_crank
-    from support_exudyn.machines.two_leg_shield import TwoLegShield
-    from support_exudyn.mechanics.trajectory import Impulse
-    from support_exudyn.model.actuators import (
-        ActuatorModel,
-        CylinderAndRod,
-        Lumped,
-        OwnBody,
-        PartModel,
-        RigidActuator,
-        bore_area,
-    )
-    from support_exudyn.model.bushing_pin import BushingPin
-    from support_exudyn.model.drives.drive import (
-        CubicStep,
-        Drive,
-        Held,
-        Reciprocating,
-        Steady,
-        Stroke,
-        UniformSpeed,
-    )
-    from support_exudyn.model.drives.table_drive import TableDrive
-    from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
-    from support_exudyn.model.hydraulics.elements import (
-        CheckValve,
-        EndStops,
-        Line,
-        Poppet,
-        PumpStation,
-        SealFriction,
-        SecondStage,
-        TrappedAir,
-        YieldValve,
-    )
-    from support_exudyn.model.hydraulics.inlets import ClosedInlet, Inlet, RampedOpening, SuddenOpening
-    from support_exudyn.model.hydraulics.leg import HydraulicCylinder, OilColumn
-    from support_exudyn.model.linkage import (
-        Body,
-        Crank,
-        Gear,
-        LinearActuator,
-        Linkage,
-        Part,
-        PinPlace,
-        Slide,
-        TracePoint,
-    )
-    from support_exudyn.model.loads.applied import AppliedForce, AppliedTorque, HarmonicCourse, TableCourse
-    from support_exudyn.model.loads.falling_block import FallingBlock
-    from support_exudyn.model.loads.load import (
-        Load,
-        LoadChannel,
-        LoadedPoint,
-        LoadedStretch,
-        MomentLoad,
-        StretchLoad,
-        TurnedBody,
-    )
-    from support_exudyn.model.loads.roofs import BeddedRoof, GroundReaction, Roof
-    from support_exudyn.model.loads.springs import SpringDamper, TorsionSpring
-    from support_exudyn.model.machine import Machine
-    from support_exudyn.model.pins import ClearancePin, CompliantPin, IdealPin, Pin
-    from support_exudyn.model.to_space import Width
-    from support_exudyn.postprocessing.comparing.files_compared import FilesCompared, compare_files
-    from support_exudyn.postprocessing.export.solution_file import save_solution
-    from support_exudyn.postprocessing.known_channels import channels
-    from support_exudyn.postprocessing.side_by_side import RunsSideBySide, compare
-    from support_exudyn.scenario.recorded_channels import Channel
-    from support_exudyn.scenario.scenario import Scenario
-    from support_exudyn.scenario.solver_settings import SolverSettings
-    from support_exudyn.scene.contract import Failure, SimulationError
-    from support_exudyn.simulation.estimate import Estimate
-    from support_exudyn.simulation.recommend import Recommendation, recommend
-    from support_exudyn.simulation.result import Result
-    from support_exudyn.simulation.simulate import simulate
-    from user_forces.contact import JournalContact
-    from user_forces.contact_state import Onset
-    from user_forces.friction.law import FrictionLaw
-    from user_forces.journal import JournalBearing
-    from user_forces.normal.law import NormalLaw
-    from user_forces.values.value import InputError, value
-
-__all__ = [
-    "ActuatorModel",
-    "AppliedForce",
-    "AppliedTorque",
-    "BeddedRoof",
-    "Body",
-    "BushingPin",
-    "Channel",
-    "CheckValve",
-    "ClearanceGuide",
-    "ClearancePin",
-    "ClosedInlet",
-    "CompliantPin",
-    "Crank",
-    "CubicStep",
-    "CylinderAndRod",
-    "Drive",
-    "EndStops",
-    "Estimate",
-    "Failure",
-    "FallingBlock",
-    "FilesCompared",
-    "FrictionLaw",
-    "Gear",
-    "GroundReaction",
-    "Guide",
-    "HarmonicCourse",
-    "Held",
-    "HydraulicCylinder",
-    "HydraulicSupport",
-    "IdealGuide",
-    "IdealPin",
-    "ImpactStand",
-    "Impulse",
-    "Inlet",
-    "InputError",
-    "JournalBearing",
-    "JournalContact",
-    "Line",
-    "LinearActuator",
-    "Linkage",
-    "Load",
-    "LoadChannel",
-    "LoadedPoint",
-    "LoadedStretch",
-    "Lumped",
-    "Machine",
-    "MomentLoad",
-    "NormalLaw",
-    "OilColumn",
-    "Onset",
-    "OwnBody",
-    "Part",
-    "PartModel",
-    "Pin",
-    "PinPlace",
-    "PlanarLinkage",
-    "Poppet",
-    "PumpStation",
-    "RampedOpening",
-    "Reciprocating",
-    "Recommendation",
-    "Result",
-    "RigidActuator",
-    "Roof",
-    "RunsSideBySide",
-    "Scenario",
-    "SealFriction",
-    "SecondStage",
-    "SimulationError",
-    "Slide",
-    "SliderCrank",
-    "SolverSettings",
-    "SpringDamper",
-    "Steady",
-    "StretchLoad",
-    "Stroke",
-    "SuddenOpening",
-    "TableCourse",
-    "TableDrive",
-    "TorsionSpring",
-    "TracePoint",
-    "TrappedAir",
-    "TurnedBody",
-    "TwoLegShield",
-    "UniformSpeed",
-    "Width",
-    "YieldValve",
-    "bore_area",
-    "channels",
-    "compare",
-    "compare_files",
-    "cylinders_and_rods",
-    "load_machine",
-    "load_support",
-    "machine",
-    "ravn_slider_crank",
-    "read_scenario",
-    "recommend",
-    "reference_support",
-    "save_solution",
-    "simple_scenario",
-    "simulate",
-    "trusted",
-    "value",
-]
+    from support_exudyn.files.machines import cylinders_and_rods as cylinders_and_rods
+    from support_exudyn.files.machines import load_machine as load_machine
+    from support_exudyn.files.machines import load_support as load_support
+    from support_exudyn.files.machines import machine as machine
+    from support_exudyn.files.machines import reference_support as reference_support
+    from support_exudyn.files.own_modules import trusted as trusted
+    from support_exudyn.files.scenarios.scenario_file import read_scenario as read_scenario
+    from support_exudyn.files.scenarios.simple_scenario import simple_scenario as simple_scenario
+    from support_exudyn.machines.four_column_support import HydraulicSupport as HydraulicSupport
+    from support_exudyn.machines.free_impact import ImpactStand as ImpactStand
+    from support_exudyn.machines.planar_linkage import PlanarLinkage as PlanarLinkage
+    from support_exudyn.machines.slider_crank import SliderCrank as SliderCrank
+    from support_exudyn.machines.slider_crank import ravn_slider_crank as ravn_slider_crank
+    from support_exudyn.machines.two_leg_shield import TwoLegShield as TwoLegShield
+    from support_exudyn.mechanics.trajectory import Impulse as Impulse
+    from support_exudyn.model.actuators import ActuatorModel as ActuatorModel
+    from support_exudyn.model.actuators import CylinderAndRod as CylinderAndRod
+    from support_exudyn.model.actuators import Lumped as Lumped
+    from support_exudyn.model.actuators import OwnBody as OwnBody
+    from support_exudyn.model.actuators import PartModel as PartModel
+    from support_exudyn.model.actuators import RigidActuator as RigidActuator
+    from support_exudyn.model.actuators import bore_area as bore_area
+    from support_exudyn.model.bushing_pin import BushingPin as BushingPin
+    from support_exudyn.model.drives.drive import CubicStep as CubicStep
+    from support_exudyn.model.drives.drive import Drive as Drive
+    from support_exudyn.model.drives.drive import Held as Held
+    from support_exudyn.model.drives.drive import Reciprocating as Reciprocating
+    from support_exudyn.model.drives.drive import Steady as Steady
+    from support_exudyn.model.drives.drive import Stroke as Stroke
+    from support_exudyn.model.drives.drive import UniformSpeed as UniformSpeed
+    from support_exudyn.model.drives.table_drive import TableDrive as TableDrive
+    from support_exudyn.model.guides import ClearanceGuide as ClearanceGuide
+    from support_exudyn.model.guides import Guide as Guide
+    from support_exudyn.model.guides import IdealGuide as IdealGuide
+    from support_exudyn.model.hydraulics.elements import CheckValve as CheckValve
+    from support_exudyn.model.hydraulics.elements import EndStops as EndStops
+    from support_exudyn.model.hydraulics.elements import Line as Line
+    from support_exudyn.model.hydraulics.elements import Poppet as Poppet
+    from support_exudyn.model.hydraulics.elements import PumpStation as PumpStation
+    from support_exudyn.model.hydraulics.elements import SealFriction as SealFriction
+    from support_exudyn.model.hydraulics.elements import SecondStage as SecondStage
+    from support_exudyn.model.hydraulics.elements import TrappedAir as TrappedAir
+    from support_exudyn.model.hydraulics.elements import YieldValve as YieldValve
+    from support_exudyn.model.hydraulics.inlets import ClosedInlet as ClosedInlet
+    from support_exudyn.model.hydraulics.inlets import Inlet as Inlet
+    from support_exudyn.model.hydraulics.inlets import RampedOpening as RampedOpening
+    from support_exudyn.model.hydraulics.inlets import SuddenOpening as SuddenOpening
+    from support_exudyn.model.hydraulics.leg import HydraulicCylinder as HydraulicCylinder
+    from support_exudyn.model.hydraulics.leg import OilColumn as OilColumn
+    from support_exudyn.model.linkage import Body as Body
+    from support_exudyn.model.linkage import Crank as Crank
+    from support_exudyn.model.linkage import Gear as Gear
+    from support_exudyn.model.linkage import LinearActuator as LinearActuator
+    from support_exudyn.model.linkage import Linkage as Linkage
+    from support_exudyn.model.linkage import Part as Part
+    from support_exudyn.model.linkage import PinPlace as PinPlace
+    from support_exudyn.model.linkage import Slide as Slide
+    from support_exudyn.model.linkage import TracePoint as TracePoint
+    from support_exudyn.model.loads.applied import AppliedForce as AppliedForce
+    from support_exudyn.model.loads.applied import AppliedTorque as AppliedTorque
+    from support_exudyn.model.loads.applied import HarmonicCourse as HarmonicCourse
+    from support_exudyn.model.loads.applied import TableCourse as TableCourse
+    from support_exudyn.model.loads.falling_block import FallingBlock as FallingBlock
+    from support_exudyn.model.loads.load import Load as Load
+    from support_exudyn.model.loads.load import LoadChannel as LoadChannel
+    from support_exudyn.model.loads.load import LoadedPoint as LoadedPoint
+    from support_exudyn.model.loads.load import LoadedStretch as LoadedStretch
+    from support_exudyn.model.loads.load import MomentLoad as MomentLoad
+    from support_exudyn.model.loads.load import StretchLoad as StretchLoad
+    from support_exudyn.model.loads.load import TurnedBody as TurnedBody
+    from support_exudyn.model.loads.roofs import BeddedRoof as BeddedRoof
+    from support_exudyn.model.loads.roofs import GroundReaction as GroundReaction
+    from support_exudyn.model.loads.roofs import Roof as Roof
+    from support_exudyn.model.loads.springs import SpringDamper as SpringDamper
+    from support_exudyn.model.loads.springs import TorsionSpring as TorsionSpring
+    from support_exudyn.model.machine import Machine as Machine
+    from support_exudyn.model.pins import ClearancePin as ClearancePin
+    from support_exudyn.model.pins import CompliantPin as CompliantPin
+    from support_exudyn.model.pins import IdealPin as IdealPin
+    from support_exudyn.model.pins import Pin as Pin
+    from support_exudyn.model.to_space import Width as Width
+    from support_exudyn.postprocessing.comparing.files_compared import FilesCompared as FilesCompared
+    from support_exudyn.postprocessing.comparing.files_compared import compare_files as compare_files
+    from support_exudyn.postprocessing.export.solution_file import save_solution as save_solution
+    from support_exudyn.postprocessing.known_channels import channels as channels
+    from support_exudyn.postprocessing.side_by_side import RunsSideBySide as RunsSideBySide
+    from support_exudyn.postprocessing.side_by_side import compare as compare
+    from support_exudyn.scenario.recorded_channels import Channel as Channel
+    from support_exudyn.scenario.scenario import Scenario as Scenario
+    from support_exudyn.scenario.solver_settings import SolverSettings as SolverSettings
+    from support_exudyn.scene.contract import Failure as Failure
+    from support_exudyn.scene.contract import SimulationError as SimulationError
+    from support_exudyn.simulation.estimate import Estimate as Estimate
+    from support_exudyn.simulation.recommend import Recommendation as Recommendation
+    from support_exudyn.simulation.recommend import recommend as recommend
+    from support_exudyn.simulation.result import Result as Result
+    from support_exudyn.simulation.simulate import simulate as simulate
+    from user_forces.contact import JournalContact as JournalContact
+    from user_forces.contact_state import Onset as Onset
+    from user_forces.friction.law import FrictionLaw as FrictionLaw
+    from user_forces.journal import JournalBearing as JournalBearing
+    from user_forces.normal.law import NormalLaw as NormalLaw
+    from user_forces.values.value import InputError as InputError
+    from user_forces.values.value import value as value
 
 # imported when they are asked for, so that others need not wait: what a run is made of, and what it is read by
-_PLACES = {
-    "user_forces.contact_state": ("Onset",),
-    ".files.machines": ("cylinders_and_rods", "load_machine", "load_support", "machine", "reference_support"),
-    ".scene.contract": ("Failure", "SimulationError"),
-    ".machines.four_column_support": ("HydraulicSupport",),
-    ".machines.free_impact": ("ImpactStand",),
-    ".machines.planar_linkage": ("PlanarLinkage",),
-    ".machines.slider_crank": ("SliderCrank", "ravn_slider_crank"),
-    ".machines.two_leg_shield": ("TwoLegShield",),
-    ".mechanics.trajectory": ("Impulse",),
-    ".model.actuators": (
-        "ActuatorModel",
-        "CylinderAndRod",
-        "Lumped",
-        "OwnBody",
-        "PartModel",
-        "RigidActuator",
-        "bore_area",
-    ),
-    ".model.bushing_pin": ("BushingPin",),
-    ".model.drives.drive": ("CubicStep", "Drive", "Held", "Reciprocating", "Steady", "Stroke", "UniformSpeed"),
-    ".model.drives.table_drive": ("TableDrive",),
-    ".model.guides": ("ClearanceGuide", "Guide", "IdealGuide"),
-    ".model.hydraulics.elements": (
-        "CheckValve",
-        "EndStops",
-        "Line",
-        "Poppet",
-        "PumpStation",
-        "SealFriction",
-        "SecondStage",
-        "TrappedAir",
-        "YieldValve",
-    ),
-    ".model.hydraulics.inlets": ("ClosedInlet", "Inlet", "RampedOpening", "SuddenOpening"),
-    ".model.hydraulics.leg": ("HydraulicCylinder", "OilColumn"),
-    ".model.linkage": (
-        "Body",
-        "Crank",
-        "Gear",
-        "LinearActuator",
-        "Linkage",
-        "Part",
-        "PinPlace",
-        "Slide",
-        "TracePoint",
-    ),
-    ".model.loads.applied": ("AppliedForce", "AppliedTorque", "HarmonicCourse", "TableCourse"),
-    ".model.loads.falling_block": ("FallingBlock",),
-    ".model.loads.load": (
-        "Load",
-        "LoadChannel",
-        "LoadedPoint",
-        "LoadedStretch",
-        "MomentLoad",
-        "StretchLoad",
-        "TurnedBody",
-    ),
-    ".model.loads.roofs": ("BeddedRoof", "GroundReaction", "Roof"),
-    ".model.loads.springs": ("SpringDamper", "TorsionSpring"),
-    ".model.machine": ("Machine",),
-    ".model.pins": ("ClearancePin", "CompliantPin", "IdealPin", "Pin"),
-    ".model.to_space": ("Width",),
-    ".scenario.recorded_channels": ("Channel",),
-    ".scenario.scenario": ("Scenario",),
-    ".scenario.solver_settings": ("SolverSettings",),
-    ".simulation.estimate": ("Estimate",),
-    ".simulation.recommend": ("Recommendation", "recommend"),
-    ".simulation.result": ("Result",),
-    ".simulation.simulate": ("simulate",),
-    "user_forces.contact": ("JournalContact",),
-    "user_forces.friction.law": ("FrictionLaw",),
-    "user_forces.journal": ("JournalBearing",),
-    "user_forces.normal.law": ("NormalLaw",),
-    "user_forces.values.value": ("InputError", "value"),
-    ".files.own_modules": ("trusted",),
-    ".files.scenarios.scenario_file": ("read_scenario",),
-    ".files.scenarios.simple_scenario": ("simple_scenario",),
-}
-# what needs the engine or draws
-_SHOWN = {
-    ".postprocessing.export.solution_file": ("save_solution",),
-    ".postprocessing.comparing.files_compared": ("FilesCompared", "compare_files"),
-    ".postprocessing.known_channels": ("channels",),
-    ".postprocessing.side_by_side": ("RunsSideBySide", "compare"),
-}
-
-__getattr__, __dir__ = offered(__name__, _PLACES | _SHOWN)
-keep_classes(__name__, _PLACES)
+_PLACES = for_types(__file__)
+__getattr__, __dir__ = offered(__name__, _PLACES)
+# what needs the engine or draws has no classes of values
+keep_classes(__name__, {name: names for name, names in _PLACES.items() if ".postprocessing." not in name})
 
 
 def _presenter() -> Presenter:

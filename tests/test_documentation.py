@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 import sys
@@ -14,11 +13,9 @@ from typing import Any
 import pytest
 
 from support_exudyn import CubicStep, Result, Scenario, reference_support, simulate
-from support_exudyn.documentation.findings import findings_page
 from support_exudyn.documentation.reference import examples, key_of, public_names
-from support_exudyn.documentation.site import NEEDED, ROOT, broken_links, rooms
+from support_exudyn.documentation.site import NEEDED, ROOT, rooms
 from support_exudyn.files.starters import starter
-from user_forces.values.value import InputError
 
 NAMES = {key_of(name): thing for name, thing in public_names().items()}
 
@@ -56,34 +53,6 @@ def test_the_example_of_a_name_runs(
 def test_rooms_are_all_told() -> None:
     assert len(rooms()) >= 16
     assert [name for name in rooms() if not (ROOT / name).is_file()] == []
-
-
-def test_findings_are_those_of_the_chapters(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="no study has left a chapter there"):
-        findings_page(tmp_path, tmp_path)
-    assert "python -m studies" in findings_page(None, tmp_path)
-    (tmp_path / "one").mkdir()
-    chapter = {
-        "title": "One", "question": "Why?", "answer": "Because ([@fig]).", "numbers": ["mass [kg]: 2"],
-        "findings": ["It is so, see [@fig]."], "pictures": [],
-    }  # fmt: skip
-    (tmp_path / "one" / "chapter.json").write_text(json.dumps(chapter), encoding="utf-8")
-    page = findings_page(tmp_path, tmp_path / "pictures")
-    assert "*Why?*\n\nBecause.\n\n- mass \\[kg\\]: 2\n- It is so, see fig.\n" in page
-
-
-def test_broken_links_are_found(tmp_path: Path) -> None:
-    (tmp_path / "one.html").write_text(
-        '<a href="two.html#here">1</a><a href="none.html">2</a>', encoding="utf-8"
-    )
-    (tmp_path / "two.html").write_text(
-        '<p id="there"></p><script src="https://elsewhere.org/x.js"></script>', encoding="utf-8"
-    )
-    assert broken_links(tmp_path) == [
-        "one.html: two.html#here: there is no such place",
-        "one.html: none.html: leads nowhere",
-        "two.html: loads https://elsewhere.org/x.js from elsewhere",
-    ]
 
 
 @pytest.mark.slow  # the gallery runs all examples

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from user_forces.values.places import keep_classes, offered
+from user_forces.values.places import for_types, keep_classes, offered
 
 if TYPE_CHECKING:
     from user_forces.catalogue import laws as laws
@@ -78,94 +78,6 @@ if TYPE_CHECKING:
     from user_forces.values.value import Value as Value
     from user_forces.values.value import value as value
 
-_PLACES = {
-    ".connector.clearance_joint": ("ClearanceJoint", "ClearanceGuide"),
-    ".connector.located": ("solve_located",),
-    ".catalogue": ("laws",),
-    ".conformal": (
-        "LineContact",
-        "line_contact",
-    ),
-    ".contact": (
-        "ContactForce",
-        "FaceContact",
-        "JournalContact",
-        "SlipHistory",
-        "SlotContact",
-    ),
-    ".face": ("Face",),
-    ".friction.law": ("FrictionLaw",),
-    ".friction.laws": (
-        "Ambrosio",
-        "BengisuAkay",
-        "BrownMcPhee",
-        "CubicCoulomb",
-        "Frictionless",
-        "Stribeck",
-        "Threlfall",
-    ),
-    ".friction.lugre": ("LuGre",),
-    ".journal": ("JournalBearing",),
-    ".materials": (
-        "Material",
-        "STEEL",
-        "STEEL_35CRMO",
-        "effective_modulus",
-        "external_contact_stiffness",
-        "internal_contact_stiffness",
-    ),
-    ".normal.cylinders": (
-        "CylinderLaw",
-        "DubowskyFreudenstein",
-        "Esdu78035",
-        "Goldsmith",
-        "Johnson",
-        "Liu",
-        "Pereira",
-        "Radzimovsky",
-    ),
-    ".normal.dashpots": (
-        "AdamsImpact",
-        "Anagnostopoulos",
-        "KelvinVoigt",
-    ),
-    ".normal.hysteresis": (
-        "Hysteresis",
-        "delivered_restitution",
-        "exact_damping_factor",
-    ),
-    ".normal.law": (
-        "LoadError",
-        "NormalLaw",
-    ),
-    ".normal.pin_in_bore": ("PinInBore",),
-    ".normal.power_laws": (
-        "CarvalhoMartins",
-        "Exact",
-        "Flores",
-        "GharibHurmuzlu",
-        "Gonthier",
-        "HerbertMcWhannell",
-        "Hertz",
-        "HuGuo",
-        "HuntCrossley",
-        "LankaraniNikravesh",
-        "LeeWang",
-        "PowerLaw",
-        "SafaeifarFarshidianfar",
-        "ZhiyingQishao",
-    ),
-    ".own_laws": (
-        "friction_law",
-        "normal_law",
-    ),
-    ".slot": ("Slot",),
-    ".values.value": (
-        "InputError",
-        "Value",
-        "value",
-    ),
-}
-
+_PLACES = for_types(__file__)
 __getattr__, __dir__ = offered(__name__, _PLACES)
 keep_classes(__name__, {**_PLACES, ".normal.part": ("PartOf",)})

@@ -34,7 +34,7 @@ from studies.common.subject import paper_subject
 from studies.common.witness import Witness, run_on_exudyn, with_errors
 from studies.common.words import TextTable
 from support_exudyn import Result, Scenario
-from support_exudyn.postprocessing.figures.machine import machine_drawing
+from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
 
 
 def scenarios() -> dict[str, Scenario]:

@@ -31,14 +31,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(given: argparse.Namespace) -> None:
     """Draw, write, and print the names of the files."""
     from support_exudyn.postprocessing.figures import style
-    from support_exudyn.postprocessing.figures.sweep_chart import numbers_by_name, sweep_chart, varied_in
-    from support_exudyn.postprocessing.figures.sweep_distribution import histogram, tornado, usual_chart
+    from support_exudyn.postprocessing.figures.sweep_chart import sweep_chart
+    from support_exudyn.postprocessing.figures.sweep_distribution import histogram, tornado
+    from support_exudyn.postprocessing.sweep_runs import SweepRuns
     from support_exudyn.sweeps.table import is_sampled, read_table
 
     if len(given.names) > 2:
         raise InputError(f"{' '.join(given.names)}: allowed: what was varied and a number, or a number alone")
     table = read_table(given.store)
-    *before, y = given.names or [_only_number(list(numbers_by_name(table)))]
+    *before, y = given.names or [_only_number(list(SweepRuns(table).numbers))]
     store = given.store if given.store.is_dir() else given.store.parent
     if before and (given.histogram or given.tornado):
         raise InputError(f"{before[0]}: allowed with --histogram and --tornado: a number alone")
@@ -47,10 +48,10 @@ def run(given: argparse.Namespace) -> None:
             drawing, name = tornado(table, y), file_name(y, "tornado")
         elif given.histogram or (not before and is_sampled(table)):
             drawing, name = histogram(table, y), file_name(y, "histogram")
-        elif (x := before[0] if before else usual_chart(table)) is None:
+        elif (x := before[0] if before else SweepRuns(table).usual_input) is None:
             raise InputError(
-                f"{y}: over which field? allowed: chart STORE X Y with X one of {', '.join(varied_in(table))}; "
-                "or --histogram, --tornado"
+                f"{y}: over which field? allowed: chart STORE X Y with X one of "
+                f"{', '.join(SweepRuns(table).varied)}; or --histogram, --tornado"
             )
         else:
             drawing = sweep_chart(table, x, y, given.by)

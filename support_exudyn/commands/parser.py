@@ -1,18 +1,19 @@
-"""The commands of `python -m support_exudyn`, one per file.
+"""The commands of `python -m support_exudyn`.
 
-A command is a module with `add_arguments(parser)` and `run(given)`, which does it with the arguments that were
-given and raises InputError, OSError or SimulationError. Its name is the module's. A further one is a file here,
-and in NAMES its name and a line of what it does. It is imported when the command line asks for it.
+A command is a module of its name with `add_arguments(parser)` and `run(given)`, which does it with the given
+arguments and raises InputError, OSError or SimulationError; or two functions `add_NAME` and `run_NAME` in a
+module of several, see TOGETHER. A further one has in NAMES its name and a line of what it does. It is imported
+when the command line asks for it.
 """
 
 import argparse
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import Protocol, cast
+from typing import NamedTuple
 
 from support_exudyn.commands.command_line import CommandParser, Parser, mendable, say
 from support_exudyn.scene.contract import told
@@ -45,6 +46,11 @@ NAMES = {  # of commands, each with a line of what it does
     "docs": "build the documentation as a site: pages, reference, gallery; needs the extra [docs]",
 }
 
+TOGETHER = {  # the module of commands that share one
+    **dict.fromkeys(("init", "channels", "scenario", "schema", "docs"), "inputs"),
+    **dict.fromkeys(("check", "stand"), "machines"),
+    **dict.fromkeys(("report", "view", "measure", "export"), "outputs"),
+}
 INSTALLED = "support-exudyn"
 EPILOG = """\
 COMMAND --help tells what a command takes. Results go to standard output, progress and warnings to
@@ -61,19 +67,19 @@ exit codes:
 """
 
 
-class Command(Protocol):
-    """What a module of a command offers."""
+class Command(NamedTuple):
+    """A command: it tells the parser what it takes, and does it with the arguments that were given."""
 
-    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
-        """Tell the parser what the command takes."""
-
-    def run(self, given: argparse.Namespace) -> None:
-        """Do it."""
+    add_arguments: Callable[[argparse.ArgumentParser], None]
+    run: Callable[[argparse.Namespace], None]
 
 
 def command(name: str) -> Command:
     """The command of this name."""
-    return cast(Command, import_module(f"{__package__}.{name}"))
+    module = import_module(f"{__package__}.{TOGETHER.get(name, name)}")
+    if name in TOGETHER:
+        return Command(getattr(module, f"add_{name}"), getattr(module, f"run_{name}"))
+    return Command(module.add_arguments, module.run)
 
 
 def parser() -> Parser:

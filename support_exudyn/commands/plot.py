@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Draw = Callable[[], "Figure"]
-OVER_TIME = "channels"
 KINDS = ("orbit", "poincare", "spectrum")  # of figures of a pin
 
 
@@ -97,22 +96,21 @@ def run(given: argparse.Namespace) -> None:
     out = given.out or first.with_name(f"{first.stem}_figures")
     curves = {name: read_series(path) for name, path in named_curves(tables, runs).items()}
     several = len(runs) + len(curves) > 1
-    wanted, optional = _of_several(runs, curves, given) if several else _of_one(runs, given)
-    drawings = []
-    written = {}
+    wanted, optional = (
+        _of_several(runs, curves, given) if several else _of_one(*next(iter(runs.items())), given)
+    )
+    drawings, written = [], {}
     with style.look():
         for name, draw in wanted.items():
             try:
-                drawing = draw()
+                drawings.append(draw())
             except InputError as error:
                 if name not in optional:
                     raise
                 warn(f"{name}: left out: {error}")
                 continue
-            drawings.append(drawing)
-            files = style.save(drawing, out, name)
-            written[name] = files
-            for path in () if given.json else files:
+            written[name] = style.save(drawings[-1], out, name)
+            for path in () if given.json else written[name]:
                 say(str(path))
         if given.json:
             answer({"figures": written})
@@ -126,15 +124,7 @@ def _of_several(
     """Channels of several runs and of others, one upon another or less those of the first."""
     from support_exudyn.postprocessing.figures.overlay import difference, overlay
 
-    of_one = (
-        given.orbit,
-        given.poincare,
-        given.spectrum,
-        given.stability,
-        given.section,
-        given.pin is not None,
-    )
-    if any(of_one):
+    if given.pin is not None or given.section or given.stability or any(getattr(given, one) for one in KINDS):
         raise InputError(
             "--orbit, --poincare, --spectrum, --stability, --section, --pin: are of one run, and "
             f"{len(runs) + len(curves)} are given; allowed with several: channels"
@@ -152,51 +142,54 @@ def _of_several(
     return {name: lambda: overlay(runs, channels, *ends, curves)}, set()
 
 
-def _of_one(runs: Mapping[str, Result], given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
-    """Figures of a run, by names of files that tell run, channels and window; their titles tell the run."""
+def _of_one(called: str, result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
+    """Figures of a run by names of files that tell run, channels and window, and which may be left out.
+
+    Those of a pin that are not named one by one may be, where the run lacks what they need.
+    """
+    from support_exudyn.postprocessing.figures.channels import over_time
     from support_exudyn.postprocessing.figures.style import named
 
-    ((called, result),) = runs.items()
-    wanted, optional = _wanted(result, given)
-    window = said_window(given.after, given.until)
-    phase = f"phase_{given.phase:g}" if given.phase else ""
+    window, phase = said_window(given.after, given.until), f"phase_{given.phase:g}" if given.phase else ""
+    kinds = [one for one in KINDS if getattr(given, one) or (one == "poincare" and given.section)]
+    found: dict[str, Draw] = {}
+    if given.stability:
+        found = _stability(result, given, bool(kinds))
+    elif given.channels or not (kinds or given.pin):
+        names, what = given.channels or _told_first(result), "overview"
+        if given.channels:
+            what = said_channels(given.channels)
+        found[what] = lambda: over_time(result, names, given.after, given.until)
+    if kinds:
+        pin = chosen_pin(result, given.pin, with_clearance=True) if given.orbit else None
+        if pin is None and (given.pin or given.spectrum):
+            pin = chosen_pin(result, given.pin, with_clearance=False)
+        found |= _of_pin(result, given, pin, kinds)
+    optional: dict[str, Draw] = {}
+    if given.stability or kinds:
+        pass
+    elif given.pin is not None:  # all that there is of a pin
+        optional = _of_pin(result, given, chosen_pin(result, given.pin, with_clearance=False), KINDS)
+    elif not given.channels and (loose := clearance_joints(result)):
+        optional = _of_pin(result, given, loose[0], KINDS)
 
     def name(kind: str) -> str:
-        of_section = (*given.section, phase) if kind.startswith("poincare") else ()
         return file_name(
-            called, said_channels(given.channels) if kind == OVER_TIME else kind, *of_section, window
+            called, kind, *((*given.section, phase) if kind.startswith("poincare") else ()), window
         )
 
     def titled(draw: Draw) -> Draw:
         return lambda: named(draw(), called)
 
-    return {name(kind): titled(draw) for kind, draw in wanted.items()}, {name(kind) for kind in optional}
+    every = {name(kind): titled(draw) for kind, draw in (found | optional).items()}
+    return every, {name(kind) for kind in optional}
 
 
-def _wanted(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
-    """What to draw by kind, and what of it may be left out where the run has none."""
-    if given.stability:
-        return _stability(result, given), set()
-    asked = given.orbit or given.poincare or given.spectrum or bool(given.section)
-    if not asked and given.pin is None and not given.channels:
-        return _overview(result, given)
-    if not asked and given.pin is not None:  # all that there is of a pin
-        found = _of_pin(result, given, chosen_pin(result, given.pin, with_clearance=False))
-        return (_of_channels(result, given, given.channels) if given.channels else {}) | found, set(found)
-    found = _of_channels(result, given, given.channels) if given.channels else {}
-    with_clearance = chosen_pin(result, given.pin, with_clearance=True) if given.orbit else None
-    pin = with_clearance or (
-        chosen_pin(result, given.pin, with_clearance=False) if given.pin or given.spectrum else None
-    )
-    kinds = {"orbit": given.orbit, "poincare": given.poincare or given.section, "spectrum": given.spectrum}
-    return found | _of_pin(result, given, pin, [kind for kind, wanted in kinds.items() if wanted]), set()
-
-
-def _stability(result: Result, given: argparse.Namespace) -> dict[str, Draw]:
+def _stability(result: Result, given: argparse.Namespace, more: bool) -> dict[str, Draw]:
     """The map of where its pins shake; it is told by the scenario, so that it goes with no other figure."""
     from support_exudyn.postprocessing.figures.stability_map import stability_map
 
-    if given.orbit or given.poincare or given.spectrum or given.section or given.channels:
+    if more or given.channels:
         raise InputError("--stability: is drawn by itself; allowed: plot RUN --stability [--pin NAME]")
     pins = () if given.pin is None else (chosen_pin(result, given.pin, with_clearance=False),)
     return {"stability": lambda: stability_map(result.scenario, pins)}
@@ -216,27 +209,12 @@ def _told_first(result: Result) -> list[str]:
     if not names:
         names = [f"pin.{pin}.force" for pin in result.scenario.linkage.pins]
     names += [*points, *(f"{actuator}.force" for actuator in result.scenario.linkage.actuators)]
-    return [name for name in names if name in result.channels] or [n for n in result.channels if n != "time"][
-        :8
-    ]
-
-
-def _overview(result: Result, given: argparse.Namespace) -> tuple[dict[str, Draw], set[str]]:
-    """Forces and motion; orbit, section and spectrum of the first clearance pin."""
-    with_clearance = clearance_joints(result)
-    found = _of_channels(result, given, _told_first(result))
-    of_pin = _of_pin(result, given, with_clearance[0]) if with_clearance else {}
-    return {"overview": found[OVER_TIME]} | of_pin, set(of_pin)
-
-
-def _of_channels(result: Result, given: argparse.Namespace, names: list[str]) -> dict[str, Draw]:
-    from support_exudyn.postprocessing.figures.channels import over_time
-
-    return {OVER_TIME: lambda: over_time(result, names, given.after, given.until)}
+    known = [name for name in names if name in result.channels]
+    return known or [name for name in result.channels if name != "time"][:8]
 
 
 def _of_pin(
-    result: Result, given: argparse.Namespace, pin: str | None, kinds: Sequence[str] = KINDS
+    result: Result, given: argparse.Namespace, pin: str | None, kinds: Sequence[str]
 ) -> dict[str, Draw]:
     """Figures of these kinds, as far as the pin can have them."""
     from support_exudyn.postprocessing.figures.orbit import orbit

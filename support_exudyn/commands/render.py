@@ -17,8 +17,6 @@ from support_exudyn.commands.command_line import (
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
-SOON, LONG = 5.0, 60.0  # [s] from which on it is said how long it takes, and how it takes less
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run's file, and what is made of it."""
@@ -83,7 +81,6 @@ def run(given: argparse.Namespace) -> None:
             size=given.size,
             pin=given.pin,
             progress=progress,
-            announce=_announce,
         )
     if given.json:
         answer({"frames": written.frames, "movie": written.movie})
@@ -97,15 +94,6 @@ def run(given: argparse.Namespace) -> None:
         )
     if written.movie is not None:
         say(f"{written.movie} ({written.movie.stat().st_size / 1e6:.3g} MB)")
-
-
-def _announce(frames: int, seconds: float) -> None:
-    """Say beforehand how long it takes, where it takes long."""
-    if seconds < SOON:
-        return
-    took = f"{seconds:.0f} s" if seconds < 120.0 else f"{seconds / 60.0:.0f} min"
-    less = "; faster: --size 640x360, or less of the run by --after and --until" if seconds > LONG else ""
-    print(f"{frames} frames, about {took}{less}", file=sys.stderr, flush=True)
 
 
 def _still(given: argparse.Namespace, result: Result) -> None:

@@ -8,13 +8,14 @@ import numpy as np
 from rich.console import Console
 
 from support_exudyn.commands.command_line import add_json, add_out, answer, folder, shown_progress, warn
-from support_exudyn.commands.tables import facts, printed, show_legs, show_numbers, show_table, show_touches
+from support_exudyn.commands.tables import facts, first_impacts, printed, show_fitting, show_numbers, show_table
 from support_exudyn.files import ScenarioFile, read_scenario_file
 from support_exudyn.files.whole_file import check_may_be_replaced, named, real_path
 from support_exudyn.machines.check.joint_warnings import guide_warnings, joint_warnings
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
+from support_exudyn.postprocessing.joint_tables import leg_table
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
@@ -133,8 +134,8 @@ def _tell(console: Console, result: Result, file: ScenarioFile, written: list[Pa
     if result.oil_events and pressures:
         pressed = [row[:-1] for row in summary.of_channels(result, pressures, *WHOLE)]
         show_table(console, "pressures", ("channel", "unit", ">min", ">mean", ">max"), pressed)
-    show_legs(console, result, *WHOLE)
-    show_touches(console, result)
+    show_fitting(console, leg_table(result))
+    first_impacts(console, result)
     assumed = [("assumed", sentence) for sentence in file.assumed]
     show_table(console, "how", (), [*summary.how(result)[:-1], *assumed])
     for path in written:

@@ -11,17 +11,15 @@ from support_exudyn.commands.sweep_tables import is_store, show_sweep
 from support_exudyn.commands.tables import (
     NARROWEST,
     facts,
+    first_impacts,
     printed,
+    show_fitting,
     show_impacts,
-    show_legs,
     show_numbers,
-    show_pressed,
-    show_shaking,
     show_table,
-    show_touches,
 )
 from support_exudyn.files.own_modules import with_known_laws
-from support_exudyn.postprocessing import pin_contact, pin_shaking
+from support_exudyn.postprocessing import joint_tables
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
 from support_exudyn.postprocessing.figures.selection import matching
@@ -97,7 +95,7 @@ def _object(result: Result, given: argparse.Namespace) -> dict[str, Any]:
         "oil_events": {
             name: [event._asdict() for event in events] for name, events in result.oil_events.items()
         },
-        "pin_stability": pin_shaking.data(_outlooks(result)),
+        "pin_stability": joint_tables.stability_data(_outlooks(result)),
         "channels": {name: summary.extent(result, name, *ends) for name in names},
     }
 
@@ -119,8 +117,7 @@ def _tables(console: Console, result: Result, given: argparse.Namespace) -> None
     steps = "every step" if result.statistics else f"records every {said(result.scenario.recorded_every, 's')}"
     piece = f" from {steps}, {selection.said(result, *ends)}"
     if given.impacts:
-        rows = summary.impacts(result, None, *ends)
-        show_impacts(console, f"impacts, {selection.said(result, *ends)}", rows)
+        show_impacts(console, f"impacts, {selection.said(result, *ends)}", result, None, *ends)
         if not given.channels:
             return
     if given.channels:
@@ -132,10 +129,13 @@ def _tables(console: Console, result: Result, given: argparse.Namespace) -> None
     show_table(console, "what was run", (), summary.what_was_run(result))
     show_table(console, "how", (), summary.how(result))
     show_numbers(console, "what came out", "no accuracy was asked", result, *ends)
-    show_legs(console, result, *ends)
-    show_pressed(console, pin_contact.LARGEST, pin_contact.hardest_pressed(result))
-    show_shaking(console, _outlooks(result))
-    show_touches(console, result)
+    show_fitting(console, joint_tables.leg_table(result, *ends))
+    pressed = joint_tables.hardest_pressed(result)
+    show_fitting(console, joint_tables.pressure_table(joint_tables.LARGEST, pressed))
+    for one in (pin for pin in pressed if pin.warning):
+        console.print(f"warning: {one.warning}", markup=False, soft_wrap=True, end="\n\n")
+    show_fitting(console, joint_tables.stability_table(_outlooks(result)))
+    first_impacts(console, result)
     telling = [name for name in result.channels if name != "time"] if given.all else summary.telling(result)
     rest = len(result.channels) - 1 - len(telling)
     more = f" ({rest} more: --all)" if rest else ""

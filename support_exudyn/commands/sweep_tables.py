@@ -22,31 +22,31 @@ def show_sweep(given: argparse.Namespace) -> None:
     """Print it; for scripts as one JSON object."""
     from support_exudyn.postprocessing import sweep_summary  # and pyarrow
     from support_exudyn.postprocessing.figures.selection import matching
-    from support_exudyn.postprocessing.figures.sweep_chart import numbers_by_name, varied_in
+    from support_exudyn.postprocessing.sweep_runs import SweepRuns
     from support_exudyn.sweeps.table import is_sampled, read_table
 
-    table = read_table(given.run)
-    names = numbers_by_name(table)
+    runs = SweepRuns(read_table(given.run))
+    names = runs.numbers
     most = len(names) if given.all or given.json else MOST
     chosen = [names[name] for name in matching(names, given.channels, "number")]
-    chosen = chosen or sweep_summary.shown_numbers(table, most)
+    chosen = chosen or [one for one in names.values() if runs.number(one).rows.size][:most]
     if given.json:
-        answer(sweep_summary.data_of(table, chosen))
+        answer(sweep_summary.data_of(runs, chosen))
         return
-    say(sweep_summary.counts(table) + "\n")
+    say(sweep_summary.counts(runs) + "\n")
 
     def tell(console: Console) -> None:
-        show_table(console, "what varied", ("input", ">values", "remark"), sweep_summary.what_varied(table))
-        if rows := sweep_summary.reasons(table):
+        show_table(console, "what varied", ("input", ">values", "remark"), sweep_summary.what_varied(runs))
+        if rows := sweep_summary.reasons(runs):
             show_table(console, "what went wrong", (">runs", "remark"), rows)
         more = len(names) - len(chosen)
         rest = f" ({more} more: --all)" if more > 0 and not given.channels else ""
-        band = ", percentiles with their 95 % confidence intervals" if is_sampled(table) else ""
-        header, rows = sweep_summary.what_came_out(table, chosen)
+        band = ", percentiles with their 95 % confidence intervals" if is_sampled(runs.table) else ""
+        header, rows = sweep_summary.what_came_out(runs, chosen)
         if any("- to" in cell or "to -" in cell for row in rows for cell in row):
             band += f" (-: not bounded by so few runs; {BOUNDING} do)"
         show_table(console, f"what came out{rest}{band}", header, rows)
-        if rows := sweep_summary.what_it_follows(table, chosen):
+        if rows := sweep_summary.what_it_follows(runs, chosen):
             title = "what it follows: Spearman's rank correlation, -1 to 1, with its 95 % confidence interval"
             header = ("number", "input", ">correlation", ">interval", "remark")
             if not any(row[-1] for row in rows):  # nothing is remarked
@@ -56,13 +56,13 @@ def show_sweep(given: argparse.Namespace) -> None:
     printed(tell)
     if chosen:
         number = next(name for name, column in names.items() if column == chosen[0])
-        field = varied_in(table)[0] if varied_in(table) else "INPUT"
+        field = runs.varied[0] if runs.varied else "INPUT"
         store = given.run if given.run.is_dir() else given.run.parent
         say("next:")
         say(f"  support-exudyn chart {store} {field} {number}")
-        if len(varied_in(table)) > 1:  # which of them matters most
+        if len(runs.varied) > 1:  # which of them matters most
             say(f"  support-exudyn chart {store} {number} --tornado")
         say(f"  support-exudyn table {store} --format md")
-        runs = (store / "named" / f"{name}.h5" for name in table.column("run").to_pylist())
-        if kept := next((path for path in runs if path.exists()), None):
+        files = (store / "named" / f"{name}.h5" for name in runs.column("run"))
+        if kept := next((path for path in files if path.exists()), None):
             say(f"  support-exudyn show {kept}")

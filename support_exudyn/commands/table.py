@@ -26,14 +26,14 @@ def run(given: argparse.Namespace) -> None:
     """Print it, or write it."""
     from support_exudyn.files.whole_file import whole_file
     from support_exudyn.postprocessing.figures.selection import matching
-    from support_exudyn.postprocessing.figures.sweep_chart import numbers_by_name
+    from support_exudyn.postprocessing.sweep_runs import SweepRuns
     from support_exudyn.postprocessing.sweep_table import as_csv, as_latex, as_markdown
     from support_exudyn.sweeps.table import read_table
 
-    table = read_table(given.store)
-    names = numbers_by_name(table)
+    runs = SweepRuns(read_table(given.store))
+    names = runs.numbers
     chosen = [names[name] for name in matching(names, given.numbers, "number")] or list(names.values())
-    text = {"md": as_markdown, "csv": as_csv, "latex": as_latex}[given.format](table, chosen)
+    text = {"md": as_markdown, "csv": as_csv, "latex": as_latex}[given.format](runs, chosen)
     if given.out is None:
         say(text.rstrip("\n"))
         return

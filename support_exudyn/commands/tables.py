@@ -15,12 +15,10 @@ from rich.markup import escape
 from rich.table import Table
 
 from support_exudyn.commands.command_line import silence_output
-from support_exudyn.postprocessing import leg_table, pin_contact, pin_shaking
 from support_exudyn.postprocessing import summary as summary
 from support_exudyn.postprocessing.figures import selection
+from support_exudyn.postprocessing.joint_tables import ResultTable
 from support_exudyn.postprocessing.shown_numbers import ranking
-from support_exudyn.scenario.pin_pressure import PressedPin
-from support_exudyn.scenario.pin_stability import PinOutlook
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import cleaned
 
@@ -104,40 +102,28 @@ def show_numbers(
         console.print(order, markup=False, soft_wrap=True, end="\n\n")
 
 
-def show_touches(console: Console, result: Result) -> None:
-    """The table of the first impacts of a run, if it has clearance pins."""
-    if rows := summary.impacts(result):
-        more = any(len(onsets) > summary.IMPACTS for onsets in result.onsets.values())
-        show_impacts(console, "first impacts" + (" (all: show RUN --impacts)" if more else ""), rows)
+def show_impacts(
+    console: Console, title: str, result: Result, most: int | None, after: float, until: float
+) -> None:
+    """The table of impacts between two times [s], so many of each joint; nothing without clearance joints."""
+    words = f"{title}, speeds of approach and separation, largest force at the records"
+    show_fitting(console, ResultTable(words, IMPACTS, summary.impacts(result, most, after, until)))
 
 
-def show_impacts(console: Console, title: str, rows: Sequence[summary.Row]) -> None:
-    """A table of impacts."""
-    header = IMPACTS
-    if _unbroken(header, rows) > console.width:  # of records, and so the first that can be missed
+def first_impacts(console: Console, result: Result) -> None:
+    """The table of the first impacts of each clearance joint of a run."""
+    more = any(len(onsets) > summary.IMPACTS for onsets in result.onsets.values())
+    title = "first impacts" + (" (all: show RUN --impacts)" if more else "")
+    show_impacts(console, title, result, summary.IMPACTS, 0.0, float("inf"))
+
+
+def show_fitting(console: Console, table: ResultTable) -> None:
+    """A table if it has rows; of a narrow terminal without its last columns, as many as do not fit."""
+    title, header, rows = table
+    while len(header) > FEWEST and _unbroken(header, rows) > console.width:
         header, rows = header[:-1], [row[:-1] for row in rows]
-    told = "speeds of approach and separation"
-    if len(header) == len(IMPACTS):
-        told += ", largest force at the records"
-    show_table(console, f"{title}, {told}", header, rows)
-
-
-def show_pressed(console: Console, title: str, pins: Sequence[PressedPin]) -> None:
-    """The table of how hard clearance pins are pressed, and what yields; nothing without such pins."""
-    if not pins:
-        return
-    header, rows = pin_contact.HEADER, pin_contact.rows(pins)
-    while len(header) > FEWEST and _unbroken(header, rows) > console.width:  # from the last on
-        header, rows = header[:-1], [row[:-1] for row in rows]
-    show_table(console, title, header, rows)
-    for warning in pin_contact.warnings(pins):
-        console.print(f"warning: {warning}", markup=False, soft_wrap=True, end="\n\n")
-
-
-def show_shaking(console: Console, outlooks: Sequence[PinOutlook]) -> None:
-    """The table of which loaded pins shake as they slide; nothing where nothing is told of them."""
-    if outlooks:
-        show_table(console, pin_shaking.TITLE, pin_shaking.HEADER, pin_shaking.rows(outlooks))
+    if rows:
+        show_table(console, title, header, rows)
 
 
 def facts(result: Result, after: float, until: float) -> dict[str, Any]:
@@ -149,10 +135,3 @@ def facts(result: Result, after: float, until: float) -> dict[str, Any]:
         "warnings": list(result.warnings),
         "numbers": {name: found._asdict() for name, found in summary.numbers(result, after, until).items()},
     }
-
-
-def show_legs(console: Console, result: Result, after: float, until: float) -> None:
-    """What hydraulic legs with elements have done, if there are some; between two times [s]."""
-    rows = leg_table.leg_rows(result, after, until)
-    if rows:
-        show_table(console, "hydraulic legs", leg_table.LEGS, rows)

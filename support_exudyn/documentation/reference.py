@@ -3,7 +3,7 @@
 import inspect
 import sys
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -31,18 +31,11 @@ def public_names() -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name in MODULES:
         module = import_module(name)
-        for one in getattr(module, "__all__", None) or _imported(module):
+        for one in module.__all__:
             thing = getattr(module, one)
             if not inspect.ismodule(thing) and thing not in found.values():
                 found[f"{name}.{one}"] = thing
     return found
-
-
-def _imported(module: Any) -> Iterator[str]:
-    tree = inspect.getsource(module)
-    for line in map(str.strip, tree.splitlines()):
-        if line.startswith("from ") and " as " in line:
-            yield line.rpartition(" as ")[2]
 
 
 def key_of(name: str) -> str:

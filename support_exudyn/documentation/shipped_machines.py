@@ -5,7 +5,7 @@ from pathlib import Path
 
 from support_exudyn.files.machines import SHIPPED, shipped
 from support_exudyn.files.machines import __file__ as shipped_files
-from support_exudyn.postprocessing.figures.machine import machine_drawing
+from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
 from support_exudyn.scenario.scenario import Scenario
 
 DPI = 110

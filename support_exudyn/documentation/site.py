@@ -1,17 +1,14 @@
-"""The site: pages are laid out as they lie in the project, mkdocs makes HTML of them, links are checked."""
+"""The site: pages are laid out as they lie in the project, mkdocs makes HTML of them and checks links."""
 
 import logging
 import re
 import shutil
-from collections.abc import Iterable, Iterator, Mapping
-from html.parser import HTMLParser
+from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
-from urllib.parse import unquote, urlsplit
 
-from support_exudyn.documentation.findings import findings_page
 from support_exudyn.documentation.gallery import gallery_page
 from support_exudyn.documentation.keys import keys_page
 from support_exudyn.documentation.known_channels import channels_page
@@ -27,16 +24,15 @@ LINK = re.compile(r"\]\(([^)\s#]+)")
 NEEDED = ("mkdocs", "material", "mkdocstrings", "mkdocstrings_handlers")
 
 
-def build_site(out: Path, commands: str, results: Path | None = None) -> None:
+def build_site(out: Path, commands: str) -> None:
     """Build the site.
 
     Arguments:
         out: folder of the site; what is in it is replaced.
         commands: the page on commands, Markdown.
-        results: folder of a run of the studies, for the page on their findings.
 
-    Raises InputError if the extra [docs] or the sources are missing, if an example fails, at every warning of
-    mkdocs, for links that lead nowhere, and for pages that load something from the internet.
+    Raises InputError if the extra [docs] or the sources are missing, if an example fails, and at every warning
+    of mkdocs, such as that on a link that leads nowhere.
     """
     missing = [name for name in NEEDED if find_spec(name) is None]
     if missing:
@@ -47,11 +43,8 @@ def build_site(out: Path, commands: str, results: Path | None = None) -> None:
         raise InputError(f"{ROOT}: has no README.md and studies/examples; allowed: a checkout of the project")
     with TemporaryDirectory() as work:
         pages = Path(work) / "pages"
-        nav = _lay_out(pages, commands, results)
+        nav = _lay_out(pages, commands)
         _make(Path(work), pages, nav, out)
-    faults = broken_links(out)
-    if faults:
-        raise InputError("\n".join(faults))
 
 
 def rooms() -> list[str]:
@@ -68,7 +61,7 @@ def rooms() -> list[str]:
 # --- pages ---
 
 
-def _lay_out(pages: Path, commands: str, results: Path | None) -> list[Any]:
+def _lay_out(pages: Path, commands: str) -> list[Any]:
     """Write all pages into a folder, with what they link to; returns their order."""
     import yaml
 
@@ -84,7 +77,6 @@ def _lay_out(pages: Path, commands: str, results: Path | None) -> list[Any]:
         "machine_keys": keys_page("Keys of a machine's file", machine_schema()),
         "channels": channels_page(),
         "machines": machines_page(reference / "pictures"),
-        "findings": findings_page(results, reference / "pictures"),
         "gallery": gallery_page(ROOT / "studies" / "examples", reference / "pictures"),
         **{f"names_{room}": text for room, text in named.items()},
     }
@@ -176,51 +168,3 @@ def _make(work: Path, pages: Path, nav: list[Any], out: Path) -> None:
         log.removeHandler(kept)
     if kept.lines:
         raise InputError("\n".join(kept.lines))
-
-
-class _Page(HTMLParser):
-    """What a page links to, what it loads, and the places in it that can be linked to."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.links: list[str] = []
-        self.loads: list[str] = []
-        self.places: set[str] = set()
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Note a link, something that is loaded, or a place."""
-        given: Mapping[str, str | None] = dict(attrs)
-        if place := given.get("id"):
-            self.places.add(place)
-        if tag == "a" and (link := given.get("href")):
-            self.links.append(link)
-        elif loaded := given.get("src") or (given.get("href") if tag == "link" else None):
-            self.loads.append(loaded)
-
-
-def broken_links(site: Path) -> list[str]:
-    """What is wrong with the links of a site: a line each; links to other sites are not followed.
-
-    Arguments:
-        site: folder of HTML.
-    """
-    found: dict[Path, _Page] = {}
-    for path in sorted(site.rglob("*.html")):
-        found[path.resolve()] = page = _Page()
-        page.feed(path.read_text(encoding="utf-8"))
-    lines = []
-    for path, page in found.items():
-        if path.name == "404.html":  # whose links are those of a server
-            continue
-        where = path.relative_to(site.resolve()).as_posix()
-        lines += [f"{where}: loads {one} from elsewhere" for one in page.loads if urlsplit(one).netloc]
-        for link in (*page.links, *page.loads):
-            parts = urlsplit(link)
-            if parts.scheme or parts.netloc:
-                continue
-            target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
-            if not target.is_file():
-                lines.append(f"{where}: {link}: leads nowhere")
-            elif parts.fragment and target in found and unquote(parts.fragment) not in found[target].places:
-                lines.append(f"{where}: {link}: there is no such place")
-    return lines

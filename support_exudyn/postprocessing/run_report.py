@@ -13,33 +13,22 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 from PIL import Image
 
-from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.postprocessing import pin_contact
+from support_exudyn.postprocessing import joint_tables
 from support_exudyn.postprocessing import summary as summary
-from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.machine import machine_drawing
+from support_exudyn.postprocessing.figures import overlay, style
+from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
 from support_exudyn.postprocessing.figures.selection import matching
-from support_exudyn.postprocessing.figures.units import readable
-from support_exudyn.postprocessing.page.live import Dash, Drawn, LiveFigure, LivePanel, live_panel
+from support_exudyn.postprocessing.page.live import LiveFigure, of_drawing
 from support_exudyn.postprocessing.page.live_html import html
 from support_exudyn.postprocessing.page.pieces import (
-    KeyNumber,
     Sheet,
     ShownFigure,
     ShownTable,
     image,
     templates,
 )
-from support_exudyn.postprocessing.shown_numbers import (
-    LARGEST,
-    LARGEST_TIME,
-    hardest_first,
-    label,
-    ranking,
-    shown,
-    stem,
-)
+from support_exudyn.postprocessing.shown_numbers import label, ranking, shown
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -48,10 +37,7 @@ TEMPLATE = "run_report.html.j2"
 MOST_CHANNELS = 24  # panels
 WHOLE = (0.0, math.inf)
 DIGITS = 6  # of numbers whose error is smaller, or not known
-PANEL_MM = 42.0
 STILL = (1280, 720)
-MOST_TILES = 4
-TILE_DIGITS = 4  # of those in large type
 
 
 @dataclass(frozen=True)
@@ -63,7 +49,6 @@ class RunReport:
     """
 
     runs: tuple[str, ...]
-    tiles: tuple[KeyNumber, ...]
     machines: tuple[ShownFigure, ...]
     over_time: ShownFigure
     hardest: tuple[str, ...]
@@ -94,12 +79,12 @@ def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
     names = _asked(runs, channels) if channels else _default(runs)
     if not names or len(names) > MOST_CHANNELS:
         raise InputError(f"{len(names)} channels to draw over time; allowed: 1 to {MOST_CHANNELS}")
-    live = _over_time(runs, names)
+    drawing, live = _over_time(runs, names)
     pages = html({"channels": live})
     caption = (
         "Channels over time. Thinned to the least and the greatest record of short pieces: no peak is lost."
     )
-    over_time = ShownFigure(_picture(_printed(live)), caption, Markup(pages.places["channels"]), "channels")
+    over_time = ShownFigure(_picture(drawing), caption, Markup(pages.places["channels"]), "channels")
     found_of = [summary.numbers(result, *WHOLE) for result in runs.values()]
     estimates = dict(zip(runs, shown([*runs.values()], found_of, *WHOLE), strict=True))
     key = _key_names(runs, estimates)
@@ -107,7 +92,6 @@ def run_report(runs: Mapping[str, Result], channels: Sequence[str] = ()) -> str:
     still, no_still = _still(runs)
     report = RunReport(
         tuple(runs),
-        _tiles(estimates, key),
         _machines(runs),
         over_time,
         tuple(f"{name} {order}" for name, found in estimates.items() if (order := ranking(found))),
@@ -155,41 +139,20 @@ def _default(runs: Mapping[str, Result]) -> list[str]:
     return list(found)
 
 
-def _over_time(runs: Mapping[str, Result], names: Sequence[str]) -> LiveFigure:
-    """A panel a channel, a curve a run."""
-    return LiveFigure("time [s]", tuple(_panel(runs, name) for name in names))
-
-
-def _panel(runs: Mapping[str, Result], name: str) -> LivePanel:
-    with_it = {run: result for run, result in runs.items() if name in result.channels}
-    si = {result.unit(name) for result in with_it.values()}
-    if len(si) > 1:
-        raise InputError(f"{name}: is in {' and in '.join(sorted(si))}; allowed: runs that have it in one unit")
-    unit = readable(si.pop(), max(float(np.abs(result[name]).max()) for result in with_it.values()))
-    place = {run: number for number, run in enumerate(runs)}
-    curves = []
-    for run, result in with_it.items():
-        values: Series = unit.scale * result[name]
-        again, number = divmod(place[run], len(style.CURVES))
-        dash: Dash = "dashed" if again else "solid"
-        curves.append(Drawn(run, result.time, values, style.CURVES[number][0], dash, 1.1))
-    return live_panel(f"{name} [{unit.name}]", curves)
-
-
-def _printed(live: LiveFigure) -> Figure:
-    """Draw the panels of a live figure for paper."""
+def _over_time(runs: Mapping[str, Result], names: Sequence[str]) -> tuple[Figure, LiveFigure]:
+    """A panel a channel, a curve a run: drawn, and for the browser."""
+    for name in names:
+        if len(units := {run.unit(name) for run in runs.values() if name in run.channels}) > 1:
+            raise InputError(
+                f"{name}: is in {' and in '.join(sorted(units))}; allowed: runs that have one unit"
+            )
     with style.look():
-        drawing = Figure(figsize=style.size(170.0, PANEL_MM * len(live.panels) + 8.0))
-        panels = np.atleast_1d(drawing.subplots(len(live.panels), 1, sharex=True))
-        for axes, panel in zip(panels, live.panels, strict=True):
-            for one in panel.curves:
-                y = [math.nan if value is None else value for value in one.y]
-                axes.plot(one.x, y, color=one.colour, lw=one.width, ls=one.dash, label=one.label)
-            axes.set_ylabel(panel.label.replace(" [", "\n["), fontsize=7.5)
-        panels[-1].set_xlabel(live.x_label)
-        handles = {t: h for a in panels for h, t in zip(*a.get_legend_handles_labels(), strict=True)}
-        drawing.legend(handles.values(), handles, loc="outside upper left", ncols=3)
-    return drawing
+        drawing = overlay.draw(runs, overlay.of_runs(runs, names), ", ".join(runs))
+        labels = {
+            n: f"{name} [{axes.get_ylabel().partition('[')[2].rstrip(']')}]"
+            for n, (name, axes) in enumerate(zip(names, drawing.axes, strict=True))
+        }
+        return drawing, of_drawing(drawing, labels)
 
 
 def _picture(drawing: Figure) -> str:
@@ -289,30 +252,6 @@ def _numbers(title: str, estimates: Mapping[str, Mapping[str, Estimate]], names:
     return Sheet(title, ("number", "unit", *estimates), tuple(rows), note, left=2, name="numbers")
 
 
-def _tiles(estimates: Mapping[str, Mapping[str, Estimate]], key: Sequence[str]) -> tuple[KeyNumber, ...]:
-    """Up to four key numbers of one run, or of two, before and after: those of the hardest hit pin first."""
-    if len(estimates) > 2:
-        return ()
-    last = [*estimates.values()][-1]
-    known = {**next(iter(estimates.values())), **last}
-    stems = [stem(pin, known) for pin in hardest_first(last) or hardest_first(known)]
-    told = [f"{one}{end}" for one in stems[:1] for end in (LARGEST, LARGEST_TIME, ".force.mean")]
-    told += [f"{one}{LARGEST}" for one in stems[1:2]]
-    told += [name for name in key if name.rpartition(".")[2] in ("mean", "largest", "std")]
-    found: list[KeyNumber] = []
-    for name in dict.fromkeys(told):
-        numbers = [one.get(name, one.get(_of_ideal(name))) for one in estimates.values()]
-        if len(found) < MOST_TILES and all(numbers):
-            unit, *cells = summary.side_by_side(numbers, TILE_DIGITS)
-            found.append(KeyNumber(name, f"{cells[-1]} {unit}", cells[0] if len(cells) > 1 else ""))
-    return tuple(found)
-
-
-def _of_ideal(name: str) -> str:
-    """What an ideal pin has in place of a clearance pin's number at any step."""
-    return name.replace(LARGEST_TIME, ".force.largest_time").replace(LARGEST, ".force.largest")
-
-
 def _impacts(runs: Mapping[str, Result]) -> Sheet:
     rows = [(run, *row) for run, result in runs.items() for row in summary.impacts(result)]
     header = ("run", "pin", "impact", "time", "lasts", "approach", "separation", "force at records")
@@ -321,11 +260,13 @@ def _impacts(runs: Mapping[str, Result]) -> Sheet:
 
 def _pressed(runs: Mapping[str, Result]) -> Sheet:
     """How hard the clearance pins are pressed at their largest force."""
-    pins = [(run, one) for run, result in runs.items() for one in pin_contact.hardest_pressed(result)]
-    rows = [(run, *row) for run, one in pins for row in pin_contact.rows([one])]
-    header = ("run", *(name.lstrip(">") for name in pin_contact.HEADER))
-    note = " ".join(f"{run}, {told}." for run, one in pins for told in pin_contact.warnings([one]))
-    return Sheet(pin_contact.LARGEST.capitalize(), header, tuple(rows), note, left=2)
+    pins = [(run, one) for run, result in runs.items() for one in joint_tables.hardest_pressed(result)]
+    title, header, rows = joint_tables.pressure_table(
+        joint_tables.LARGEST.capitalize(), [one for _, one in pins]
+    )
+    note = " ".join(f"{run}, {one.warning}." for run, one in pins if one.warning)
+    cells = tuple((run, *row) for (run, _), row in zip(pins, rows, strict=True))
+    return Sheet(title, ("run", *(name.lstrip(">") for name in header)), cells, note, left=2)
 
 
 def _what(runs: Mapping[str, Result]) -> Sheet:

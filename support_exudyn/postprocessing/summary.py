@@ -8,8 +8,8 @@ from typing import Any
 from support_exudyn.formulations.registry import CHEAPEST_FIRST, FORMULATIONS, Formulation, formulation
 from support_exudyn.machines.check.freedoms import shared
 from support_exudyn.model.pins import ClearancePin, Pin
-from support_exudyn.postprocessing.contact_description import contact_lines
 from support_exudyn.postprocessing.figures.units import readable, said
+from support_exudyn.postprocessing.joint_tables import contact_lines
 from support_exudyn.postprocessing.shown_numbers import WHOLE_RUN, label, shown
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scenario.scenario_data import LARGEST_GOAL

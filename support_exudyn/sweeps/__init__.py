@@ -12,33 +12,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from user_forces.values.places import offered
+from user_forces.values.places import for_types, offered
 
 if TYPE_CHECKING:
-    from support_exudyn.sweeps.file import read_sweep
-    from support_exudyn.sweeps.plan import Plan, Record, grid, latin_hypercube, side_by_side
-    from support_exudyn.sweeps.run import SweepOutcome, sweep
-    from support_exudyn.sweeps.table import read_table
-
-__all__ = [
-    "Plan",
-    "Record",
-    "SweepOutcome",
-    "grid",
-    "latin_hypercube",
-    "read_sweep",
-    "read_table",
-    "side_by_side",
-    "sweep",
-]
+    from support_exudyn.sweeps.file import read_sweep as read_sweep
+    from support_exudyn.sweeps.plan import Plan as Plan
+    from support_exudyn.sweeps.plan import Record as Record
+    from support_exudyn.sweeps.plan import grid as grid
+    from support_exudyn.sweeps.plan import latin_hypercube as latin_hypercube
+    from support_exudyn.sweeps.plan import side_by_side as side_by_side
+    from support_exudyn.sweeps.run import SweepOutcome as SweepOutcome
+    from support_exudyn.sweeps.run import sweep as sweep
+    from support_exudyn.sweeps.table import read_table as read_table
 
 # imported when they are asked for: the processes that run have no use for tables
-__getattr__, __dir__ = offered(
-    __name__,
-    {
-        ".file": ("read_sweep",),
-        ".plan": ("Plan", "Record", "grid", "latin_hypercube", "side_by_side"),
-        ".run": ("SweepOutcome", "sweep"),
-        ".table": ("read_table",),
-    },
-)
+__getattr__, __dir__ = offered(__name__, for_types(__file__))

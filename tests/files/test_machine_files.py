@@ -122,22 +122,12 @@ def test_other_units_are_those_of_scenario_files(tmp_path: Path) -> None:
 # --- mistakes ---
 
 MISTAKES = {
-    "point": ("[0, 380]", "[0]", "pivots_mm.rear_base = [0]: allowed: a list of 2, each a number"),
-    "misspelled pivot": ("rear_shield =", "rear_sheild =", "pivots_mm.rear_sheild: unknown key"),
-    "wrong unit": ("start_hinge_height_mm", "start_hinge_height_cm", "start_hinge_height_cm"),
-    "no pivot": ("tip = [3900, 2650]\n", "", "pivots_mm.tip: missing"),
-    "no mass": ("shield = 4200\n", "", "masses_kg.shield: missing"),
-    "negative": ("canopy = 5200", "canopy = -5200", "masses_kg.canopy = -5200: allowed: > 0"),
-    "no kind": ('kind = "four_column_support"', "", "kind: missing; it says what the machine is"),
-    "height": ("= 2050", "= 5050", "start_hinge_height = 5.05 m: the four-bar cannot bring the hinge there"),
-    "name": ('"a support of ours"', "3", "name = 3: allowed: a text"),
-    "stroke": ("stroke_mm = 600", "stroke_mm = 0", "stroke_mm = 0: allowed: > 0"),
-    "both": (
-        "[masses_kg]",
-        '[[parts.shield]]\nmass_kg = 1\nbetween = ["hinge", "tip"]\n[masses_kg]',
-        "masses_kg.shield = 4200: parts.shield says it too; allowed: one of them",
-    ),
-    "metres": ("[3900, 2650]", "[3900000, 2650]", "tip = (3900.0, 2.65) m"),
+    "point": ("[0, 380]", "[0]"),
+    "misspelled pivot": ("rear_shield =", "rear_sheild ="),
+    "no pivot": ("tip = [3900, 2650]\n", ""),
+    "negative": ("canopy = 5200", "canopy = -5200"),
+    "no kind": ('kind = "four_column_support"', ""),
+    "name": ('"a support of ours"', "3"),
 }
 
 
@@ -155,8 +145,8 @@ def test_shipped_machines_fit_the_schema_as_one_kind(name: str) -> None:
     assert len(kinds_that_fit(text_of(name))) == 1
 
 
-@pytest.mark.parametrize("mistake", ["point", "misspelled pivot", "no pivot", "negative", "no kind", "name"])
+@pytest.mark.parametrize("mistake", MISTAKES)
 def test_the_schema_knows_mistakes(mistake: str) -> None:
-    old, new, _ = MISTAKES[mistake]
+    old, new = MISTAKES[mistake]
     assert len(kinds_that_fit(OURS)) == 1
     assert kinds_that_fit(OURS.replace(old, new, 1)) == []

@@ -64,8 +64,6 @@ def test_a_block_is_that_of_the_machines_file() -> None:
     ("text", "said"),
     [
         ("clearance_mm = 0.1\n", r"guides\.guide: block_mm: missing, and the machine's file says none"),
-        (f"clearance_mm = -1\n{BLOCK}", r"guides\.guide\.clearance_mm = -1"),
-        (f"{BLOCK}", r"guides\.guide\.clearance_mm: missing"),
         (
             f"clearance_mm = 1\n{BLOCK}corner_radius_mm = 1\nstiffness_N_per_m_to_n = 1e9\n",
             "allowed: one of them",
@@ -76,7 +74,6 @@ def test_a_block_is_that_of_the_machines_file() -> None:
         ),
         (f'{ONE}{BLOCK}law = "Hertz"\nrestitution = 0.5\n', "restitution: the law Hertz has none"),
         ("clearance_mm = 1\npin_radius_mm = 5\n", "has a pin_radius; allowed: block"),
-        ("ideal = false\n", "true; a joint with clearance has a clearance_mm instead"),
     ],
 )
 def test_what_is_wrong_is_told_by_its_key(text: str, said: str) -> None:

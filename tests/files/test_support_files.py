@@ -108,23 +108,12 @@ def test_a_part_with_a_length_is_a_bar_about_its_centre(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('name = "a support"', 'title = "a support"', "title: unknown key"),
-        ("start_hinge_height_mm = 1800", "", "start_hinge_height_mm: missing"),
         ("start_hinge_height_mm = 1800", "start_hinge_height_mm = 5000", "start_hinge_height = 5.0 m: "),
-        ("start_hinge_height_mm = 1800", 'start_hinge_height_mm = "high"', "start_hinge_height_mm"),
         ("mass_kg = 400", "mas_kg = 400", "parts.front_link[0].mas_kg: unknown key; did you mean mass_kg"),
-        ("mass_kg = 3000\n", "", "parts.canopy[0].mass_kg: missing"),
-        ("mass_kg = 1500", "mass_kg = -1500", "parts.shield[0].mass_kg = -1500: allowed: > 0"),
-        ("mass_kg = 200", "mass_kg = 200\nname = 3", "parts.canopy[1].name = 3: allowed: a text"),
         ("centre_mm = [899, 2252]\n", "", "parts.canopy[1]: centre_mm or between: missing"),
         ('["front_base", "front_shield"]', '["front_base", "nowhere"]', "parts.front_link[0].between = "),
-        ('["rear_base", "rear_shield"]', "3", "parts.rear_link[0].between = 3"),
-        ("length_mm = 3300", 'length_mm = "long"', "parts.canopy[0].length_mm"),
         ("[595, 619]", "[595]", "pivots_mm.front_base = [595]: allowed: a list of 2, each a number"),
-        ("[595, 619]", '["a", 619]', "pivots_mm.front_base[0] = 'a': allowed: a number"),
         ("[595, 619]", "[595, 1e34]", "pivots_mm.front_base[1] = 1E+34: allowed: a number up to 1e+30, in SI"),
-        ("hinge = [", "knee = [1, 2]\nhinge = [", "pivots_mm.knee: unknown key"),
-        ("front_foot = [1670, 202]\n", "", "pivots_mm.front_foot: missing"),
         ("[pivots_mm]", "[pivots_mm", ""),
     ],
 )
@@ -173,8 +162,6 @@ def test_columns_are_read_from_a_file(tmp_path: Path) -> None:
     ("old", "new", "said"),
     [
         ("rod_mass_kg = 200", "", "columns.front_column.rod_mass_kg: missing"),
-        ("rod_mass_kg = 200", "rod_mass_kg = 0", "columns.front_column.rod_mass_kg = 0: allowed: > 0"),
-        ("rod_mass_kg = 200", "rod_mas_t = 0.2", "columns.front_column.rod_mas_t: unknown key"),
         ("[columns.front_column]", "[[columns]]", "columns = "),
     ],
 )

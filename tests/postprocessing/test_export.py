@@ -12,10 +12,11 @@ from meshio.xdmf import TimeSeriesReader
 
 from support_exudyn import Result, simulate
 from support_exudyn.postprocessing.export.mesh_files import to_vtu, to_xdmf
-from support_exudyn.postprocessing.export.meshes import parts_of, pin_points
+from support_exudyn.postprocessing.export.meshes import pin_points
 from support_exudyn.postprocessing.export.sampling import Sampling
 from support_exudyn.postprocessing.export.tables import to_csv, to_hdf5
-from support_exudyn.postprocessing.render.panels import pin_view
+from support_exudyn.postprocessing.look.poses import Poses, moving_parts
+from support_exudyn.postprocessing.render.pin_views import pin_view
 from tests.cases.export_cases import (
     Read,
     by_vtk,
@@ -119,8 +120,7 @@ def test_velocities_are_those_of_the_channels(exported: Exported, machine: list[
 
 
 def test_every_triangle_has_a_body_and_a_role(exported: Exported, machine: list[Read]) -> None:
-    look = look_of(exported.kind)
-    parts = parts_of(look)
+    parts = moving_parts(look_of(exported.kind), Poses(exported.result))
     expected = [(part.body, part.role.value) for part in parts for _ in part.mesh.faces]
     bodies, roles = exported.names("body"), exported.names("role")
     for step in machine:

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import strategies as st
 from PIL import Image
 from PIL.ImageColor import getrgb
 
@@ -15,12 +14,8 @@ from support_exudyn import Result
 from support_exudyn.postprocessing.figures.selection import nearest
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.render import panels
-from support_exudyn.postprocessing.render.panels import (
-    Bore,
-    Inset,
-    PinView,
-    pin_view,
-)
+from support_exudyn.postprocessing.render.panels import Inset
+from support_exudyn.postprocessing.render.pin_views import Bore, PinView, pin_view
 from support_exudyn.postprocessing.render.sheet import Canvas
 from tests import synthetic
 from tests.cases.run_cases import PIN, loose_support
@@ -65,11 +60,6 @@ def test_a_frame_shows_the_record_next_to_it() -> None:
     assert found.tolist() == [0, 0, 1, 2, 2, 3, 3]
 
 
-# --- camera ---
-
-place = st.tuples(*(st.floats(-3.0, 3.0) for _ in "xyz"))
-
-
 # --- the journal and the force on it ---
 
 
@@ -94,7 +84,7 @@ def inset_of(bore: Bore, record: int, force: tuple[float, float] = (0.0, 0.0)) -
     sheet, found = Canvas(286, 286), Inset(BOX, bore, 1.0)
     found.draw_still(sheet)
     sheet.hold()
-    found.draw(sheet, record, 0, force, False)
+    found.draw(sheet, record, 0, force)
     return Image.fromarray(sheet.frame()), found
 
 

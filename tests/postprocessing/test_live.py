@@ -13,13 +13,7 @@ from hypothesis.extra import numpy as arrays
 from matplotlib.figure import Figure
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.page.live import (
-    MOST_POINTS,
-    Drawn,
-    live_panel,
-    of_drawing,
-    thinned,
-)
+from support_exudyn.postprocessing.page.live import MOST_POINTS, of_drawing, thinned
 from support_exudyn.postprocessing.page.live_html import html
 from tests.often import often
 
@@ -67,7 +61,9 @@ def test_a_peak_of_one_record_is_not_lost_and_a_curve_has_few_points() -> None:
     time = np.linspace(0.0, 5.0, 500_001)
     force = np.sin(40.0 * time)
     force[123_457], force[400_001] = 443.2101234567, -7.0
-    (one,) = live_panel("force [kN]", [Drawn("rough", time, force, "#000000")]).curves
+    figure = Figure()
+    figure.subplots().plot(time, force, label="rough")
+    (one,) = of_drawing(figure, [0]).panels[0].curves
     assert len(one.x) <= MOST_POINTS + 2
     assert max(v for v in one.y if v is not None) == 443.2101
     assert min(v for v in one.y if v is not None) == -7.0

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import pytest
-from matplotlib.colors import to_hex
-from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
 from support_exudyn import ClearancePin, CubicStep, CylinderAndRod, OwnBody, Scenario
 from support_exudyn.files.machines.read import shipped
 from support_exudyn.machines.free_impact import ImpactStand
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.machine import MARK, machine_drawing
-from support_exudyn.postprocessing.figures.outlines import shapes
-from support_exudyn.postprocessing.look.looks import look
+from support_exudyn.postprocessing.figures.linkage_drawing import machine_drawing
 from tests import figure_checks
 from tests.cases.run_cases import loose_slider_crank, loose_support, paper_contact, slider_crank, support
+from user_forces import InputError
 
 COLUMN = CylinderAndRod(
     cylinder_mass=300.0, cylinder_centre=0.45, cylinder_inertia=20.0,
@@ -44,33 +40,24 @@ SCENES = {
 }
 
 
-def rings(drawing: Figure) -> list[Circle]:
-    """The rings of marked pins, in the order of the pins."""
-    return [
-        patch
-        for patch in drawing.axes[0].patches
-        if isinstance(patch, Circle)
-        and to_hex(patch.get_edgecolor()) == MARK.lower()
-        and patch.get_linewidth() == 2.0
-    ]
-
-
 @pytest.mark.parametrize("name", SCENES)
-def test_a_machine_is_drawn_whole_and_fits_a_page(name: str) -> None:
+def test_a_machine_is_drawn_whole_with_a_ring_for_each_clearance_pin(name: str) -> None:
     scenario = SCENES[name]
     drawing = machine_drawing(scenario)
-    assert 25.4 * drawing.get_figwidth() <= 180.0
-    assert 25.4 * drawing.get_figheight() <= 220.0
     with style.look():
         assert not figure_checks.cut_off(drawing)
-        words = [text for text, _ in figure_checks.texts(drawing)]
-    assert "forward" in words
-    assert len(rings(drawing)) == len(scenario.clearance_pins)
-    axes = drawing.axes[0]
-    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
-    wide, tall = drawing.get_size_inches()
-    assert (right - left) / wide == pytest.approx((high - low) / tall)  # as long as it is high
-    for shape in shapes(look(scenario)) if "crank" not in name else ():
-        a, b, c, d = shape.outline.bounds
-        assert left < a < c < right
-        assert low < b < d < high
+    (axes,) = drawing.axes
+    assert axes.get_aspect() == 1.0
+    rings = [line for line in axes.get_lines() if line.get_markersize() == 12]
+    assert len(rings) == len(scenario.clearance_pins)
+    for ring, pin in zip(rings, scenario.clearance_pins, strict=True):
+        place = scenario.linkage.pins[pin].second_point
+        if "crank" not in name:  # which is turned
+            assert [1e-3 * float(ring.get_data()[n][0]) for n in (0, 1)] == pytest.approx(place)
+        clearance = scenario.clearance_pins[pin].contact.bearing.clearance
+        assert str(ring.get_label()).endswith(f"c = {1e3 * clearance:.4g} mm")
+
+
+def test_a_marked_pin_has_to_be_one_of_the_machine() -> None:
+    with pytest.raises(InputError, match=r"knee.*no such pin; allowed: .*rear_base"):
+        machine_drawing(support(), marked=("knee",))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from support_exudyn.postprocessing.render.panels import Bore, PinView
+from support_exudyn.postprocessing.render.pin_views import Bore, PinView
 from support_exudyn.postprocessing.viewer.pin_insets import RADIUS, PinInsets
 from tests.cases.run_cases import loose_support
 
@@ -26,13 +26,12 @@ def test_the_journal_is_where_the_record_next_to_the_time_has_it() -> None:
     found = insets([(0.0, 0.0), (0.0, -1.31e-3), (0.0, 0.0)], [(0.0, 0.0), (0.0, 5e4), (0.0, 0.0)])
     for now, down in ((0.0, 0.0), (0.11, 1.0), (0.2, 0.0)):
         disc, bore, journal, *rest = found.graphics(now)
-        middle = bore["data"].reshape(-1, 3)[:-1].mean(axis=0)
-        at = journal["data"].reshape(-1, 3)[:-1].mean(axis=0)
-        radius, inner = (np.ptp(one["data"].reshape(-1, 3)[:, 1]) / 2.0 for one in (bore, journal))
-        assert radius == pytest.approx(SIZE)
+        assert bore["radius"] == pytest.approx(SIZE)
         # in contact the circles meet
-        assert middle[1] - at[1] == pytest.approx(down * (radius - inner))
-        assert disc["points"].reshape(-1, 3)[0, :2] == pytest.approx(at[:2])
+        assert bore["position"][1] - journal["position"][1] == pytest.approx(
+            down * (bore["radius"] - journal["radius"])
+        )
+        assert np.mean(disc["points"].reshape(-1, 3), axis=0)[:2] == pytest.approx(journal["position"][:2])
         lines = [one for one in rest if one["type"] == "Line"]
         assert len(lines) == 3 * down  # the arrow, where there is a force
         if down:

@@ -135,7 +135,6 @@ class Arrow(NamedTuple):
 
     tail: np.ndarray
     tip: np.ndarray
-    cut: bool
 
     @property
     def way(self) -> np.ndarray:
@@ -150,10 +149,10 @@ def painted(
     words: list[str] = []
     drawn, written = Canvas.arrow, Canvas.write
 
-    def arrow(sheet: Canvas, tail: Any, tip: Any, colour: str, thick: float, cut: bool = False) -> None:
+    def arrow(sheet: Canvas, tail: Any, tip: Any, colour: str, thick: float) -> None:
         if colour != INK:
-            arrows.append(Arrow(np.array(tail), np.array(tip), cut))
-        drawn(sheet, tail, tip, colour, thick, cut)
+            arrows.append(Arrow(np.array(tail), np.array(tip)))
+        drawn(sheet, tail, tip, colour, thick)
 
     def write(sheet: Canvas, place: Any, text: str, *rest: Any, **others: Any) -> Any:
         words.append(text)
@@ -183,7 +182,6 @@ def test_arrows_are_the_force_on_the_journal_in_the_scale_that_is_shown(
     assert bore.way == pytest.approx([pixels * x, -pixels * y])  # forward is to the right
     view = direction_of_view().apply([x, y, 0.0])
     assert machine.way == pytest.approx([pixels * view[0], -pixels * view[1]])
-    assert [arrow.cut for arrow in (scale, machine, bore)] == [False, False, False]
     assert f"{force[record] / 1e3:.1f} kN" in words
     assert f"t = {bouncing.time[record]:.3f} s" in words
     assert "the arrow is cut short" not in words

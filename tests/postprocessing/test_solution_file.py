@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -26,11 +25,11 @@ from support_exudyn.files import save_scenario
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.formulations.exudyn.solver import solver
 from support_exudyn.postprocessing.export.solution_file import read_solution, rows
-from support_exudyn.postprocessing.look.poses import Poses, strut_pose
+from support_exudyn.postprocessing.look.poses import Poses, strut_frame
 from support_exudyn.postprocessing.look.solid import solids_of
 from support_exudyn.postprocessing.viewer import viewer_model
 from support_exudyn.postprocessing.viewer.viewer_model import POSITION, SHOWN, model_for_viewer
-from tests.cases.run_cases import PIN, loose_slider_crank, loose_support, support
+from tests.cases.run_cases import loose_slider_crank, loose_support, support
 
 STROKE, TIME = 0.02, 0.05  # [m], [s]
 RISE: dict[str, Any] = {"drive": CubicStep(stroke=STROKE, start=0.0, end=TIME), "duration": TIME}
@@ -182,7 +181,9 @@ def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
                 there = [
                     shown.scene.mbs.GetObjectOutputBody(item.object, POSITION, points[k], SHOWN) for k in ends
                 ]
-                where = poses.of(body).points(np.asarray(solid.mesh.vertices), record)
+                where = (
+                    poses.of(body).frame(record).points(np.asarray(solid.mesh.vertices) - poses.of(body).start)
+                )
                 # each is a corner of the solid, where its body was; rounding of places of some metres
                 apart = np.linalg.norm(np.array(there)[:, None] - where[None], axis=-1).min(axis=1)
                 assert apart.max() < 1e-12, solid.name
@@ -190,46 +191,9 @@ def test_surfaces_and_columns_are_where_the_run_was(name: str) -> None:
             cylinder, rod = (
                 np.reshape(part()["points"], (-1, 3)) for part in viewer_model._parts(shown, strut)
             )
-            expected = strut_pose(strut, poses, record)
-            for points, where in (
-                (cylinder, expected.cylinder(np.asarray(strut.cylinder.vertices))[0]),
-                (rod, expected.rod(np.asarray(strut.rod.vertices))[0]),
-            ):
+            for n, (points, mesh) in enumerate(((cylinder, strut.cylinder), (rod, strut.rod))):
+                where = strut_frame(strut, poses, n, record).points(np.asarray(mesh.vertices))
                 for end in (np.min, np.max):
                     assert end(points, axis=0) == pytest.approx(end(where, axis=0), abs=1e-12)
-    finally:
-        shown.scene.release()
-
-
-@pytest.mark.parametrize("bore", ["first", "second"])
-def test_journal_and_rim_of_a_loose_pin_are_on_their_bodies(bore: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    scenario = RISES["exudyn"]
-    with_clearance = dataclasses.replace(scenario.clearance_pins[PIN], bore=bore, eccentricity=(0.0, -0.0015))
-    scenario = dataclasses.replace(scenario, pins={PIN: with_clearance})
-    place, bearing = scenario.linkage.pins[PIN], with_clearance.contact.bearing
-    rims: list[tuple[np.ndarray, Any]] = []
-    drawn = viewer_model._of_rim
-
-    def of_rim(points: np.ndarray, origin: Any = viewer_model.STILL) -> dict[str, Any]:
-        rims.append((points, origin))
-        return drawn(points, origin)
-
-    monkeypatch.setattr(viewer_model, "_of_rim", of_rim)
-    shown = model_for_viewer(scenario)
-    try:
-        (journal,) = [solid for solid in shown.look.solids if solid.name == f"journal of {PIN}"]
-        on_second = bore == "first"
-        assert journal.body == (place.second if on_second else place.first)
-        centre = place.second_point if on_second else place.first_point
-        low, high = journal.mesh.bounds
-        # a polygon of 32 corners that makes contact its circle
-        assert 0.5 * (low + high)[:2] == pytest.approx(centre, abs=1e-12)
-        assert (high - low)[0] == pytest.approx(2.0 * bearing.journal_radius, rel=1e-9)
-        ((points, origin),) = rims  # of which body: its centre, or the ground's origin
-        assert (origin is viewer_model.STILL) == on_second
-        away = points[:, :2] - np.array(place.first_point if on_second else place.second_point)
-        assert np.hypot(*away.T) == pytest.approx(bearing.bore_radius, abs=1e-12)
-        if not on_second:
-            assert origin[:2] == pytest.approx(scenario.linkage.bodies[place.second].centre)
     finally:
         shown.scene.release()

@@ -6,15 +6,28 @@ class that is named in a file is imported from where it lies.
 
 from __future__ import annotations
 
+import ast
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from importlib.util import resolve_name
+from pathlib import Path
 from typing import Any
 
 from user_forces.values.names import meant
 
 _of_classes: dict[str, str] = {}  # the modules in which classes of values lie, and names that lie there too
+
+
+def for_types(file: str) -> dict[str, list[str]]:
+    """The names that a package imports for type checkers alone, in `if TYPE_CHECKING`, by their module."""
+    places: dict[str, list[str]] = {}
+    for block in ast.parse(Path(file).read_text(encoding="utf-8")).body:
+        if isinstance(block, ast.If) and ast.unparse(block.test) == "TYPE_CHECKING":
+            for line in block.body:
+                if isinstance(line, ast.ImportFrom) and line.module is not None:
+                    places.setdefault(line.module, []).extend(one.name for one in line.names)
+    return places
 
 
 def offered(

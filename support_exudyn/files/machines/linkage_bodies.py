@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from support_exudyn.files.machines.parts import PartData
+from support_exudyn.files.machines.parts import PartData, check_known
 from support_exudyn.model.linkage import GROUND, Body, Part, bar, lumped, turned_moments
 from support_exudyn.model.plane_geometry import direction, distance, minus, plus, rotated
 from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres
@@ -70,11 +70,8 @@ class DrawnBody:
         where: what asks, in the file. Raises InputError if the body has no such point.
         """
         known = drawn if self.points is None else self.points
-        if point not in known:
-            what = "drawing_mm" if self.points is None else f"bodies.{self.name}, which has a frame of its own,"
-            raise InputError(
-                f"{where} = {point!r}: {what} has no such point; allowed: {', '.join(known) or 'none'}"
-            )
+        what = "drawing_mm" if self.points is None else f"bodies.{self.name}, which has a frame of its own,"
+        check_known(where, point, known, f"{what} has no such point")
         return plus(self.origin, rotated(known[point], self.angle))
 
     def body(self) -> Body:
@@ -117,10 +114,7 @@ def _own_points(
         return dict(data.points) or None
     first, second = data.bar
     for end in data.bar:
-        if end not in drawn:
-            raise InputError(
-                f"{where}.bar = {end!r}: drawing_mm has no such point; allowed: {', '.join(drawn)}"
-            )
+        check_known(f"{where}.bar", end, drawn, "drawing_mm has no such point")
     if first == second or distance(drawn[first], drawn[second]) == 0.0:
         raise InputError(f"{where}.bar = {list(data.bar)}: allowed: two points at different places")
     if data.length is None and not data.points:

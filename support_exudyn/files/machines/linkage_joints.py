@@ -8,13 +8,8 @@ from typing import Annotated
 from pydantic import Field
 
 from support_exudyn.files.machines.linkage_bodies import DrawnBody
-from support_exudyn.model.linkage import (
-    GROUND,
-    Gear,
-    LinearActuator,
-    PinPlace,
-    Slide,
-)
+from support_exudyn.files.machines.parts import check_known
+from support_exudyn.model.linkage import GROUND, Gear, LinearActuator, PinPlace, Slide
 from support_exudyn.model.plane_geometry import direction
 from user_forces.values.units import Kilograms, Metres, Radians
 from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
@@ -112,25 +107,19 @@ class DrawnPoints:
 
     def body(self, name: str, where: str) -> str:
         """The name of a body. Raises InputError if there is none; where: what asks, in the file."""
-        if name != GROUND and name not in self.bodies:
-            allowed = ", ".join((GROUND, *self.bodies))
-            raise InputError(f"{where} = {name!r}: there is no such body; allowed: {allowed}")
+        check_known(where, name, (GROUND, *self.bodies), "there is no such body")
         return name
 
     def moving(self, name: str, where: str) -> str:
         """The name of a body that is not the ground."""
-        if name not in self.bodies:
-            raise InputError(f"{where} = {name!r}: no moving body; allowed: {', '.join(self.bodies)}")
+        check_known(where, name, self.bodies, "no moving body")
         return name
 
     def place(self, body: str, point: str, where: str) -> Vector2:
         """Where a point of a body lies in the drawing [m]."""
         if self.body(body, where) != GROUND:
             return self.bodies[body].place(point, self.drawn, where)
-        if point not in self.drawn:
-            raise InputError(
-                f"{where} = {point!r}: drawing_mm has no such point; allowed: {', '.join(self.drawn) or 'none'}"
-            )
+        check_known(where, point, self.drawn, "drawing_mm has no such point")
         return self.drawn[point]
 
     def pin(self, name: str, data: LinkagePinData | tuple[str, str]) -> PinPlace:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from pydantic import model_validator
@@ -12,6 +12,13 @@ from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import Part, bar
 from user_forces.values.units import Kilograms, KilogramSquareMetres, Metres, Radians
 from user_forces.values.value import InputError, Positive, Real, Value, Vector2, value
+
+
+def check_known(where: str, name: str, known: Iterable[str], what: str) -> None:
+    """Raise InputError that names the place in the file unless a name is one of those that are known."""
+    names = list(known)
+    if name not in names:
+        raise InputError(f"{where} = {name!r}: {what}; allowed: {', '.join(names) or 'none'}")
 
 
 @value

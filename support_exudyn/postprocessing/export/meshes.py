@@ -8,20 +8,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from trimesh import Trimesh
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look.looks import look
-from support_exudyn.postprocessing.look.poses import Poses, placed_pins, strut_pose
-from support_exudyn.postprocessing.look.solid import Look, Role
+from support_exudyn.postprocessing.look.poses import Poses, moving_parts, placed_pins
+from support_exudyn.postprocessing.look.solid import Role
 from support_exudyn.simulation.result import Result
 
 Field = npt.NDArray[Any]
 ROLES = tuple(Role)
 
 
-class Frame(NamedTuple):
+class MeshFrame(NamedTuple):
     """A mesh at a record: points (m, 3) [m], and data of the points by names that end in their unit."""
 
     points: Series
@@ -44,7 +43,7 @@ class MeshSeries:
     name: str
     cell_type: str
     cells: npt.NDArray[np.int32]
-    frame: Callable[[int], Frame]
+    frame: Callable[[int], MeshFrame]
     names: Mapping[str, list[str]]
     point_constants: Mapping[str, Field] = field(default_factory=dict)
     cell_constants: Mapping[str, Field] = field(default_factory=dict)
@@ -78,49 +77,23 @@ def meshes_of(result: Result, first: int) -> list[MeshSeries]:
     return [machine] if pins is None else [machine, pins]
 
 
-class MeshPiece(NamedTuple):
-    """A piece of the mesh that is moved as a whole."""
-
-    body: str
-    role: Role
-    mesh: Trimesh
-
-
-def parts_of(look: Look) -> list[MeshPiece]:
-    """All solids, then cylinder and rod of every strut, which are bodies called "NAME cylinder", "NAME rod"."""
-    found = [MeshPiece(solid.body, solid.role, solid.mesh) for solid in look.solids]
-    for strut in look.struts:
-        found.append(MeshPiece(f"{strut.name} cylinder", Role.CYLINDER, strut.cylinder))
-        found.append(MeshPiece(f"{strut.name} rod", Role.ROD, strut.rod))
-    return found
-
-
 def machine_mesh(result: Result, first: int = 0) -> MeshSeries:
     """The surfaces of all bodies; the ground is body 0.
 
     Data of points: velocity_m_s, and displacement_m since the record `first`. Of triangles: body and role.
     """
-    shown, poses = look(result.scenario), Poses(result)
-    parts = parts_of(shown)
+    parts = moving_parts(look(result.scenario), Poses(result))
     bodies = list(dict.fromkeys([GROUND, *(part.body for part in parts)]))
 
-    def moved(record: int) -> tuple[Series, Series]:
-        """Positions [m] and velocities [m/s] of all points (m, 3)."""
-        found = []
-        for solid in shown.solids:
-            pose, points = poses.of(solid.body), np.asarray(solid.mesh.vertices)
-            found.append((pose.points(points, record), pose.velocities(points, record)))
-        for strut in shown.struts:
-            one = strut_pose(strut, poses, record)
-            found += [one.cylinder(strut.cylinder.vertices), one.rod(strut.rod.vertices)]
-        positions, velocities = zip(*found, strict=True)
-        return np.concatenate(positions), np.concatenate(velocities)
+    def points(record: int) -> Series:
+        return np.concatenate([part.frame(record).points(part.mesh.vertices) for part in parts])
 
-    start = moved(first)[0]
+    start = points(first)
 
-    def frame(record: int) -> Frame:
-        points, velocities = moved(record)
-        return Frame(points, {"velocity_m_s": velocities, "displacement_m": points - start})
+    def frame(record: int) -> MeshFrame:
+        velocities = [part.frame(record).velocities(part.mesh.vertices) for part in parts]
+        places = points(record)
+        return MeshFrame(places, {"velocity_m_s": np.concatenate(velocities), "displacement_m": places - start})
 
     firsts = np.cumsum([0, *(len(part.mesh.vertices) for part in parts[:-1])])
     counts = [len(part.mesh.faces) for part in parts]
@@ -165,10 +138,12 @@ def pin_points(result: Result) -> MeshSeries | None:
         for what in ("depth", "slip")
     )
 
-    def frame(record: int) -> Frame:
+    def frame(record: int) -> MeshFrame:
         force = forces[:, record]
         data = {"force_N": force, "force_magnitude_N": np.linalg.norm(force, axis=1)}
-        return Frame(places[:, record], {**data, "depth_m": depths[:, record], "slip_m_s": slips[:, record]})
+        return MeshFrame(
+            places[:, record], {**data, "depth_m": depths[:, record], "slip_m_s": slips[:, record]}
+        )
 
     numbers = np.arange(len(pins), dtype=np.int32)
     with_clearance = np.array([pin.with_clearance is not None for pin in pins], dtype=np.int32)

@@ -7,7 +7,6 @@ which a run does not keep all, are not among them.
 """
 
 import ast
-import errno
 import re
 from pathlib import Path
 from typing import Any
@@ -102,9 +101,6 @@ def _write(result: Result, path: Path) -> None:
             _write_rows(scene.mbs, _settings(result, path), solution)
     finally:
         scene.release()
-    # the engine does not say if the disk was full
-    if not _is_whole(path, solution):
-        raise OSError(errno.EIO, "the engine could not write all of it; is the disk full?", str(path))
 
 
 def _write_rows(mbs: Any, settings: Any, solution: Solution) -> None:
@@ -138,13 +134,6 @@ def _settings(result: Result, path: Path) -> Any:
     machine = type(result.scenario.machine).__name__
     file.information = f"{machine}, {result.scenario.formulation}; channels and scenario are in the run's file"
     return settings
-
-
-def _is_whole(path: Path, solution: Solution) -> bool:
-    try:
-        return np.array_equal(read_solution(path)["data"], solution["data"])
-    except InputError:
-        return False
 
 
 def read_solution(path: str | Path) -> Solution:
@@ -227,7 +216,7 @@ def _in_plane(result: Result, name: str) -> tuple[Series, Series]:
 def _in_space(poses: Poses, name: str) -> tuple[Series, Series]:
     pose = poses.of(name)
     parameters = euler_parameters(pose.turn)
-    place = np.hstack([pose.place - np.array(pose.start), parameters - UNTURNED])
+    place = np.hstack([pose.place - pose.start, parameters - UNTURNED])
     return place, np.hstack([pose.velocity, parameter_rates(parameters, pose.spin)])
 
 

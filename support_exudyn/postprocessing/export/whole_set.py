@@ -1,8 +1,7 @@
 """Several files that belong together, written all or none."""
 
-import errno
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from support_exudyn.files.whole_file import (
@@ -36,64 +35,30 @@ def whole_set(
 
     Raises OSError that names what cannot be written; InputError if one of the files is a run.
     """
-    asked = folder
-    with ExitStack() as held:
-        try:
-            folder = real_path(folder)
-            made = not folder.exists()
-            folder.mkdir(parents=True, exist_ok=True)
-            remove_leftovers(folder)
-            if made:
-                held.callback(_remove_if_empty, folder)
-            temporary = held.enter_context(workshop(folder))
-        except (FileExistsError, NotADirectoryError):
-            raise named(
-                NotADirectoryError(errno.ENOTDIR, "A file stands where a folder should be"), asked
-            ) from None
-        except OSError as error:
-            raise named(error, asked) from None
-        try:
-            _check_each(folder / name for name in (*files, *indexes))
+    made, names = not folder.exists(), (*files, *indexes)
+    try:
+        place = real_path(folder)
+        place.mkdir(parents=True, exist_ok=True)
+        remove_leftovers(place)
+        with workshop(place) as temporary:
+            for name in names:
+                check_is_no_run(place / name)
+                check_may_be_replaced(place / name)
             yield temporary
-            for name in (*files, *indexes):
+            for name in names:
                 write_through(temporary / name)
-            _put_in_place(temporary, folder, files, indexes, stale)
-        except OSError as error:
-            if error.errno is None or REFUSED in str(error.strerror):
-                raise
-            raise named(error, _meant(error, temporary, folder)) from error
-
-
-def _remove_if_empty(folder: Path) -> None:
-    with suppress(OSError):
-        folder.rmdir()
-
-
-def _check_each(paths: Iterable[Path]) -> None:
-    for path in paths:
-        check_is_no_run(path)
-        try:
-            check_may_be_replaced(path)
-        except OSError as error:
-            raise named(error, path) from None
-
-
-def _put_in_place(
-    temporary: Path, folder: Path, files: Sequence[str], indexes: Sequence[str], stale: Collection[str]
-) -> None:
-    for name in indexes:
-        (folder / name).unlink(missing_ok=True)
-    for name in stale:
-        if name not in files:
-            (folder / name).unlink(missing_ok=True)
-    for name in (*files, *indexes):
-        (temporary / name).replace(folder / name)
-
-
-def _meant(error: OSError, temporary: Path, folder: Path) -> Path:
-    """The name that the user knows for what an error is of."""
-    path = Path(str(error.filename)) if error.filename else folder
-    return folder / path.name if path.parent == temporary else path
+            for name in (*indexes, *(one for one in stale if one not in files)):
+                (place / name).unlink(missing_ok=True)
+            for name in names:
+                (temporary / name).replace(place / name)
+    except OSError as error:
+        if error.errno is None or REFUSED in str(error.strerror):
+            raise
+        raise named(error, folder) from error
+    finally:
+        if made:
+            with suppress(OSError):  # it is not empty
+                folder.rmdir()
 
 
 def check_is_no_run(path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -124,46 +124,76 @@ def over_time(result: Result, channels: Sequence[str], after: float = 0.0, until
             f"{len(names)} channels match; allowed in a figure: {MOST}; name fewer, such as {names[0]!r}"
         )
     chosen = inside(result, after, until)
-    panels = groups(result, names, chosen)
+    time, panels = result.time[chosen], groups(result, names, chosen)
     lines = sum(len(panel.names) for panel in panels)
     title = f"{type(result.scenario.machine).__name__}, {said(result, after, until)}"
     drawing = style.begin(170, REST_MM + PANEL_MM * len(panels) + LINE_MM * lines, title)
-    rows = drawing.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-    seconds = readable("s", float(np.ptp(result.time[chosen])))
-    worst: dict[str, float] = {}
-    for axes, panel in zip(rows, panels, strict=True):
-        worst |= _draw(axes, result, panel, chosen, seconds)
+    errors = {name: error for name in names if (error := error_over_time(result, name)) is not None}
+    with_clearance = {f"pin.{pin}.force" for pin in clearance_joints(result)}
+    shown = []
+    for panel in panels:
+        loose = with_clearance & set(panel.names)
+        curves = []
+        for name, (colour, dashes) in zip(panel.names, CURVES, strict=False):
+            if len(loose) == 1 and name in loose:  # several are told apart as others are
+                colour = style.CONTACT
+            label = f"{name}: {result.channels[name].meaning}"
+            error = errors.get(name)
+            band = None if error is None else error[chosen]
+            curves.append(Curve(label, time, result[name][chosen], band, colour, dashes))
+        shown.append(curves)
+    rows, seconds = draw_panels(
+        drawing, [(result.unit(panel.names[0]), curves) for panel, curves in zip(panels, shown, strict=True)]
+    )
+    for axes in rows:
+        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7, borderaxespad=0.0, ncols=1)
         _mark_impacts(axes, result, chosen, seconds)
-    drawing.align_ylabels(rows)
-    rows[-1].set_xlabel(f"time [{seconds.name}]")
-    rows[-1].set_xlim(*(seconds.scale * result.time[chosen][[0, -1]]))
-    caption(drawing, _words(result, worst))
+    caption(drawing, _words(result, {name: float(error[chosen].max()) for name, error in errors.items()}))
     return drawing
 
 
-def _draw(
-    axes: Axes, result: Result, panel: Panel, chosen: np.ndarray, seconds: DisplayUnit
-) -> dict[str, float]:
-    """Returns the largest error of each channel that has one, SI."""
-    time, scale = seconds.scale * result.time[chosen], panel.unit.scale
-    worst = {}
-    loose = {f"pin.{pin}.force" for pin in clearance_joints(result)} & set(panel.names)
-    for name, (colour, dashes) in zip(panel.names, CURVES, strict=False):
-        values = scale * result[name][chosen]
-        if len(loose) == 1 and name in loose:  # several are told apart as others are
-            colour = style.CONTACT
-        label = f"{name}: {result.channels[name].meaning}"
-        axes.plot(time, values, color=colour, ls=dashes, lw=0.9, label=label, rasterized=time.size > 20000)
-        error = error_over_time(result, name)
-        if error is None:
-            continue
-        band = scale * error[chosen]
-        worst[name] = float(error[chosen].max())
-        if float(band.max()) > VISIBLE * max(float(np.ptp(values)), 1e-300):
-            axes.fill_between(time, values - band, values + band, color=colour, alpha=0.25, lw=0.0)
-    label_values(axes, units.QUANTITIES.get(result.unit(panel.names[0]), "value"), panel.unit.name)
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7, borderaxespad=0.0, ncols=1)
-    return worst
+class Curve(NamedTuple):
+    """A line of a panel over time.
+
+    label: its name. time [s], values [SI] (n,). errors: of the values (n,) [SI], None if they are not known.
+    colour, dashes: of the line; no dashes: the points are marks.
+    """
+
+    label: str
+    time: Series
+    values: Series
+    errors: Series | None
+    colour: str
+    dashes: style.Dashes
+
+
+def draw_panels(
+    drawing: Figure, panels: Sequence[tuple[str, Sequence[Curve]]]
+) -> tuple[list[Axes], DisplayUnit]:
+    """Draw panels one below the other over the same time, each of a unit [SI] with its curves.
+
+    Returns the panels, and the unit of their time.
+    """
+    rows: list[Axes] = drawing.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0].tolist()
+    every = [curve.time for _, curves in panels for curve in curves]
+    first, last = min(time[0] for time in every), max(time[-1] for time in every)
+    seconds = readable("s", float(last - first))
+    for axes, (unit, curves) in zip(rows, panels, strict=True):
+        shown = readable(unit, max(float(np.abs(curve.values).max()) for curve in curves))
+        for curve in curves:
+            time, values = seconds.scale * curve.time, shown.scale * curve.values
+            look: dict[str, Any] = {"ls": curve.dashes, "lw": 0.9, "rasterized": time.size > 20000}
+            if not curve.dashes:
+                look = {"ls": "", "marker": "o", "ms": 3.5, "mfc": "none", "mew": 1.0, "zorder": 3}
+            axes.plot(time, values, color=curve.colour, label=curve.label, **look)
+            band = None if curve.errors is None else shown.scale * curve.errors
+            if band is not None and float(band.max()) > VISIBLE * max(float(np.ptp(values)), 1e-300):
+                axes.fill_between(time, values - band, values + band, color=curve.colour, alpha=0.25, lw=0.0)
+        label_values(axes, units.QUANTITIES.get(unit, "value"), shown.name)
+    drawing.align_ylabels(rows)
+    rows[-1].set_xlabel(f"time [{seconds.name}]")
+    rows[-1].set_xlim(seconds.scale * first, seconds.scale * last)
+    return rows, seconds
 
 
 def label_values(axes: Axes, quantity: str, unit: str) -> None:

@@ -9,14 +9,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from support_exudyn.machines.check.drive_way import DriveWay
+from support_exudyn.machines.check.drive_way import DriveWay, Moved
 from support_exudyn.machines.check.report import CheckReport
 from support_exudyn.machines.check.transmission import LEAST
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.linkage_drawing import GREY, draw_linkage
-from support_exudyn.postprocessing.figures.style import CURVES
+from support_exudyn.postprocessing.figures.linkage_drawing import GREY, START, LinkageDrawing
+from support_exudyn.postprocessing.figures.style import CURVES, Dashes
 
+GHOSTS = 3  # further postures of a crank that turns right round
 PANELS = 4  # drives that have curves of their own
 CAPTION = (
     "Static forces are those under weight and the machine's own loads, with ideal pins. Red dashes: dead "
@@ -37,7 +38,7 @@ def check_figure(report: CheckReport) -> Figure:
     rows = 0 if not ways else 1 if len(ways) < 3 else 2
     drawing = style.begin(180, 105 + 62 * rows, report.name or report.kind)
     grid = drawing.add_gridspec(1 + rows, 6, height_ratios=[1.7] + [1.0] * rows)
-    draw_linkage(drawing.add_subplot(grid[0, :]), report)
+    _linkage(drawing.add_subplot(grid[0, :]), report)
     if len(ways) == 1:
         angles = report.transmission[ways[0].drive]
         wide = 2 if angles else 3
@@ -52,6 +53,46 @@ def check_figure(report: CheckReport) -> Figure:
     if ways:
         style.caption(drawing, CAPTION + (POOR if any(report.transmission.values()) else ""))
     return drawing
+
+
+def _linkage(axes: Axes, report: CheckReport) -> None:
+    """Bodies at the start, and pale ones at ends of ranges or over a turn; paths of traced points."""
+    reached = [report.start.position, *(one.position for way in report.ways for one in way.moved)]
+    drawing = LinkageDrawing(axes, report.linkage, report.blocks, reached)
+    for way, (colour, dashes) in zip(report.ways, _colours(report.ways), strict=True):
+        drawing.paths([one.position for one in way.moved], colour)
+        for one in _others(way, len(report.ways) == 1):
+            drawing.posture(one.position, colour, dashes, strong=False)
+    drawing.posture(report.start.position)
+    for name, load in report.loads.items():
+        drawing.load(name, load)
+    drawing.pin_names(report.start.position)
+    drawing.names(report.start.position)
+    handles = [axes.plot([], [], color=START, lw=1.8, label=_start_label(report))[0]]
+    for way, (colour, dashes) in zip(report.ways, _colours(report.ways), strict=True):
+        others = _others(way, len(report.ways) == 1)
+        where = ", ".join(f"{way.shown(one.travel):.4g}" for one in others)
+        label = f"{way.label} at {where} {way.unit}"
+        if others:
+            handles.append(axes.plot([], [], color=colour, ls=dashes, lw=1.2, label=label)[0])
+    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2, fontsize=7.5)
+
+
+def _start_label(report: CheckReport) -> str:
+    where = [way.at(0.0) for way in report.ways if len(way.drives) == 1]
+    return "start" + (f": {', '.join(where)}" if len(where) == 1 else "")
+
+
+def _colours(ways: Sequence[DriveWay]) -> list[tuple[str, Dashes]]:
+    return [CURVES[n % len(CURVES)] for n in range(len(ways))]
+
+
+def _others(way: DriveWay, alone: bool) -> list[Moved]:
+    """Postures besides the start: ends, and the middle if no other part is driven; or some of a turn."""
+    if way.right_round:
+        return [way.moved[round(n)] for n in np.linspace(0, len(way.moved) - 1, GHOSTS + 2)[1:-1]]
+    shown = (way.moved[0], *([way.moved[len(way.moved) // 2]] if alone else []), way.moved[-1])
+    return [one for one in shown if one.travel != 0.0]
 
 
 def _pins(axes: Axes, way: DriveWay) -> None:

@@ -9,7 +9,7 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from support_exudyn.model.drives.drive import Drive, Held, Reciprocating, Steady
+from support_exudyn.model.drives.drive import Held, Reciprocating, Steady
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.journal import JournalPath, Series, clearance_joints, journal
@@ -40,27 +40,30 @@ class PoincareSection(NamedTuple):
     second: Series
 
 
+class SectionWindow(NamedTuple):
+    """What of a run is drawn, from and to [s], and the phase of the period, from 0 to 1."""
+
+    after: float = 0.0
+    until: float = math.inf
+    phase: float = 0.0
+
+
 def period(scenario: Scenario) -> float | None:
     """Period of the drives [s]; None if they have none in common.
 
     A crank that turns steadily has a revolution, a reciprocating drive its own. Drives that hold still do not
     count.
     """
-    drives = {name: scenario.drive_of(name) for name in scenario.driven}
-    found = {
-        _period(drive, turns=name in scenario.linkage.cranks)
-        for name, drive in drives.items()
-        if not isinstance(drive, Held)
-    }
+    found: set[float | None] = set()
+    for name in scenario.driven:
+        drive = scenario.drive_of(name)
+        if isinstance(drive, Reciprocating):
+            found.add(drive.period)
+        elif isinstance(drive, Steady) and name in scenario.linkage.cranks and drive.rate:
+            found.add(2.0 * math.pi / abs(drive.rate))
+        elif not isinstance(drive, Held):
+            found.add(None)
     return found.pop() if len(found) == 1 else None
-
-
-def _period(drive: Drive, *, turns: bool) -> float | None:
-    if isinstance(drive, Reciprocating):
-        return drive.period
-    if isinstance(drive, Steady) and turns and drive.rate:
-        return 2.0 * math.pi / abs(drive.rate)
-    return None
 
 
 def periodic_times(result: Result, phase: float = 0.0, after: float = 0.0, until: float = math.inf) -> Series:
@@ -128,24 +131,22 @@ def poincare(
     if channels and len(channels) != 2:
         raise InputError(f"channels = {short(list(channels))}: allowed for a section: two names")
     times = periodic_times(result, phase, after, until)
-    if channels and times.size < FEWEST_PERIODS:
+    if times.size >= FEWEST_PERIODS:
+        return _by_period(result, pin, SectionWindow(after, until, phase), channels)
+    if channels:
         raise InputError(
-            f"channels of a section: {times.size} periods of the drive lie in the piece that was asked for; "
+            f"channels of a section: {times.size} periods of the drive lie in the chosen piece of the run; "
             f"allowed: {FEWEST_PERIODS} and more, of a drive with a period"
         )
-    if times.size >= FEWEST_PERIODS:
-        return _by_period(result, pin, after, until, phase, channels)
     return _by_impact(result, journal(result, pin, after, until), after, until)
 
 
 # --- once in a period ---
 
 
-def _by_period(
-    result: Result, pin: str | None, after: float, until: float, phase: float, channels: Sequence[str]
-) -> Figure:
-    with_clearance = pin is not None or bool(clearance_joints(result))
-    shown = journal(result, pin, after, until) if with_clearance else None
+def _by_period(result: Result, pin: str | None, window: SectionWindow, channels: Sequence[str]) -> Figure:
+    after, until, phase = window
+    shown = journal(result, pin, after, until) if pin is not None or clearance_joints(result) else None
     pair = tuple(channels) or _pair(result, shown.pin if shown else None)
     if shown is None and not pair:
         raise InputError("a section: the run has neither a clearance pin nor a moving body on record")
@@ -155,15 +156,12 @@ def _by_period(
     panels = drawing.subplots(1, bool(shown) + bool(pair), squeeze=False)[0]
     closed = None
     if shown is not None:
-        closed = _draw_places(panels[0], result, shown, phase, after, until)
+        closed = _draw_places(panels[0], result, shown, window)
         panels[0].set_title("a) journal's centre in its bore")
     if pair:
-        axes = panels[-1]
-        _draw_section(axes, result, (pair[0], pair[1]), phase, after, until, closed)
-        axes.set_title("b) two channels" if shown is not None else "two channels")
-    length = period(result.scenario)
-    assert length is not None  # there are times
-    count = periodic_times(result, phase, after, until).size
+        _draw_section(panels[-1], result, (pair[0], pair[1]), window, closed)
+        panels[-1].set_title("b) two channels" if shown is not None else "two channels")
+    count, length = periodic_times(result, phase, after, until).size, period(result.scenario) or 0.0
     caption(
         drawing,
         f"{count} points, one in every period of the drive ({units.said(length, 's', 4)}) at {phase:g} of it; "
@@ -186,11 +184,11 @@ def _pair(result: Result, pin: str | None) -> tuple[str, ...]:
 
 
 def _draw_places(
-    axes: Axes, result: Result, shown: JournalPath, phase: float, after: float, until: float
+    axes: Axes, result: Result, shown: JournalPath, window: SectionWindow
 ) -> npt.NDArray[np.bool_]:
     """The journal's centre at every period. Returns at which of them it is in contact."""
     x, y, depth = (f"pin.{shown.pin}.{what}" for what in ("eccentricity_x", "eccentricity_y", "depth"))
-    section = stroboscopic(result, x, y, phase, after, until)
+    section = stroboscopic(result, x, y, window.phase, window.after, window.until)
     closed: npt.NDArray[np.bool_] = np.interp(section.time, result.time, result[depth]) > 0.0
     reach = max(shown.clearance, float(np.hypot(section.first, section.second).max()))
     unit = readable("m", reach)
@@ -207,12 +205,10 @@ def _draw_section(
     axes: Axes,
     result: Result,
     pair: tuple[str, str],
-    phase: float,
-    after: float,
-    until: float,
+    window: SectionWindow,
     closed: npt.NDArray[np.bool_] | None,
 ) -> None:
-    section = stroboscopic(result, *pair, phase, after, until)
+    section = stroboscopic(result, *pair, window.phase, window.after, window.until)
     (x, x_name), (y, y_name) = (
         _readable_spread(name, values, result.unit(name))
         for name, values in zip(pair, (section.first, section.second), strict=True)

@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import readable_change
-from user_forces.values import units as quantity
-from user_forces.values.units import Unit as Written
-from user_forces.values.value import InputError, short
+from support_exudyn.postprocessing.sweep_runs import SweepRuns, in_words, some
+from user_forces.values.value import InputError
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
-WALL_TIME = "wall_time_s"
-LITTLE = 1e-3  # share of a number in whose unit a smaller difference is still shown
 LOST = "#666666"  # runs without a result
 # curves: with markers, too, for grey prints
 CURVES = tuple((colour, marker, dashes) for (colour, dashes), marker in zip(style.CURVES, "os^D", strict=False))
@@ -41,24 +35,22 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
 
     Raises InputError if there is no such column, or if it has too many values for `by`.
     """
-    varied = varied_in(table)
-    x = column(x, varied)
-    by = None if by is None else column(by, [name for name in varied if name != x])
-    y = number_column(table, y)
-    rows = table.to_pydict()
-    places, ticks = _places(rows[x])
-    values = np.array([np.nan if one is None else one for one in rows[y]], dtype=float)
-    if np.isnan(values).all():
-        raise InputError(f"{y}: no run has this number; allowed: {_some(numbers_in(table))}")
-    unit = metadata(table, y).get("unit", "")
-    apart = float(np.nanmax(values) - np.nanmin(values))
-    shown = readable_change(unit, float(np.nanmax(np.abs(values))), apart)
-    alike = all(name in (x, by) or len(set(map(str, rows[name]))) == 1 for name in varied)
-    known = f"{y}_error" in rows
-    errors = np.array([np.nan if one is None else one for one in rows[f"{y}_error"]]) if known else None
-    drawing = style.begin(170, 95, f"{bare(y, unit)} over {in_words(x).partition(' [')[0]}")
+    runs = SweepRuns(table)
+    x = runs.input(x)
+    by = None if by is None else runs.input(by, besides=x)
+    number = runs.number(y)
+    places, ticks = _places(runs.column(x))
+    values = number.values
+    if not number.rows.size:
+        raise InputError(f"{y}: no run has this number; allowed: {some(list(runs.numbers))}")
+    shown = readable_change(number.unit, float(np.abs(number.known).max()), float(np.ptp(number.known)))
+    alike = all(name in (x, by) or len(set(map(str, runs.column(name)))) == 1 for name in runs.varied)
+    errors = number.errors
+    drawing = style.begin(170, 95, f"{number.name} over {in_words(x).partition(' [')[0]}")
     axes = drawing.subplots()
-    for label, chosen, (colour, marker, dashes) in _curves(rows, by, len(values)):
+    for label, chosen, (colour, marker, dashes) in _curves(
+        None if by is None else runs.column(by), len(values)
+    ):
         there = chosen & ~np.isnan(values)
         order = np.flatnonzero(there)[np.argsort(places[there], kind="stable")]
         alone = alike and len(np.unique(places[order])) == order.size
@@ -68,7 +60,7 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
             mew=1.2, ls=dashes if alone and ticks is None else "none", lw=1.0, capsize=2.5, elinewidth=0.8,
             label=label,
         )  # fmt: skip
-    lost = np.array([one != "done" for one in rows["status"]])
+    lost = np.array([one != "done" for one in runs.column("status")])
     if lost.any():
         axes.plot(
             places[lost], np.zeros(int(lost.sum())), "x", color=LOST, ms=6, mew=1.4, clip_on=False,
@@ -76,54 +68,28 @@ def sweep_chart(table: pa.Table, x: str, y: str, by: str | None = None) -> Figur
         )  # fmt: skip
     if ticks is not None:
         axes.set_xticks(range(len(ticks)), ticks)
-    _label(axes, x, y, unit, shown.name)
+    axes.set_xlabel(in_words(x))
+    axes.set_ylabel(f"{number.name} [{shown.name}]" if shown.name else number.name)
     if by is not None or lost.any():
         handles, labels = axes.get_legend_handles_labels()
         sequence = sorted(range(len(labels)), key=lambda n: labels[n].startswith("no result"))  # these last
         handles, labels = [handles[n] for n in sequence], [labels[n] for n in sequence]
         axes.legend(handles, labels, title=None if by is None else in_words(by), loc="best", alignment="left")
-    caption(drawing, _words(rows, varied, x, by, known))
+    caption(drawing, _words(runs, x, by, errors is not None))
     return drawing
 
 
-def varied_in(table: pa.Table) -> list[str]:
-    """The names of the columns of what was varied."""
-    return [name for name in table.column_names if metadata(table, name).get("meaning") == "varied"]
-
-
-def in_words(name: str) -> str:
-    """A key of a file with its unit as text: "pins.hinge.clearance_mm" as "pins.hinge.clearance [mm]"."""
-    endings = {
-        ending
-        for one in vars(quantity).values()
-        for item in getattr(one, "__metadata__", ())
-        if isinstance(item, Written)
-        for ending in item.endings
-    }
-    fitting = [ending for ending in endings if name.endswith(f"_{ending}")]
-    if not fitting:
-        return name
-    ending = max(fitting, key=len)
-    said = ending.replace("_per_", "/").removeprefix("per_") if "per_" in ending else ending.replace("_", " ")
-    if ending.startswith("per_"):
-        said = f"1/{said}"
-    return f"{name.removesuffix(f'_{ending}')} [{said}]"
-
-
-def _curves(rows: Mapping[str, list[Any]], by: str | None, size: int) -> list[tuple[str, Any, Any]]:
-    if by is None:
+def _curves(items: list[Any] | None, size: int) -> list[tuple[str, Any, Any]]:
+    """Label, chosen runs and look of each curve; items: by which runs are told apart, None: all in one."""
+    if items is None:
         return [("runs", np.ones(size, dtype=bool), CURVES[0])]
-    values = list(dict.fromkeys(rows[by]))
+    values = list(dict.fromkeys(items))
     if all(isinstance(one, (int, float)) for one in values):
         values.sort()
     if len(values) > len(CURVES):
-        raise InputError(f"{by}: has {len(values)} values; allowed for a curve each: up to {len(CURVES)}")
+        raise InputError(f"by: has {len(values)} values; allowed for a curve each: up to {len(CURVES)}")
     return [
-        (
-            f"{one:g}" if isinstance(one, float) else str(one),
-            np.array([item == one for item in rows[by]]),
-            curve,
-        )
+        (f"{one:g}" if isinstance(one, float) else str(one), np.array([item == one for item in items]), curve)
         for one, curve in zip(values, CURVES, strict=False)
     ]
 
@@ -136,66 +102,12 @@ def _places(values: list[Any]) -> tuple[np.ndarray, list[str] | None]:
     return np.array([names.index(str(one)) for one in values], dtype=float), names
 
 
-def _label(axes: Axes, x: str, y: str, unit: str, shown: str) -> None:
-    axes.set_xlabel(in_words(x))
-    axes.set_ylabel(f"{bare(y, unit)} [{shown}]" if shown else bare(y, unit))
-
-
-def bare(y: str, unit: str) -> str:
-    """The number without its unit at the end."""
-    from support_exudyn.sweeps.table import with_unit  # and pyarrow
-
-    return y.removesuffix(with_unit("", unit)) if unit else y
-
-
-def _words(rows: Mapping[str, list[Any]], varied: list[str], x: str, by: str | None, known: bool) -> str:
-    done = sum(one == "done" for one in rows["status"])
-    text = f"{done} runs of {len(rows['status'])}. "
-    rest = [name for name in varied if name not in (x, by)]
+def _words(runs: SweepRuns, x: str, by: str | None, known: bool) -> str:
+    status = runs.column("status")
+    text = f"{status.count('done')} runs of {len(status)}. "
+    rest = [name for name in runs.varied if name not in (x, by)]
     if rest:
         text += f"Also varied, and not told apart here: {', '.join(map(in_words, rest))}. "
     if known:
         return text + "Bars: estimated numerical error, often smaller than the mark."
     return text + "The runs were not made to an accuracy: nothing tells their numerical errors."
-
-
-def numbers_in(table: pa.Table) -> list[str]:
-    """The names of the columns of numbers of the runs, without those of their errors."""
-    first = table.column_names.index(WALL_TIME)
-    return [name for name in table.column_names[first:] if not name.endswith("_error")]
-
-
-def numbers_by_name(table: pa.Table) -> dict[str, str]:
-    """The columns of numbers by their names without units; the time that runs took is none of these."""
-    columns = [name for name in numbers_in(table) if name != WALL_TIME]
-    return {bare(name, metadata(table, name).get("unit", "")): name for name in columns}
-
-
-def number_column(table: pa.Table, name: str) -> str:
-    """The column of a number, by its name with its unit or without. Raises InputError if there is none."""
-    known, columns = numbers_by_name(table), numbers_in(table)
-    if name in known or name in columns:
-        return known.get(name, name)
-    near = get_close_matches(name, known, 5, 0.4)
-    raise InputError(f"{short(name)}: no such number; allowed: {_some(near or list(known))}")
-
-
-def column(name: str, allowed: list[str]) -> str:
-    """The column of this name, with its unit or without. Raises InputError if there is none."""
-    if name in allowed:
-        return name
-    begun = [one for one in allowed if one.startswith(f"{name}_")]
-    if len(begun) == 1:
-        return begun[0]
-    near = get_close_matches(name, allowed, 5, 0.4)
-    raise InputError(f"{short(name)}: no such column; allowed: {_some(near or allowed)}")
-
-
-def _some(names: list[str]) -> str:
-    return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "") or "none"
-
-
-def metadata(table: pa.Table, name: str) -> dict[str, str]:
-    """Unit and meaning of a column."""
-    found = table.schema.field(name).metadata or {}
-    return {key.decode(): text.decode() for key, text in found.items()}

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.postprocessing.figures.sweep_chart import in_words, number_column, varied_in
 from support_exudyn.postprocessing.figures.units import readable_change
-from support_exudyn.postprocessing.sweep_summary import SweepNumber, number_of, ranked
+from support_exudyn.postprocessing.sweep_runs import SweepNumber, SweepRuns, in_words
+from support_exudyn.postprocessing.sweep_summary import ranked
 from support_exudyn.sweeps.statistics import FEWEST, percentiles
 from user_forces.values.value import InputError
 
@@ -31,8 +31,9 @@ def histogram(table: pa.Table, y: str) -> Figure:
 
     Raises InputError if there is no such number, or too few runs have it.
     """
-    one, scale, unit = _number(table, y)
-    values = scale * one.values
+    runs = SweepRuns(table)
+    one, scale, unit = _number(runs, y)
+    values = scale * one.known
     drawing = style.begin(170, 85, f"{one.name}: {values.size} runs of {table.num_rows}")
     axes = drawing.subplots()
     axes.hist(values, bins="auto", color=style.FLIGHT, edgecolor="white", lw=0.6)
@@ -62,21 +63,21 @@ def tornado(table: pa.Table, y: str) -> Figure:
 
     Arguments, and what is raised, are those of `histogram`; also if no input is a number that varies.
     """
-    one, scale, unit = _number(table, y)
+    runs = SweepRuns(table)
+    one, scale, unit = _number(runs, y)
     found = []
-    for rank in ranked(table, one.column):
-        every = table.column(rank.name).to_pylist()
-        given = np.array([every[n] for n in one.rows], dtype=float)
+    for rank in ranked(runs, one):
+        given = np.array(runs.column(rank.name), dtype=object)[one.rows].astype(float)
         low, high = np.quantile(given, [END, 1.0 - END])
-        ends = one.values[given <= low].mean(), one.values[given >= high].mean()
+        ends = one.known[given <= low].mean(), one.known[given >= high].mean()
         found.append((abs(ends[1] - ends[0]), ends, rank))
     if not found:
         raise InputError(f"{one.name}: no input is a number that varies; allowed: sweeps that vary numbers")
     found.sort(key=lambda item: -item[0])
     found = found[:MOST]
-    drawing = style.begin(170, 38 + 9 * len(found), f"{one.name}: {one.values.size} runs")
+    drawing = style.begin(170, 38 + 9 * len(found), f"{one.name}: {one.known.size} runs")
     axes = drawing.subplots()
-    middle = scale * float(one.values.mean())
+    middle = scale * float(one.known.mean())
     for place, (_, ends, rank) in enumerate(found):
         for end, off, (colour, label) in zip(ends, (-0.18, 0.18), HALVES, strict=True):
             axes.barh(
@@ -101,16 +102,10 @@ def tornado(table: pa.Table, y: str) -> Figure:
     return drawing
 
 
-def _number(table: pa.Table, y: str) -> tuple[SweepNumber, float, str]:
+def _number(runs: SweepRuns, y: str) -> tuple[SweepNumber, float, str]:
     """A number of the runs, and the factor and unit in which it is read best."""
-    one = number_of(table, number_column(table, y))
-    if one.values.size < FEWEST:
-        raise InputError(f"{one.name}: {one.values.size} runs have this number; allowed: {FEWEST} and more")
-    shown = readable_change(one.unit, float(np.abs(one.values).max()), float(np.ptp(one.values)))
+    one = runs.number(y)
+    if one.known.size < FEWEST:
+        raise InputError(f"{one.name}: {one.known.size} runs have this number; allowed: {FEWEST} and more")
+    shown = readable_change(one.unit, float(np.abs(one.known).max()), float(np.ptp(one.known)))
     return one, shown.scale, shown.name
-
-
-def usual_chart(table: pa.Table) -> str | None:
-    """The input that a number is drawn over where none is named: the only one; None if there are several."""
-    several = [name for name in varied_in(table) if len(set(map(str, table.column(name).to_pylist()))) > 1]
-    return several[0] if len(several) == 1 else None

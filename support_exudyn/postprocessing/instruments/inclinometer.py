@@ -82,10 +82,11 @@ def specific_force(result: Result, body: str, at: str | None = None) -> Series:
     if body == GROUND:
         return np.tile(gravity, (result.time.size, 1))
     pose = Poses(result).of(body)
+    turn = pose.turn
     arm = np.zeros(3) if place is None else np.array([*place, 0.0][:3]) - pose.start
-    velocity = pose.velocity + np.cross(pose.spin, pose.turn @ arm)
+    velocity = pose.velocity + np.cross(pose.spin, turn @ arm)
     acceleration = np.gradient(velocity, float(result.time[1] - result.time[0]), axis=0, edge_order=2)
-    axes = pose.turn @ Rotation.from_euler("z", linkage.bodies[body].angle).as_matrix()
+    axes = turn @ Rotation.from_euler("z", linkage.bodies[body].angle).as_matrix()
     return np.asarray(np.einsum("nji,nj->ni", axes, gravity - acceleration))
 
 

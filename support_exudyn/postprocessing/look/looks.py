@@ -11,7 +11,7 @@ from functools import singledispatch
 from support_exudyn.machines.four_column_support import HydraulicSupport
 from support_exudyn.machines.two_leg_shield import TwoLegShield
 from support_exudyn.model.machine import Machine
-from support_exudyn.postprocessing.look import plain, shield_support
+from support_exudyn.postprocessing.look import plain, shield
 from support_exudyn.postprocessing.look.solid import Look
 from support_exudyn.scenario.scenario import Scenario
 
@@ -27,7 +27,7 @@ def look_of(machine: Machine, scenario: Scenario) -> Look:
 @look_of.register(TwoLegShield)
 def _shield(machine: Machine, scenario: Scenario) -> Look:
     del machine
-    return shield_support.look(scenario)
+    return shield.look(scenario)
 
 
 def look(scenario: Scenario) -> Look:

@@ -74,28 +74,23 @@ def _outline(scenario: Scenario, body: str, around: Sequence[Vector2], wide: flo
     """A plate around the points of a body; a block if it slides on the ground, which has a rail for it."""
     slides, guides = scenario.linkage.slides, scenario.guides
     loose = {name: slides[name] for name, guide in guides.items() if not guide.holds}
-    carried = [slide for name, slide in loose.items() if slide.against == body]
-    walls = [
-        wall
-        for name, slide in loose.items()
-        if slide.against == body
-        for wall in slot_walls(slide, guides[name], 2.0 * RAIL * size)
-    ]
+    fixed = [slide for name, slide in slides.items() if name not in loose]
+    carried = {name: slide for name, slide in loose.items() if slide.against == body}
+    parts = [wall for name, one in carried.items() for wall in slot_walls(one, guides[name], 2.0 * RAIL * size)]
     if body == GROUND:
-        rails = [one for name, one in slides.items() if one.against == GROUND and name not in loose]
-        on_rails = {slide.point for slide in (*rails, *carried)}
+        rails = [one for one in fixed if one.against == GROUND]
+        on_rails = {slide.point for slide in (*rails, *carried.values())}
         rest = [point for point in around if point not in on_rails]
-        parts = [hull(rest, wide)] if rest else []
-        parts += [*(_along(slide, RAIL * size, 0.5 * wide) for slide in rails), *walls]
-        whole = unary_union(parts)
-        return whole if isinstance(whole, Polygon) else unary_union([whole, _joining(parts, 0.35 * wide)])
-    sliding = [one for name, one in slides.items() if one.body == body and name not in loose]
-    on_ground = [slide for slide in sliding if slide.against == GROUND]
-    blocks = [
-        one for name, slide in loose.items() if slide.body == body for one in sliding_block(slide, guides[name])
-    ]
-    parts = [hull(around, wide), *(_along(slide, 2.0 * wide, 1.2 * wide) for slide in on_ground), *blocks]
-    parts += walls
+        main = [hull(rest, wide)] if rest else []
+        main += [_along(slide, RAIL * size, 0.5 * wide) for slide in rails]
+    else:
+        main = [hull(around, wide)]
+        main += [
+            _along(one, 2.0 * wide, 1.2 * wide) for one in fixed if one.body == body and one.against == GROUND
+        ]
+        own = (name for name, slide in loose.items() if slide.body == body)
+        main += [block for name in own for block in sliding_block(slides[name], guides[name])]
+    parts = [*main, *parts]
     whole = unary_union(parts)
     return whole if isinstance(whole, Polygon) else unary_union([whole, _joining(parts, 0.35 * wide)])
 

@@ -1,16 +1,21 @@
 """Where bodies, struts and pins are at the records of a run, of every formulation, in plane and space."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache, partial
+from typing import NamedTuple
 
 import numpy as np
+from trimesh import Trimesh
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND, Body
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.model.spatial_linkage import SpatialBody
 from support_exudyn.model.to_space import at
-from support_exudyn.postprocessing.look.solid import DrawnActuator
+from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, Vector3
@@ -20,92 +25,104 @@ LEAST = 1e-9  # determinant below which roll, yaw and angle do not determine a r
 ONLY_IN_SPACE = ("z", "velocity_z", "angular_velocity_x", "angular_velocity_y")
 
 
-@dataclass(frozen=True)
-class Pose:
-    """A body at the records of a run, ground's axes.
+class Frame(NamedTuple):
+    """Axes at a record: origin (3,) [m], axes in columns (3, 3), and the rates of both [m/s], [1/s]."""
 
-    Arguments:
-        start: its centre of mass in the start posture [m].
-        place: of the same at the records, shape (n, 3) [m].
-        turn: its rotation since the start posture, shape (n, 3, 3).
-        velocity: of the centre of mass, shape (n, 3) [m/s].
-        spin: its angular velocity, shape (n, 3) [rad/s].
-    """
-
-    start: Vector3
-    place: Series
-    turn: Series
+    origin: Series
+    axes: Series
     velocity: Series
-    spin: Series
+    turning: Series
 
-    def points(self, points: Series, record: int) -> Series:
-        """The places of points of the start posture (m, 3) at a record [m]."""
-        arms = (points - np.array(self.start)) @ self.turn[record].T
-        moved: Series = self.place[record] + arms
-        return moved
+    def points(self, own: Series) -> Series:
+        """The places of points (m, 3) of these axes [m]."""
+        places: Series = self.origin + own @ self.axes.T
+        return places
 
-    def velocities(self, points: Series, record: int) -> Series:
-        """The velocities of these points (m, 3) at a record [m/s]."""
-        arms = (points - np.array(self.start)) @ self.turn[record].T
-        moving: Series = self.velocity[record] + np.cross(self.spin[record], arms)
+    def velocities(self, own: Series) -> Series:
+        """The velocities of these points (m, 3) [m/s]."""
+        moving: Series = self.velocity + own @ self.turning.T
         return moving
 
+
+class Pose:
+    """A body of a run at its records, ground's axes; a channel is read when it is needed.
+
+    Arguments:
+        result: the run.
+        body: name of the body, or "ground".
+    """
+
+    def __init__(self, result: Result, body: str) -> None:
+        self._result, self._body = result, body
+        self._in_space = result.scenario.dimensions == 3
+        self._known: Body | SpatialBody | None = None
+        if body != GROUND:
+            scenario = result.scenario
+            self._known = (scenario.space if self._in_space else scenario.linkage).bodies[body]
+
+    def _columns(self, *names: str) -> Series:
+        """Channels side by side (n, 3); those out of the plane are zero for a run in the plane."""
+        zero = np.zeros(self._result.time.size)
+        is_zero = [self._known is None or (name in ONLY_IN_SPACE and not self._in_space) for name in names]
+        return np.column_stack([
+            zero if still else self._result.recorded(f"{self._body}.{name}", WHY)
+            for name, still in zip(names, is_zero, strict=True)
+        ])  # fmt: skip
+
+    @cached_property
+    def start(self) -> Series:
+        """The centre of mass in the start posture (3,) [m]."""
+        return np.array([*(self._known.centre if self._known else ()), 0.0, 0.0, 0.0][:3])
+
+    @cached_property
+    def place(self) -> Series:
+        """The centre of mass at the records (n, 3) [m]."""
+        return self._columns("x", "y", "z")
+
+    @cached_property
+    def turn(self) -> Series:
+        """Rotation since the start posture (n, 3, 3). Raises InputError if the angles do not determine it."""
+        if self._known is None:
+            return np.broadcast_to(np.eye(3), (self._result.time.size, 3, 3))
+        angle = self._columns("angle")[:, 0] - self._known.angle
+        if not self._in_space:
+            return _about_z(angle)
+        return turned(angle, *self._columns("roll", "yaw").T)
+
+    @cached_property
+    def velocity(self) -> Series:
+        """Of the centre of mass (n, 3) [m/s]."""
+        return self._columns("velocity_x", "velocity_y", "velocity_z")
+
+    @cached_property
+    def spin(self) -> Series:
+        """Angular velocity (n, 3) [rad/s]."""
+        return self._columns("angular_velocity_x", "angular_velocity_y", "angular_velocity")
+
+    def frame(self, record: int) -> Frame:
+        """The body's axes at a record, parallel to those of the ground in the start posture."""
+        turn = self.turn[record]
+        return Frame(self.place[record], turn, self.velocity[record], np.cross(self.spin[record], turn.T).T)
+
     def path(self, point: Vector3) -> Series:
-        """The places of a point of the start posture at all records, shape (n, 3) [m]."""
-        arm = np.array(point) - np.array(self.start)
-        path: Series = self.place + self.turn @ arm
+        """The places of a point of the start posture at all records (n, 3) [m]."""
+        path: Series = self.place + self.turn @ (np.array(point) - self.start)
         return path
 
 
 class Poses:
     """All bodies of a run.
 
-    Raises InputError if the run has not recorded a channel that this needs, when it is asked for the body.
+    Raises InputError if the run has not recorded a channel, when the pose needs it.
     """
 
     def __init__(self, result: Result) -> None:
-        self._result = result
-        self._of = lru_cache(maxsize=None)(self._read)
-
-    @property
-    def time(self) -> Series:
-        """The times of the records, shape (n,) [s]."""
-        return self._result.time
-
-    def of(self, body: str) -> Pose:
-        """The pose of a body by its name, or of "ground"."""
-        return self._of(body)
-
-    def _read(self, body: str) -> Pose:
-        scenario, rows = self._result.scenario, self.time.size
-        if body == GROUND:
-            nowhere = np.zeros((rows, 3))
-            unturned = np.broadcast_to(np.eye(3), (rows, 3, 3))
-            return Pose((0.0, 0.0, 0.0), nowhere, unturned, nowhere, nowhere)
-        in_space = scenario.dimensions == 3
-        known: Body | SpatialBody = (scenario.space if in_space else scenario.linkage).bodies[body]
-
-        def channel(name: str) -> Series:
-            if name in ONLY_IN_SPACE and not in_space:
-                return np.zeros(rows)
-            return self._result.recorded(f"{body}.{name}", WHY)
-
-        def columns(*names: str) -> Series:
-            return np.column_stack([channel(name) for name in names])
-
-        angle = channel("angle") - known.angle
-        x, y, *z = known.centre
-        return Pose(
-            (x, y, z[0] if z else 0.0),
-            columns("x", "y", "z"),
-            turned(angle, channel("roll"), channel("yaw")) if in_space else _about_z(angle),
-            columns("velocity_x", "velocity_y", "velocity_z"),
-            columns("angular_velocity_x", "angular_velocity_y", "angular_velocity"),
-        )
+        self.time: Series = result.time
+        self.of = lru_cache(maxsize=None)(lambda body: Pose(result, body))
 
 
 def _about_z(angle: Series) -> Series:
-    """Rotations about z, shape (n, 3, 3)."""
+    """Rotation matrices (n, 3, 3) by angles about z (n,) [rad]."""
     turn = np.zeros((angle.size, 3, 3))
     turn[:, 0, 0] = turn[:, 1, 1] = np.cos(angle)
     turn[:, 1, 0] = np.sin(angle)
@@ -139,56 +156,58 @@ def turned(angle: Series, roll: Series, yaw: Series) -> Series:
     return np.asarray(columns / np.linalg.norm(columns, axis=-2, keepdims=True))
 
 
-# --- struts ---
+# --- parts ---
 
 ACROSS = np.array([0.0, 0.0, 1.0])
 UP = np.array([0.0, 1.0, 0.0])
 ALONG_Z = 0.99  # cosine, above which a direction has no use for z as its neighbour
 
 
-@dataclass(frozen=True)
-class StrutPose:
-    """A strut at a record, ground's axes.
+class MovingPart(NamedTuple):
+    """A surface that moves as a whole: of a solid, or cylinder or rod of an actuator.
 
-    Arguments:
-        foot, head: where its ends are, shape (3,) [m].
-        foot_velocity, head_velocity: of these, shape (3,) [m/s].
-        axes: in columns, shape (3, 3): x from foot to head, z as near to the ground's z as can be (to y if it
-            stands along z). A strut does not turn about itself against them.
-        turning: their rate, shape (3, 3) [1/s].
+    body: its name; of an actuator "NAME cylinder", "NAME rod". mesh: in axes that move with it [m]. frame:
+    these axes at a record.
     """
 
-    foot: Series
-    head: Series
-    foot_velocity: Series
-    head_velocity: Series
-    axes: Series
-    turning: Series
-
-    def cylinder(self, points: Series) -> tuple[Series, Series]:
-        """Positions [m] and velocities [m/s] of points (m, 3) of `DrawnActuator.cylinder`."""
-        return self.foot + points @ self.axes.T, self.foot_velocity + points @ self.turning.T
-
-    def rod(self, points: Series) -> tuple[Series, Series]:
-        """Positions [m] and velocities [m/s] of points (m, 3) of `DrawnActuator.rod`."""
-        return self.head + points @ self.axes.T, self.head_velocity + points @ self.turning.T
+    body: str
+    role: Role
+    mesh: Trimesh
+    frame: Callable[[int], Frame]
 
 
-def strut_pose(strut: DrawnActuator, poses: Poses, record: int) -> StrutPose:
-    """A strut of a run at a record."""
-    foot, foot_velocity = _end(poses, strut.foot, np.array([strut.foot_point]), record)
-    head, head_velocity = _end(poses, strut.head, np.array([strut.head_point]), record)
-    axes, turning = axes_along(head - foot, head_velocity - foot_velocity)
-    return StrutPose(foot, head, foot_velocity, head_velocity, axes, turning)
+def moving_parts(look: Look, poses: Poses) -> list[MovingPart]:
+    """All solids of a look, then cylinder and rod of every strut."""
+    parts = []
+    for solid in look.solids:
+        pose, mesh = poses.of(solid.body), solid.mesh.copy()
+        mesh.apply_translation(-pose.start)
+        parts.append(MovingPart(solid.body, solid.role, mesh, pose.frame))
+    for strut in look.struts:
+        for n, (role, mesh) in enumerate(((Role.CYLINDER, strut.cylinder), (Role.ROD, strut.rod))):
+            frame = partial(strut_frame, strut, poses, n)
+            parts.append(MovingPart(f"{strut.name} {role.value}", role, mesh, frame))
+    return parts
 
 
-def _end(poses: Poses, body: str, point: Series, record: int) -> tuple[Series, Series]:
-    pose = poses.of(body)
-    return pose.points(point, record)[0], pose.velocities(point, record)[0]
+def strut_frame(strut: DrawnActuator, poses: Poses, end: int, record: int) -> Frame:
+    """Axes of a strut at its foot (end 0) or head (end 1).
+
+    x from foot to head, z as near to the ground's z as can be (to y if it stands along z). A strut does not
+    turn about itself against them.
+    """
+    places, velocities = [], []
+    for body, point in ((strut.foot, strut.foot_point), (strut.head, strut.head_point)):
+        pose = poses.of(body)
+        arm, frame = np.array(point) - pose.start, pose.frame(record)
+        places.append(frame.points(arm))
+        velocities.append(frame.velocities(arm))
+    axes, turning = axes_along(places[1] - places[0], velocities[1] - velocities[0])
+    return Frame(places[end], axes, velocities[end], turning)
 
 
 def strut_axes(way: Series) -> Series:
-    """Axes of a strut in columns, shape (3, 3), as in `StrutPose`; way: from foot to head, shape (3,) [m]."""
+    """Axes of a strut in columns, shape (3, 3), as in `strut_frame`; way: from foot to head, shape (3,) [m]."""
     return axes_along(way, np.zeros(3))[0]
 
 

@@ -101,44 +101,7 @@ def _reader() -> TypeAdapter[LiveFigure]:
     return TypeAdapter(LiveFigure)
 
 
-# --- from data, and from a drawing ---
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """A curve in full: its name, x and y (n,), broken by NaN; colour, dash and width as in `LiveCurve`."""
-
-    label: str
-    x: Series
-    y: Series
-    colour: str
-    dash: Dash = "solid"
-    width: float = 1.0
-
-
-def live_panel(label: str, curves: Sequence[Drawn]) -> LivePanel:
-    """A panel of curves, thinned so that no peak is lost, in 7 digits.
-
-    Those with the same x stay so: all their values at a place can be read together.
-    """
-    groups: list[list[int]] = []
-    for number, one in enumerate(curves):
-        of_same = (group for group in groups if np.array_equal(curves[group[0]].x, one.x, equal_nan=True))
-        group = next(of_same, [])
-        if not group:
-            groups.append(group)
-        group.append(number)
-    found: dict[int, LiveCurve] = {}
-    for group in groups:
-        x = curves[group[0]].x
-        placed = np.flatnonzero(np.isfinite(x))
-        kept = placed[thinned(np.array([curves[number].y[placed] for number in group]), MOST_POINTS)]
-        places = tuple(_rounded(value) for value in x[kept].tolist())
-        for number in group:
-            one = curves[number]
-            values = tuple(_rounded(v) if math.isfinite(v) else None for v in one.y[kept].tolist())
-            found[number] = LiveCurve(in_line(one.label), places, values, one.colour, one.dash, one.width)
-    return LivePanel(in_line(label), tuple(found[number] for number in range(len(curves))))
+# --- from a drawing ---
 
 
 def of_drawing(drawing: Figure, panels: Sequence[int] | Mapping[int, str]) -> LiveFigure:
@@ -162,8 +125,8 @@ def of_drawing(drawing: Figure, panels: Sequence[int] | Mapping[int, str]) -> Li
         lines = [line for line in axes.get_lines() if _is_curve(axes, line)]
         if not lines:
             raise InputError(f"panel {number} ({axes.get_ylabel()}): has no line with a label; allowed: some")
-        curves = [_drawn(line) for line in sorted(lines, key=lambda line: float(line.get_zorder()))]
-        found.append(live_panel(named.get(number, axes.get_ylabel()), curves))
+        lines.sort(key=lambda line: float(line.get_zorder()))
+        found.append(LivePanel(in_line(named.get(number, axes.get_ylabel())), _curves(lines)))
     of_panels = [drawing.axes[number].get_xlabel() for number in panels]
     labels = of_panels + [axes.get_xlabel() for axes in drawing.axes]
     return LiveFigure(in_line(next((label for label in labels if label), "")), tuple(found))
@@ -176,14 +139,39 @@ def _is_curve(axes: Axes, line: Line2D) -> bool:
     return in_data and bool(label) and not label.startswith("_") and bool(np.size(line.get_xdata()))
 
 
-def _drawn(line: Line2D) -> Drawn:
-    x: Series
-    y: Series
-    x, y = (np.ma.filled(np.ma.asarray(data, dtype=float), np.nan) for data in line.get_data(orig=False))
-    style = str(line.get_linestyle())
-    dash: Dash = "points" if style in ("None", "", " ") else DASHES.get(style, "solid")
-    width = round(float(line.get_linewidth()), 2)
-    return Drawn(str(line.get_label()), x, y, to_hex(line.get_color()), dash, width)
+def _curves(lines: Sequence[Line2D]) -> tuple[LiveCurve, ...]:
+    """Lines as curves, thinned so that no peak is lost, in 7 digits.
+
+    Those with the same x stay so: all their values at a place can be read together.
+    """
+    data: list[tuple[np.ndarray, ...]] = [
+        tuple(np.ma.filled(np.ma.asarray(one, dtype=float), np.nan) for one in line.get_data(orig=False))
+        for line in lines
+    ]
+    groups: list[list[int]] = []
+    for number, (x, _) in enumerate(data):
+        same = (group for group in groups if np.array_equal(data[group[0]][0], x, equal_nan=True))
+        if (group := next(same, None)) is None:
+            groups.append(group := [])
+        group.append(number)
+    found: dict[int, LiveCurve] = {}
+    for group in groups:
+        x = data[group[0]][0]
+        placed = np.flatnonzero(np.isfinite(x))
+        kept = placed[thinned(np.array([data[number][1][placed] for number in group]), MOST_POINTS)]
+        places = tuple(_rounded(value) for value in x[kept].tolist())
+        for number in group:
+            line, values = lines[number], data[number][1][kept].tolist()
+            style = str(line.get_linestyle())
+            found[number] = LiveCurve(
+                in_line(str(line.get_label())),
+                places,
+                tuple(_rounded(value) if math.isfinite(value) else None for value in values),
+                to_hex(line.get_color()),
+                "points" if style in ("None", "", " ") else DASHES.get(style, "solid"),
+                round(float(line.get_linewidth()), 2),
+            )
+    return tuple(found[number] for number in range(len(lines)))
 
 
 def thinned(curves: Series, most: int) -> npt.NDArray[np.intp]:

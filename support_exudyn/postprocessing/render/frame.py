@@ -4,12 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from support_exudyn.model.guides import Guide
-from support_exudyn.model.pins import ClearancePin
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT, IDEAL
 from support_exudyn.postprocessing.figures.units import readable, said_beside
 from support_exudyn.postprocessing.render.movie import Moments
-from support_exudyn.postprocessing.render.panels import TRAIL, Inset, PinView, Strip, round_down, said, usual
+from support_exudyn.postprocessing.render.panels import TRAIL, Inset, Strip
+from support_exudyn.postprocessing.render.pin_views import PinView, round_down, said, usual
 from support_exudyn.postprocessing.render.scene import RenderedScene
 from support_exudyn.postprocessing.render.sheet import FAINT, INK, Box, Canvas, Image
 from support_exudyn.postprocessing.render.stage import Camera
@@ -78,7 +77,7 @@ class Painter:
         pin = pins[0] if pins else None
         self._others = pins[1:]
         self._scene, self._layout, self._camera, self._pin = scene, layout, camera, pin
-        self._moments, self._time = moments, scene.poses.time
+        self._moments, self._time = moments, scene.result.time
         self._sheet = Canvas(layout.width, layout.height)
         self._insets: list[tuple[PinView, Inset]] = []
         self._below = layout.panel[1]  # of the insets
@@ -153,72 +152,56 @@ class Painter:
         """Draw arrows, numbers, journal and cursor."""
         u, sheet, (left, top) = self._layout.unit, self._sheet, self._words
         size = float(pin.size[record])
-        for one in self._others:
-            self._arrow(one, record, *self._drawn(one, record))
-        force, cut = self._drawn(pin, record)
-        self._arrow(pin, record, force, cut)
+        for one in (*self._others, pin):
+            self._arrow(one, record)
         colour = INK if size > 0.0 else FAINT
-        sheet.write(
-            (left, top + 28 * u), said_beside(size, "N", self._peak), 30 * u, colour, "left top", bold=True
-        )
-        if cut:
+        number_text = said_beside(size, "N", self._peak)
+        sheet.write((left, top + 28 * u), number_text, 30 * u, colour, "left top", bold=True)
+        if self._cut(pin, record) < 1.0:
             sheet.write((left, top + 126 * u), "the arrow is cut short", 13 * u, FAINT, "left top")
         for one, inset in self._insets:
-            force, cut = self._drawn(one, record)
-            arrow = self._scale * float(force[0]), -self._scale * float(force[1])
-            inset.draw(sheet, record, self._moments.back(number, TRAIL), arrow, cut)
+            x, y = (self._scale * self._cut(one, record) * one.force[record]).tolist()
+            inset.draw(sheet, record, self._moments.back(number, TRAIL), (x, -y))
         self._strip.cursor(sheet, float(self._time[record]), size)
 
-    def _drawn(self, pin: PinView, record: int) -> tuple[np.ndarray, bool]:
-        """The force whose arrow is drawn (2,) [N], and whether that is cut short."""
-        size, largest = float(pin.size[record]), LONGEST / ARROW * self._usual
-        return pin.force[record] * (min(1.0, largest / size) if size > 0.0 else 0.0), size > largest
+    def _cut(self, pin: PinView, record: int) -> float:
+        """The share of a force whose arrow is drawn: 1, or less if it would be too long."""
+        return min(1.0, LONGEST / ARROW * self._usual / max(float(pin.size[record]), 1e-300))
 
-    def _arrow(self, pin: PinView, record: int, force: np.ndarray, cut: bool) -> None:
+    def _arrow(self, pin: PinView, record: int) -> None:
         """Draw the arrow of the force in the machine's picture, and a mark on the pin."""
         u, (left, top, *_) = self._layout.unit, self._layout.picture
         x, y = self._camera.pixels(np.array([self._scene.context(pin, record)]))[0]
         place = (left + float(x), top + float(y))
+        force = self._cut(pin, record) * pin.force[record]
         along = self._camera.arrow(np.array([*force, 0.0])) / self._camera.scale * self._scale
         mark = IDEAL if pin.bore is None else CONTACT if pin.bore.closed[record] else FLIGHT
         self._sheet.disc(place, 8.0 * u, mark, 1.5 * u)
         tip = (place[0] + float(along[0]), place[1] + float(along[1]))
-        self._sheet.arrow(place, tip, IDEAL if pin.bore is None else CONTACT, 8.0 * u, cut)
+        self._sheet.arrow(place, tip, IDEAL if pin.bore is None else CONTACT, 8.0 * u)
 
 
 def title(scenario: Scenario, pin: PinView | None) -> str:
-    """A run in a line."""
-    words = [_spaced(type(scenario.machine).__name__)]
-    if scenario.dimensions == 3:
-        words[0] += " in space"
+    """A run in a line: machine, clearances, friction."""
+    words = [_spaced(type(scenario.machine).__name__) + (" in space" if scenario.dimensions == 3 else "")]
     if pin is not None and pin.bore is not None:
-        words.append(f"{pin.name.replace('_', ' ')}: {_of_clearance(pin.bore.pin)}")
+        contact = pin.bore.pin.contact
+        coefficient = getattr(contact.friction, "sliding_coefficient", None)
+        friction = (
+            _spaced(type(contact.friction).__name__) if coefficient is None else f"friction {coefficient:g}"
+        )
+        clearance = f"radial clearance {1e3 * contact.bearing.clearance:.4g} mm"
+        words.append(f"{pin.name.replace('_', ' ')}: {clearance}, {friction}")
     elif not scenario.contact_places:
         words.append("ideal pins")
     more = len(scenario.clearance_pins) - (pin is not None and pin.bore is not None)
     if more > 0:
         words.append(f"{more} more clearance pin{'s' * (more > 1)}")
-    loose = {name: guide for name, guide in scenario.guides.items() if guide.contacts()}
-    words += [f"{name.replace('_', ' ')}: play {_play(guide)}" for name, guide in loose.items()]
+    for name, guide in scenario.guides.items():
+        for part in list(guide.contacts().values())[:1]:  # by how much what slides can go to either side
+            play = part.contact.bearing.clearance - abs(part.point[1])
+            words.append(f"{name.replace('_', ' ')}: play \u00b1{1e3 * play:.4g} mm")
     return "  \u00b7  ".join(words)
-
-
-def _play(guide: Guide) -> str:
-    """By how much what slides in a guide can go to either side."""
-    part = next(iter(guide.contacts().values()))
-    play = part.contact.bearing.clearance - abs(part.point[1])
-    return f"\u00b1{1e3 * play:.4g} mm"
-
-
-def _of_clearance(pin: ClearancePin) -> str:
-    """Clearance and friction in words."""
-    clearance = f"radial clearance {1e3 * pin.contact.bearing.clearance:.4g} mm"
-    friction = pin.contact.friction
-    coefficient = getattr(friction, "sliding_coefficient", None)
-    if coefficient is None:
-        name = _spaced(type(friction).__name__)
-        return f"{clearance}, {'no friction' if name == 'frictionless' else name + ' friction'}"
-    return f"{clearance}, friction {coefficient:g}"
 
 
 def _spaced(name: str) -> str:

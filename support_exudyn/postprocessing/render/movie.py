@@ -118,6 +118,7 @@ WIDEST_GIF = 960  # [pixels]; larger frames are shrunk
 MOST_GIF_FRAMES = 2000  # it is made in memory
 FASTEST_GIF = 50.0  # frames a second: players show shorter ones later
 COLOURS = 256
+NEARLY_WHITE = 248  # of 255: what is as light is white, which Pillow rounds
 SAMPLED = 5  # frames by which the colours of a GIF are chosen
 ALWAYS = (CONTACT, FLIGHT, INK, "#ffffff")
 QUALITY = 8.0  # of MP4, from 0 to 10
@@ -156,7 +157,7 @@ def _gif(path: Path, frames: Sequence[Path], rate: float, progress: Progress) ->
 
     def reduced() -> Iterator[Image.Image]:
         for number, frame in enumerate(frames):
-            yield _in_colours(_shrunk(frame), palette)
+            yield _shrunk(frame).quantize(palette=palette, dither=Image.Dither.NONE)
             progress((number + 1) / len(frames))
 
     images = reduced()
@@ -175,32 +176,13 @@ def _gif(path: Path, frames: Sequence[Path], rate: float, progress: Progress) ->
 
 def _palette(samples: Sequence[Path]) -> Image.Image:
     """The colours that some frames have most, and those that have a meaning."""
-    pictures = [_shrunk(sample) for sample in samples]
-    wall = Image.new("RGB", (pictures[0].width, pictures[0].height * len(pictures)))
-    for n, picture in enumerate(pictures):
-        wall.paste(picture, (0, n * picture.height))
-    # one place stays free: what does not change from frame to frame is transparent
-    most = wall.quantize(COLOURS - len(ALWAYS) - 1, method=Image.Quantize.MEDIANCUT)
-    room = 3 * (COLOURS - len(ALWAYS) - 1)
-    chosen = ((most.getpalette() or []) + room * [0])[:room]
-    for colour in ALWAYS:
-        chosen += list(getrgb(colour))
+    pictures = [np.asarray(_shrunk(sample)) for sample in samples]
+    wall = Image.fromarray(np.concatenate(pictures))
+    most = wall.quantize(COLOURS - len(ALWAYS), method=Image.Quantize.MEDIANCUT).getpalette() or []
+    chosen = [part for colour in ALWAYS for part in getrgb(colour)] + most[: 3 * (COLOURS - len(ALWAYS))]
     palette = Image.new("P", (1, 1))
-    palette.putpalette(chosen)
+    palette.putpalette([255 if part > NEARLY_WHITE else part for part in chosen])
     return palette
-
-
-def _in_colours(frame: Image.Image, palette: Image.Image) -> Image.Image:
-    """A frame in the colours of a palette; those that have a meaning just as they are, which Pillow rounds."""
-    reduced = frame.quantize(palette=palette, dither=Image.Dither.NONE)
-    pixels, chosen = np.asarray(frame), np.asarray(reduced).copy()
-    packed = pixels[:, :, 0].astype(np.int32) << 16 | pixels[:, :, 1].astype(np.int32) << 8 | pixels[:, :, 2]
-    for place, colour in enumerate(ALWAYS, start=COLOURS - len(ALWAYS) - 1):
-        red, green, blue = getrgb(colour)[:3]
-        chosen[packed == (red << 16 | green << 8 | blue)] = place
-    exact = Image.fromarray(chosen)
-    exact.putpalette(reduced.getpalette() or [])
-    return exact
 
 
 def _shrunk(path: Path) -> Image.Image:

@@ -1,8 +1,6 @@
 """Frames and movies of a run, as files and as pictures."""
 
 import os
-import time as clock
-from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +14,7 @@ from support_exudyn.postprocessing.export.whole_set import whole_set
 from support_exudyn.postprocessing.render import movie as movies
 from support_exudyn.postprocessing.render.frame import Layout, Painter
 from support_exudyn.postprocessing.render.movie import Moments, moment, moments
-from support_exudyn.postprocessing.render.panels import pin_views
+from support_exudyn.postprocessing.render.pin_views import pin_views
 from support_exudyn.postprocessing.render.scene import RenderedScene
 from support_exudyn.postprocessing.render.sheet import Image as Picture
 from support_exudyn.postprocessing.render.stage import Stage
@@ -29,7 +27,6 @@ OF_GIF = (960, 540)  # GIFs are no wider
 SEEN = 0.25  # pixels by which something has to move before it is drawn anew
 SMALLEST, LARGEST = (320, 180), (3840, 2160)
 RATE = 25.0
-Announce = Callable[[int, float], None]
 FRAMES_SHARE = 0.85  # of the time that is spent before the movie
 NAME = "frame_{:04d}.png"
 FRAME = "frame_*.png"
@@ -63,7 +60,6 @@ def render(
     size: tuple[int, int] | None = None,
     pin: str | None = None,
     progress: Progress = silent,
-    announce: Announce = lambda frames, seconds: None,
 ) -> Rendered:
     """Write frames of a run to a folder, and a movie of them.
 
@@ -83,7 +79,6 @@ def render(
         pin: whose force is shown, and its journal first of all clearance pins; None: the first clearance pin,
             or the first of all.
         progress: is told the share that is done.
-        announce: is told how many frames there are and about how long they take [s], once the first is made.
 
     Raises InputError if one of these is out of its range or a channel was not recorded, OSError if something
     cannot be written.
@@ -96,7 +91,6 @@ def render(
     names = [NAME.format(n) for n in range(shown.times.size)]
     earlier = {old.name for old in folder.glob(FRAME) if old.stem[len("frame_") :].isdigit() and _is_ours(old)}
     share = FRAMES_SHARE if target else 1.0
-    announce(len(names), show.duration())
     with whole_set(folder, names, (), earlier) as made:
         paths = [made / name for name in names]
         with ThreadPoolExecutor(1) as painters:  # paints and writes while the next one is traced
@@ -153,21 +147,6 @@ class _Show:
         if self._traced is None or _has_moved(self._traced[0], where):
             self._traced = where, self._stage.image(self._scene.places(record))
         return self._traced[1]
-
-    def duration(self) -> float:
-        """About how long all frames take [s], by how long the first does."""
-        began = clock.perf_counter()
-        picture = self.machine(0)
-        traced = clock.perf_counter()
-        self.frame(picture, 0)
-        painting = clock.perf_counter() - traced
-        number, last = 0, None
-        for record in self._shown.records.tolist():
-            where = self._camera.pixels(self._scene.corners(record))
-            if last is None or _has_moved(last, where):
-                number, last = number + 1, where
-        frames = self._shown.records.size
-        return max(number * (traced - began), 0.0) + frames * painting
 
     def frame(self, machine: Picture, number: int) -> Picture:
         """The whole frame."""

@@ -8,9 +8,9 @@ import numpy as np
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.loads.roofs import Roof
 from support_exudyn.postprocessing.look.looks import look
-from support_exudyn.postprocessing.look.poses import Poses, strut_pose
-from support_exudyn.postprocessing.look.solid import COLOURS, Look, Role, Solid
-from support_exudyn.postprocessing.render.panels import PinView
+from support_exudyn.postprocessing.look.poses import MovingPart, Poses, moving_parts
+from support_exudyn.postprocessing.look.solid import COLOURS, Look, Role
+from support_exudyn.postprocessing.render.pin_views import PinView
 from support_exudyn.postprocessing.render.scenery import GAP, Label, Surroundings, surroundings
 from support_exudyn.postprocessing.render.stage import Camera, MeshItem, fitted
 from support_exudyn.simulation.result import Result
@@ -27,44 +27,33 @@ class RenderedScene:
     def __init__(self, result: Result) -> None:
         self.result = result
         self.look: Look = look(result.scenario)
-        self.poses = Poses(result)
-        self.records = np.unique(np.linspace(0, self.poses.time.size - 1, LOOKED_AT).astype(int))
+        self.parts = moving_parts(self.look, Poses(result))
+        self.records = np.unique(np.linspace(0, result.time.size - 1, LOOKED_AT).astype(int)).tolist()
 
     @cached_property
     def points(self) -> Series:
-        """The places of the machine at these records, shape (n, 3) [m]."""
-        found = []
-        for record in self.records.tolist():
-            found += [self._hull(solid, record) for solid in self.look.solids]
-            for strut in self.look.struts:
-                pose = strut_pose(strut, self.poses, record)
-                found += [pose.cylinder(strut.cylinder.bounds)[0], pose.rod(strut.rod.bounds)[0]]
-        return np.concatenate(found)
+        """The outermost points of the machine at these records, shape (n, 3) [m]."""
+        return np.concatenate([self._hull(part, record) for part in self.parts for record in self.records])
 
     def corners(self, record: int) -> Series:
         """The corners of boxes around all that may move, at a record, shape (n, 3) [m]."""
-        found = [self.poses.of(s.body).points(s.mesh.bounding_box.vertices, record) for s in self.look.solids]
-        for strut in self.look.struts:
-            ends = strut_pose(strut, self.poses, record)
-            found.append(np.array([ends.foot, ends.head]))
+        found = [part.frame(record).points(part.mesh.bounding_box.vertices) for part in self.parts]
         if self.surroundings is not None:
             found.append(np.array([[0.0, self.roof(record), 0.0]]))
         return np.concatenate(found)
 
-    def _hull(self, solid: Solid, record: int) -> Series:
-        """The outermost points of a solid (n, 3) [m]."""
-        return self.poses.of(solid.body).points(solid.mesh.convex_hull.vertices, record)
+    def _hull(self, part: MovingPart, record: int) -> Series:
+        """The outermost points of a part (n, 3) [m]."""
+        return part.frame(record).points(part.mesh.convex_hull.vertices)
 
     @cached_property
     def surroundings(self) -> Surroundings | None:
         """The surroundings of a support; None of machines without a canopy."""
-        canopies = [solid for solid in self.look.solids if solid.role is Role.CANOPY]
+        canopies = [part for part in self.parts if part.role is Role.CANOPY]
         if not canopies:
             return None
         length = float(np.ptp(self.points[:, 0]))
-        highest = max(
-            self._hull(one, record)[:, 1].max() for one in canopies for record in self.records.tolist()
-        )
+        highest = max(self._hull(one, record)[:, 1].max() for one in canopies for record in self.records)
         half_width = float(np.abs(self.points[:, 2]).max())
         roof = self._face(0)
         height = highest + 0.25 * GAP * length if roof is None else roof
@@ -77,29 +66,20 @@ class RenderedScene:
             if isinstance(load, Roof):
                 solids = [solid for solid in self.look.solids if solid.body == load.body]
                 top = max((solid.mesh.bounds[1, 1] for solid in solids), default=load.point[1])
-                found.append(top + load.gap - load.descent.extension(float(self.poses.time[record])))
+                found.append(top + load.gap - load.descent.extension(float(self.result.time[record])))
         return min(found, default=None)
 
     def props(self) -> list[MeshItem]:
         """All surfaces, each in axes of its own."""
-        found = []
-        for solid in self.look.solids:
-            mesh = solid.mesh.copy()
-            mesh.apply_translation(-np.array(self.poses.of(solid.body).start))
-            found.append(MeshItem(mesh, COLOURS[solid.role]))
-        for strut in self.look.struts:
-            found += [MeshItem(strut.cylinder, COLOURS[Role.CYLINDER]), MeshItem(strut.rod, COLOURS[Role.ROD])]
+        found = [MeshItem(part.mesh, COLOURS[part.role]) for part in self.parts]
         around = self.surroundings
         return found if around is None else [*found, *around.props, around.roof]
 
     def places(self, record: int) -> Iterator[tuple[Series, Series]]:
         """The place (3,) [m] and the turn (3, 3) of each of these at a record."""
-        for solid in self.look.solids:
-            pose = self.poses.of(solid.body)
-            yield pose.place[record], pose.turn[record]
-        for strut in self.look.struts:
-            ends = strut_pose(strut, self.poses, record)
-            yield from ((ends.foot, ends.axes), (ends.head, ends.axes))
+        for part in self.parts:
+            frame = part.frame(record)
+            yield frame.origin, frame.axes
         if self.surroundings is not None:
             yield from ((NOWHERE, UNTURNED) for _ in self.surroundings.props)
             yield np.array([0.0, self.roof(record), 0.0]), UNTURNED

@@ -3,16 +3,14 @@
 Roof, coal face and goaf are cut through in the plane of symmetry, so that they hide nothing of the machine.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from shapely.geometry import Polygon, box
 from trimesh import Trimesh
-from trimesh.convex import convex_hull
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.postprocessing.look.shapes import plate, together
+from support_exudyn.postprocessing.look.shapes import plate
 from support_exudyn.postprocessing.look.solid import Colour
 from support_exudyn.postprocessing.render.stage import MeshItem
 from user_forces.values.value import Vector3
@@ -20,11 +18,8 @@ from user_forces.values.value import Vector3
 FLOOR: Colour = (0.74, 0.72, 0.68)
 ROOF: Colour = (0.66, 0.64, 0.61)
 COAL: Colour = (0.23, 0.23, 0.25)
-ROCKS: tuple[Colour, ...] = (0.62, 0.60, 0.57), (0.72, 0.70, 0.66), (0.53, 0.51, 0.49)
-DARK: Colour = (0.40, 0.38, 0.36)
+ROCK: Colour = (0.53, 0.51, 0.49)
 STEEP = 0.5  # how far the heap leans back, of its depth
-SEED = 5  # of the rocks: they always lie alike
-COURSES = 8  # of rocks, one on the other
 GAP = 0.02  # between things that do not make contact, of the machine's length
 BEHIND = 0.30  # how far the goaf reaches, of the machine's length
 
@@ -84,12 +79,10 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
     behind = Polygon(
         [(right, floor), (back, floor), (back - STEEP * (back - right), floor + heap), (right, floor + heap)]
     )
-    rocks = list(_rocks(right, back, floor, heap, deep))
     props = [
         MeshItem(ground, FLOOR),
         MeshItem(coal, COAL),
-        MeshItem(plate(behind, -0.8 * deep, 0.4 * deep), DARK),
-        *rocks,
+        MeshItem(plate(behind, -0.5 * deep, deep), ROCK),
     ]
     labels = (
         Label("coal\nface", (0.5 * (face + left), floor + 0.5 * height, 0.0), light=True),
@@ -111,29 +104,3 @@ def surroundings(machine: Series, floor: float, roof_height: float, half_width: 
 def _slab(left: float, right: float, low: float, high: float, near: float, far: float) -> Trimesh:
     """A box."""
     return plate(box(left, low, right, high), 0.5 * (near + far), far - near)
-
-
-def _rocks(right: float, left: float, floor: float, height: float, deep: float) -> Iterator[MeshItem]:
-    """A heap that leans away from the machine, of one surface to a colour."""
-    random = np.random.default_rng(SEED)
-    found: list[list[Trimesh]] = [[] for _ in ROCKS]
-    step = height / COURSES
-    size = 0.78 * step
-    for course in range(COURSES):
-        nearest = left - size - STEEP * course / COURSES * (left - right)
-        for x in np.arange(nearest, right, -1.45 * size):
-            radius = size * random.uniform(0.8, 1.2)
-            place = np.array([x, floor + (course + 0.5) * step, -0.3 * deep - random.uniform(0.0, 0.3) * deep])
-            found[random.integers(len(ROCKS))].append(_rock(random, place, radius))
-    for colour, rocks in zip(ROCKS, found, strict=True):
-        if rocks:
-            yield MeshItem(together(rocks), colour)
-
-
-def _rock(random: np.random.Generator, place: Series, radius: float) -> Trimesh:
-    """A lump with flat faces."""
-    directions = random.normal(size=(14, 3))
-    directions /= np.linalg.norm(directions, axis=1)[:, None]
-    points = directions * radius * random.uniform(0.85, 1.2, (14, 1)) * np.array([1.2, 0.95, 1.0])
-    rock: Trimesh = convex_hull(points + place)
-    return rock

@@ -122,11 +122,8 @@ class Canvas:
         style = f"round,pad=0,rounding_size={radius}"
         self._add(FancyBboxPatch((left, top), right - left, bottom - top, style, fc=colour, lw=0.0))
 
-    def arrow(self, tail: Point, tip: Point, colour: str, thick: float, cut: bool = False) -> None:
-        """Draw an arrow with a white edge, so that it is seen on anything; cut: its shaft is broken.
-
-        One that is hardly longer than thick is not drawn.
-        """
+    def arrow(self, tail: Point, tip: Point, colour: str, thick: float) -> None:
+        """Draw an arrow with a white edge, which is seen on anything, unless it is hardly longer than thick."""
         way = np.subtract(tip, tail)
         length = math.hypot(*way)
         if length < SHORTEST * thick:
@@ -138,14 +135,6 @@ class Canvas:
                 length_includes_head=True, path_effects=[withStroke(linewidth=0.7 * thick, foreground="white")],
             )
         )  # fmt: skip
-        if cut:
-            along = thick * way / length
-            aside = np.array([-along[1], along[0]])
-            middle = np.add(tail, 0.5 * (length - head) / length * way)
-            for off in (-0.7, 0.7):
-                ends = [middle + (off + side * 0.5) * along + side * aside for side in (-1.0, 1.0)]
-                x, y = np.transpose(ends)
-                self.line(x, y, "#ffffff", 0.45 * thick)
 
     def _add(self, artist: Any) -> None:
         self._moving.append(self.axes.add_artist(artist))

@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
+from exudyn import graphics
 from matplotlib.colors import to_rgb
 
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.figures.style import CONTACT, FLIGHT
 from support_exudyn.postprocessing.figures.units import said_beside
-from support_exudyn.postprocessing.render.panels import SHOWN, PinView, round_up, said, usual
+from support_exudyn.postprocessing.render.pin_views import PinView, said, usual
 
 RADIUS = 0.07  # of a bore, of the machine's length
 APART = 3.2  # distance of bores, in radii
 LONGEST = 1.5  # of an arrow, in radii: that of the usual force is as long as the radius
 HEAD = 0.25  # of an arrow, of its length
 CORNERS = 48  # of a circle
-INK, JOURNAL = (0.1, 0.1, 0.1), (0.45, 0.45, 0.48)
-TURN = np.linspace(0.0, 2.0 * math.pi, CORNERS + 1)
-CIRCLE = np.column_stack([np.cos(TURN), np.sin(TURN)])
+INK, JOURNAL = [0.1, 0.1, 0.1, 1.0], [0.45, 0.45, 0.48, 1.0]
 
 
 class PinInsets:
@@ -49,13 +47,10 @@ class PinInsets:
     def corners(self) -> Series:
         """What has to be seen of them, shape (n, 3) [m]."""
         reach = 1.8 * self._radius
-        return np.array(
-            [
-                [x + side * reach, y + side * reach, self._depth]
-                for x, y in self._centres
-                for side in (-1.0, 1.0)
-            ]
-        ).reshape(-1, 3)
+        corners = [
+            [x + side * reach, y + side * reach, self._depth] for x, y in self._centres for side in (-1.0, 1.0)
+        ]
+        return np.array(corners).reshape(-1, 3)
 
     def graphics(self, now: float) -> list[dict[str, Any]]:
         """What the engine draws of them at a time [s]: that of the record next to it."""
@@ -69,45 +64,25 @@ class PinInsets:
     def _of(self, view: PinView, centre: Series, record: int) -> Iterator[dict[str, Any]]:
         assert view.bore is not None
         bearing = view.bore.pin.contact.bearing
-        factor = max(1.0, round_up(SHOWN * bearing.bore_radius / bearing.clearance))
+        factor = view.bore.enlargement
         scale = factor * self._radius / bearing.bore_radius  # metres drawn to a metre of eccentricity
         at = centre + scale * view.bore.eccentricity[record]
         inside = self._radius - scale * bearing.clearance
-        colour = to_rgb(CONTACT if view.bore.closed[record] else FLIGHT)
-        yield self._disc(at, inside)
-        yield self._line(centre + self._radius * CIRCLE, INK)
-        yield self._line(at + inside * CIRCLE, colour)
+        colour = (*to_rgb(CONTACT if view.bore.closed[record] else FLIGHT), 1.0)
+        thin = 0.01 * inside  # the disc lies behind the lines
+        yield graphics.Cylinder([*at, self._depth + thin], [0.0, 0.0, thin], inside, JOURNAL, nTiles=CORNERS)
+        yield graphics.Circle([*centre, self._depth], self._radius, INK)
+        yield graphics.Circle([*at, self._depth], inside, colour)
         size = float(view.size[record])
         if size > 0.0:
-            length = min(size / self._usual, LONGEST) * self._radius
-            yield from self._arrow(at, length * view.force[record] / size, colour)
+            way = min(size / self._usual, LONGEST) * self._radius * view.force[record] / size
+            tip, aside = at + way, np.array([-way[1], way[0]])
+            for start in (at, *(tip - HEAD * (way + side * aside) for side in (-0.5, 0.5))):
+                yield graphics.Lines([[*start, self._depth], [*tip, self._depth]], colour)
         lines = (
             view.name.replace("_", " "),
             f"{said_beside(size, 'N', float(view.size.max(initial=0.0)))}, gap x {said(factor)}",
         )
         for n, words in enumerate(lines):
             x, y = centre + self._radius * np.array([1.0, -1.4 - 0.4 * n])  # x points to the left here
-            yield {"type": "Text", "text": words, "position": [x, y, self._depth], "color": [*INK, 1.0]}
-
-    def _line(self, points: Series, colour: Sequence[float]) -> dict[str, Any]:
-        data = np.column_stack([points, np.full(len(points), self._depth)])
-        return {"type": "Line", "color": [*colour, 1.0], "data": data.ravel()}
-
-    def _arrow(self, at: Series, way: Series, colour: Sequence[float]) -> Iterator[dict[str, Any]]:
-        tip, aside = at + way, np.array([-way[1], way[0]])
-        yield self._line(np.array([at, tip]), colour)
-        for side in (-0.5, 0.5):
-            yield self._line(np.array([tip - HEAD * (way + side * aside), tip]), colour)
-
-    def _disc(self, at: Series, radius: float) -> dict[str, Any]:
-        points = np.vstack([at, at + radius * CIRCLE[:-1]])
-        ring = np.arange(CORNERS)
-        triangles = np.column_stack([np.zeros(CORNERS), 1 + (ring + 1) % CORNERS, 1 + ring]).astype(np.int64)
-        return {
-            "type": "TriangleList",
-            # behind the lines
-            "points": np.column_stack([points, np.full(len(points), self._depth + 0.01 * radius)]).ravel(),
-            "normals": np.tile([0.0, 0.0, -1.0], len(points)),
-            "triangles": triangles.ravel(),
-            "colors": np.tile([*JOURNAL, 1.0], len(points)),
-        }
+            yield graphics.Text([x, y, self._depth], words, INK)

@@ -1,6 +1,5 @@
 """Exudyn's solution viewer on a run: its model with the look of the machine, moving as it did."""
 
-import signal
 import subprocess
 import sys
 import tempfile
@@ -18,7 +17,7 @@ from exudyn.basicUtilities import SetSolutionState
 from support_exudyn.formulations.engine_settings import quiet_engine
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.export.solution_file import Solution, check_fits, read_solution, rows
-from support_exudyn.postprocessing.render.panels import PinView, pin_views
+from support_exudyn.postprocessing.render.pin_views import PinView, pin_views
 from support_exudyn.postprocessing.viewer.viewer_model import SHOWN, ViewerModel, model_for_viewer
 from support_exudyn.simulation.provenance import installed
 from support_exudyn.simulation.result import Result
@@ -53,14 +52,11 @@ container.renderer.Stop()
 if not active:
     raise SystemExit("the engine's window did not open")
 """
-UNTOLD = ("terminate called", "Setup OpenGL", "Traceback", "  ")  # beginnings of lines that tell no reason
-PICTURES = "`python -m support_exudyn render RUN` writes pictures without a window"
+REASONS = ("what():", "error", "failed", "no ")  # in lines that name a cause
 INSTEAD = (
-    f"{PICTURES}, and `xvfb-run -a python -m support_exudyn view RUN` opens the window on a display in memory"
+    "Allowed: a desktop with OpenGL; `python -m support_exudyn render RUN` writes pictures without a window, "
+    "and `xvfb-run -a python -m support_exudyn view RUN` opens the window on a display in memory"
 )
-NO_TKINTER = "no tkinter"  # as TRY says it
-WHAT = "what():"  # what a C++ exception tells
-TOLD = (WHAT, "error", "failed")  # in lines that tell a reason
 
 
 class NoDisplayError(OSError):
@@ -76,43 +72,20 @@ def check_display() -> None:
                 f"no window: exudyn.special.userInterface.{name} is set, perhaps by the variable "
                 "EXUDYN_SUPPRESS_UI_WINDOW_OPEN; allowed: windows where neither is"
             )
-    if (reason := _reason()) is not None:
-        raise NoDisplayError(
-            f"no window can be opened here: {reason}. "
-            + (
-                f"Else {PICTURES}"
-                if reason.startswith(NO_TKINTER)
-                else f"Allowed: a desktop with OpenGL; {INSTEAD}"
-            )
-        )
-
-
-def _reason() -> str | None:
-    """Why no window opens; None if one does."""
     with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, "-c", TRY]
         try:
             tried = subprocess.run(
-                [sys.executable, "-c", TRY],
-                cwd=folder,
-                stdin=subprocess.DEVNULL,
-                capture_output=True,
-                text=True,
-                errors="replace",
-                timeout=LONGEST,
-            )
+                command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                errors="replace", timeout=LONGEST,
+            )  # fmt: skip
         except subprocess.TimeoutExpired:
-            return f"trying it took more than {LONGEST:g} s"
-    if tried.returncode == 0:
-        return None
-    said = [line.rstrip() for line in (tried.stderr + "\n" + tried.stdout).splitlines()]
-    telling = [line.strip() for line in said if line and (WHAT in line or not line.startswith(UNTOLD))]
-    # the reason before what drivers warn of
-    telling.sort(key=lambda line: not any(word in line.lower() for word in TOLD))
-    ended = f"the engine's window ended with code {tried.returncode}"
-    if tried.returncode < 0:
-        name = {item.value: item.name for item in signal.Signals}.get(-tried.returncode, "unknown")
-        ended = f"the engine's window was ended by signal {-tried.returncode} ({name})"
-    return "; ".join([*dict.fromkeys(telling[:3])] or [ended])
+            raise NoDisplayError(f"no window opened within {LONGEST:g} s. {INSTEAD}") from None
+    if tried.returncode:
+        lines = [line.strip() for line in f"{tried.stderr}\n{tried.stdout}".splitlines() if line.strip()]
+        reasons = [line for line in lines if any(word in line.lower() for word in REASONS)] or lines[-1:]
+        reason = "; ".join(reasons[:3]) or f"the engine ended with code {tried.returncode}"
+        raise NoDisplayError(f"no window can be opened here: {reason}. {INSTEAD}")
 
 
 # --- the viewer ---

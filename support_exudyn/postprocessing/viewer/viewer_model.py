@@ -5,7 +5,7 @@ equations stay those of the model that runs.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -18,28 +18,21 @@ from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.look import looks
-from support_exudyn.postprocessing.look.poses import PlacedPin, placed_pins, strut_axes
-from support_exudyn.postprocessing.look.shapes import tube
+from support_exudyn.postprocessing.look.poses import strut_axes
 from support_exudyn.postprocessing.look.solid import (
     COLOURS,
-    Colour,
     DrawnActuator,
     Look,
     Role,
     Solid,
     solids_of,
 )
-from support_exudyn.postprocessing.render.panels import PinView
+from support_exudyn.postprocessing.render.pin_views import PinView
 from support_exudyn.postprocessing.viewer.engine_graphics import EngineSurface, engine_surface
 from support_exudyn.postprocessing.viewer.pin_insets import PinInsets
 from support_exudyn.scenario.scenario import Scenario
-from user_forces import JournalBearing
 from user_forces.values.value import Vector3
 
-BORE: Colour = (0.0, 0.0, 0.0)
-PROUD = 0.02  # how far journals stand out of what they join, of its width
-AROUND = 2.0  # radii around a pin within which that is looked for
-CORNERS = 64  # of a bore's rim
 STILL_TIME = np.zeros(1)
 SHOWN = exudyn.ConfigurationType.Visualization
 POSITION = exudyn.OutputVariableType.Position
@@ -49,7 +42,7 @@ POSITION = exudyn.OutputVariableType.Position
 class ViewerModel:
     """A model and its look.
 
-    scene: the model; its `release` ends it. look: all that is drawn, journals of clearance pins with it.
+    scene: the model; its `release` ends it. look: all that is drawn.
     insets: of clearance pins, beside the machine.
     """
 
@@ -71,27 +64,16 @@ def model_for_viewer(
 ) -> ViewerModel:
     """The model of a scenario, as `model` makes it, with the look of its machine.
 
-    views, time: pins whose journals and forces are shown beside it, and the times of their records [s].
+    views, time: pins whose journals and forces are shown next to it, and the times of their records [s].
     """
     scene, look = build(scenario), looks.look(scenario)
-    with_clearance = [
-        (pin, pin.with_clearance.contact.bearing)
-        for pin in placed_pins(scenario)
-        if pin.with_clearance is not None
-    ]
-    rims = [_rim(pin, bearing, look) for pin, bearing in with_clearance]
-    whole = replace(
-        look, solids=(*look.solids, *(_journal(pin, bearing, look) for pin, bearing in with_clearance))
-    )
-    corners = np.concatenate([solid.mesh.bounds for solid in whole.solids])
+    corners = np.concatenate([solid.mesh.bounds for solid in look.solids])
     insets = PinInsets(views, time, corners.min(axis=0), corners.max(axis=0))
-    shown = ViewerModel(scene, whole, insets)
+    shown = ViewerModel(scene, look, insets)
     for name, item in scene.bodies.items():
-        drawn = [_of_solid(solid, _centre(scene, name)) for solid in solids_of(whole, name)]
-        drawn += [_of_rim(rim, _centre(scene, name)) for body, rim in rims if body == name]
+        drawn = [_of_solid(solid, _centre(scene, name)) for solid in solids_of(look, name)]
         scene.mbs.SetObjectParameter(item.object, "VgraphicsData", drawn)
-    still = [_of_solid(solid) for solid in solids_of(whole, GROUND)]
-    still += [_of_rim(rim) for body, rim in rims if body == GROUND]
+    still = [_of_solid(solid) for solid in solids_of(look, GROUND)]
     scene.mbs.AddObject(ObjectGround(visualization=VObjectGround(graphicsData=still)))
     moving = [part for strut in look.struts for part in _parts(shown, strut)]
     scene.mbs.AddObject(
@@ -129,10 +111,6 @@ def _of_solid(solid: Solid, centre: Series = STILL) -> dict[str, Any]:
     return engine_surface(mesh, COLOURS[solid.role]).placed()
 
 
-def _of_rim(points: Series, centre: Series = STILL) -> dict[str, Any]:
-    return {"type": "Line", "color": [*BORE, 1.0], "data": (points - centre).ravel()}
-
-
 # --- actuators ---
 
 
@@ -147,36 +125,3 @@ def _parts(shown: ViewerModel, strut: DrawnActuator) -> Iterator[Callable[[], di
 
     yield partial(part, cylinder, 0)
     yield partial(part, rod, 1)
-
-
-# --- clearance pins ---
-
-
-def _reach(pin: PlacedPin, radius: float, look: Look) -> tuple[float, float]:
-    """From where to where along the pin there is something that it joins [m], a little more."""
-    x, y, z = pin.bore.point
-    nearby = [np.array([z - radius, z + radius])]
-    for body in (pin.first.body, pin.second.body):
-        for solid in solids_of(look, body):
-            points = solid.mesh.vertices
-            apart = np.hypot(points[:, 0] - x, points[:, 1] - y)
-            nearby.append(points[apart < AROUND * radius, 2])
-    heights = np.concatenate(nearby)
-    more = PROUD * float(np.ptp(heights))
-    return float(heights.min()) - more, float(heights.max()) + more
-
-
-def _journal(pin: PlacedPin, bearing: JournalBearing, look: Look) -> Solid:
-    low, high = _reach(pin, bearing.bore_radius, look)
-    x, y, _ = pin.journal.point
-    mesh = tube((x, y, low), (x, y, high), bearing.journal_radius)
-    return Solid(f"journal of {pin.name}", pin.journal.body, Role.PIN, mesh)
-
-
-def _rim(pin: PlacedPin, bearing: JournalBearing, look: Look) -> tuple[str, Series]:
-    """Body of a bore, and its rim on the side from which one looks."""
-    low, _ = _reach(pin, bearing.bore_radius, look)
-    angle = np.linspace(0.0, 2.0 * np.pi, CORNERS + 1)
-    x, y, _ = pin.bore.point
-    along_x, along_y = bearing.bore_radius * np.cos(angle), bearing.bore_radius * np.sin(angle)
-    return pin.bore.body, np.column_stack([x + along_x, y + along_y, np.full_like(angle, low)])

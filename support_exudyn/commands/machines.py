@@ -1,36 +1,37 @@
-"""`check FILE`: what can be said of a machine before it is run."""
+"""Commands about machines before a run: `check` draws and checks one, `stand` computes its strength."""
 
 from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from support_exudyn.commands.command_line import add_out, number, say
+from support_exudyn.commands.command_line import add_json, add_out, answer, folder, number, say
 from support_exudyn.files.machines import SHIPPED
 from support_exudyn.files.scenarios.scenario_file import read_machine_in, read_scenario
 from support_exudyn.files.scenarios.simple_scenario import simple_scenario
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.postprocessing import pin_contact, pin_shaking
 from user_forces.values.value import InputError
 
 if TYPE_CHECKING:
-    from support_exudyn.machines.check import CheckReport, CheckTable
-    from support_exudyn.scenario.pin_pressure import PressedPin
-    from support_exudyn.scenario.pin_stability import PinOutlook
+    from support_exudyn.machines.check import CheckReport
+    from support_exudyn.machines.strength import StandReport
     from support_exudyn.scenario.scenario import Scenario
+
+
+# --- check ---
+
 
 FARTHEST = 1e5  # [mm]
 # assumed of a machine alone: the clearance and the friction of its pins, and the time for its stroke [s]
 PLAY_MM, FRICTION, RISE_TIME = 1.0, 0.25, 2.0
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_check(parser: argparse.ArgumentParser) -> None:
     """The machine's file, and what of it is looked at."""
     add = parser.add_argument
     add(
@@ -49,12 +50,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--json", action="store_true", help="one JSON object, SI units, on standard output")
 
 
-def run(given: argparse.Namespace) -> None:
+def run_check(given: argparse.Namespace) -> None:
     """Print what was found, and write the figure."""
-    from support_exudyn.machines.check import check_machine  # and numpy's linear algebra
-    from support_exudyn.postprocessing.contact_description import contact_lines
+    from support_exudyn.machines.check import CheckTable, check_machine  # and numpy's linear algebra
     from support_exudyn.postprocessing.figures import style
     from support_exudyn.postprocessing.figures.linkage_check import check_figure
+    from support_exudyn.postprocessing.joint_tables import (
+        STATIC,
+        contact_lines,
+        pressure_data,
+        pressure_table,
+        stability_data,
+        stability_table,
+    )
     from support_exudyn.scenario.pin_pressure import statically_pressed
     from support_exudyn.scenario.pin_stability import NOT_TOLD, pin_outlooks
     from support_exudyn.simulation.simulate import look_at_laws
@@ -78,11 +86,11 @@ def run(given: argparse.Namespace) -> None:
         told.append(f"whether its pins shake: {NOT_TOLD}")
     pressed = statically_pressed(scenario) if scenario else []
     contacts = contact_lines(scenario) if scenario else []
-    report = replace(report, warnings=[*report.warnings, *pin_contact.warnings(pressed)])
+    report = replace(report, warnings=[*report.warnings, *(one.warning for one in pressed if one.warning)])
     if given.json:
         more = {
-            "pins_under_static_load": pin_contact.data(pressed),
-            "pin_stability": pin_shaking.data(outlooks),
+            "pins_under_static_load": pressure_data(pressed),
+            "pin_stability": stability_data(outlooks),
             "contacts": contacts,
             "figures": [str(one) for one in written],
         }
@@ -90,10 +98,11 @@ def run(given: argparse.Namespace) -> None:
         return
     for line in report.lines():
         say(line)
-    for table in _tables(pressed, outlooks):
-        say("")
-        for line in table.lines():
-            say(line)
+    for title, header, rows in (pressure_table(STATIC, pressed), stability_table(outlooks)):
+        if rows:
+            say("")
+            for line in CheckTable(title, [name.lstrip(">") for name in header], rows).lines():
+                say(line)
     for said in (*told, *contacts):
         say(f"  {said}")
     say("")
@@ -127,19 +136,58 @@ def _looked_at(
     return scenario, [f"assumed of every pin: {PLAY_MM:g} mm of clearance, a friction of {FRICTION:g}"]
 
 
-def _tables(pressed: Sequence[PressedPin], outlooks: Sequence[PinOutlook]) -> Iterator[CheckTable]:
-    """How hard clearance pins are pressed, and whether they shake; what there is nothing of is left out."""
-    from support_exudyn.machines.check import CheckTable
-
-    for title, header, rows in (
-        (pin_contact.STATIC, pin_contact.HEADER, pin_contact.rows(pressed)),
-        (pin_shaking.TITLE, pin_shaking.HEADER, pin_shaking.rows(outlooks)),
-    ):
-        if rows:
-            yield CheckTable(title, [name.lstrip(">") for name in header], rows)
-
-
 def _is_scenario(name: str) -> bool:
     """Whether a file is that of a scenario, which names its machine."""
     path = Path(name)
     return path.suffix.lower() == ".toml" and path.is_file() and "machine" in load_toml(path)
+
+
+# --- stand ---
+
+
+def add_stand(parser: argparse.ArgumentParser) -> None:
+    """The machine, and where its figure goes."""
+    parser.add_argument(
+        "machine",
+        metavar="MACHINE",
+        help="machine data file with a section [strength], a path that ends in .toml; or the file of a "
+        f"scenario with such a machine; or a machine that comes with the package: {', '.join(SHIPPED)}",
+    )
+    parser.add_argument(
+        "--figure",
+        type=folder,
+        metavar="DIR",
+        help="draw the support force over height and canopy, and the forces in pins, into this folder",
+    )
+    add_json(parser)
+
+
+def run_stand(given: argparse.Namespace) -> None:
+    """Print the page or its numbers, and draw the figure that is asked for."""
+    from support_exudyn.machines.strength import stand  # and scipy
+    from support_exudyn.machines.strength.page import page
+
+    data = read_machine_in(given.machine)
+    try:
+        report = stand(data)
+    except InputError as error:
+        raise InputError(f"{given.machine}: {error}") from None
+    figures = _drawn(given, report) if given.figure else []
+    if given.json:
+        answer({**report.data(), "figures": [str(one) for one in figures]})
+        return
+    for line in page(report):
+        say(line)
+    for one in figures:
+        say(str(one))
+
+
+def _drawn(given: argparse.Namespace, report: StandReport) -> list[Path]:
+    """The files of the figure, named after the machine."""
+    from support_exudyn.postprocessing.figures import style
+    from support_exudyn.postprocessing.figures.stand import stand_figure
+
+    path = Path(given.machine)
+    name = path.stem if path.suffix.lower() == ".toml" else given.machine
+    with style.look():
+        return style.save(stand_figure(report), given.figure, f"{name}_stand")

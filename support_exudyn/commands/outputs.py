@@ -1,4 +1,4 @@
-"""`export RUN`: a run for other programs."""
+"""Commands that make something of a run: `report`, `view`, `measure`, `export`."""
 
 import argparse
 import sys
@@ -14,22 +14,142 @@ from support_exudyn.commands.command_line import (
     add_times,
     answer,
     count,
+    folder,
     meant,
     number,
     say,
     shown_progress,
     warn,
 )
+from support_exudyn.commands.runs import named_runs, runs_and_channels
+from support_exudyn.files.whole_file import whole_file
 from support_exudyn.scene.contract import Progress
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
+
+# --- report ---
+
+
+FILE = "report.html"
+
+
+def add_report(parser: argparse.ArgumentParser) -> None:
+    """The runs' files, what is drawn, and where to."""
+    parser.add_argument(
+        "names",
+        nargs="+",
+        metavar="RUN|CHANNEL",
+        help="files of runs, as Result.save writes them, then channels that are drawn over time: names, or "
+        "patterns as 'pin.*.force' (clearance pins, their bodies, traced points)",
+    )
+    add_out(parser, f"folder for {FILE}, or a file .html (RUN_{FILE} beside the first run)")
+    add_json(parser)
+
+
+def run_report(given: argparse.Namespace) -> None:
+    """Write the page, and print its name."""
+    paths, channels = runs_and_channels(given.names)
+    results = {name: Result.load(path) for name, path in named_runs(paths).items()}
+    from support_exudyn.postprocessing.run_report import run_report
+
+    page = run_report(results, channels)
+    first = paths[0]
+    out = given.out or first.with_name(f"{first.stem}_{FILE}")
+    path = out if out.suffix == ".html" else out / FILE
+    with whole_file(path) as temporary:
+        temporary.write_text(page, encoding="utf-8")
+    if given.json:
+        answer({"report": path})
+    else:
+        say(str(path))
+
+
+# --- view ---
+
+
+def add_view(parser: argparse.ArgumentParser) -> None:
+    """The run's file, and what of it is shown."""
+    add = parser.add_argument
+    add_run(parser)
+    add(
+        "--solution",
+        type=folder,
+        metavar="FILE",
+        help="show this solution file of Exudyn, of the same run, in place of its records",
+    )
+    add(
+        "--every",
+        type=count,
+        metavar="N",
+        help="records from frame to frame, up to 200; by default the run takes about 10 s",
+    )
+
+
+def run_view(given: argparse.Namespace) -> None:
+    """Open it, and wait until it is closed."""
+    result = Result.load(given.run)
+    from support_exudyn.postprocessing.viewer.view import (
+        open_viewer,  # libraries of shapes, which refusing a file has no use for
+    )
+
+    open_viewer(result, solution=given.solution, every=given.every, name=given.run.name)
+
+
+# --- measure ---
+
+
+def add_measure(parser: argparse.ArgumentParser) -> None:
+    """The run's file, that of the instruments, and where to."""
+    add_run(parser)
+    parser.add_argument(
+        "instruments",
+        nargs="?",
+        type=folder,
+        metavar="INSTRUMENTS",
+        help="TOML file of the instruments; without it perfect ones, 10 times a second: pressure and extension "
+        "of all columns, tilt of all bodies and of the base",
+    )
+    add_out(parser, "the table, CSV; by default RUN_measured.csv beside the run", "FILE")
+    add_json(parser)
+
+
+def run_measure(given: argparse.Namespace) -> None:
+    """Write the table, and print what is in it."""
+    from support_exudyn.postprocessing.instruments.station import (
+        measure,
+        read_station,
+        usual_station,
+        write_measured,
+    )
+
+    result = Result.load(given.run)
+    if given.instruments is None:
+        station, refused = usual_station(result.scenario)
+    else:
+        station, refused = read_station(given.instruments), {}
+    measured = measure(result, station)
+    out = given.out or given.run.with_name(f"{given.run.stem}_measured.csv")
+    write_measured(measured, out)
+    for name, reason in refused.items():
+        warn(f"{name}: left out: {reason}")
+    if given.json:
+        sizes = {name: one.time.size for name, one in measured.items()}
+        answer(
+            {"written": out, "samples": sizes, "left_out": {name: str(one) for name, one in refused.items()}}
+        )
+        return
+    say(f"{out}: {len(measured)} instruments, {max(one.time.size for one in measured.values())} samples")
+
+
+# --- export ---
+
 
 USUAL = ("xdmf", "vtu", "csv", "hdf5")
 FORMATS = (*USUAL, "solution")
 SLOWEST, FASTEST = 1e-9, 1e9  # frames a second
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
+def add_export(parser: argparse.ArgumentParser) -> None:
     """The run's file, what to write of it, and where to."""
     add_run(parser)
     parser.add_argument(
@@ -65,7 +185,7 @@ def formats(text: str) -> list[str]:
     return found
 
 
-def run(given: argparse.Namespace) -> None:
+def run_export(given: argparse.Namespace) -> None:
     """Write what was asked for, and print what was written."""
     from support_exudyn.postprocessing.export.mesh_files import MESHES, to_vtu, to_xdmf  # and meshio
     from support_exudyn.postprocessing.export.sampling import Sampling

@@ -1,0 +1,205 @@
+"""What contacts, pins and legs are and did, as tables: laws, contact pressures, vibration, events of oil."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from support_exudyn.files.own_modules import NotImported, with_known_laws
+from support_exudyn.mechanics.trajectory import OilEvent
+from support_exudyn.postprocessing.figures.units import said
+from support_exudyn.scenario.pin_pressure import PressedPin, pressed_pin
+from support_exudyn.scenario.pin_stability import PinOutlook
+from support_exudyn.scenario.scenario import Scenario
+from support_exudyn.simulation.result import Result
+from support_exudyn.simulation.slow_slip import FULL
+from user_forces.catalogue import title
+from user_forces.friction.law import FrictionLaw
+from user_forces.friction.laws import Frictionless
+from user_forces.normal.law import NormalLaw
+
+DIGITS = 3  # of numbers of a theory that neglects edges, friction and roughness
+STATIC = "clearance pins under their static load, start posture"
+LARGEST = "clearance pins under their largest force"
+FILLED = "filled"  # what ends where a cavity begins, see `OilEvent`
+
+
+class ResultTable(NamedTuple):
+    """A table: its title, the heads of its columns, of numbers with a > before them, and its rows."""
+
+    title: str
+    header: tuple[str, ...]
+    rows: list[tuple[str, ...]]
+
+
+# --- laws ---
+
+
+def contact_lines(scenario: Scenario) -> list[str]:
+    """A line for each kind of contact: its laws, the delivered restitution, and the joints that have it."""
+    joints: dict[str, dict[str, None]] = {}  # names, each once, by what their contact is
+    for place in scenario.contact_places.values():
+        contact = place.contact
+        parts = (_of_normal(contact.normal), _of_friction(contact.friction))
+        joints.setdefault("; ".join(filter(None, parts)), {})[place.of] = None
+    for name, law in scenario.friction_laws.items():
+        joints.setdefault(f"ideal, {_of_friction(law)}", {})[name] = None
+    return [f"{', '.join(names)}: {text}" for text, names in joints.items()]
+
+
+def _of_normal(law: NormalLaw) -> str:
+    """Name of a normal law, and the restitution that a free impact delivers."""
+    damping = getattr(law, "damping", "")
+    name = title(type(law)) + (f" ({damping})" if isinstance(damping, str) and damping else "")
+    restitution, delivered = getattr(law, "restitution", None), getattr(law, "delivered_restitution", None)
+    if delivered is None:
+        return f"{name}, whose restitution depends on mass and speed"
+    text = f"{name}, restitution {restitution:g} specified, {delivered:.3f} delivered"
+    rest = getattr(law, "rest_velocity", None)
+    return text if rest is None else f"{text} by free impacts faster than {1e3 * rest:g} mm/s"
+
+
+def _of_friction(law: FrictionLaw) -> str:
+    """Name of a friction law, and from which slip on it is full; empty for none."""
+    if isinstance(law, Frictionless):
+        return ""
+    name = f"friction {title(type(law))}"
+    if isinstance(law, NotImported):
+        return name
+    if law.has_state:
+        return f"{name}, which can stick"
+    return f"{name}, full above a slip of {1e3 * law.slip_speed(FULL):.3g} mm/s"
+
+
+# --- contact pressures ---
+
+
+def hardest_pressed(result: Result) -> list[PressedPin]:
+    """Every clearance pin of a run under its largest force at any step."""
+    pins, forces = with_known_laws(result.scenario.clearance_pins), result.largest_force
+    machine = result.scenario.machine
+    return [pressed_pin(machine, name, pin, forces[name]) for name, pin in pins.items() if name in forces]
+
+
+def pressure_table(table_title: str, pins: Sequence[PressedPin]) -> ResultTable:
+    """Pin, force, pressure, its share of first yield, half contact angle, depth, stiffness, kind of contact."""
+    header = (
+        *("pin", ">force", ">peak pressure", ">of first yield", ">half angle", ">depth", ">stiffness"),
+        "contact",
+    )
+    rows: list[tuple[str, ...]] = []
+    for one in pins:
+        line, kind = one.line, "length unknown" if one.length is None else "beyond the theory"
+        if line is not None:
+            kind = "conformal" if line.conformal else "line"
+        rows.append((
+            one.name,
+            said(one.force, "N", DIGITS),
+            "" if line is None else said(line.peak_pressure, "Pa", DIGITS),
+            "" if math.isnan(one.yield_share) else f"{100.0 * one.yield_share:.{DIGITS}g} %",
+            "" if line is None else f"{math.degrees(line.half_angle):.{DIGITS}g}°",
+            said(one.depth, "m", DIGITS) if math.isfinite(one.depth) else "",
+            f"{one.stiffness / 1e9:.{DIGITS}g} MN/mm" if math.isfinite(one.stiffness) else "",
+            kind,
+        ))  # fmt: skip
+    return ResultTable(table_title, header, rows)
+
+
+def pressure_data(pins: Sequence[PressedPin]) -> list[dict[str, Any]]:
+    """How hard each pin is pressed, as plain data in SI; what is not known is None or not finite."""
+    return [
+        {
+            "pin": one.name,
+            "force_N": one.force,
+            "length_m": one.length,
+            "peak_pressure_Pa": None if one.line is None else one.line.peak_pressure,
+            "share_of_first_yield": _known(one.yield_share),
+            "half_angle_rad": None if one.line is None else one.line.half_angle,
+            "depth_m": _known(one.depth),
+            "stiffness_N_per_m": _known(one.stiffness),
+            "conformal": None if one.line is None else one.line.conformal,
+        }
+        for one in pins
+    ]
+
+
+def _known(number: float) -> float | None:
+    return number if math.isfinite(number) else None
+
+
+# --- friction-induced vibration ---
+
+
+def stability_table(outlooks: Sequence[PinOutlook]) -> ResultTable:
+    """Pin, verdict, growth rate, frequency, travel of the drive there, friction there and the critical one."""
+    header = ("pin", "sliding", ">growth rate", ">frequency", ">worst at", ">friction", ">shakes from")
+    rows: list[tuple[str, ...]] = []
+    for one, told in zip(outlooks, stability_data(outlooks), strict=True):
+        pin = f"{one.pin}, if it had such play" if one.assumed else one.pin
+        if told["growth_rate_per_s"] is None:
+            rows.append((pin, "nowhere at rest", "", "", "", "", ""))
+            continue
+        shakes = any(found is not None and not found.stable for found in one.found)
+        # without rounding where nothing grows
+        growth = min(told["growth_rate_per_s"], 0.0) if one.stable else told["growth_rate_per_s"]
+        critical = told["critical_friction"]
+        rows.append((
+            pin,
+            "shakes" if shakes else "stable" if one.stable else "in part nowhere at rest",
+            f"{growth:.{DIGITS}g} /s",
+            said(told["frequency_Hz"], "Hz", DIGITS) if told["frequency_Hz"] else "none",
+            f"{math.degrees(told['travel']):.0f} deg" if one.turns else f"{1e3 * told['travel']:.0f} mm",
+            f"{told['friction']:.{DIGITS}g}",
+            "none up to 1" if critical is None else f"{critical:.{DIGITS}g}",
+        ))  # fmt: skip
+    return ResultTable("do loaded pins shake as they slide? at the worst posture of the stroke", header, rows)
+
+
+def stability_data(outlooks: Sequence[PinOutlook]) -> list[dict[str, Any]]:
+    """Whether each pin shakes, as plain data in SI; what there is not is None."""
+    found = []
+    for one in outlooks:
+        pin = None if one.worst is None else one.found[one.worst]
+        told: dict[str, Any] = {
+            "pin": one.pin,
+            "assumed": one.assumed,
+            "stable": one.stable,
+            "growth_rate_per_s": None,
+            "critical_friction": _known(one.critical_friction),
+        }
+        if one.worst is not None and pin is not None:
+            told |= {
+                "growth_rate_per_s": pin.growth,
+                "frequency_Hz": pin.frequency,
+                "time_s": float(one.times[one.worst]),
+                "travel": float(one.travels[one.worst]),
+                "friction": pin.friction,
+                "beyond_painleve": pin.normal_mobility < 0.0,
+            }
+        found.append(told)
+    return found
+
+
+# --- hydraulic legs ---
+
+
+def leg_table(result: Result, after: float = 0.0, until: float = float("inf")) -> ResultTable:
+    """What happened in every leg between two times [s]: leg, what, how often, when first and last.
+
+    Rows name the beginning of something; of cavities, when they began.
+    """
+    rows: list[tuple[str, ...]] = []
+    for name, events in result.oil_events.items():
+        inside = [event for event in events if after <= event.time <= until]
+        found = [(what, _begins(inside, what)) for what in dict.fromkeys(event.what for event in inside)]
+        for what, times in found:
+            if times:
+                cavity = f"cavity in the {what.removesuffix(FILLED).strip()}" if what.endswith(FILLED) else what
+                rows.append((name, cavity, str(len(times)), said(times[0], "s", 6), said(times[-1], "s", 6)))
+        if not any(times for _, times in found):
+            rows.append((name, "nothing opened, boiled or met a stop", "", "", ""))
+    return ResultTable("hydraulic legs", ("leg", "what", ">times", ">first", ">last"), rows)
+
+
+def _begins(events: Sequence[OilEvent], what: str) -> list[float]:
+    """The times [s] at which it began."""
+    return [event.time for event in events if event.what == what and event.begins != what.endswith(FILLED)]

@@ -1,0 +1,120 @@
+"""The table of a sweep for its figures and tables: what varied, and numbers with their errors and units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from support_exudyn.files.series.titles import split_title
+from user_forces.values.value import InputError, short
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+WALL_TIME = "wall_time_s"
+
+
+@dataclass(frozen=True)
+class SweepNumber:
+    """A number of the runs.
+
+    column: of the table. name: without unit. values: of each run (n,) in SI, NaN where it has none. errors: of
+    these (n,), None if the runs have none.
+    """
+
+    column: str
+    name: str
+    unit: str
+    values: np.ndarray
+    errors: np.ndarray | None
+
+    @property
+    def rows(self) -> np.ndarray:
+        """Indexes of the runs that have it."""
+        return np.flatnonzero(~np.isnan(self.values))
+
+    @property
+    def known(self) -> np.ndarray:
+        """Its values, of the runs that have it."""
+        known: np.ndarray = self.values[self.rows]
+        return known
+
+
+class SweepRuns:
+    """The runs of a sweep; table: as `read_table` gives it."""
+
+    def __init__(self, table: pa.Table) -> None:
+        self.table = table
+
+    def column(self, name: str) -> list[Any]:
+        """A column of the table."""
+        items: list[Any] = self.table.column(name).to_pylist()
+        return items
+
+    def _about(self, name: str) -> dict[str, str]:
+        """Unit and meaning of a column."""
+        found = self.table.schema.field(name).metadata or {}
+        return {key.decode(): text.decode() for key, text in found.items()}
+
+    @cached_property
+    def varied(self) -> list[str]:
+        """The names of the columns of what was varied."""
+        return [name for name in self.table.column_names if self._about(name).get("meaning") == "varied"]
+
+    @cached_property
+    def numbers(self) -> dict[str, str]:
+        """The columns of numbers by their names without units; the time that runs took is none of these."""
+        from support_exudyn.sweeps.table import with_unit  # and pyarrow
+
+        first = self.table.column_names.index(WALL_TIME)
+        columns = [name for name in self.table.column_names[first + 1 :] if not name.endswith("_error")]
+        units = {name: self._about(name).get("unit", "") for name in columns}
+        return {name.removesuffix(with_unit("", unit)) if unit else name: name for name, unit in units.items()}
+
+    def number(self, name: str) -> SweepNumber:
+        """A number by its name, with its unit or without. Raises InputError if there is none."""
+        names = {column: one for one, column in self.numbers.items()}
+        column = self.numbers.get(name, name)
+        if column not in names and column != WALL_TIME:
+            near = get_close_matches(name, self.numbers, 5, 0.4)
+            raise InputError(f"{short(name)}: no such number; allowed: {some(near or list(self.numbers))}")
+        errors = f"{column}_error"
+        known = self._floats(errors) if errors in self.table.column_names else None
+        unit = self._about(column).get("unit", "")
+        return SweepNumber(column, names.get(column, column), unit, self._floats(column), known)
+
+    def _floats(self, column: str) -> np.ndarray:
+        return np.array([np.nan if one is None else one for one in self.column(column)], dtype=float)
+
+    def input(self, name: str, besides: str | None = None) -> str:
+        """The column of something that varied, by its name with its unit or without, besides another.
+
+        Raises InputError if there is none.
+        """
+        allowed = [one for one in self.varied if one != besides]
+        begun = [one for one in allowed if one.startswith(f"{name}_")]
+        if name in allowed or len(begun) == 1:
+            return name if name in allowed else begun[0]
+        near = get_close_matches(name, allowed, 5, 0.4)
+        raise InputError(f"{short(name)}: no such column; allowed: {some(near or allowed)}")
+
+    @property
+    def usual_input(self) -> str | None:
+        """What a number is drawn over where nothing is named: the only input; None if there are several."""
+        several = [name for name in self.varied if len(set(map(str, self.column(name)))) > 1]
+        return several[0] if len(several) == 1 else None
+
+
+def in_words(name: str) -> str:
+    """A key of a file with its unit as text: "pins.hinge.clearance_mm" as "pins.hinge.clearance [mm]"."""
+    bare_name, unit, _ = split_title(name)
+    return f"{bare_name} [{unit.replace('**', '^').replace('*', ' ')}]" if unit else name
+
+
+def some(names: list[str]) -> str:
+    """The first of some names, and how many more there are."""
+    return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "") or "none"
