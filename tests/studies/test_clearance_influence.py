@@ -1,4 +1,4 @@
-"""The findings of the study, rough and, by two processes, as it is."""
+"""The findings of the study, rough and as it is."""
 
 from __future__ import annotations
 
@@ -8,20 +8,15 @@ from typing import Any
 
 import pytest
 
-from studies.clearance_influence import contacts
 from studies.clearance_influence import run as study
-from studies.common.chapter import Chapter
 from studies.common.paper_machine import ideal_of
-from tests.studies.forms import FORMS, ROUGH, written
+from studies.common.words import Chapter
+from tests.studies.forms import FORMS, written
 
 
 @pytest.fixture(scope="module", params=FORMS)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("results")
-    if request.param == ROUGH:
-        return written("clearance_influence", ROUGH, folder)
-    assert study.main(["--out", str(folder), "--workers", "2"]) == 0
-    return folder
+    return written("clearance_influence", request.param, tmp_path_factory.mktemp("results"))
 
 
 @pytest.fixture(scope="module")
@@ -114,7 +109,7 @@ def test_a_pin_along_its_length_shakes_thirty_times_as_much(
 ) -> None:
     def shown(contact: str, friction: float, by: str = "value") -> list[float]:
         names = ("mean_pin_force", "rms_pin_force", "largest_pin_force_any_step")
-        return [float(numbers[name, contacts.case_name(contact, friction)][by]) for name in names]
+        return [float(numbers[name, study.contact_case(contact, friction)][by]) for name in names]
 
     # by an independent program from a settled start, which damps by the depth that is reached: with 3e9 N/m in
     # series 31 kN; of the paper's contact, which that damps more, 0.93

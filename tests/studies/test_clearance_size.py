@@ -9,7 +9,6 @@ from typing import Any
 
 import pytest
 
-from studies.clearance_influence import contacts
 from studies.clearance_influence import run as influence
 from studies.clearance_size import run as study
 from studies.common import rise
@@ -61,14 +60,14 @@ def test_table_3_agrees_with_an_independent_integrator(numbers: Numbers) -> None
 def test_one_name_is_one_run_in_all_studies() -> None:
     # a quantity of a case has one value on all pages, for it comes from the same run
     paper = paper_subject()
-    of_sizes, of_influence = study.scenarios(paper), influence.scenarios() | contacts.scenarios(paper)
+    of_sizes, of_influence = study.scenarios(paper), influence.scenarios()
     shared = of_sizes.keys() & of_influence.keys()
     assert {study.case_name(1.5, friction) for friction in (0.25, 0.0)} <= shared
     assert {ideal_name(friction) for friction in (0.25, 0.0)} <= shared
     for case in shared:
         assert of_sizes[case] == of_influence[case]
     # the paper's contact among others is that of the study, and not a run of its own
-    assert {contacts.case_name("paper", friction) for friction in (0.25, 0.0)} <= shared
+    assert {influence.contact_case("paper", friction) for friction in (0.25, 0.0)} <= shared
 
 
 def test_the_mean_force_grows_by_the_same_little_amount_each_time(numbers: Numbers) -> None:

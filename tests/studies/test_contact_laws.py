@@ -15,7 +15,7 @@ from studies.common.subject import paper_subject
 from studies.contact_laws import cases as contact_law_cases
 from studies.contact_laws import catalogue
 from studies.contact_laws import run as study
-from studies.contact_laws.free_impact import delivered_restitution, free_impact
+from studies.contact_laws.cases import delivered_restitution, free_impact
 from support_exudyn import simulate
 from tests.studies.forms import ONLY_WHOLE, written
 from user_forces import FrictionLaw, Frictionless, NormalLaw

@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from studies.common.chapter import Chapter
+from studies.common.words import Chapter
 from studies.scene_detail import run as study
-from studies.scene_detail import tables
+from studies.scene_detail.figures import BELOW
 from studies.scene_detail.measures import Change, change
 from studies.scene_detail.scenes import (
     EQUAL,
@@ -83,7 +83,7 @@ def test_what_changes_nothing_is_said_to_be_below_the_error(numbers: Numbers, ou
     chapter = Chapter.load(out)
     (added,) = (sheet for sheet in chapter.sheets if sheet.title.startswith("What each element changes"))
     (row,) = (row for row in added.rows if row[0] == "+ tail beam, rigid jack")
-    assert all(cell.startswith(tables.BELOW) for cell in row[2:-1])
+    assert all(cell.startswith(BELOW) for cell in row[2:-1])
 
 
 def test_changes_and_errors_add_up() -> None:

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from studies.common.chapter import Chapter
 from studies.common.options import Options
+from studies.common.words import Chapter
 from studies.slider_crank import run as study
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
@@ -27,7 +27,7 @@ def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], d
         patch.setattr(study, "scenarios", lambda: part)
         study.study(Options(out, at_once()))
     assert (out / "slider_crank.png").read_bytes().startswith(b"\x89PNG")
-    assert "onset 5 speed" in Path(out / "table.txt").read_text(encoding="utf-8")
+    assert "onset 5 speed" in Path(out / "numbers.csv").read_text(encoding="utf-8")
     with style.look():
         cases = (study.IDEAL, study.SMOOTH, study.DRY)
         files = {case: f"{case.replace(' ', '_').replace('.', 'p')}.h5" for case in cases}

@@ -13,9 +13,9 @@ import pytest
 from studies.common.subject import own_subject, paper_subject, without_clearance
 from studies.which_pin import cases as which_pin_cases
 from studies.which_pin import closed_form as clearance
+from studies.which_pin.closed_form import loads, mean_shift
 from studies.which_pin.measures import measures
-from studies.which_pin.posture import loads, mean_shift
-from studies.which_pin.tables import in_order, rankings
+from studies.which_pin.run import in_order, rankings
 from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
 from support_exudyn.mechanics.postures import eccentric
 from tests.studies.forms import ONLY_WHOLE, written
