@@ -225,7 +225,7 @@ def run_machines(
     """
     folder = out / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
-    remove_leftovers(folder)
+    remove_leftovers(folder, older=0.0)
     places = [folder / f"{key(sample)}.json" for sample in samples]
     rows = [_read(place) for place in places]
     missing = [n for n, row in enumerate(rows) if row is None]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +12,7 @@ from studies.claims.claim_list import CLAIMS
 from studies.claims.verdicts import BOUNDS, KINDS, Count, Ruling
 from studies.common.options import Options
 from studies.common.words import Chapter
-from tests.studies.forms import FORMS, ROUGH, WHOLE, written
+from tests.studies.forms import FORMS, ROUGH, WHOLE, Numbers, numbers_of, written
 
 MACHINES = {ROUGH: 2, WHOLE: 8}  # of the first hypercube; half as many of the second, and the reference support
 
@@ -37,9 +36,8 @@ def rows(out: Path) -> dict[str, dict[str, str]]:
 
 
 @pytest.fixture(scope="module")
-def numbers(out: Path) -> dict[tuple[str, str], dict[str, Any]]:
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+def numbers(out: Path) -> Numbers:
+    return numbers_of(out)
 
 
 def test_every_claim_has_a_verdict(rows: dict[str, dict[str, str]]) -> None:
@@ -60,7 +58,7 @@ def test_posture_follows_from_geometry_on_every_machine(rows: dict[str, dict[str
         assert rows[claim]["machines"].startswith("100 % (")
 
 
-def test_the_summary_counts_verdicts_and_repetitions(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+def test_the_summary_counts_verdicts_and_repetitions(numbers: Numbers) -> None:
     counts = {kind: numbers["claims", kind]["value"] for kind in KINDS}
     apart = {kind: numbers["claims", f"{kind}, without repetitions"]["value"] for kind in KINDS}
     assert sum(counts.values()) == numbers["claims", "all"]["value"] == len(CLAIMS)
@@ -75,7 +73,7 @@ def test_the_summary_counts_verdicts_and_repetitions(numbers: dict[tuple[str, st
             assert number["numerical_error"] > 1.0 - BOUNDS[1]
 
 
-def test_our_numbers_are_those_of_the_engine(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+def test_our_numbers_are_those_of_the_engine(numbers: Numbers) -> None:
     # the engine at 0.5 ms and half of it, see clearance_size: 52658.42 and 6551.5 N; its error is 1e-5 and 2e-4
     assert numbers["mean_force", "1.5 mm"]["value"] == pytest.approx(52658.42, rel=2e-5)
     assert numbers["std_force", "1.5 mm"]["value"] == pytest.approx(6551.5, rel=3e-4)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -16,13 +14,11 @@ from studies.common.paper_machine import SLIDING_COEFFICIENT, ideal_name
 from studies.common.runs import file_name
 from studies.common.subject import paper_subject
 from support_exudyn import Result
-from tests.studies.forms import FORMS, written
+from tests.studies.forms import FORMS, Numbers, numbers_of, written
 
 DRY = [study.case_name(size, SLIDING_COEFFICIENT) for size in study.SIZES_MM]
 IDEAL = ideal_name(SLIDING_COEFFICIENT)
 SMOOTH = [study.case_name(size, 0.0) for size in study.SIZES_MM]
-
-Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
 @pytest.fixture(scope="module", params=FORMS)
@@ -32,8 +28,7 @@ def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 
 @pytest.fixture(scope="module")
 def numbers(out: Path) -> Numbers:
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+    return numbers_of(out)
 
 
 def row(numbers: Numbers, name: str, cases: list[str]) -> list[float]:

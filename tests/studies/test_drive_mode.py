@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -15,12 +13,10 @@ from studies.drive_mode import assumed
 from studies.drive_mode.cases import COLUMNS, MODES, PINS, ModePlan, case_name
 from support_exudyn import ClearancePin, OilColumn
 from support_exudyn.model.drives.coupled_drive import CoupledDrive
-from tests.studies.forms import ONLY_WHOLE, written
+from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, written
 from user_forces import Ambrosio
 
 IDEAL, WITH_CLEARANCE = PINS
-
-Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
 @pytest.fixture(scope="module", params=ONLY_WHOLE)
@@ -30,8 +26,7 @@ def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 
 @pytest.fixture(scope="module")
 def numbers(out: Path) -> Numbers:
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+    return numbers_of(out)
 
 
 def test_the_gentle_drive_saves_most_of_the_shock(numbers: Numbers) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -25,9 +24,7 @@ from studies.scene_detail.scenes import (
 from support_exudyn import Estimate, recommend
 from support_exudyn.simulation.evidence.table import EvidenceTable, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, comparisons
-from tests.studies.forms import ONLY_WHOLE, written
-
-Numbers = dict[tuple[str, str], dict[str, Any]]
+from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, written
 
 
 @pytest.fixture(scope="module", params=ONLY_WHOLE)
@@ -37,8 +34,7 @@ def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 
 @pytest.fixture(scope="module")
 def numbers(out: Path) -> Numbers:
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+    return numbers_of(out)
 
 
 def test_every_number_is_finite_and_has_an_error(numbers: Numbers) -> None:
