@@ -116,60 +116,7 @@ def tail_pins(ran: Ran) -> list[tuple[str, int]]:
     return Counter(struck).most_common()
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """All blows, their numbers, figures and tables; with a number of runs the small form."""
-    blows = cases(small=chosen.runs is not None)
-    runs = run_cases({one.name: one.scenario() for one in blows}, chosen)
-    ran = {one.name: (one, runs[one.name]) for one in blows}
-    machines = list(dict.fromkeys(one.machine for one in blows))
-    reported = numbers(ran)
-    found = by_case(reported)
-    loose = {pins: [one for one in blows if one.pins == pins] for pins in ("one", "all")}
-    valved = [one for one in blows if one.valve]
-    largest = max(valved, key=lambda one: found["flow", one.name].value)
-    hard = max({(one.mass, one.height) for one in blows}, key=lambda one: one[0] * one[1])
-    shown = Blow(machines[0], "tip", *hard, "all", valve=True)
-    words = {
-        "plan": plan,
-        "found": found,
-        "count": len(blows),
-        "compared": {pins: len(ratios(found, "rise", group, with_ideal_pins)) for pins, group in loose.items()},
-        "machines": machines,
-        "middle": {
-            pins: Blow(machines[0], "tip", *MIDDLE, pins, valve=True).name for pins in PINS
-        },
-        "bare": Blow(machines[0], "tip", *MIDDLE, "ideal", valve=False).name,
-        "on_pressure": {pins: spread(found, "rise", group, with_ideal_pins) for pins, group in loose.items()},
-        "on_pins": {pins: spread(found, "pin_force", group, with_ideal_pins) for pins, group in loose.items()},
-        "saved": spread(
-            found, "pressure",
-            [one for one in valved if found["flow", one.name].value > 0.0], without_valves,
-        ),
-        "opened": sum(found["flow", one.name].value > 0.0 for one in valved),
-        "valved": len(valved),
-        "over": {valve: overloaded(found, blows, valve=valve) for valve in (True, False)},
-        "largest": largest.name,
-        "rated": 6e4 * yield_valve(machines[0]).rated_flow,
-        "places": by_place(found, machines[0]),
-        "tail": tail_pins(ran),
-        "shown": shown,
-    }  # fmt: skip
-    sheets = {
-        "middle_blow": key_table(found, machines[0]),
-        "clearance": clearance_table(found, blows),
-        **({"middle_blow_zf18000": key_table(found, machines[1])} if len(machines) > 1 else {}),
-    }
-    drawings = {
-        "peaks": peak_figure(found, machines),
-        "courses": course_figure(ran, machines[0], *hard),
-        "clearance_ratio": clearance_figure(found, blows),
-    }
-    kept = {name: runs[name] for name in (shown.name, with_ideal_pins(shown).name)}
-    return StudyOutcome(reported, words, drawings, sheets, kept)
-
-
-study = Study("blow", __doc__, work, seconds=340.0)
-
+# --- figures ---
 
 OVERLOAD = 1.2  # of the yield force, up to which no part may fail (EN 1804-1, 4.3.2)
 LOOKS = dict(zip(PINS, (style.CURVES[3], style.CURVES[1], style.CURVES[0]), strict=True))
@@ -260,3 +207,61 @@ def clearance_figure(found: Found, blows: Sequence[Blow]) -> Figure:
         axes.axhline(1.0, color="#777777", lw=0.8)
         axes.set(xscale="log", xlabel="energy of the block [kJ]", ylabel=f"{title}, over ideal pins")
     return finish(drawing, panels, 2)
+
+
+# --- the study ---
+
+
+def work(chosen: Options) -> StudyOutcome:
+    """All blows, their numbers, figures and tables; with a number of runs the small form."""
+    blows = cases(small=chosen.runs is not None)
+    runs = run_cases({one.name: one.scenario() for one in blows}, chosen)
+    ran = {one.name: (one, runs[one.name]) for one in blows}
+    machines = list(dict.fromkeys(one.machine for one in blows))
+    reported = numbers(ran)
+    found = by_case(reported)
+    loose = {pins: [one for one in blows if one.pins == pins] for pins in ("one", "all")}
+    valved = [one for one in blows if one.valve]
+    largest = max(valved, key=lambda one: found["flow", one.name].value)
+    hard = max({(one.mass, one.height) for one in blows}, key=lambda one: one[0] * one[1])
+    shown = Blow(machines[0], "tip", *hard, "all", valve=True)
+    words = {
+        "plan": plan,
+        "found": found,
+        "count": len(blows),
+        "compared": {pins: len(ratios(found, "rise", group, with_ideal_pins)) for pins, group in loose.items()},
+        "machines": machines,
+        "middle": {
+            pins: Blow(machines[0], "tip", *MIDDLE, pins, valve=True).name for pins in PINS
+        },
+        "bare": Blow(machines[0], "tip", *MIDDLE, "ideal", valve=False).name,
+        "on_pressure": {pins: spread(found, "rise", group, with_ideal_pins) for pins, group in loose.items()},
+        "on_pins": {pins: spread(found, "pin_force", group, with_ideal_pins) for pins, group in loose.items()},
+        "saved": spread(
+            found, "pressure",
+            [one for one in valved if found["flow", one.name].value > 0.0], without_valves,
+        ),
+        "opened": sum(found["flow", one.name].value > 0.0 for one in valved),
+        "valved": len(valved),
+        "over": {valve: overloaded(found, blows, valve=valve) for valve in (True, False)},
+        "largest": largest.name,
+        "rated": 6e4 * yield_valve(machines[0]).rated_flow,
+        "places": by_place(found, machines[0]),
+        "tail": tail_pins(ran),
+        "shown": shown,
+    }  # fmt: skip
+    sheets = {
+        "middle_blow": key_table(found, machines[0]),
+        "clearance": clearance_table(found, blows),
+        **({"middle_blow_zf18000": key_table(found, machines[1])} if len(machines) > 1 else {}),
+    }
+    drawings = {
+        "peaks": peak_figure(found, machines),
+        "courses": course_figure(ran, machines[0], *hard),
+        "clearance_ratio": clearance_figure(found, blows),
+    }
+    kept = {name: runs[name] for name in (shown.name, with_ideal_pins(shown).name)}
+    return StudyOutcome(reported, words, drawings, sheets, kept)
+
+
+study = Study("blow", __doc__, work, seconds=340.0)

@@ -39,7 +39,7 @@ from support_exudyn import Result
 from support_exudyn.postprocessing.page.pieces import Sheet
 
 RUBBING = ", with friction"  # what cases of laws with hysteresis damping are called
-DELIVERED, LOST = "delivered_restitution", "energy_error"
+DELIVERED = "delivered_restitution"
 
 
 # --- measures ---

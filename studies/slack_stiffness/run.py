@@ -13,7 +13,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.common.numbers import Found, Number, by_case, cell, rounded
+from studies.common.numbers import Found, Number, by_case, cell
 from studies.common.options import Options
 from studies.common.panels import finish
 from studies.common.runs import run_cases
@@ -87,62 +87,7 @@ def factor(shares: Shares, machine: str) -> float:
     return 2.0 * sum(shares[machine, MIDDLE].values())
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """All loops, their numbers, figures and tables."""
-    all_cases = {case.name: case for case in cases()}
-    runs = run_cases({name: case.scenario() for name, case in all_cases.items()}, chosen)
-    ran = {name: (case, runs[name]) for name, case in all_cases.items()}
-    shares = {
-        (machine, share): pin_shares(*ran[PushedSupport(machine, 0.0, share, 0.0).name])
-        for machine in MACHINES
-        for share in ROOF_SHARES
-    }
-    reported = numbers(ran) + [
-        Number("slack_over_clearance", machine, factor(shares, machine), "1", 0.0) for machine in MACHINES
-    ]
-    found = by_case(reported)
-    slow, fast = PushedSupport(*plan.SLOW, quarter=2.0 * plan.QUARTER), PushedSupport(*plan.SLOW)
-    loose = [(name, case) for name, (case, _) in ran.items() if case.clearance_mm]
-    words = {
-        "plan": plan,
-        "found": found,
-        "of": lambda name, machine, size, share=MIDDLE, mu=FRICTION: found[
-            name, PushedSupport(machine, size, share, mu).name
-        ],
-        "slow": found["slack", slow.name],
-        "fast": found["slack", fast.name],
-        "factors": {machine: factor(shares, machine) for machine in MACHINES},
-        "off": max(
-            abs(
-                found["slack", name].value
-                / (1e3 * kinematic_slack(case, shares[case.machine, case.roof_share]))
-                - 1.0
-            )
-            for name, case in loose
-            if case.roof_share >= MIDDLE
-        ),
-        "left": participation,
-        "middle": MIDDLE,
-        "rounded": rounded,
-    }
-    sheets = {
-        "slack": key_table(found, shares),
-        "participation": participation_table(found),
-        "pins": pin_table(shares),
-    }
-    drawings = {
-        "loops": loop_figure(ran),
-        "slack_and_stiffness": slack_figure(found, {one: factor(shares, one) for one in MACHINES}),
-    }
-    kept: dict[str, Result] = {
-        case.name: runs[case.name]
-        for case in (PushedSupport(MACHINES[0], size, MIDDLE, FRICTION) for size in (0.0, 1.0))
-    }
-    return StudyOutcome(reported, words, drawings, sheets, kept)
-
-
-study = Study("slack_stiffness", __doc__, work, seconds=400.0)
-
+# --- figures ---
 
 Ran = Mapping[str, tuple[PushedSupport, Result]]
 DRAWN_MM = (0.0, 0.5, 1.0, 2.0)  # clearances whose loops are drawn
@@ -189,3 +134,62 @@ def _draw(axes: Axes, found: Found, measure: str, machine: str, share: float, **
     sizes = CLEARANCES_MM[1:]
     values = [found[measure, PushedSupport(machine, size, share, FRICTION).name].value for size in sizes]
     axes.plot(sizes, values, mfc="none", ms=4.5, lw=0.8, **look)
+
+
+# --- the study ---
+
+
+def work(chosen: Options) -> StudyOutcome:
+    """All loops, their numbers, figures and tables."""
+    all_cases = {case.name: case for case in cases()}
+    runs = run_cases({name: case.scenario() for name, case in all_cases.items()}, chosen)
+    ran = {name: (case, runs[name]) for name, case in all_cases.items()}
+    shares = {
+        (machine, share): pin_shares(*ran[PushedSupport(machine, 0.0, share, 0.0).name])
+        for machine in MACHINES
+        for share in ROOF_SHARES
+    }
+    reported = numbers(ran) + [
+        Number("slack_over_clearance", machine, factor(shares, machine), "1", 0.0) for machine in MACHINES
+    ]
+    found = by_case(reported)
+    slow, fast = PushedSupport(*plan.SLOW, quarter=2.0 * plan.QUARTER), PushedSupport(*plan.SLOW)
+    loose = [(name, case) for name, (case, _) in ran.items() if case.clearance_mm]
+    words = {
+        "plan": plan,
+        "found": found,
+        "of": lambda name, machine, size, share=MIDDLE, mu=FRICTION: found[
+            name, PushedSupport(machine, size, share, mu).name
+        ],
+        "slow": found["slack", slow.name],
+        "fast": found["slack", fast.name],
+        "factors": {machine: factor(shares, machine) for machine in MACHINES},
+        "off": max(
+            abs(
+                found["slack", name].value
+                / (1e3 * kinematic_slack(case, shares[case.machine, case.roof_share]))
+                - 1.0
+            )
+            for name, case in loose
+            if case.roof_share >= MIDDLE
+        ),
+        "left": participation,
+        "middle": MIDDLE,
+    }
+    sheets = {
+        "slack": key_table(found, shares),
+        "participation": participation_table(found),
+        "pins": pin_table(shares),
+    }
+    drawings = {
+        "loops": loop_figure(ran),
+        "slack_and_stiffness": slack_figure(found, {one: factor(shares, one) for one in MACHINES}),
+    }
+    kept: dict[str, Result] = {
+        case.name: runs[case.name]
+        for case in (PushedSupport(MACHINES[0], size, MIDDLE, FRICTION) for size in (0.0, 1.0))
+    }
+    return StudyOutcome(reported, words, drawings, sheets, kept)
+
+
+study = Study("slack_stiffness", __doc__, work, seconds=400.0)

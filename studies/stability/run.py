@@ -91,34 +91,16 @@ def stroke_table(strokes: Mapping[tuple[str, str], WholeStroke]) -> Sheet:
         assert worst is not None
         told = outlook.found[worst]
         assert told is not None
-        limits = [
-            f"{limit:.3f}" if limit <= 1.0 else "none"
-            for limit in (stroke.critical, stroke.undamped, stroke.painleve)
-        ]
-        rows.append(
-            (
-                pin,
-                stiffness,
-                "stable" if outlook.stable else "shakes",
-                f"{told.growth:.2f}",
-                f"{told.frequency:.1f}",
-                f"{1e3 * outlook.travels[worst]:.0f}",
-                f"{1e6 * told.depth:.3g}",
-                *limits,
-            )
-        )
+        limits = (stroke.critical, stroke.undamped, stroke.painleve)
+        rows.append((
+            pin, stiffness, "stable" if outlook.stable else "shakes", f"{told.growth:.2f}",
+            f"{told.frequency:.1f}", f"{1e3 * outlook.travels[worst]:.0f}", f"{1e6 * told.depth:.3g}",
+            *(f"{limit:.3f}" if limit <= 1.0 else "none" for limit in limits),
+        ))  # fmt: skip
     header = (
-        "pin",
-        "stiffness",
-        "verdict",
-        "fastest growth [1/s]",
-        "at [Hz]",
-        "at stroke [mm]",
-        "depth [µm]",
-        "critical friction",
-        "without damping",
-        "Painlevé's threshold",
-    )
+        "pin", "stiffness", "verdict", "fastest growth [1/s]", "at [Hz]", "at stroke [mm]", "depth [µm]",
+        "critical friction", "without damping", "Painlevé's threshold",
+    )  # fmt: skip
     return text_table(header, rows, left=3)
 
 
@@ -139,36 +121,7 @@ def stroke_numbers(strokes: Mapping[tuple[str, str], WholeStroke]) -> list[Numbe
     return told
 
 
-def work(chosen: Options) -> StudyOutcome:
-    """Every case predicted and run, and the whole stroke predicted."""
-    ready = {case.name: prepared(case) for case in CASES}
-    runs = run_cases(all_scenarios(ready), chosen)
-    found = [growth(one, runs) for one in ready.values()]
-    strokes = {
-        (pin, stiffness): whole_stroke(PinCase(pin, stiffness, 0.25))
-        for stiffness in STIFFNESSES
-        for pin in PINS
-    }
-    reported = numbers(found) + stroke_numbers(strokes)
-    words = {
-        "run": sys.modules[__name__],
-        "found": found,
-        "by_name": {one.case: one for one in found},
-        "strokes": strokes,
-        "numbers": {(one.name, one.case): one for one in reported},
-        "shaking": [pin for pin in PINS if any(not strokes[pin, name].outlook.stable for name in STIFFNESSES)],
-    }
-    drawings = {
-        "stability": answer_figure(found, ready[SHOWN.name], runs),
-        "map": map_figure({f"{pin}, {name}": strokes[pin, name].outlook for pin, name in MAPPED}),
-    }
-    tables = {"table_stroke": stroke_table(strokes)}
-    kept = {SHOWN.name: runs[run_name(SHOWN.name, 0, fine=True)]}
-    return StudyOutcome(reported, words, drawings, tables, kept)
-
-
-study = Study("stability", __doc__, work, seconds=25.0)
-
+# --- figures ---
 
 COLOURS = dict(zip(PINS, (style.WITH_CLEARANCE, style.THIRD, style.SMOOTH, style.PAPER), strict=True))
 MARKERS = dict(zip(STIFFNESSES, ("o", "s", "D", "^"), strict=True))
@@ -226,3 +179,37 @@ def map_figure(maps: Mapping[str, PinOutlook]) -> Figure:
         axes.set_title(title, fontsize=8)
     colour_bar(drawing, panels, colours)
     return finish(drawing, panels)
+
+
+# --- the study ---
+
+
+def work(chosen: Options) -> StudyOutcome:
+    """Every case predicted and run, and the whole stroke predicted."""
+    ready = {case.name: prepared(case) for case in CASES}
+    runs = run_cases(all_scenarios(ready), chosen)
+    found = [growth(one, runs) for one in ready.values()]
+    strokes = {
+        (pin, stiffness): whole_stroke(PinCase(pin, stiffness, 0.25))
+        for stiffness in STIFFNESSES
+        for pin in PINS
+    }
+    reported = numbers(found) + stroke_numbers(strokes)
+    words = {
+        "run": sys.modules[__name__],
+        "found": found,
+        "by_name": {one.case: one for one in found},
+        "strokes": strokes,
+        "numbers": {(one.name, one.case): one for one in reported},
+        "shaking": [pin for pin in PINS if any(not strokes[pin, name].outlook.stable for name in STIFFNESSES)],
+    }
+    drawings = {
+        "stability": answer_figure(found, ready[SHOWN.name], runs),
+        "map": map_figure({f"{pin}, {name}": strokes[pin, name].outlook for pin, name in MAPPED}),
+    }
+    tables = {"table_stroke": stroke_table(strokes)}
+    kept = {SHOWN.name: runs[run_name(SHOWN.name, 0, fine=True)]}
+    return StudyOutcome(reported, words, drawings, tables, kept)
+
+
+study = Study("stability", __doc__, work, seconds=25.0)

@@ -24,38 +24,7 @@ from studies.which_pin.measures import OVER_IDEAL, measure
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.postprocessing.page.pieces import Sheet
 
-
-def work(chosen: Options) -> StudyOutcome:
-    """The motion with clearance pins; of the paper's support also the closed form of where it stands."""
-    plan = PinPlan(chosen.subject)
-    results = run_with_errors(plan.scenarios, chosen)
-    under_loads = loads(plan.pin(0.0, plan.clearance_mm)) if plan.subject.is_paper else {}
-    numbers = measure(plan, results)
-    found = by_case(numbers)
-    conditions = condition_table(plan, found)
-    closed_form = {"table_closed_form": posture_table(found), "table_loads": load_table(under_loads)}
-    sheets = {
-        "which_pin": key_table(plan, found),
-        "table_together": together_table(plan, found),
-        **(closed_form if plan.subject.is_paper else {}),
-        "table_conditions": conditions,
-    }
-    means = {name: {pin: under.mean(pin) for pin in PINS} for name, under in under_loads.items()}
-    words = {
-        "cases": cases,
-        "plan": plan,
-        "window": f"{plan.watched.window:g} s",
-        "tables": sys.modules[__name__],
-        "found": found,
-        "orders": {name: in_order(shifts) for name, shifts in means.items()},
-        "shifts": {name: sum(shifts.values()) for name, shifts in means.items()},
-        "rms_orders": [row for row in conditions.rows if row[0].startswith("rms")],
-    }
-    return StudyOutcome(numbers, words, figures(plan, found, under_loads), sheets, results)
-
-
-study = Study("which_pin", __doc__, work, seconds=70.0, own_machine=True)
-
+# --- tables and sentences ---
 
 RANKED = {  # title of an order of pins, and its number
     "by the tip's position": SHIFT,
@@ -227,3 +196,38 @@ def key_table(plan: PinPlan, found: Found) -> Sheet:
     rows.append((IDEAL, *(cell(found[name, plan.ideal_name(plan.pins, friction)]) for name in names)))
     header = ("clearance pin", *(f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]" for name in names))
     return text_table(header, rows)
+
+
+# --- the study ---
+
+
+def work(chosen: Options) -> StudyOutcome:
+    """The motion with clearance pins; of the paper's support also the closed form of where it stands."""
+    plan = PinPlan(chosen.subject)
+    results = run_with_errors(plan.scenarios, chosen)
+    under_loads = loads(plan.pin(0.0, plan.clearance_mm)) if plan.subject.is_paper else {}
+    numbers = measure(plan, results)
+    found = by_case(numbers)
+    conditions = condition_table(plan, found)
+    closed_form = {"table_closed_form": posture_table(found), "table_loads": load_table(under_loads)}
+    sheets = {
+        "which_pin": key_table(plan, found),
+        "table_together": together_table(plan, found),
+        **(closed_form if plan.subject.is_paper else {}),
+        "table_conditions": conditions,
+    }
+    means = {name: {pin: under.mean(pin) for pin in PINS} for name, under in under_loads.items()}
+    words = {
+        "cases": cases,
+        "plan": plan,
+        "window": f"{plan.watched.window:g} s",
+        "tables": sys.modules[__name__],
+        "found": found,
+        "orders": {name: in_order(shifts) for name, shifts in means.items()},
+        "shifts": {name: sum(shifts.values()) for name, shifts in means.items()},
+        "rms_orders": [row for row in conditions.rows if row[0].startswith("rms")],
+    }
+    return StudyOutcome(numbers, words, figures(plan, found, under_loads), sheets, results)
+
+
+study = Study("which_pin", __doc__, work, seconds=70.0, own_machine=True)
