@@ -18,7 +18,7 @@ mass as 1e-4 kg and kg m^2, OUTPUT, END).
 """
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable
 
 from user_forces.values.value import InputError
 
@@ -108,44 +108,30 @@ class Requests:
         self._asked.setdefault(stem, {}).update(expressions)
 
     def write(self, out: Statements) -> dict[str, str]:
-        """Write all; returns what results call each channel."""
+        """Write all; returns the column of each channel in the results."""
         columns: dict[str, str] = {}
         for stem, expressions in self._asked.items():
-            for count, some in enumerate(_groups(expressions)):
+            names = list(expressions)
+            for count, start in enumerate(range(0, len(names), len(FUNCTIONS))):
+                some = names[start : start + len(FUNCTIONS)]
                 name = result_name(stem) + (f"_{count + 1}" if count else "")
-                self._request(out, name, some)
+                at = dict(zip(FUNCTIONS, some, strict=False))
+                places = [at.get(f"F{n}", "") for n in range(1, PLACES + 1)]
+                formulas = functions(**{place: expressions[one] for place, one in at.items()})
+                lists = (*_quoted("CNAMES", places), *_quoted("CUNITS", map(_unit, places)))
+                out.add("REQUEST", name, *lists, f"RESULTS_NAME = {name}", *formulas)
                 columns |= {f"{stem}.{one}": f"{name}.{one}" for one in some}
         return columns
 
-    @staticmethod
-    def _request(out: Statements, name: str, some: Mapping[str, str]) -> None:
-        """A request, with the names and the kinds of unit of its components."""
-        at = dict(zip(FUNCTIONS, some, strict=False))
-        places = [at.get(f"F{n}", "") for n in range(1, PLACES + 1)]
-        units = [_unit(one) for one in places]
-        out.add(
-            "REQUEST",
-            name,
-            f"CNAMES = {', '.join(_quoted(one) for one in places[:4])},",
-            *(", ".join(_quoted(one) for one in places[4:]),),
-            f"CUNITS = {', '.join(map(_quoted, units[:4]))},",
-            *(", ".join(map(_quoted, units[4:])),),
-            f"RESULTS_NAME = {name}",
-            *functions(**{place: some[one] for place, one in at.items()}),
-        )
-
-
-def _groups(expressions: Mapping[str, str]) -> Iterator[dict[str, str]]:
-    names = list(expressions)
-    for start in range(0, len(names), len(FUNCTIONS)):
-        yield {name: expressions[name] for name in names[start : start + len(FUNCTIONS)]}
-
 
 def _unit(name: str) -> str:
+    """The kind of unit of a component."""
     if name in LENGTHS:
         return "length"
     return "angle" if name == "angle" else "force" if "force" in name else "no_units"
 
 
-def _quoted(word: str) -> str:
-    return f'"{word}"'
+def _quoted(keyword: str, words: Iterable[str]) -> tuple[str, str]:
+    """An argument that lists words of all places, in two lines."""
+    quoted = [f'"{word}"' for word in words]
+    return f"{keyword} = {', '.join(quoted[:4])},", ", ".join(quoted[4:])
