@@ -4,21 +4,19 @@ import argparse
 import sys
 import time
 import traceback
-from collections.abc import Callable, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 from studies.adams import run as adams
 from studies.benchmarking import benchmark
 from studies.catalogue import DEFAULT, STUDIES
 from studies.common.options import Options, add_options, read_options
-from studies.common.study import Study, StudyOutcome, output_folder, say_short
+from studies.common.study import Study, output_folder, say_short
 from studies.common.witness import compiling
 from studies.report import rebuild
-from studies.reporting.places import PAGE
+from studies.reporting.arranged import PAGE
 from support_exudyn.commands.command_line import Parser, answered, say, warn
 from support_exudyn.simulation.at_start import EXIT_CODE
 from support_exudyn.sweeps.workers import Workers, worker_pool
@@ -45,7 +43,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     add_options(parser, Path("results"))
     parser.add_argument("names", nargs="*", metavar="NAME", help="studies to run (the paper's answer)")
     parser.add_argument("--all", action="store_true", help="run all studies")
-    parser.add_argument("--list", action="store_true", help="tell all studies, their questions and times")
+    parser.add_argument("--list", action="store_true", help="print all studies, their questions and times")
     given = parser.parse_intermixed_args(words)
     if given.list:
         return answered(_list)
@@ -67,11 +65,12 @@ def _list() -> None:
         machine = "takes --machine" if study.own_machine else ""
         about = ", ".join(filter(None, (paper, machine)))
         say(f"{name:20} {_seconds(study.seconds):>8}  {study.question}" + (f" ({about})" if about else ""))
-    question = (benchmark.__doc__ or "").partition("?")[0]
-    say(f"{BENCHMARK:20} {_seconds(benchmark.SECONDS):>8}  {question}? (alone, not in the report)")
-    say(
-        f"{ADAMS:20} {_seconds(0.0):>8}  How is the paper's model written for ADAMS? (alone, not in the report)"
-    )
+    others = {
+        BENCHMARK: (benchmark.SECONDS, (benchmark.__doc__ or "").partition("?")[0] + "?"),
+        ADAMS: (0.0, "How is the paper's model written for ADAMS?"),
+    }
+    for name, (seconds, question) in others.items():
+        say(f"{name:20} {_seconds(seconds):>8}  {question} (alone, not in the report)")
 
 
 def _chosen(given: argparse.Namespace) -> list[str]:
@@ -90,77 +89,39 @@ def _chosen(given: argparse.Namespace) -> list[str]:
 
 
 def _run(names: Sequence[str], options: Options, pool: Workers) -> int:
-    """Run studies one after the other; one that fails does not keep the others from the report.
+    """Run studies one after the other, and write the report after each, whether others have failed or not.
 
-    The report is written anew while the next study computes. The studies of the paper run first, and their
-    witnesses after them, which are compiled in the meantime.
+    The witness of the paper's studies is compiled in the meantime.
     """
     began = time.perf_counter()
     failed: list[str] = []
-    page = options.out / PAGE
-    meanwhile = compiling() if set(names) & set(DEFAULT) else nullcontext()
-    with ThreadPoolExecutor(max_workers=1) as writer, meanwhile:
-        written: list[Future[int]] = []
-        waiting: dict[str, StudyOutcome] = {}
-
-        def judge() -> None:
-            """Let the witnesses of all studies that wait for them be computed."""
-            for name, found in waiting.items():
-                warn(f"witness of {name}; {_seconds(time.perf_counter() - began)} so far")
-                chosen = options.of_study(name, pool)
-                if _one(partial(_judge, STUDIES[name], chosen, found)):
-                    failed.append(f"witness of {name}")
-            if waiting:
-                written.append(writer.submit(_rewrite, options.out, ""))
-            waiting.clear()
-
+    written = False
+    with compiling() if set(names) & set(DEFAULT) else nullcontext():
         for n, name in enumerate(names):
-            if name not in DEFAULT:
-                judge()
             spent = _seconds(time.perf_counter() - began)
             left = _seconds(sum(STUDIES[one].seconds for one in names[n:]))
             warn(f"study {n + 1} of {len(names)}: {name}; {spent} so far, about {left} to go")
-            chosen = options.of_study(name, pool)
-            if _one(partial(_begin, STUDIES[name], chosen, waiting)):
+            if _code_of(STUDIES[name], options.of_study(name, pool)):
                 failed.append(name)
-                continue
-            first = not written and n + 1 < len(names)
-            written.append(writer.submit(_rewrite, options.out, f"{page} can be read now" if first else ""))
-        judge()
-    if any(one.result() for one in written):
-        failed.append("report")
+            elif rebuild(options.out, list(STUDIES)):
+                failed.append(f"report after {name}")
+            else:
+                written = True
     if failed:
         others = "; the report has all the others" if written else ""
         warn(f"error: failed: {', '.join(failed)}{others}")
-    say(f"\n{_seconds(time.perf_counter() - began)} in all" + (f"; the report: {page}" if written else ""))
+    page = f"; the report: {options.out / PAGE}" if written else ""
+    say(f"\n{_seconds(time.perf_counter() - began)} in all{page}")
     return 1 if failed else 0
 
 
-def _rewrite(out: Path, told: str) -> int:
-    """Write the report; what is told, once it can be read. Returns the exit code."""
-    code = rebuild(out, list(STUDIES))
-    if told and not code:
-        say(f"report    {told}; every study adds to it")
-    return code
+def _code_of(study: Study, options: Options) -> int:
+    """Run a study and print its answer. Returns the exit code; an interruption ends all studies."""
 
+    def work() -> None:
+        with output_folder(options.out):
+            say_short(study(options), options.out)
 
-def _begin(study: Study, options: Options, waiting: dict[str, StudyOutcome]) -> None:
-    """Run a study without its witness, which then waits."""
-    with output_folder(options.out):
-        chapter, found = study.begin(options)
-        say_short(chapter, options.out)
-    if found.witness is not None:
-        waiting[study.name] = found
-
-
-def _judge(study: Study, options: Options, found: StudyOutcome) -> None:
-    """Let the witness of a study be computed, and write the study again."""
-    with output_folder(options.out):
-        study.with_witness(options, found)
-
-
-def _one(work: Callable[[], None]) -> int:
-    """Run a study; what goes wrong is said in a sentence. Returns the exit code; an interruption ends all."""
     try:
         code = answered(work)
     except Exception:  # a bug in one study; the others are still worth having

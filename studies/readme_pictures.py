@@ -22,8 +22,8 @@ from studies.common.options import MOST_WORKERS, Options
 from studies.common.runs import run_cases
 from studies.common.study import output_folder
 from studies.extremes import figures as extremes_figures
-from studies.extremes.cases import STEP_STIFFNESS, mapped
-from studies.extremes.runs import judge_all
+from studies.extremes.judge import judge_all
+from studies.extremes.scenes import STEP_STIFFNESS, mapped
 from support_exudyn import Result
 from support_exudyn.commands.command_line import Parser, answered, count, folder
 from support_exudyn.files.whole_file import whole_file
@@ -67,7 +67,7 @@ def machine(runs: Runs, path: Path) -> None:
         picture.save(temporary, format="PNG", optimize=True)
 
 
-def rise(runs: Runs, path: Path) -> None:
+def movie(runs: Runs, path: Path) -> None:
     """The whole run as a movie."""
     with TemporaryDirectory() as frames:
         render(
@@ -80,40 +80,29 @@ def rise(runs: Runs, path: Path) -> None:
         )
 
 
-def pin_force(runs: Runs, path: Path) -> None:
-    """The force in the pin, ideal and with clearance."""
-    _save(influence_figures.figures(runs.paper)["fig5_pin_force"], path)
-
-
-def journal_orbit(runs: Runs, path: Path) -> None:
-    """The path of the journal in its bore."""
-    _save(orbit(runs.with_clearance, paper_machine.CLEARANCE_PIN), path)
-
-
-def spectrum(runs: Runs, path: Path) -> None:
-    """Frequencies of the force during the rise."""
-    _save(force_spectrum(runs.with_clearance, paper_machine.CLEARANCE_PIN, *RISE), path)
-
-
-def map_step_stiffness(runs: Runs, path: Path) -> None:
+def map_step_stiffness(runs: Runs) -> Figure:
     """The map of `extremes` by step and stiffness: 169 of its scenes."""
     found = [case for case in mapped() if case.group == STEP_STIFFNESS]
     verdicts = judge_all(found, runs.workers)
-    drawn = extremes_figures.figures(list(zip(found, verdicts, strict=True)))
-    _save(drawn["map_step_stiffness"], path)
+    return extremes_figures.figures(list(zip(found, verdicts, strict=True)))["map_step_stiffness"]
 
 
-def _save(drawing: Figure, path: Path) -> None:
-    style.save(drawing, path.parent, path.stem, pdf=False)
+def drawn(figure: Callable[[Runs], Figure]) -> Callable[[Runs, Path], None]:
+    """The function that writes a figure of the runs."""
+
+    def write(runs: Runs, path: Path) -> None:
+        style.save(figure(runs), path.parent, path.stem, pdf=False)
+
+    return write
 
 
 PICTURES: dict[str, Callable[[Runs, Path], None]] = {
     "machine.png": machine,
-    "rise.gif": rise,
-    "pin_force.png": pin_force,
-    "journal_orbit.png": journal_orbit,
-    "spectrum.png": spectrum,
-    "map_step_stiffness.png": map_step_stiffness,
+    "rise.gif": movie,
+    "pin_force.png": drawn(lambda runs: influence_figures.figures(runs.paper)["fig5_pin_force"]),
+    "journal_orbit.png": drawn(lambda runs: orbit(runs.with_clearance, paper_machine.CLEARANCE_PIN)),
+    "spectrum.png": drawn(lambda runs: force_spectrum(runs.with_clearance, paper_machine.CLEARANCE_PIN, *RISE)),
+    "map_step_stiffness.png": drawn(map_step_stiffness),
 }
 
 

@@ -9,10 +9,9 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from studies.catalogue import DEFAULT, STUDIES
-from studies.common.chapter import FILE
+from studies.common.words import FILE
+from studies.reporting.arranged import PAGE, pages
 from studies.reporting.content import ReportSection
-from studies.reporting.pages import pages
-from studies.reporting.places import PAGE
 from support_exudyn.commands.command_line import Parser, folder, say, warn
 from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError
@@ -20,8 +19,6 @@ from user_forces.values.value import InputError
 
 def write_report(out: Path, sections: Sequence[ReportSection]) -> Path:
     """Write report.html and appendix.html into `out`, both whole or none; returns the path of the first.
-
-    Studies that are not of the catalogue, such as the benchmark, stand in the appendix alone.
 
     Arguments:
         out: folder; links to files of the studies are relative to it.
@@ -32,15 +29,10 @@ def write_report(out: Path, sections: Sequence[ReportSection]) -> Path:
     there = [section.chapter.study for section in sections]
     own = any(section.chapter.machine for section in sections)
     missing = [name for name in STUDIES if name not in there and (STUDIES[name].own_machine or not own)]
-    made = pages(
-        out,
-        sections,
-        waited=[name for name in missing if name in DEFAULT],
-        others={name: STUDIES[name].question for name in missing if name not in DEFAULT},
-        beside=[name for name in there if name not in STUDIES],
-    )
+    waited = [name for name in missing if name in DEFAULT]
+    others = {name: STUDIES[name].question for name in missing if name not in DEFAULT}
     with ExitStack() as files:
-        for name, written in made.items():
+        for name, written in pages(out, sections, waited, others).items():
             temporary = files.enter_context(whole_file(out / name))
             temporary.write_text(written, encoding="utf-8")
     return out / PAGE
@@ -49,7 +41,7 @@ def write_report(out: Path, sections: Sequence[ReportSection]) -> Path:
 def sections(out: Path, order: Sequence[str]) -> list[ReportSection]:
     """Chapters of all studies in the folders below `out`: those of `order` first, then others by name.
 
-    Raises InputError if there is none, or if something in one of them is wrong.
+    Raises InputError if there is none, or if a chapter cannot be read.
     """
     there = sorted(path.parent.name for path in out.glob(f"*/{FILE}"))
     if not there:
@@ -59,7 +51,7 @@ def sections(out: Path, order: Sequence[str]) -> list[ReportSection]:
 
 
 def rebuild(out: Path, order: Sequence[str]) -> int:
-    """Write the report from the folders below `out`; what is wrong is said. Returns the exit code."""
+    """Write the report from the folders below `out`; errors are printed. Returns the exit code."""
     try:
         write_report(out, sections(out, order))
     except (InputError, OSError) as error:
@@ -70,13 +62,9 @@ def rebuild(out: Path, order: Sequence[str]) -> int:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.report`."""
-    parser = Parser(
-        prog="python -m studies.report", description="Write the report from the results that are there."
-    )
-    default = Path("results")
-    parser.add_argument(
-        "--out", type=folder, default=default, metavar="DIR", help=f"folder of results ({default})"
-    )
+    about = "Write the report from the results that are there."
+    parser, out = Parser(prog="python -m studies.report", description=about), Path("results")
+    parser.add_argument("--out", type=folder, default=out, metavar="DIR", help=f"folder of results ({out})")
     out = parser.parse_args(argv).out
     code = rebuild(out, list(STUDIES))
     if not code:

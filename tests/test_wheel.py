@@ -99,8 +99,8 @@ def test_it_runs_outside_the_checkout(installed: Path, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_study_and_the_report_run_outside_the_checkout(installed: Path, tmp_path: Path) -> None:
-    assert "--quick" in run(installed, tmp_path, "-m", "studies.clearance_influence", "--help")
-    run(installed, tmp_path, "-m", "studies.slider_crank")
+    assert "--machine" in run(installed, tmp_path, "-m", "studies", "--help")
+    run(installed, tmp_path, "-m", "studies", "slider_crank")
     run(installed, tmp_path, "-m", "studies.report")
     assert (tmp_path / "results" / "report.html").is_file()
 

@@ -11,18 +11,17 @@ translational joint whose motion is the drive, and the rod's INLINE at the head.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from studies.adams.clearance import PinMarkers, write_clearance
-from studies.adams.coverage import check
-from studies.adams.requests import Requests
-from studies.adams.statements import Statements, number, numbers
+from studies.adams.clearance import PinMarkers, check_law, write_clearance
+from studies.adams.statements import Requests, Statements, number, numbers
 from support_exudyn import CubicStep, Scenario
-from support_exudyn.model.drives.drive import Drive
+from support_exudyn.model.actuators import RigidActuator
+from support_exudyn.model.drives.drive import Drive, Held
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, PinPlace
-from support_exudyn.model.pins import ClearancePin
-from user_forces.values.value import Vector2
+from support_exudyn.model.pins import ClearancePin, IdealPin
+from user_forces.values.value import InputError, Vector2
 
 LIGHT = 1e-4  # mass [kg] and inertia [kg m^2] of the parts of columns, which weigh nothing
 ERROR, LONGEST_STEP = 1e-6, 1e-4  # of the integrator: relative tolerance, [s]
@@ -214,3 +213,46 @@ def solver_commands(scenario: Scenario, model: str) -> str:
     """The commands (`.acf`) by which ADAMS/Solver runs a dataset: to the scenario's end, with its records."""
     end, period = number(scenario.duration), number(scenario.recorded_every)
     return f"\nfile/model={model}\nsimulate/dynamics, end={end}, dtout={period}\nstop\n"
+
+
+def check(scenario: Scenario) -> None:
+    """Raise InputError with a line for everything that the writer has no statements for."""
+    reasons = list(_reasons(scenario))
+    if reasons:
+        raise InputError("\n".join(reasons))
+
+
+def _reasons(scenario: Scenario) -> Iterator[str]:
+    linkage = scenario.linkage
+    if scenario.dimensions != 2:
+        yield f"dimensions = {scenario.dimensions}: allowed: 2"
+    if scenario.start != "concentric":
+        yield f"start = {scenario.start!r}: allowed: 'concentric'"
+    for name, pin in scenario.pins.items():
+        if isinstance(pin, ClearancePin):
+            try:
+                check_law(name, pin)
+            except InputError as error:
+                yield str(error)
+        elif not isinstance(pin, IdealPin):
+            yield f"pins.{name} = {type(pin).__name__}: allowed: ideal pins, and ClearancePin"
+        elif pin.friction is not None:
+            yield f"pins.{name}.friction = {type(pin.friction).__name__}: allowed: an ideal pin without"
+    for name, model in scenario.actuators.items():
+        if not isinstance(model, RigidActuator):
+            yield f"actuators.{name} = {type(model).__name__}: allowed: RigidActuator"
+    for name in scenario.own_bodies:
+        yield f"parts.{name}: a body of its own; allowed: parts that are fixed to their bodies"
+    for name in (*scenario.acting_loads, *scenario.blocks):
+        yield f"loads.{name}: allowed: none but the weight"
+    others = {"cranks": linkage.cranks, "slides": linkage.slides, "gears": linkage.gears}
+    for kind, items in others.items():
+        for name in items:
+            yield f"{kind}.{name}: allowed: machines of bodies, pins and columns"
+    for name in linkage.actuators:
+        drive = scenario.drive_of(name)
+        if not isinstance(drive, (CubicStep, Held)):
+            yield f"drives.{name} = {type(drive).__name__}: allowed: CubicStep, the STEP function, or Held"
+    for name, body in linkage.bodies.items():
+        if any(body.velocity) or body.spin:
+            yield f"bodies.{name}: moves at the start; allowed: machines that start at rest"

@@ -90,3 +90,48 @@ def functions(**expressions: str) -> list[str]:
 def result_name(name: str) -> str:
     """A name of results: letters, digits and underscores."""
     return "".join(letter if letter.isalnum() and letter.isascii() else "_" for letter in name)
+
+
+FUNCTIONS = ("F2", "F3", "F4", "F6", "F7", "F8")  # F1 and F5 are magnitudes
+PLACES = 8
+LENGTHS = ("x", "y", "length", "depth", "eccentricity_x", "eccentricity_y")
+
+
+class Requests:
+    """Requests of a dataset: groups of up to six expressions, by the names of channels."""
+
+    def __init__(self) -> None:
+        self._asked: dict[str, dict[str, str]] = {}
+
+    def ask(self, stem: str, **expressions: str) -> None:
+        """Ask for channels STEM.NAME, each with its expression."""
+        self._asked.setdefault(stem, {}).update(expressions)
+
+    def write(self, out: Statements) -> dict[str, str]:
+        """Write all; returns the column of each channel in the results."""
+        columns: dict[str, str] = {}
+        for stem, expressions in self._asked.items():
+            names = list(expressions)
+            for count, start in enumerate(range(0, len(names), len(FUNCTIONS))):
+                some = names[start : start + len(FUNCTIONS)]
+                name = result_name(stem) + (f"_{count + 1}" if count else "")
+                at = dict(zip(FUNCTIONS, some, strict=False))
+                places = [at.get(f"F{n}", "") for n in range(1, PLACES + 1)]
+                formulas = functions(**{place: expressions[one] for place, one in at.items()})
+                lists = (*_quoted("CNAMES", places), *_quoted("CUNITS", map(_unit, places)))
+                out.add("REQUEST", name, *lists, f"RESULTS_NAME = {name}", *formulas)
+                columns |= {f"{stem}.{one}": f"{name}.{one}" for one in some}
+        return columns
+
+
+def _unit(name: str) -> str:
+    """The kind of unit of a component."""
+    if name in LENGTHS:
+        return "length"
+    return "angle" if name == "angle" else "force" if "force" in name else "no_units"
+
+
+def _quoted(keyword: str, words: Iterable[str]) -> tuple[str, str]:
+    """An argument that lists words of all places, in two lines."""
+    quoted = [f'"{word}"' for word in words]
+    return f"{keyword} = {', '.join(quoted[:4])},", ", ".join(quoted[4:])

@@ -1,9 +1,9 @@
-"""How fast is the program beside others, and how wrong is each for what it costs? About three minutes.
+"""How fast is the program beside others, and how wrong is each for what it costs? About six minutes.
 
-A row of the table is: name, work, what runs, what it is compared with, ratio. Both sides of a row are timed
-in turns in this process; the ratio is the median of the turns' ratios. Rows against the programs of others
-come from the points of `trade`. What is not installed comes from `kept.json`, and the table says so. The
-outcome of the last run that was kept stands in `studies/benchmarking/RESULTS.md`.
+A row of the table is: name, work, program, the program that it is compared with, ratio. Both sides of a row
+are timed in turns in this process; the ratio is the median of the turns' ratios. Rows against the programs of
+others come from the points of `trade`; programs that are not installed have none. The outcome of the last run
+stands in `studies/benchmarking/RESULTS.md`.
 """
 
 import os
@@ -19,7 +19,7 @@ from functools import partial
 from pathlib import Path
 
 from studies.benchmarking import trade, yardstick
-from studies.benchmarking.peers.on_exudyn import Evaluator, run_built_in
+from studies.benchmarking.peers.on_exudyn import Evaluator, run_connector
 from studies.benchmarking.trade import COMPILED, ENGINE, OURS_COMPILED, OURS_ENGINE, WORK, TradePoint
 from studies.common import paper_machine
 from studies.common.study import print_table, work_in_folder
@@ -32,7 +32,7 @@ from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.provenance import versions
 
 HERE = Path(__file__).parent
-SECONDS = 180.0  # that it takes
+SECONDS = 360.0  # that it takes
 WIDTH = 190  # of printed tables
 FIGURE = "error_and_time"
 TURNS = 5
@@ -118,7 +118,7 @@ def connector(contact: Evaluator) -> Row:
     """Our connector beside the engine's own contact, by the same steps: its user function alone, or a joint."""
 
     def timing(contact: Evaluator) -> Timing:
-        return lambda: run_built_in(DROP, DROP_STEP, contact=contact, sensors=False).solve_time
+        return lambda: run_connector(DROP, DROP_STEP, contact)[0]
 
     work = f"drop of {DROP.duration:g} s, equal steps of {1e6 * DROP_STEP:g} us"
     runs = {"function": "user function of the connector", "joint": "`ClearanceJoint`"}[contact]
@@ -171,8 +171,9 @@ def of_points(points: Sequence[TradePoint]) -> Iterator[Row]:
     """What an accuracy costs; our fastest way to a good largest force beside that of other programs."""
     for program in (OURS_COMPILED, OURS_ENGINE):
         for one in (one for one in points if one.program == program):
-            yield Row("accuracy", WORK, f'{program}, "{one.setting}"', one.seconds, note=_source(one))
-    names = [name for name in trade.PROGRAMS if not name.startswith((OURS_COMPILED, OURS_ENGINE))]
+            yield Row("accuracy", WORK, f'{program}, "{one.setting}"', one.seconds)
+    ran = dict.fromkeys(one.program for one in points)
+    names = [name for name in ran if not name.startswith((OURS_COMPILED, OURS_ENGINE))]
     for ours in (OURS_COMPILED + trade.ONCE, OURS_ENGINE + trade.ONCE):
         mine = trade.cheapest(points, ours)
         if mine is None:
@@ -185,11 +186,7 @@ def of_points(points: Sequence[TradePoint]) -> Iterator[Row]:
                 yield Row(name, goal, what, mine.seconds, name, note="no setting of theirs is as close")
             else:
                 against, ratio = f"{name}, {its.setting}", mine.ratio / its.ratio
-                yield Row(name, goal, what, mine.seconds, against, its.seconds, ratio, _source(its))
-
-
-def _source(point: TradePoint) -> str:
-    return "kept, see the caption of the figure" if point.is_kept else ""
+                yield Row(name, goal, what, mine.seconds, against, its.seconds, ratio)
 
 
 def sheet(rows: Sequence[Row]) -> Sheet:
@@ -214,7 +211,7 @@ def sheet(rows: Sequence[Row]) -> Sheet:
 def study(out: Path) -> None:
     """Measure, print and write table and figure."""
     began = time.monotonic()
-    points = trade.with_kept(list(trade.measured()))
+    points = list(trade.measured(with_slow=True))
     found = list(of_points(points))
     for row in measured():
         warn(" ".join(filter(None, row.cells())))
@@ -230,7 +227,7 @@ def write(out: Path, found: Sequence[Row], points: Sequence[TradePoint], took: f
     words = ["# Benchmark", f"{trade.machine_name()}. {packages}."]
     words += [f"Made in {took:.0f} s by `python -m studies benchmark`.", markdown(tables[0])]
     words += [f"![Error of the largest pin force over processor time, a line a program]({FIGURE}.png)"]
-    words += [f"*{trade.caption(points)}*", markdown(tables[1])]
+    words += [f"*{trade.CAPTION}*", markdown(tables[1])]
     with style.look():
         style.save(trade.figure(points), out, FIGURE, pdf=False)
     for table in tables:
@@ -243,12 +240,9 @@ def points_sheet(points: Sequence[TradePoint]) -> Sheet:
     """All settings of all programs as a table."""
     return Sheet(
         title="What accuracy costs: error of the largest pin force and time",
-        header=("program", "setting", "processor [s]", "times common row", "error", "measured"),
+        header=("program", "setting", "processor [s]", "times common row", "error"),
         rows=tuple(
-            (
-                *(one.program, one.setting, f"{one.seconds:.3g}", f"{one.ratio:.3g}", f"{one.error:.1e}"),
-                "kept" if one.is_kept else "here",
-            )
+            (one.program, one.setting, f"{one.seconds:.3g}", f"{one.ratio:.3g}", f"{one.error:.1e}")
             for one in points
         ),
         caption=f'Common row: {trade.COMMON[0]}, "{trade.COMMON[1]}", timed beside each program.',

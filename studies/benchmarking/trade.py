@@ -2,14 +2,9 @@
 
 The work is the paper's rise with 1.5 mm of clearance and friction in the rear-link pin; the number is the
 largest force in that pin. Its error is the distance from a run of the compiled formulation at a tolerance of
-1e-12. Programs that are not installed, and runs that take minutes, are taken from `kept.json`: there a time
-is a ratio to the time of COMMON, which was measured beside it, and is multiplied by the time of COMMON here.
-
-`python -m studies.benchmarking.trade` measures everything anew and keeps it.
+1e-12. Programs that are not installed are left out.
 """
 
-import datetime
-import json
 import os
 import platform
 import statistics
@@ -17,10 +12,9 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -35,13 +29,10 @@ from studies.benchmarking.peers.plain_support import PeerRun
 from studies.common import paper_machine
 from support_exudyn import Estimate, Scenario, SolverSettings, simulate
 from support_exudyn.commands.command_line import warn
-from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.registry import FormulationName
 from support_exudyn.postprocessing.figures import style
-from support_exudyn.simulation.provenance import versions
 from support_exudyn.sweeps.warm_up import warm_up
 
-KEPT = Path(__file__).with_name("kept.json")
 CLEARANCE_MM = 1.5
 REST_VELOCITY = 1e-3  # of the law [m/s]
 TIGHT = (1e-12, 1e-11)  # tolerances of the reference, and of the run that gives its error
@@ -50,7 +41,6 @@ SHORT, TURNS = 1.0, 3  # a run that is shorter [s] is timed so often, and the me
 GOOD = 1e-3  # error of the largest force by which programs are compared in the table
 COMPILED: FormulationName = "compiled"
 ENGINE: FormulationName = "exudyn"
-PACKAGES = {"MuJoCo": "mujoco", "Drake": "drake", "Exudyn": "exudyn", "SciPy": "scipy"}
 PRESETS = ("draft", "standard", "reference")
 
 
@@ -79,8 +69,7 @@ class PeerProgram:
     """A program or a way to use it.
 
     settings: labels and values from coarse to fine. run: the scenario by a setting, and the largest pin force
-    [N]. package: that has to be installed. slow: labels of settings that take minutes, and are measured only
-    to be kept.
+    [N]. package: that has to be installed. slow: labels of settings that take minutes.
     """
 
     name: str
@@ -96,18 +85,13 @@ class PeerProgram:
 
 
 class TradePoint(NamedTuple):
-    """A program by a setting: processor time [s], the same over that of COMMON, relative error of the largest
-    force.
-
-    is_kept: whether it was measured on another machine or day.
-    """
+    """A program by a setting: processor time [s], its ratio to that of COMMON, error of the force [-]."""
 
     program: str
     setting: str
     seconds: float
     ratio: float
     error: float
-    is_kept: bool = False
 
 
 def _to_accuracy(formulation: FormulationName) -> Callable[[Scenario, Any], float]:
@@ -129,7 +113,7 @@ def _largest(scenario: Scenario) -> float:
 
 
 def _of_peer(run: Callable[[Scenario, float], PeerRun]) -> Callable[[Scenario, Any], float]:
-    return lambda scenario, setting: float(run(scenario, setting).force.max())
+    return lambda scenario, setting: run(scenario, setting).largest
 
 
 def _steps(*steps: float) -> Mapping[str, float]:
@@ -197,43 +181,6 @@ def _timed(run: Callable[[], float]) -> tuple[float, float]:
     return statistics.median(times), found
 
 
-# --- kept ---
-
-
-@cache
-def _kept() -> dict[str, Any]:
-    return cast(dict[str, Any], json.loads(KEPT.read_text(encoding="utf-8")))
-
-
-def with_kept(found: Sequence[TradePoint]) -> list[TradePoint]:
-    """The points, and those that are kept of what was not measured here; in the order of PROGRAMS."""
-    common = next(one.seconds for one in found if (one.program, one.setting) == COMMON)
-    here = {(one.program, one.setting): one for one in found}
-    points = []
-    for program, settings in _kept()["points"].items():
-        for label, (ratio, error) in settings.items():
-            kept = TradePoint(program, label, ratio * common, ratio, error, True)
-            points.append(here.get((program, label), kept))
-    return points
-
-
-def keep(found: Sequence[TradePoint]) -> None:
-    """Write kept.json from points that were measured here."""
-    points: dict[str, dict[str, tuple[float, float]]] = {}
-    for one in found:
-        points.setdefault(one.program, {})[one.setting] = float(f"{one.ratio:.4g}"), float(f"{one.error:.3g}")
-    peers = {name: version(name) for name in PACKAGES.values()}
-    made = {
-        "machine": machine_name(),
-        "date": datetime.date.today().isoformat(),
-        "versions": {**versions(), **peers},
-        "common": COMMON,
-        "points": points,
-    }
-    with whole_file(KEPT) as temporary:
-        temporary.write_text(json.dumps(made, indent=1) + "\n", encoding="utf-8")
-
-
 def machine_name() -> str:
     """Processor and number of cores."""
     name, cpuinfo = platform.processor() or platform.machine(), Path("/proc/cpuinfo")
@@ -243,29 +190,15 @@ def machine_name() -> str:
     return f"{name}, {os.cpu_count()} cores"
 
 
-def caption(points: Sequence[TradePoint]) -> str:
-    """What the figure shows, and what of it was measured elsewhere."""
-    settings = {one.program: [two.is_kept for two in points if two.program == one.program] for one in points}
-    taken = [
-        name if all(kept) else f"the slow settings of {name}" for name, kept in settings.items() if any(kept)
-    ]
-    words = (
-        f"Relative error of the largest force in the rear-link pin over processor time ({WORK}), against the "
-        "compiled formulation at a tolerance of 1e-12. An error that a finer setting exceeds is drawn as the "
-        "latter. Filled circles: runs to an accuracy, at least three each, that report their error; all others "
-        "are single runs. Exudyn, stock recipe: generalised alpha at fixed steps, the contact as a Python user "
-        "function, no impact located. support-exudyn on Exudyn: the same engine and integrator with located "
-        "impacts; compiled: an embedded Runge-Kutta 5(4) method with error control. MuJoCo: Runge-Kutta 4 at "
-        "fixed steps; Drake: Runge-Kutta 3 with error control; LSODA: equations of motion by hand."
-    )
-    if taken:
-        kept = _kept()
-        packages = ", ".join(f"{title} {kept['versions'][key]}" for title, key in PACKAGES.items())
-        words += (
-            f' Not measured here but taken as ratios to "{COMMON[0]}, {COMMON[1]}" from {kept["date"]}, '
-            f"{kept['machine']} ({packages}): {', '.join(taken)}."
-        )
-    return words
+CAPTION = (
+    f"Relative error of the largest force in the rear-link pin over processor time ({WORK}), against the "
+    "compiled formulation at a tolerance of 1e-12. Where a finer setting has a larger error, that is drawn. "
+    "Filled circles: runs to an accuracy, at least three each, that report their error; all others are single "
+    "runs. Exudyn, stock recipe: generalised alpha at fixed steps, the contact as a Python user function, no "
+    "impact located. support-exudyn on Exudyn: the same engine and integrator with located impacts; compiled: "
+    "an embedded Runge-Kutta 5(4) method with error control. MuJoCo: Runge-Kutta 4 at fixed steps; Drake: "
+    "Runge-Kutta 3 with error control; LSODA: equations of motion by hand."
+)
 
 
 def lasting_errors(points: Sequence[TradePoint]) -> list[float]:
@@ -351,7 +284,3 @@ def _line(axes: Axes, name: str, points: Sequence[TradePoint]) -> None:
                 color=colour,
                 bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5},
             )
-
-
-if __name__ == "__main__":
-    keep(list(measured(with_slow=True)))

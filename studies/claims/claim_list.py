@@ -7,7 +7,7 @@ from typing import Any
 from studies.claims.evidence import Evidence, Measured, Verdict, every, opposite, rising, some, within
 from studies.claims.plausible_runs import CLEARANCES, IDEAL, MODE_1, OIL, OIL_IDEAL
 from studies.common import paper_machine, rise
-from studies.common.data import rows
+from studies.common.data import tables
 
 VISIBLE = 0.005  # of a curve's range over the rise: the width of a printed line
 GREAT = 0.05  # of it
@@ -332,4 +332,4 @@ def _claim(judge: str = "", **row: Any) -> Claim:
     return Claim(judge=decides, tell=tells, name=judge, **row)
 
 
-CLAIMS = tuple(_claim(**row) for row in rows("studies.claims", "claim"))
+CLAIMS = tuple(_claim(**row) for row in tables("studies.claims", "claims.toml")["claim"])

@@ -8,14 +8,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from studies.claims.evidence import Evidence
-from studies.claims.plausible import REFERENCE
 from studies.claims.plausible_runs import CLEARANCES
 from studies.claims.verdicts import BOUNDS, KINDS, Machines, Ruling
 from studies.common import paper_machine
-from studies.common.panels import legend, letters
+from studies.common.panels import letters
 from studies.common.paper_machine import SIZES_MM
 from support_exudyn.postprocessing.figures import style
 
@@ -35,7 +33,6 @@ def figures(
     drawn = {"claims_shares": share_figure(rulings)}
     if first:
         drawn["force_over_clearance"] = force_figure(reference, first, second)
-        drawn["rms_and_friction"] = rms_figure(reference, first)
     return drawn
 
 
@@ -128,33 +125,3 @@ def _fit(axes: Axes, lines: Sequence[np.ndarray], printed: np.ndarray) -> None:
 
 def _against_first(values: Sequence[float]) -> np.ndarray:
     return 100.0 * (np.array(values) / values[0] - 1.0)
-
-
-def rms_figure(reference: Evidence, machines: Machines) -> Figure:
-    """What decides whether the pin shakes."""
-    drawing = Figure(figsize=style.size(170, 85))
-    left, right = drawing.subplots(1, 2, sharey=True)
-    for axes, factor in ((left, "sliding_coefficient"), (right, "dynamic_speed")):
-        for bore, look in (("base", (style.WITH_CLEARANCE, "o")), ("rear link", (style.SMOOTH, "^"))):
-            _scatter(axes, [m for m in machines if m[0]["bore"] == bore], factor, look, f"bore in the {bore}")
-        shown = reference[CLEARANCES[2], "rms_force"].over(reference[CLEARANCES[2], "mean_force"]).value
-        axes.plot(float(REFERENCE[factor]), 100.0 * shown, "s", color="black", ms=5, label="reference support")
-        axes.set_yscale("log")
-    left.set(xlabel="friction coefficient [1]", ylabel="RMS fluctuation [% of mean force]")
-    right.set(xlabel="v_d, where friction is fully developed [m/s]", xscale="log")
-    right.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
-    right.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    right.xaxis.set_minor_formatter(NullFormatter())
-    letters([left, right])
-    legend(drawing, left, 3)
-    return drawing
-
-
-def _scatter(axes: Axes, machines: Machines, factor: str, look: tuple[str, str], label: str) -> None:
-    x = [float(sample[factor]) for sample, _ in machines]
-    y = [
-        100.0 * evidence[CLEARANCES[2], "rms_force"].over(evidence[CLEARANCES[2], "mean_force"]).value
-        for _, evidence in machines
-    ]
-    colour, marker = look
-    axes.plot(x, y, marker, ms=2.5, color=colour, label=label)

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from studies.common import paper_machine
-from studies.common.data import rows
+from studies.common.data import tables
 from studies.contact_laws.catalogue import POWER_LAWS
 from support_exudyn import (
     ClearancePin,
@@ -113,7 +113,7 @@ _FROM_PAPER_MACHINE: dict[str, Choice] = {
 }
 FACTORS = tuple(
     Factor(**{**row, "name": name, "reference": _FROM_PAPER_MACHINE.get(name, row["reference"])})
-    for row in rows("studies.claims", "factor")
+    for row in tables("studies.claims", "factors.toml")["factor"]
     for name in row.pop("names", [row.get("name")])
 )
 REFERENCE: dict[str, Choice] = {factor.name: factor.reference for factor in FACTORS} | {

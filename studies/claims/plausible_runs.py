@@ -1,17 +1,24 @@
-"""Runs and measures of one machine.
+"""Runs and measures of all machines.
 
-Nine scenes by the compiled formulation: the ideal pin and four clearances in drive mode 2, the ideal pin and
-1.5 mm in mode 1 on rigid columns and on columns of oil. The ideal pin has the friction of the pin with
+Nine scenes a machine, by the compiled formulation: the ideal pin and four clearances in drive mode 2, the ideal
+pin and 1.5 mm in mode 1 on rigid columns and on columns of oil. The ideal pin has the friction of the pin with
 clearance. Every scene is run at two tolerances; the numerical error of a measure comes from the distance of
 both runs and from that of fewer records.
 """
 
-from collections.abc import Mapping, Sequence
+import hashlib
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
+from pathlib import Path
 from typing import cast
 
 import numpy as np
+from pydantic import BaseModel, ValidationError
 
+import studies
 from studies.claims.evidence import Evidence, Measured
 from studies.claims.plausible import Sample, ideal_pin, machine, number, oil_columns, pin
 from studies.common import paper_machine, rise
@@ -23,11 +30,17 @@ from support_exudyn import (
     Pin,
     Result,
     Scenario,
+    SimulationError,
     SolverSettings,
     UniformSpeed,
     simulate,
 )
+from support_exudyn.files.whole_file import contents, remove_leftovers, whole_file
 from support_exudyn.mechanics.trajectory import Impulse
+from support_exudyn.sweeps.key import program
+from support_exudyn.sweeps.warm_up import warm_up
+from support_exudyn.sweeps.workers import ProcessEndedError, Workers, worker_pool
+from user_forces.values.value import InputError
 
 IDEAL = "ideal"
 CLEARANCES = tuple(f"{size:.1f} mm" for size in paper_machine.SIZES_MM)
@@ -177,3 +190,94 @@ def _run_measures(run: Result, ideal: Result, during: rise.Watched) -> Values:
         for name, angle in (("angle", rise.rearward_angle), ("lean", rise.lean)):
             found[f"{side}_{name}"] = rise.DEGREES * during.mean(run, angle(run, column))
     return found
+
+
+# --- all machines, side by side ---
+
+FOLDER = "machines"
+LARGEST_FILE = 100_000_000  # bytes
+
+
+class MachineRow(BaseModel):
+    """A machine: its factors, and its measures or why there are none."""
+
+    sample: dict[str, str | float]
+    measures: Data | None
+    failure: str | None
+
+
+Progress = Callable[[Sequence[float]], None]
+
+
+def run_machines(
+    samples: Sequence[Sample], out: Path, workers: int | Workers, progress: Progress
+) -> list[MachineRow]:
+    """Rows of all samples, in their order; only those are run that DIR does not hold yet.
+
+    A finished machine is a file DIR/machines/KEY.json, by its inputs and the program's sources: a study that
+    was killed resumes. A machine that cannot be run is a row, too, with the reason.
+
+    Arguments:
+        samples: the machines.
+        out: DIR.
+        workers: number of processes, >= 1, or the pool to use.
+        progress: receives the completed share of each machine that is run.
+    """
+    folder = out / FOLDER
+    folder.mkdir(parents=True, exist_ok=True)
+    remove_leftovers(folder, older=0.0)
+    places = [folder / f"{key(sample)}.json" for sample in samples]
+    rows = [_read(place) for place in places]
+    missing = [n for n, row in enumerate(rows) if row is None]
+    if missing:
+        warm_up()  # compile once, for all processes
+
+        def ended(error: ProcessEndedError) -> MachineRow:  # not kept, so that it is tried again
+            return MachineRow(sample=dict(samples[missing[error.place]]), measures=None, failure=error.reason)
+
+        with worker_pool(workers) as pool:
+            jobs = [(places[n], samples[n]) for n in missing]
+            for n, row in zip(missing, pool.run(jobs, _run_one, progress, ended), strict=True):
+                rows[n] = row
+    return [row for row in rows if row is not None]
+
+
+def key(sample: Sample) -> str:
+    """Name of a machine's file: a digest of its factors and of the program."""
+    text = json.dumps([dict(sample), program(), _own_sources()], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:24]
+
+
+@cache
+def _own_sources() -> str:
+    """Digest of the sources of all studies, and of the data beside them."""
+    digest, root = hashlib.sha256(), Path(studies.__path__[0])
+    for path in sorted([*root.rglob("*.py"), *root.rglob("*.toml")]):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _run_one(number: int, place: Path, sample: Sample) -> MachineRow:
+    """In a worker: run a machine and keep it."""
+    del number
+    row = MachineRow(sample=dict(sample), measures=None, failure=None)
+    try:
+        found = measures(sample)
+        for case, named in found.items():
+            for name, pair in named.items():
+                if not all(map(math.isfinite, pair)):
+                    raise InputError(f"{name} of {case} = {pair}: allowed: finite numbers")
+        row.measures = found
+    except (InputError, SimulationError) as error:
+        row.failure = str(error)
+    with whole_file(place) as temporary:
+        temporary.write_text(row.model_dump_json() + "\n", encoding="utf-8")
+    return row
+
+
+def _read(place: Path) -> MachineRow | None:
+    """A row; None if it is not there or not whole."""
+    try:
+        return MachineRow.model_validate_json(contents(place, LARGEST_FILE))
+    except (FileNotFoundError, ValidationError):
+        return None

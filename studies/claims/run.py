@@ -5,19 +5,12 @@ hypercubes of machines: with what the paper prints, and with an engineer's conta
 times.
 """
 
-import csv
 from collections.abc import Sequence
-from pathlib import Path
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-from studies.claims import hypercube
 from studies.claims.claim_list import CLAIMS
 from studies.claims.figures import figures
-from studies.claims.hypercube import MachineRow
 from studies.claims.plausible import CONTACT, FACTORS, LOT, REFERENCE, Sample, samples
-from studies.claims.plausible_runs import CASES, TOLERANCE, evidence
+from studies.claims.plausible_runs import CASES, TOLERANCE, MachineRow, evidence, run_machines
 from studies.claims.verdicts import (
     KINDS,
     NEEDS_MORE,
@@ -28,13 +21,13 @@ from studies.claims.verdicts import (
     percent,
     rule,
 )
-from studies.common.chapter import JudgedClaim
 from studies.common.numbers import Number
 from studies.common.options import Options
 from studies.common.paper_machine import CYLINDERS
+from studies.common.runs import bar
 from studies.common.study import Study, StudyOutcome
-from studies.common.words import TextTable
-from support_exudyn.files.whole_file import whole_file
+from studies.common.words import JudgedClaim, text_table
+from support_exudyn.postprocessing.page.pieces import Sheet
 from user_forces.values.value import InputError
 
 MACHINES = 80  # of the first hypercube; of the second half as many
@@ -80,7 +73,9 @@ def draw(chosen: Options) -> tuple[list[MachineRow], list[Ruling]]:
     """Run the chosen number of machines, MACHINES by default; with all studies until few need more."""
     number = chosen.machines or MACHINES
     while True:
-        rows = _run(drawn(number), chosen)
+        samples_of = drawn(number)
+        with bar(f"{len(samples_of)} machines") as show:
+            rows = run_machines(samples_of, chosen.out, chosen.workers, show)
         rulings = judged(rows)
         left = sum(ruling.kind == NEEDS_MORE for ruling in rulings)
         if chosen.machines or not chosen.thorough or left <= FEW or number >= MOST_MACHINES:
@@ -88,21 +83,10 @@ def draw(chosen: Options) -> tuple[list[MachineRow], list[Ruling]]:
         number += 2 * LOT
 
 
-def _run(chosen_samples: Sequence[Sample], chosen: Options) -> list[MachineRow]:
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True)) as bars:
-        task = bars.add_task("machines", total=len(chosen_samples))
-
-        def show(done: int, total: int) -> None:
-            bars.update(task, completed=done, total=total)
-
-        return hypercube.run(chosen_samples, chosen.out, chosen.workers, show)
-
-
 # --- tables ---
 
 
-def verdict_table(rulings: Sequence[Ruling]) -> TextTable:
+def verdict_table(rulings: Sequence[Ruling]) -> Sheet:
     """A row a verdict: how many statements have it, and which."""
     numbered = list(enumerate(rulings, 1))
     apart = independent(rulings)
@@ -114,10 +98,10 @@ def verdict_table(rulings: Sequence[Ruling]) -> TextTable:
         repeated = "" if kind == NOT_MEASURABLE else str(len(alone))
         rows.append((kind, str(len(which)), repeated, str(second), ", ".join(map(str, which))))
     header = ("verdict", "statements", "without repetitions", "second hypercube", "no.")
-    return TextTable(header, tuple(rows), wide=True)
+    return text_table(header, rows, wide=True)
 
 
-def claim_table(rulings: Sequence[Ruling]) -> TextTable:
+def claim_table(rulings: Sequence[Ruling]) -> Sheet:
     """A row a statement."""
     rows = []
     for n, ruling in enumerate(rulings, 1):
@@ -130,7 +114,7 @@ def claim_table(rulings: Sequence[Ruling]) -> TextTable:
         "no.", "statement (where)", "verdict", "machines", "second hypercube", "reference support (paper)",
         "error", "read as",
     )  # fmt: skip
-    return TextTable(header, tuple(rows), wide=True, width=220)
+    return text_table(header, rows, wide=True)
 
 
 def _error(ruling: Ruling) -> str:
@@ -143,7 +127,7 @@ def _share(ruling: Ruling) -> str:
     return "closed form" if ruling.claim.closed_form else str(ruling.first)
 
 
-def threshold_table(rulings: Sequence[Ruling]) -> TextTable:
+def threshold_table(rulings: Sequence[Ruling]) -> Sheet:
     """A row a statement whose judge has a threshold: its share of machines with others."""
     rows = []
     for n, ruling in enumerate(rulings, 1):
@@ -151,7 +135,7 @@ def threshold_table(rulings: Sequence[Ruling]) -> TextTable:
             cells = (f"{_threshold(at.threshold)}: {at.counted}, {at.counted.kind}" for at in ruling.thresholds)
             rows.append((str(n), ruling.claim.name, *cells, "yes" if ruling.hangs else "no"))
     header = ("no.", "statement", "lower", "middle", "upper", "hangs on it")
-    return TextTable(header, tuple(rows), wide=True, width=160)
+    return text_table(header, rows, wide=True)
 
 
 def _threshold(value: float) -> str:
@@ -159,7 +143,7 @@ def _threshold(value: float) -> str:
     return f"{100.0 * value:g} %" if value < 0.5 else f"{value:g}"
 
 
-def factor_table() -> TextTable:
+def factor_table() -> Sheet:
     """The data that are drawn."""
     rows = []
     for factor in FACTORS:
@@ -170,20 +154,20 @@ def factor_table() -> TextTable:
             (factor.label, factor.meaning, first, "" if first == second else second, shown, factor.reason)
         )
     header = ("datum", "meaning", "first hypercube", "second, if not alike", "reference support", "reason")
-    return TextTable(header, tuple(rows), wide=True, width=160)
+    return text_table(header, rows, wide=True)
 
 
-def failure_table(rows: Sequence[MachineRow]) -> TextTable:
+def failure_table(rows: Sequence[MachineRow]) -> Sheet:
     """Machines that could not be run."""
     failed = tuple(
         (str(n), f"{row.sample['scale']:.3g}", f"{row.sample['start_height']:.3g}", row.failure)
         for n, row in enumerate(rows)
         if row.failure is not None
     )
-    return TextTable(("machine", "scale", "start height", "reason"), failed, wide=True, width=160)
+    return text_table(("machine", "scale", "start height", "reason"), failed, wide=True)
 
 
-def tables(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, TextTable]:
+def tables(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, Sheet]:
     """All tables by name; that of failures only if there are some."""
     found = {
         "verdicts": verdict_table(rulings),
@@ -193,23 +177,6 @@ def tables(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, T
     }
     failures = failure_table(rows)
     return found | {"failures": failures} if failures.rows else found
-
-
-def write_machines(path: Path, rows: Sequence[MachineRow]) -> None:
-    """A row a machine: its data, what went wrong, and how it judges every statement, by the statement's number.
-
-    Machine 0 is the reference support.
-    """
-    judges = [(n, c.judge) for n, c in enumerate(CLAIMS, 1) if c.judge is not None and not c.closed_form]
-    marks = {True: "holds", False: "fails", None: "undecided"}
-    with whole_file(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        names = [*(factor.name for factor in FACTORS), CONTACT]
-        writer.writerow(["machine", *names, "failure", *(f"claim_{n}" for n, _ in judges)])
-        for n, row in enumerate(rows):
-            known_of = None if row.measures is None else evidence(row.measures)
-            verdicts = [marks[judge(known_of)] if known_of else "" for _, judge in judges]
-            writer.writerow([n, *(row.sample[name] for name in names), row.failure or "", *verdicts])
 
 
 # --- numbers and words ---
@@ -313,7 +280,6 @@ def words(rulings: Sequence[Ruling], rows: Sequence[MachineRow]) -> dict[str, ob
 def work(chosen: Options) -> StudyOutcome:
     """The machines of both hypercubes and the reference support, and the verdicts on all statements."""
     rows, rulings = draw(chosen)
-    write_machines(chosen.out / "machines.csv", rows)
     first, second = (known(rows[1:], second=second) for second in (False, True))
     drawings = figures(rulings, evidence(rows[0].measures or {}), first, second)
     sheets = tables(rulings, rows)
@@ -323,4 +289,3 @@ def work(chosen: Options) -> StudyOutcome:
 
 
 study = Study("claims", __doc__, work, seconds=70.0)
-main = study.main

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.common import paper_machine, rise
-from studies.common.panels import WINDOWS, fit_height, legend, letters, time_ticks
+from studies.common.panels import WINDOWS, finish, fit_height, time_ticks
 from studies.common.paper_machine import CLEARANCE_MM, CLEARANCE_PIN, case_name, ideal_name, ideal_of
 from studies.common.study import LivePanels
 from support_exudyn import Result
@@ -60,9 +60,7 @@ def _velocity_figure(results: Mapping[str, Result]) -> Figure:
     for letter, window in zip("bcd", WINDOWS.values(), strict=True):
         panels[0].axvspan(*window, color="#dddddd", zorder=0)
         panels[0].text(sum(window) / 2.0, 0.0, letter, ha="center", va="bottom", fontsize=7)
-    legend(drawing, panels[0], 3)
-    letters(panels)
-    return drawing
+    return finish(drawing, panels, 3)
 
 
 def _split_figure(results: Mapping[str, Result], channel: str, scale: float, label: str) -> Figure:
@@ -83,9 +81,7 @@ def _split_figure(results: Mapping[str, Result], channel: str, scale: float, lab
     fit_height(panels["rise"], (scale * r[channel][rise.between(r, *inside)] for r in results.values()))
     for axes in panels.values():
         time_ticks(axes, rise.PAPER)
-    legend(drawing, panels["rise"], 2)
-    letters(list(panels.values()))
-    return drawing
+    return finish(drawing, list(panels.values()), 2, panels["rise"])
 
 
 def _mark_peak(axes: Axes, run: Result, channel: str, scale: float, label: str) -> None:

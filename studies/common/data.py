@@ -1,6 +1,7 @@
 """Data of studies that lie beside their modules as TOML."""
 
 import sys
+from collections.abc import Callable
 from importlib.resources import files
 from typing import Any
 
@@ -10,8 +11,7 @@ else:
     import tomli as tomllib
 
 
-def rows(package: str, name: str) -> list[dict[str, Any]]:
-    """The entries [[NAME]] of the file NAMEs.toml in a package, as written."""
-    text = files(package).joinpath(f"{name}s.toml").read_text(encoding="utf-8")
-    found: list[dict[str, Any]] = tomllib.loads(text)[name]
-    return found
+def tables(package: str, file: str, parse_float: Callable[[str], Any] = float) -> dict[str, Any]:
+    """The tables of a TOML file in a package, as written; parse_float: the reader of its numbers."""
+    text = files(package).joinpath(file).read_text(encoding="utf-8")
+    return tomllib.loads(text, parse_float=parse_float)

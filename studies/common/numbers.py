@@ -18,6 +18,7 @@ from support_exudyn.simulation.provenance import versions
 
 DIGITS = 5  # of a number in a sentence
 MOST_DIGITS = 6  # of a number in a table: where its error is smaller, all that are shown are right
+NUMBERS, LONGEST = "numbers", 400  # the table of all numbers, and its most rows in a chapter
 Found = Mapping[tuple[str, str], "Number"]  # numbers by name and case
 
 
@@ -86,12 +87,17 @@ def error_of_records(thinned: Callable[[int], float]) -> float:
     return max(weight * abs(thinned(every) - found) for every, weight in ((2, 1.0), (4, 0.5), (5, 0.5)))
 
 
-def measured_all(results: Mapping[str, Result], measures: Mapping[str, tuple[str, Measure]]) -> list[Number]:
-    """Every measure of every run; measures: unit and measure, by name."""
+Measures = Mapping[str, tuple[str, Measure]]  # unit and measure, by name
+
+
+def measured_all(
+    results: Mapping[str, Result], measures: Measures | Callable[[Result], Measures]
+) -> list[Number]:
+    """Every measure of every run; measures: alike for all runs, or by the run."""
     return [
         measured(name, case, unit, result, measure)
         for case, result in results.items()
-        for name, (unit, measure) in measures.items()
+        for name, (unit, measure) in (measures(result) if callable(measures) else measures).items()
     ]
 
 
@@ -138,36 +144,36 @@ def write_summary(
 # --- in tables and sentences ---
 
 
-def rounded(value: float, error: float) -> str:
-    """A number with its error, both to two digits of the error, at most six of the number; counts as such.
+def rounded(value: float, error: float, most: int = MOST_DIGITS) -> str:
+    """A number with its error, both to two digits of the error, at most `most` digits of the number.
 
-    Where the error is below the sixth digit it is not said: all digits are right.
+    An error below the last of these digits is not printed: all printed digits are right.
     """
     if error == 0.0 or not math.isfinite(error):
-        return f"{value:.9g}"
+        return f"{value:.9g}" if most == MOST_DIGITS else f"{value:.{most}g}"
     if value.is_integer() and error.is_integer() and abs(value) + error < 1e6:
-        return f"{value:.0f} ± {error:.0f}"
-    most = MOST_DIGITS - 1 - math.floor(math.log10(max(abs(value), error)))
-    if error < 0.5 * 10.0**-most:
-        return _plain(value, most)
-    digits = min(most, 1 - math.floor(math.log10(error)))
+        return f"{value:.0f} ± {error:.0f}"  # counts
+    last = most - 1 - math.floor(math.log10(max(abs(value), error)))
+    if error < 0.5 * 10.0**-last:
+        return _plain(value, last)
+    digits = min(last, 1 - math.floor(math.log10(error)))
     return f"{_plain(value, digits)} ± {_plain(error, digits)}"
 
 
 def _plain(value: float, digits: int) -> str:
-    """A number with so many decimals; below 0 that many zeros end it. Small ones with a power of ten."""
+    """A number with so many decimals; below 0 that many zeros end it. Small numbers have a power of ten."""
     if digits > 8:
         return f"{value:.{max(0, digits + math.floor(math.log10(abs(value))))}e}" if value else "0"
     return f"{round(value, digits):.{max(0, digits)}f}"
 
 
-def cell(number: Number | None) -> str:
-    """A number in a table with its error, see `rounded`; nothing if there is none."""
-    return "" if number is None else rounded(number.value, number.numerical_error)
+def cell(number: Number | None, scale: float = 1.0) -> str:
+    """A number in a table with its error, see `rounded`; empty without a number. scale: to another unit."""
+    return "" if number is None else rounded(scale * number.value, scale * number.numerical_error)
 
 
 def printed(number: Number | None) -> str:
-    """What the paper prints beside a number, if anything."""
+    """The value that the paper prints for a number, if any."""
     return "" if number is None or number.paper is None else f"{number.paper:.9g}"
 
 
@@ -176,35 +182,44 @@ def by_case(numbers: Iterable[Number]) -> dict[tuple[str, str], Number]:
     return {(number.name, number.case): number for number in numbers}
 
 
-def said(number: Number, scale: float = 1.0, unit: str | None = None) -> str:
-    """Value and unit in five digits, with the error if it shows in them; in another unit if its scale is given.
-
-    Tables have all digits.
-    """
+def said(number: Number, scale: float = 1.0, unit: str | None = None, most: int = DIGITS) -> str:
+    """A number in a sentence: value, error and unit, in at most so many digits; scale: to another unit."""
+    text = rounded(scale * number.value, scale * number.numerical_error, most)
     shown = number.unit if unit is None else unit
-    value, error = scale * number.value, scale * number.numerical_error
-    size = max(abs(value), error)
-    last = 10.0 ** (math.floor(math.log10(size)) - DIGITS + 1) if size > 0.0 else 0.0
-    text = f"{value:.{max(0, -round(math.log10(last)))}f}" if error < last else rounded(value, error)
-    if error == 0.0 and "." in text:
-        text = text.rstrip("0").rstrip(".")  # counts and closed forms
     return text if shown == "1" else f"{text} {shown.replace('^2', '²')}"
 
 
 def short(number: Number, scale: float = 1.0, unit: str | None = None) -> str:
-    """A number in three digits, with its error as a share of it where that is not below 0.001 %."""
-    value = scale * number.value
-    share = number.numerical_error / abs(number.value) if number.value else 0.0
-    digits = max(0, 2 - math.floor(math.log10(abs(value)))) if value else 0
-    shown = number.unit if unit is None else unit
-    text = f"{value:.{digits}f} {shown.replace('^2', '²')}"
-    return f"{text} ± {percent(share)}" if share >= 1e-5 else text
+    """A number in a sentence, in three digits."""
+    return said(number, scale, unit, 3)
 
 
-def in_tile(number: Number, scale: float, unit: str) -> str:
-    """A number in three digits, with its error however small it is: "52.7 kN ± less than 0.001 %"."""
-    text, _, error = short(number, scale, unit).partition(" ± ")
-    return f"{text} ± {error or percent(0.0)}"
+def number_rows(numbers: Sequence[Number]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Header and rows of the table of all numbers; columns that no number fills are left out."""
+    columns: dict[str, Callable[[Number], str]] = {
+        "quantity": lambda one: one.name.replace("_", " "),
+        "case": lambda one: one.case,
+        "unit": lambda one: one.unit,
+        "value": cell,
+        "printed": printed,
+        "witness": witnessed,
+        "difference": difference,
+    }
+    filled = {name: [get(one) for one in numbers] for name, get in columns.items()}
+    shown = {name: cells for name, cells in filled.items() if any(cells)}
+    return tuple(shown), list(zip(*shown.values(), strict=True))
+
+
+def witnessed(number: Number) -> str:
+    """The value by the witness, with the digits that the error of the number leaves; empty if there is none."""
+    if number.witness is None:
+        return ""
+    return rounded(number.witness, number.numerical_error).partition(" ± ")[0]
+
+
+def difference(number: Number) -> str:
+    """By how much the number is above the witness, to two digits; empty if there is no witness."""
+    return "" if number.witness is None else f"{number.value - number.witness:+.2g}"
 
 
 def against(number: Number, other: Number) -> str:

@@ -63,7 +63,6 @@ def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
     add("--machine", type=folder, metavar="FILE", help=own)
     add_imports(parser)
     add("--pin", metavar="PIN", help="the pin of your machine that gets clearance (rear_base)")
-    add("--quick", action="store_true", help="has no effect: there is one form, as fast as the quick one was")
 
 
 def read_options(given: argparse.Namespace) -> Options:
@@ -71,8 +70,6 @@ def read_options(given: argparse.Namespace) -> Options:
 
     Raises InputError or OSError if the machine cannot be read.
     """
-    if given.quick:
-        warn("--quick has no effect: there is one form of every study, as fast as the quick one was")
     if given.machine is None and given.pin is not None:
         raise InputError(f"--pin {given.pin}: allowed: together with --machine FILE")
     import_modules(given.imports)

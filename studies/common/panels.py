@@ -2,12 +2,15 @@
 
 from collections.abc import Iterable, Sequence
 from string import ascii_lowercase
+from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from studies.common import rise
+from support_exudyn.postprocessing.figures import style
 
 WINDOWS = {"early": (3.0, 3.12), "middle": (4.0, 4.12), "late": (4.6, 4.72)}  # enlarged in Fig. 3 and 6 [s]
 
@@ -39,9 +42,20 @@ def time_ticks(axes: Axes, watched: rise.Watched) -> None:
     axes.set_xlim(low, high)
 
 
-def legend(drawing: Figure, axes: Axes, columns: int) -> None:
-    """One legend for all panels, below them."""
-    drawing.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=columns)
+def grid(height_mm: float, rows: int, columns: int, width_mm: float = 170, **given: Any) -> tuple[Figure, Any]:
+    """A figure and its panels, shape (rows, columns); given: other arguments of `Figure.subplots`."""
+    drawing = Figure(figsize=style.size(width_mm, height_mm))
+    return drawing, drawing.subplots(rows, columns, squeeze=False, **given)
+
+
+def finish(drawing: Figure, panels: Iterable[Axes], columns: int = 0, key: Axes | None = None) -> Figure:
+    """Letter the panels, and put one legend below them: of the first panel, or of `key`; columns = 0: none."""
+    shown = list(panels.flat if isinstance(panels, np.ndarray) else panels)
+    letters(shown)
+    if columns:
+        handles = (key or shown[0]).get_legend_handles_labels()
+        drawing.legend(*handles, loc="outside lower center", ncols=columns)
+    return drawing
 
 
 def fit_height(axes: Axes, curves: Iterable[rise.Series]) -> None:

@@ -19,7 +19,6 @@ from support_exudyn.sweeps.parallel_runs import run_all
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
-MOST_BARS = 12  # more runs than that share one progress bar
 SHORT = {  # what of a case's name stands otherwise in the name of its file
     " mm, mu_d = ": "mm_mu", ", mu_d = ": "_mu", " + ": "+", "m/s": "mps", ",": "", " ": "_", ".": "p",
     "/": "_",
@@ -106,18 +105,8 @@ def _read(path: Path) -> Result | None:
 
 
 def _made(runs: Mapping[str, Scenario], workers: int | Workers, files: Mapping[str, Path]) -> dict[str, Result]:
-    together = len(runs) > MOST_BARS
-    with _bars() as bars:
-        total = [bars.add_task(f"{len(runs)} runs", total=float(len(runs)))] if together else []
-        tasks = {} if together else {name: bars.add_task(name, total=1.0) for name in runs}
-
-        def show(shares: Mapping[str, float]) -> None:
-            for task in total:
-                bars.update(task, completed=sum(shares.values()))
-            for name, task in tasks.items():
-                bars.update(task, completed=shares[name])
-
-        results = run_all(runs, workers=workers, progress=show, files=files)
+    with bar(f"{len(runs)} runs") as show:
+        results = run_all(runs, workers=workers, progress=lambda shares: show([*shares.values()]), files=files)
     good: dict[str, Result] = {}
     for name, result in results.items():
         if isinstance(result, Failure):
@@ -128,12 +117,8 @@ def _made(runs: Mapping[str, Scenario], workers: int | Workers, files: Mapping[s
 
 @contextmanager
 def bar(name: str) -> Iterator[Callable[[Sequence[float]], None]]:
-    """One progress bar for many jobs: gives what is told the share done of each."""
-    with _bars() as bars:
+    """One progress bar for many jobs: yields the function that takes the completed share of each job."""
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
+    with Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True)) as bars:
         task = bars.add_task(name, total=1.0)
         yield lambda shares: bars.update(task, completed=sum(shares) / max(1, len(shares)))
-
-
-def _bars() -> Progress:
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"))
-    return Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True))

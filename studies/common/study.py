@@ -7,21 +7,20 @@ import textwrap
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from matplotlib.figure import Figure
 from rich.console import Console
 
 from studies.common import witness
-from studies.common.chapter import Chapter, JudgedClaim, Tile, without_references
-from studies.common.numbers import Number, write_summary
-from studies.common.options import Options, add_options, read_options
+from studies.common.numbers import NUMBERS, Number, number_rows, write_summary
+from studies.common.options import Options
 from studies.common.runs import file_name, save_run
 from studies.common.witness import Witness
-from studies.common.words import TextTable, Words
+from studies.common.words import Chapter, JudgedClaim, Tile, Words, text_table, without_references
 from support_exudyn import Result
-from support_exudyn.commands.command_line import Parser, answered, say
+from support_exudyn.commands.command_line import answered, say
 from support_exudyn.files.whole_file import remove_leftovers, whole_file, writing_alone
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.drawing_data import save_drawing_data
@@ -41,20 +40,19 @@ class StudyOutcome:
     numbers: of summary.json. words: what the sentences of words.md.j2 are filled with, by name. figures,
     tables: by the name of their files. runs: by that of their case. counts: of its own, for the summary. live:
     which panels of a figure are time series that the report lets readers look into, by the figure's name.
-    tiles, claims: see `studies.common.chapter`. witness: of a study whose runs are those of Exudyn.
+    tiles, claims: see `studies.common.words`. witness: of a study whose runs are those of Exudyn.
     """
 
     numbers: Sequence[Number]
     words: Mapping[str, object]
     figures: Mapping[str, Figure]
-    tables: Mapping[str, TextTable]
+    tables: Mapping[str, Sheet]
     runs: Mapping[str, Result] = field(default_factory=dict)
     counts: Mapping[str, int] = field(default_factory=dict)
     live: Mapping[str, LivePanels] = field(default_factory=dict)
     tiles: Sequence[Tile] = ()
     claims: Sequence[JudgedClaim] = ()
     witness: Witness | None = None
-    wall_s: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -78,56 +76,29 @@ class Study:
         return (self.asks or "").splitlines()[0]
 
     def __call__(self, chosen: Options) -> Chapter:
-        """Compute, draw and write everything into the output folder. Returns what it says."""
-        chapter, found = self.begin(chosen)
-        return self.with_witness(chosen, found) or chapter
-
-    def begin(self, chosen: Options) -> tuple[Chapter, StudyOutcome]:
-        """Compute, draw and write everything but what the witness tells. Returns what it says and finds."""
+        """Compute, draw and write everything into the output folder. Returns the chapter."""
         if not (self.own_machine or chosen.subject.is_paper):
             raise InputError(f"--machine: {self.name} is about the paper's machine alone; allowed: without it")
         started = time.perf_counter()
         with style.look():
             found = self.work(chosen)
+        numbers, tables = found.numbers, dict(found.tables)
+        if found.witness is not None:
+            numbers = found.witness.compared(numbers, chosen)
+            tables = dict(found.witness.tables(numbers))
         for case, run in found.runs.items():
             save_run(run, chosen.out, file_name(case))
         save_figures(chosen, found.figures, found.live)
-        found = replace(found, wall_s=time.perf_counter() - started)
-        return self._write(chosen, found), found
-
-    def with_witness(self, chosen: Options, found: StudyOutcome) -> Chapter | None:
-        """Compute the witness, and write words, tables and numbers again; None if there is no witness."""
-        if found.witness is None:
-            return None
-        started = time.perf_counter()
-        numbers = found.witness.compared(found.numbers, chosen)
-        wall_s = found.wall_s + time.perf_counter() - started
-        tables = found.witness.tables(numbers)
-        return self._write(chosen, replace(found, numbers=numbers, tables=tables, wall_s=wall_s))
-
-    def _write(self, chosen: Options, found: StudyOutcome) -> Chapter:
-        """Write chapter, tables and numbers."""
-        words, tables = {"subject": chosen.subject, **found.words}, dict(found.tables)
-        if found.witness is not None:
-            words |= {"setting": next(iter(found.runs.values())).scenario}
-            tables |= {witness.TABLE: witness.witness_table(found.numbers)}
+        words = {"subject": chosen.subject, "runs": found.runs, **found.words}
+        tables[NUMBERS] = text_table(*number_rows(numbers), left=3)
         chapter, sheets = Words(self.name).chapter(words, tables, found.figures, found.tiles, found.claims)
         if found.witness is not None:
-            chapter, sheets = witness.told(chapter, sheets, found.numbers)
-        for name, table in tables.items():
-            if table.in_file:
-                save_table(chosen.out / name, sheets[name], table.width)
+            chapter, sheets = witness.told(chapter, sheets, numbers)
+        for name, sheet in sheets.items():
+            save_table(chosen.out / f"{name}.csv", sheet)
         chapter.save(chosen.out)
-        write_summary(chosen.out, self.name, found.numbers, found.wall_s, found.counts)
+        write_summary(chosen.out, self.name, numbers, time.perf_counter() - started, found.counts)
         return chapter
-
-    def main(self, argv: Sequence[str] | None = None) -> int:
-        """Entry of `python -m studies.NAME`; returns the exit code."""
-        parser = Parser(prog=f"python -m studies.{self.name}", description=self.question)
-        add_options(parser, Path("results") / self.name)
-        given = parser.parse_args(argv)
-
-        return work_in_folder(lambda out: say_short(self(read_options(given)), out), given.out)
 
 
 def work_in_folder(work: Callable[[Path], None], out: Path) -> int:
@@ -177,34 +148,17 @@ def _save_figure(place: int, drawing: Figure, out: Path, name: str, live: LivePa
         of_drawing(drawing, live).save(out / f"{name}.live.json")
 
 
-def show_table(stem: Path, table: Sheet, width: int = 150) -> None:
-    """Print a table, and write it as text and as CSV."""
-    print_table(table, width)
-    save_table(stem, table, width)
-
-
-def print_table(table: Sheet, width: int = 150) -> None:
+def print_table(table: Sheet, width: int) -> None:
     """Print a table, so many characters wide unless a terminal has a width of its own."""
     Console(width=None if sys.stdout.isatty() else width).print(table.rich())
 
 
-def save_table(stem: Path, table: Sheet, width: int) -> None:
-    """Write a table as text, so many characters wide, and as CSV; names of files stand in place of links."""
-    table = replace(
-        table,
-        title=without_references(table.title),
-        rows=tuple(tuple(map(without_references, row)) for row in table.rows),
-        caption=without_references(table.caption),
-    )
-    with whole_file(stem.with_suffix(".txt")) as temporary, temporary.open("w", encoding="utf-8") as file:
-        Console(file=file, width=width).print(table.rich())
-    with (
-        whole_file(stem.with_suffix(".csv")) as temporary,
-        temporary.open("w", encoding="utf-8", newline="") as file,
-    ):
+def save_table(path: Path, table: Sheet) -> None:
+    """Write a table as CSV; names of files stand in place of links."""
+    with whole_file(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(table.header)
-        writer.writerows(table.rows)
+        writer.writerows(map(without_references, row) for row in table.rows)
 
 
 @contextmanager

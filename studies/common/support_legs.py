@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib import resources
@@ -10,9 +10,14 @@ from typing import Annotated
 
 from pydantic import Field
 
-from support_exudyn import HydraulicCylinder, Scenario
+from studies.common.subject import without_clearance
+from support_exudyn import ClearancePin, HydraulicCylinder, IdealPin, Scenario
+from support_exudyn.files.machines.read import read_machine
+from support_exudyn.files.scenarios.short_joints import ShortPin, pin_in_machine
 from support_exudyn.files.toml.reading import read_value
 from support_exudyn.files.toml.text import parsed
+from support_exudyn.machines.four_column_support import HydraulicSupport
+from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.model.actuators import bore_area
 from support_exudyn.model.hydraulics.elements import PumpStation
 from user_forces.values.sourced import SourcedNumber
@@ -120,3 +125,30 @@ def support_legs(machine: str, *, valve: bool = True) -> dict[str, HydraulicCyli
 def on_legs(scenario: Scenario, machine: str, *, valve: bool = True) -> Scenario:
     """The scenario on the legs of a machine, which follow no drive."""
     return replace(scenario, actuators=support_legs(machine, valve=valve))
+
+
+@cache
+def machine_data(name: str) -> MachineData:
+    """A machine that comes with the package, and the bores of its pins."""
+    return read_machine(name)
+
+
+def support(name: str) -> HydraulicSupport:
+    """A four-column support that comes with the package."""
+    machine = machine_data(name).machine
+    assert isinstance(machine, HydraulicSupport)
+    return machine
+
+
+def loose_pins(
+    machine: str, clearance_mm: float, friction: float, pins: Iterable[str]
+) -> dict[str, ClearancePin]:
+    """These pins with this radial clearance, > 0, along their length in bores of the machine."""
+    data = machine_data(machine)
+    short = ShortPin(clearance=clearance_mm / 1e3, friction=friction)
+    return {name: pin_in_machine(short, data.machine, name, data.bore_radii[name]) for name in pins}
+
+
+def tight_pins(machine: str, friction: float, pins: Iterable[str]) -> dict[str, IdealPin]:
+    """These pins ideal, with the friction that they have with clearance."""
+    return {name: without_clearance(pin) for name, pin in loose_pins(machine, 1.0, friction, pins).items()}

@@ -21,11 +21,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from statistics import median
 
-from studies.common.chapter import Chapter
-from studies.common.numbers import Number, cell, rounded
+from studies.common.numbers import NUMBERS, Number
 from studies.common.options import Options
 from studies.common.runs import run_with_errors
-from studies.common.words import TextTable
+from studies.common.words import Chapter
 from support_exudyn import Result, Scenario, SolverSettings
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.postprocessing.page.pieces import Sheet
@@ -39,9 +38,6 @@ LOOSE = 256  # longer steps an impact without friction, where each of many impac
 SAFETY, ALIKE, LEAST = 3.0, 0.1, 1e-5
 EXTREMES = ("largest", "least", "max", "min", "peak")  # how names of extremes begin
 TOLERANCE = 1e-9  # of the witness; one more run has 8e-9, from which its own errors follow
-TABLE = "witness"  # its name
-HEADER = ("case", "quantity", "unit", "Exudyn", "witness", "difference", "within the error")
-WAITING = "The witness is still being computed; this page is written again when it is there."
 
 
 @dataclass(frozen=True)
@@ -54,7 +50,7 @@ class Witness:
 
     cases: Mapping[str, Scenario]
     measure: Callable[[Mapping[str, Result]], Sequence[Number]]
-    tables: Callable[[Sequence[Number]], Mapping[str, TextTable]]
+    tables: Callable[[Sequence[Number]], Mapping[str, Sheet]]
 
     def compared(self, numbers: Sequence[Number], chosen: Options) -> list[Number]:
         """The numbers with those of the witness; as they are where it does not cover their cases."""
@@ -139,12 +135,10 @@ def is_within(number: Number) -> bool:
 def verdict(numbers: Sequence[Number]) -> str:
     """How many numbers the witness confirms, and which it does not, in a sentence or two."""
     judged = [one for one in numbers if one.witness is not None]
-    if not judged:
-        return WAITING
     beyond = [f"{one.name.replace('_', ' ')} ({one.case})" for one in judged if not is_within(one)]
     said = (
         f"The witness has {len(judged)} of the {len(numbers)} numbers, and differs from Exudyn by no more than "
-        f"the printed error in {len(judged) - len(beyond)} of them ([@{TABLE}])."
+        f"the printed error in {len(judged) - len(beyond)} of them ([@{NUMBERS}])."
     )
     return f"{said} Beyond it: {'; '.join(beyond)}." if beyond else said
 
@@ -154,38 +148,15 @@ def told(
 ) -> tuple[Chapter, dict[str, Sheet]]:
     """A chapter and its tables with engine and method in every caption, and with what the witness says."""
     by = computed_by()
-    there = f" Witness of every number, and the difference: [@{TABLE}]."
+    there = f" Witness of every number, and the difference: [@{NUMBERS}]."
     signed = {
-        name: replace(one, caption=f"{one.caption} {by}{'' if name == TABLE else there}".strip())
+        name: replace(one, caption=f"{one.caption} {by}{'' if name == NUMBERS else there}".strip())
         for name, one in sheets.items()
     }
-    shown = tuple(signed[one.name] for one in chapter.sheets)
-    findings = (*chapter.findings, verdict(numbers))
-    return replace(
-        chapter, sheets=shown, computed_by=by, method=(*chapter.method, by), findings=findings
-    ), signed
-
-
-def witness_table(numbers: Sequence[Number]) -> TextTable:
-    """A row a number: by Exudyn with its error, by the witness, and the difference."""
-    rows = []
-    for one in numbers:
-        name = one.name.replace("_", " ")
-        rows.append((one.case, name, one.unit, cell(one), witnessed(one), difference(one), _judged(one)))
-    return TextTable(HEADER, tuple(rows), left=3, width=170)
-
-
-def witnessed(number: Number) -> str:
-    """The value by the witness, with the digits that the error of the number leaves; empty if there is none."""
-    if number.witness is None:
-        return ""
-    return rounded(number.witness, number.numerical_error).partition(" ± ")[0]
-
-
-def difference(number: Number) -> str:
-    """By how much the number is above the witness, to two digits; empty if there is no witness."""
-    return "" if number.witness is None else f"{number.value - number.witness:+.2g}"
-
-
-def _judged(number: Number) -> str:
-    return "" if number.witness is None else "yes" if is_within(number) else "no"
+    changes = {
+        "sheets": tuple(signed[one.name] for one in chapter.sheets),
+        "computed_by": by,
+        "method": (*chapter.method, by),
+        "findings": (*chapter.findings, verdict(numbers)),
+    }
+    return chapter.model_copy(update=changes), signed

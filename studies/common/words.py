@@ -7,41 +7,36 @@ someone who has never heard of the paper understands; "## Numbers", a list of th
 and, if there is one, its caption, the key table first. The rows of the tables come from the study.
 
 A sentence refers to a figure or a table by `[@stem]` or `[@name]`, to that of another study by
-`[@study/stem]`; the report makes a link of it, see `studies.common.chapter`.
+`[@study/stem]`; the report makes a link of it, see `studies.common.words`.
 """
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
+from typing import TypeVar
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from studies.common import numbers
-from studies.common.chapter import Chapter, JudgedClaim, Picture, Tile
 from studies.common.subject import Subject
+from support_exudyn.files.whole_file import contents, whole_file
 from support_exudyn.postprocessing.page.pieces import Sheet
+from user_forces.values.value import InputError
 
 TEMPLATE = "words.md.j2"
+ALL_NUMBERS = "All numbers of the study; the number behind ± is the numerical error"
 
 
-@dataclass(frozen=True)
-class TextTable:
-    """The cells of a table; title and caption stand in the template.
-
-    left, wide: see `Sheet`. width: of the file, in characters. in_file, in_chapter: where it is shown.
-    """
-
-    header: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-    left: int = 1
-    wide: bool = False
-    width: int = 150
-    in_file: bool = True
-    in_chapter: bool = True
-
-    def sheet(self, name: str, title: str, caption: str = "") -> Sheet:
-        """The table with its name and its words."""
-        return Sheet(title, self.header, self.rows, caption, left=self.left, wide=self.wide, name=name)
+def text_table(
+    header: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1, wide: bool = False
+) -> Sheet:
+    """The cells of a table, see `Sheet` for left and wide; name, title and caption come with the template."""
+    return Sheet("", tuple(header), tuple(map(tuple, rows)), left=left, wide=wide)
 
 
 @dataclass(frozen=True)
@@ -62,14 +57,8 @@ class Words:
             lstrip_blocks=True,
         )
         surroundings.filters["fmt"] = format
-        for tool in (
-            numbers.said,
-            numbers.against,
-            numbers.percent,
-            numbers.rounded,
-            numbers.short,
-            numbers.off,
-        ):
+        tools = (numbers.said, numbers.against, numbers.percent, numbers.rounded, numbers.short, numbers.off)
+        for tool in tools:
             surroundings.globals[tool.__name__] = surroundings.filters[tool.__name__] = tool
         return surroundings
 
@@ -92,7 +81,7 @@ class Words:
     def chapter(
         self,
         told: Mapping[str, object],
-        tables: Mapping[str, TextTable],
+        tables: Mapping[str, Sheet],
         figures: Collection[str],
         tiles: Sequence[Tile] = (),
         claims: Sequence[JudgedClaim] = (),
@@ -105,7 +94,9 @@ class Words:
         """
         blocks = self.blocks(told)
         title = next(iter(blocks))
-        sheets = {name: table.sheet(name, *blocks[name]) for name, table in tables.items()}
+        blocks.setdefault(numbers.NUMBERS, [ALL_NUMBERS])
+        sheets = {name: titled(table, name, blocks) for name, table in tables.items()}
+        short = [one for one in sheets.values() if len(one.rows) <= numbers.LONGEST]
         pictures = (_item(block).partition(": ") for block in blocks["Figures"])
         subject = told.get("subject")
         own = subject if isinstance(subject, Subject) and not subject.is_paper else None
@@ -120,7 +111,7 @@ class Words:
             method=tuple(blocks["Method"]),
             findings=tuple(_item(block) for block in blocks["Findings"]),
             pictures=tuple(Picture(stem, caption) for stem, _, caption in pictures if stem in figures),
-            sheets=tuple(sheets[name] for name, table in tables.items() if table.in_chapter),
+            sheets=tuple(short),
             tiles=tuple(tiles),
             claims=tuple(claims),
         )
@@ -129,3 +120,122 @@ class Words:
 
 def _item(block: str) -> str:
     return block.removeprefix("- ")
+
+
+def titled(table: Sheet, name: str, blocks: Mapping[str, Sequence[str]]) -> Sheet:
+    """A table with its name, and with title and caption from the blocks of a template.
+
+    Raises KeyError if the template has no title for the table.
+    """
+    title, *caption = blocks[name]
+    return replace(table, name=name, title=title, caption=" ".join(caption))
+
+
+# --- the chapter of a study ---
+
+FILE = "chapter.json"
+REFERENCE = re.compile(r"\[@([\w.-]+(?:/[\w.-]+)?)\]")
+LARGEST_FILE = 200_000_000  # bytes, of files that are read for a report
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure: stem.png, stem.pdf and stem.csv in the study's folder, and its caption.
+
+    A time series has stem.live.json, too, from which the report makes a figure that readers can zoom.
+    """
+
+    stem: str
+    caption: str
+
+    def __post_init__(self) -> None:
+        if not self.stem or Path(self.stem).name != self.stem or "\\" in self.stem:
+            raise ValueError(f"stem = {self.stem!r}: allowed: a file name without folder and ending")
+
+
+@dataclass(frozen=True)
+class Tile:
+    """A number on the first screen: its name, the values with the ideal pin and with clearance, the change."""
+
+    name: str
+    ideal: str
+    with_clearance: str
+    change: str
+
+
+@dataclass(frozen=True)
+class JudgedClaim:
+    """A statement of the paper and the verdict on it.
+
+    number: such as "12". where: section or figure of the paper. verdict: "holds", "in part", "fails", "needs
+    more machines" or "not measurable". why: the reason, with numbers. figure, table: "study/stem" and
+    "study/name" of the evidence; empty without.
+    """
+
+    number: str
+    where: str
+    text: str
+    verdict: str
+    why: str
+    figure: str = ""
+    table: str = ""
+
+
+class Chapter(BaseModel):
+    """A study in words, pictures and tables; all texts are plain sentences.
+
+    answer: one to three sentences. numbers: the three that matter, each "what: value". method: paragraphs.
+    findings: bullet points, with the numbers of this very run. pictures, sheets: the key ones first. tiles: for
+    the first screen of the report. claims: of the study that judges them. machine: the name of the
+    user's machine that it is about; empty: the paper's. contact: of the user's pin, in a sentence. computed_by:
+    engine and method in a sentence, where the report's first screen is to name them.
+    """
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+    study: str
+    title: str
+    question: str
+    method: tuple[str, ...]
+    findings: tuple[str, ...]
+    pictures: tuple[Picture, ...]
+    sheets: tuple[Sheet, ...]
+    answer: str = ""
+    numbers: tuple[str, ...] = ()
+    tiles: tuple[Tile, ...] = ()
+    claims: tuple[JudgedClaim, ...] = ()
+    machine: str = ""
+    contact: str = ""
+    computed_by: str = ""
+
+    def save(self, out: Path) -> Path:
+        """Write DIR/chapter.json, whole or not at all."""
+        path = out / FILE
+        with whole_file(path) as temporary:
+            temporary.write_text(self.model_dump_json(indent=1) + "\n", encoding="utf-8")
+        return path
+
+    @staticmethod
+    def load(folder: Path) -> Chapter:
+        """Read a chapter. Raises InputError with the file and the reason."""
+        return read_stored(Chapter, folder / FILE)
+
+
+Read = TypeVar("Read", bound=BaseModel)
+
+
+def read_stored(model: type[Read], path: Path) -> Read:
+    """Read data that a study has left as JSON. Raises InputError with the file, the place and the reason."""
+    try:
+        return model.model_validate_json(contents(path, LARGEST_FILE))
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file; the study that writes it has not run here") from None
+    except ValidationError as error:
+        first = error.errors()[0]
+        place = ".".join(map(str, first["loc"]))
+        raise InputError(f"{path}: {place}: {first['msg']}") from None
+
+
+def without_references(text: str) -> str:
+    """A sentence for a terminal: names of files stand in place of links."""
+    return REFERENCE.sub(r"\1", text)

@@ -10,11 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from studies.common.numbers import Found, Number, by_case
-from studies.common.panels import fit_height, legend, letters
+from studies.common.panels import finish, fit_height
 from studies.common.rise import Watched, between
-from studies.contact_laws.cases import ASKED, KEY, REST
+from studies.contact_laws.cases import ASKED, KEY, PIN, REST
 from studies.contact_laws.catalogue import POWER_LAWS, title
-from studies.contact_laws.free_impact import PIN
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 
@@ -68,8 +67,7 @@ def answer_figure(found: Found) -> Figure:
     force.grid(axis="y", lw=0.3)
     _plain_log(force)
     drawing.legend(*force.get_legend_handles_labels(), loc="outside lower right", ncols=3, fontsize=7)
-    letters([delivered, force])
-    return drawing
+    return finish(drawing, [delivered, force])
 
 
 def _plain_log(axes: Axes) -> None:
@@ -77,29 +75,6 @@ def _plain_log(axes: Axes) -> None:
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
-
-
-def restitution_figure(numbers: Sequence[Number]) -> Figure:
-    """A panel for each power law: closed form as a line, the engine as points, what was asked dashed."""
-    drawing = Figure(figsize=style.size(170, 150))
-    panels = drawing.subplots(3, 4, sharex=True, sharey=True)
-    values = {(n.name, n.case): n.value for n in numbers}
-    fine = np.linspace(0.01, 1.0, 200)
-    for axes, (name, law) in zip(panels.flat, POWER_LAWS.items(), strict=True):
-        curve = [law(stiffness=1.0, restitution=float(e)).delivered_restitution for e in fine]
-        measured = {e: values.get(("delivered_restitution", f"{name} e={e:g}")) for e in ASKED}
-        shown = [(e, value) for e, value in measured.items() if value is not None]
-        axes.plot([0, 1], [0, 1], color="#999999", lw=0.8, ls=(0, (4, 2)), label="as asked")
-        axes.plot(fine, curve, color=style.WITH_CLEARANCE, label="closed form")
-        axes.plot(
-            *zip(*shown, strict=True), "o", ms=2.6, color=style.SMOOTH, mec="black", mew=0.3, label="engine"
-        )
-        axes.set(xlim=(0, 1), ylim=(0, 1), xticks=(0, 0.5, 1), yticks=(0, 0.5, 1))
-    _label(panels.flat, POWER_LAWS)
-    drawing.supxlabel("restitution asked for [1]", fontsize=9)
-    drawing.supylabel("restitution delivered [1]", fontsize=9)
-    panels[0, 0].legend(loc="lower right", fontsize=7, handlelength=1.5, borderaxespad=0.2)
-    return drawing
 
 
 def loop_figure(results: Mapping[str, Result]) -> Figure:
@@ -153,8 +128,7 @@ def rise_figure(watched: Watched, numbers: Sequence[Number]) -> Figure:
             _plain_log(axes)
     panels[0].set_yticks(rows, [row_title(case) for case in cases], fontsize=7)
     panels[0].invert_yaxis()
-    letters(list(panels))
-    return drawing
+    return finish(drawing, panels)
 
 
 def permanent_figure(watched: Watched, results: Mapping[str, Result]) -> Figure:
@@ -174,9 +148,7 @@ def permanent_figure(watched: Watched, results: Mapping[str, Result]) -> Figure:
         axes.set(xlim=span, xlabel="time [s]", ylabel="pin force [kN]")
         inside = [results[c][watched.force][between(results[c], *span)] for c, *_ in curves]
         fit_height(axes, (1e-3 * force for force in inside))
-    letters([whole, rest])
-    legend(drawing, whole, 1)
-    return drawing
+    return finish(drawing, [whole, rest], 1)
 
 
 def row_title(case: str) -> str:

@@ -14,8 +14,8 @@ from studies.common.options import Options
 from studies.common.rise import Watched
 from studies.common.runs import run_cases, run_with_errors
 from studies.common.study import Study, StudyOutcome
-from studies.common.words import TextTable
-from studies.contact_laws import cases, catalogue, free_impact
+from studies.common.words import text_table
+from studies.contact_laws import cases, catalogue
 from studies.contact_laws.cases import (
     FEW,
     IMPACT_STEPS,
@@ -32,14 +32,14 @@ from studies.contact_laws.figures import (
     answer_figure,
     loop_figure,
     permanent_figure,
-    restitution_figure,
     rise_figure,
     row_title,
 )
 from support_exudyn import Result
+from support_exudyn.postprocessing.page.pieces import Sheet
 
 RUBBING = ", with friction"  # what cases of laws with hysteresis damping are called
-DELIVERED, LOST = "delivered_restitution", "energy_error"
+DELIVERED = "delivered_restitution"
 
 
 # --- measures ---
@@ -49,7 +49,7 @@ def restitution_numbers(results: Mapping[str, Result], expected: Mapping[str, fl
     """Delivered restitution and its closed form, by case."""
     numbers = []
     for case, closed_form in expected.items():
-        numbers.append(measured(DELIVERED, case, "1", results[case], free_impact.delivered_restitution))
+        numbers.append(measured(DELIVERED, case, "1", results[case], cases.delivered_restitution))
         numbers.append(Number("closed_form_restitution", case, closed_form, "1", 0.0))
     return numbers
 
@@ -84,7 +84,7 @@ def rise_numbers(watched: Watched, results: Mapping[str, Result]) -> list[Number
 # --- tables ---
 
 
-def key_table(found: Found) -> TextTable:
+def key_table(found: Found) -> Sheet:
     """What an engineer asks for first, a row a law: what it delivers, and the motion under it."""
     rows = []
     for case in KEY:
@@ -96,20 +96,7 @@ def key_table(found: Found) -> TextTable:
         rows.append((row_title(case), *delivered, *kilonewtons))
     asked = tuple(f"delivers for e = {e:g}" for e in (min(FEW), max(FEW)))
     header = ("law", *asked, "mean force [kN]", "its std [kN]", "largest force [kN]")
-    return TextTable(header, tuple(rows))
-
-
-def restitution_table(numbers: Sequence[Number]) -> TextTable:
-    """Delivered restitution, a row a law; and the largest distance from the closed form."""
-    found = by_case(numbers)
-    asked = [e for e in FEW if (DELIVERED, f"exact e={e:g}") in found]
-    rows = []
-    for name, own in _impacts(numbers).items():
-        cells = [found.get((DELIVERED, f"{name} e={e:g}")) for e in asked]
-        off = max(_off(found, case) for case in own)
-        rows.append((title(name), *("" if n is None else f"{n.value:.4f}" for n in cells), f"{off:.0e}"))
-    header = ("law", *(f"e = {e:g}" for e in asked), "off the closed form, at most")
-    return TextTable(header, tuple(rows), width=200)
+    return text_table(header, rows)
 
 
 def _impacts(numbers: Sequence[Number]) -> dict[str, list[str]]:
@@ -126,19 +113,7 @@ def _off(found: Found, case: str) -> float:
     return abs(found[DELIVERED, case].value - found["closed_form_restitution", case].value)
 
 
-def rise_table(numbers: Sequence[Number]) -> TextTable:
-    """The rise under each law, a row a law."""
-    found = by_case(numbers)
-    rows = []
-    for case in dict.fromkeys(n.case for n in numbers):
-        cells = [cell(found[name, case]) for name in RISE_UNITS if name != LOST]
-        rows.append((row_title(case), *cells, f"{found[LOST, case].value:.0e}"))
-    measured_of = (f"{name.replace('_', ' ')} [{unit}]" for name, unit in RISE_UNITS.items() if name != LOST)
-    header = ("law", *measured_of, "energy not accounted for [J]")
-    return TextTable(header, tuple(rows), width=200)
-
-
-def rest_table(watched: Watched, results: Mapping[str, Result], numbers: Sequence[Number]) -> TextTable:
+def rest_table(watched: Watched, results: Mapping[str, Result], numbers: Sequence[Number]) -> Sheet:
     """What the rest velocity changes, a row a velocity: damping, soft impacts, the motion, its cost."""
     found, rows = by_case(numbers), []
     for case, velocity in REST.items():
@@ -149,7 +124,7 @@ def rest_table(watched: Watched, results: Mapping[str, Result], numbers: Sequenc
         rows.append((f"{1e3 * velocity:g}", f"{ratio:.2g}", *soft, force, f"{result.counts.steps}"))
     impacts = (f"delivered at {1e3 * speed:g} mm/s" for speed in SOFT)
     header = ("rest velocity [mm/s]", "damping ratio at rest", *impacts, "std pin force [N]", "steps")
-    return TextTable(header, tuple(rows))
+    return text_table(header, rows)
 
 
 # --- the study ---
@@ -161,9 +136,9 @@ def work(chosen: Options) -> StudyOutcome:
     ideal = run_cases({"ideal": subject.ideal()}, chosen)["ideal"]
     joint = Joint(subject, subject.watched.mean(ideal, ideal[subject.watched.force]))
     laws = cases.impact_laws()
-    impacts = {case: free_impact.free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
+    impacts = {case: cases.free_impact(law, SPEED, IMPACT_STEPS) for case, (law, _) in laws.items()}
     loops = {
-        f"loop {name}": free_impact.free_impact(law, SPEED, 128, records=800)
+        f"loop {name}": cases.free_impact(law, SPEED, 128, records=800)
         for name, law in cases.loop_laws().items()
     }
     at_steps = {name: case for name, case in joint.runs.items() if case.accuracy is None}
@@ -180,15 +155,12 @@ def work(chosen: Options) -> StudyOutcome:
     found = by_case([*restitutions, *numbers])
     drawings = {
         "laws_at_a_glance": answer_figure(found),
-        "delivered_restitution": restitution_figure(restitutions),
         "force_depth_loops": loop_figure({name.removeprefix("loop "): done[name] for name in loops}),
         "rise_under_each_law": rise_figure(subject.watched, numbers),
         "permanent_contact": permanent_figure(subject.watched, resting),
     }
     tables = {
         "laws": key_table(found),
-        "restitution_table": restitution_table(restitutions),
-        "rise_table": rise_table(numbers),
         "rest_table": rest_table(subject.watched, resting, rested),
     }
     words = (
@@ -215,7 +187,7 @@ def _of_impacts(joint: Joint, numbers: Sequence[Number]) -> dict[str, object]:
     power = {name: found[DELIVERED, f"{name} e={low:g}"].value for name in POWER_LAWS}
     return {
         "cases": cases,
-        "impact": free_impact,
+        "impact": cases,
         "title": title,
         "row_title": row_title,
         "pin_length": joint.length or catalogue.pin_length(joint.pin.contact.bearing.bore_radius),
@@ -261,4 +233,3 @@ def _spreads(found: Found, cases_of: Sequence[str]) -> dict[str, float]:
 
 
 study = Study("contact_laws", __doc__, work, seconds=30.0, own_machine=True)
-main = study.main

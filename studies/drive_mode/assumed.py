@@ -7,13 +7,15 @@ bounces would decide about a tenth of the peak. It ends when the first swings ar
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 
 from studies.common import paper_machine, rise
 from studies.common.numbers import Found, Number, against, cell, measured_all
 from studies.common.paper_machine import CLEARANCE_MM, CONTACT_TITLES, CYLINDERS, PAPER
-from studies.common.words import TextTable
+from studies.common.words import text_table
 from studies.drive_mode.cases import PINS, ModePlan, case_name
-from support_exudyn import ClearancePin, Line, Result, Scenario, UniformSpeed
+from support_exudyn import Line, Result, Scenario, UniformSpeed
+from support_exudyn.postprocessing.page.pieces import Sheet
 
 USUAL, SOFTEST, STIFFEST = "oil as assumed", "softest oil", "stiffest oil"
 OIL = {  # bulk modulus [Pa], four published shields give 1.96 GPa; and hoses of a pair of columns
@@ -52,7 +54,8 @@ def _run(plan: ModePlan, pin: str, oil: str) -> Scenario:
         name: replace(column, bulk_modulus=modulus, line=hoses)
         for name, column in paper_machine.oil_columns().items()
     }
-    pins = base.pins if ideal else {paper_machine.CLEARANCE_PIN: _joint(plan, pin)}
+    joint = partial(paper_machine.clearance_joint, CLEARANCE_MM, law=paper_machine.PAPERS_LAW)
+    pins = base.pins if ideal else {paper_machine.CLEARANCE_PIN: joint(plan.subject.friction, contact=pin)}
     return replace(
         base,
         drive=drive,
@@ -61,12 +64,6 @@ def _run(plan: ModePlan, pin: str, oil: str) -> Scenario:
         actuators=columns,
         pins=pins,
         channels=(rise.FORCE,),
-    )
-
-
-def _joint(plan: ModePlan, contact: str) -> ClearancePin:
-    return paper_machine.clearance_joint(
-        CLEARANCE_MM, plan.subject.friction, contact=contact, law=paper_machine.PAPERS_LAW
     )
 
 
@@ -86,7 +83,7 @@ def band(found: Found, pin: str) -> str:
     return f"{min(peaks):.0f} to {max(peaks):.0f} kN"
 
 
-def band_table(found: Found) -> TextTable:
+def band_table(found: Found) -> Sheet:
     """A row a pin: its peak as assumed, and with the softest and the stiffest oil."""
     rows = []
     for pin, title in pins().items():
@@ -94,4 +91,4 @@ def band_table(found: Found) -> TextTable:
         usual, soft, stiff = (cell(peak(found, pin, oil)) for oil in (USUAL, SOFTEST, STIFFEST))
         rows.append((title, usual, change, soft, stiff))
     header = ("pin", "peak [kN]", "against ideal", f"{SOFTEST} [kN]", f"{STIFFEST} [kN]")
-    return TextTable(header, tuple(rows))
+    return text_table(header, rows)

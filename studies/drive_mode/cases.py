@@ -1,11 +1,10 @@
-"""Runs of the drive modes: both modes, both pins, all kinds of actuators; and the recipe that has no limit."""
+"""Runs of the drive modes: both modes, both pins, all kinds of actuators."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from studies.benchmarking.peers.on_exudyn import peak_acceleration
-from studies.common import paper_machine, rise
+from studies.common import paper_machine
 from studies.common.paper_machine import CLEARANCE_MM
 from studies.common.subject import Subject
 from support_exudyn import CubicStep, Scenario, UniformSpeed
@@ -20,7 +19,6 @@ COLUMNS = ("rigid", "oil", "cylinder")
 AFTER = 0.05  # of the motion's time that is looked at after it: a sudden stop is part of it
 END = 5.4  # on cylinders, so that what rings after the valve has closed is seen [s]
 PERIOD = 1e-3  # between records: oil swings at 40 Hz, and records twice as far apart miss 2 % of a peak [s]
-NAIVE_STEPS = (1e-3, 5e-4, 2.5e-4)  # of a stock recipe, velocities not made consistent [s]
 
 
 def case_name(mode: str, pin: str, columns: str) -> str:
@@ -112,13 +110,3 @@ class ModePlan:
             return base
         rigid = {name: one for name, one in base.actuators.items() if name not in self.actuators}
         return replace(base, actuators=rigid)
-
-
-def naive_peaks() -> dict[float, float]:
-    """Peak angular accelerations of the rear link [deg/s^2] by the steps of a stock recipe [s].
-
-    Mode 1 without consistent velocities: the engine's own acceleration where it integrates over the jump.
-    """
-    drive = UniformSpeed(start=0.05, end=2.05)
-    jump = replace(paper_machine.ideal_rise(1e-3), drive=drive, duration=0.06)
-    return {step: rise.DEGREES * peak_acceleration(jump, step, "rear_link") for step in NAIVE_STEPS}

@@ -1,28 +1,24 @@
 """Counterparts of Fig. 13 of the paper, and the rise on hydraulic cylinders."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator
 
 from studies.common import rise
-from studies.common.panels import legend, letters
+from studies.common.panels import finish
 from studies.common.study import LivePanels
 from studies.drive_mode.cases import END, MODES, ModePlan, case_name
 from studies.drive_mode.measures import extension
 from support_exudyn import Result, SuddenOpening
 from support_exudyn.postprocessing.figures import style
 
-PAIRS = {"front": style.SMOOTH, "rear": style.WITH_CLEARANCE}
 DASHES = (0, (4, 2))
 # panels to look into, by figure
 PIN_FORCES = {6: "pin force, mode 1 [kN]", 7: "pin force, mode 2 [kN]"}
 LIVE: dict[str, LivePanels] = {
-    "fig13_rigid_columns": PIN_FORCES, "fig13_oil_columns": PIN_FORCES, "start_of_mode_1": (0, 1, 2),
+    "fig13_rigid_columns": PIN_FORCES, "fig13_oil_columns": PIN_FORCES,
     "cylinders": {2: "speed, front, mode 1 [mm/s]", 4: "pressure, rear, mode 1 [MPa]", **PIN_FORCES},
-    "cylinders_mode_1": (0, 2),
 }  # fmt: skip
 Curve = Callable[[Result], rise.Series]  # what is drawn of a run at its records
 
@@ -36,9 +32,7 @@ def figures(plan: ModePlan, results: Mapping[str, Result]) -> dict[str, Figure]:
     }
     if plan.subject.is_paper:
         found |= {
-            "start_of_mode_1": start_figure(plan, results),
             "cylinders": by_mode(plan, results, "cylinder", ON_CYLINDERS),
-            "cylinders_mode_1": valve_figure(plan, results),
         }
     return found
 
@@ -96,63 +90,5 @@ def by_mode(plan: ModePlan, results: Mapping[str, Result], columns: str, curves:
             mode, (0.5, 1.0), (0.0, 4.0), "axes fraction", "offset points", ha="center", fontsize=9
         )
         panels[-1, place].set_xlabel("time [s]")
-    letters(list(panels.flat))
     drawing.align_ylabels(panels[:, 0])
-    legend(drawing, panels[0, 0], 2)
-    return drawing
-
-
-def start_figure(plan: ModePlan, results: Mapping[str, Result]) -> Figure:
-    """What the sudden start does, enlarged."""
-    drawing = Figure(figsize=style.size(170, 65))
-    panels = drawing.subplots(1, 3, sharex=True)
-    channels = {"pin": rise.FORCE, "front columns": "front_column.force", "rear columns": "rear_column.force"}
-    for axes, (name, channel) in zip(panels, channels.items(), strict=True):
-        for pin, colour, dashes in (
-            (plan.pins[1], style.WITH_CLEARANCE, "-"), (plan.pins[0], style.IDEAL, DASHES),
-        ):  # fmt: skip
-            run = results[case_name("mode 1", pin, "oil")]
-            _piece(axes, run, channel, 1e-3, (2.95, 3.4), colour, dashes, pin)
-        axes.set(xlabel="time [s]", ylabel=f"force, {name} [kN]", xlim=(2.95, 3.4))
-        axes.xaxis.set_major_locator(MultipleLocator(0.1))
-    letters(panels)
-    legend(drawing, panels[0], 2)
-    return drawing
-
-
-def valve_figure(plan: ModePlan, results: Mapping[str, Result]) -> Figure:
-    """Opening and closing at once, enlarged."""
-    drawing = Figure(figsize=style.size(170, 110))
-    panels = drawing.subplots(2, 2, sharey="row")
-    run, driven = (results[case_name("mode 1", plan.pins[0], columns)] for columns in ("cylinder", "oil"))
-    for place, limits in enumerate(((2.95, 3.3), (4.95, 5.3))):
-        for pair, colour in PAIRS.items():
-            channel, name = f"{pair}_column.force", f"{pair} columns"
-            pressure = f"{pair}_column.pressure"
-            _piece(panels[0, place], run, pressure, 1e-6, limits, colour, "-", name)
-            _piece(panels[1, place], run, channel, 1e-3, limits, colour, "-", name)
-            _piece(panels[1, place], driven, channel, 1e-3, limits, colour, DASHES, f"{name}, by displacement")
-        panels[0, place].axhline(0.0, color="0.6", lw=0.6, zorder=0)
-        for axes in panels[:, place]:
-            axes.set_xlim(limits)
-            axes.xaxis.set_major_locator(MultipleLocator(0.1))
-        panels[1, place].set_xlabel("time [s]")
-    panels[0, 0].set_ylabel("pressure [MPa]")
-    panels[1, 0].set_ylabel("column force [kN]")
-    letters(list(panels.flat))
-    legend(drawing, panels[1, 0], 2)
-    return drawing
-
-
-def _piece(
-    axes: Axes,
-    run: Result,
-    channel: str,
-    scale: float,
-    limits: Sequence[float],
-    colour: str,
-    dashes: style.Dashes,
-    label: str,
-) -> None:
-    inside = rise.between(run, *limits)
-    axes.plot(run.time[inside], scale * run[channel][inside], color=colour, ls=dashes, lw=0.9, label=label)
+    return finish(drawing, panels, 2)

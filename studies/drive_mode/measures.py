@@ -1,13 +1,12 @@
 """What is measured of the drive modes; on hydraulic cylinders also motion, pressures, flow and losses."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Literal
 
 import numpy as np
 
 from studies.common import rise
-from studies.common.numbers import Number, measured_all
 from studies.drive_mode.cases import ModePlan
 from support_exudyn import Result
 from support_exudyn.simulation.impulses import impulses_of
@@ -125,15 +124,6 @@ ON_CYLINDERS: dict[str, tuple[str, Get]] = {
 
 
 # --- all ---
-
-
-def measure(plan: ModePlan, results: Mapping[str, Result]) -> list[Number]:
-    """All numbers of the study, but for those that are none."""
-    return [
-        number
-        for case, result in results.items()
-        for number in measured_all({case: result}, measures_of(plan, result))
-    ]
 
 
 def measures_of(plan: ModePlan, result: Result) -> dict[str, tuple[str, Get]]:

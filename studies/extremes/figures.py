@@ -9,10 +9,16 @@ import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from studies.extremes.cases import CLEARANCE_SPEED, FRICTION_STEP, STEP_STIFFNESS
-from studies.extremes.judge import GOOD, REFUSED, SILENT, Case, Judgement
+from studies.extremes.judge import GOOD, REFUSED, SILENT, Judgement
 from studies.extremes.ranges import Point
-from studies.extremes.scenes import IMPACT_STEPS, fallen
+from studies.extremes.scenes import (
+    CLEARANCE_SPEED,
+    FRICTION_STEP,
+    IMPACT_STEPS,
+    STEP_STIFFNESS,
+    Case,
+    fallen,
+)
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.scenario.timescales import timescales
 

@@ -11,14 +11,21 @@ A run is good if it has finished and what can be asked of it is so:
 """
 
 import math
+import signal
 import traceback
 import warnings
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from studies.extremes.hydraulics import oil_open
+from studies.common.runs import bar
+from studies.extremes import long_runs
+from studies.extremes.legs import oil_open
+from studies.extremes.long_runs import LongRun
+from studies.extremes.scenes import Case
 from support_exudyn import Result, Scenario, SimulationError, SolverSettings, simulate
 from support_exudyn.formulations.registry import formulation
 from support_exudyn.scenario.scenario_data import LARGEST_STEP
@@ -27,6 +34,7 @@ from support_exudyn.scene.limits import DEEPEST
 from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.estimate import disagreement, rounding_share
 from support_exudyn.simulation.result_checks import OPEN, energy_open
+from support_exudyn.sweeps.workers import Workers, report, worker_pool
 from user_forces import Frictionless, InputError
 from user_forces.normal.hysteresis import Hysteresis, delivered_restitution
 
@@ -50,20 +58,6 @@ FOLLOWED = 2.0  # times of a vibration of a loaded contact (one over its angular
 # spectral radii of a check: the larger, the less its steps damp, and the more rounding stays. The first that
 # keeps what rings with no more steps than that
 RADII = (0.5, 0.9)
-
-
-@dataclass(frozen=True)
-class Case:
-    """A scene of the study.
-
-    name, group: what it is, and what it belongs to. scenario: makes it, or raises InputError. values: what a
-    map varies.
-    """
-
-    name: str
-    group: str
-    scenario: Callable[[], Scenario]
-    values: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -293,3 +287,74 @@ def _patient(scenario: Scenario) -> Scenario:
 def _most(scenario: Scenario) -> int:
     """How many steps a run that only checks may take."""
     return MOST_OTHERS if scenario.chooses_steps else MOST_STEPS
+
+
+PATIENCE = 300.0  # [s]; a run that takes longer hangs
+
+
+class HangError(BaseException):
+    """A run has taken too long. No Exception: nothing that judges or mends failures is to take it for one."""
+
+
+@contextmanager
+def patience(seconds: float) -> Iterator[None]:
+    """Raise HangError if the block takes longer [s]; where the system knows no alarm it may take any time."""
+    if not hasattr(signal, "setitimer"):
+        yield
+        return
+
+    def too_long(number: int, frame: Any) -> None:
+        del number, frame
+        raise HangError(f"no end after {seconds:g} s")
+
+    before = signal.signal(signal.SIGALRM, too_long)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def judged(place: int, case: Case) -> Judgement:
+    """Judge a case, in a worker."""
+    del place
+    report(0.0)
+    try:
+        with patience(PATIENCE):
+            return judge(case.scenario)
+    except HangError as error:
+        return Judgement(SILENT, f"hang: {error}")
+
+
+def lasted(place: int, name: str, duration: float) -> LongRun | str:
+    """Make a long run, in a worker; return why there is none if it fails."""
+    del place
+    try:
+        return long_runs.run(long_runs.SCENES[name](duration), report)
+    except SimulationError as error:
+        return str(error)
+
+
+def judge_all(cases: Sequence[Case], workers: int | Workers) -> list[Judgement]:
+    """Verdicts on cases, in their order, under a progress bar.
+
+    workers: number of processes, or a pool.
+    """
+    with worker_pool(workers) as pool, bar(f"{len(cases)} scenes") as told:
+        return pool.run(
+            [(case,) for case in cases],
+            judged,
+            told,
+            lambda error: Judgement(SILENT, f"crash: {error.reason}"),
+        )
+
+
+def run_long(durations: Mapping[str, float], workers: int | Workers) -> dict[str, LongRun | str]:
+    """Long runs by their names, under a progress bar; of a run that failed why.
+
+    durations: of the runs [s]. workers: number of processes, or a pool.
+    """
+    with worker_pool(workers) as pool, bar(f"{len(durations)} long runs") as told:
+        found = pool.run([*durations.items()], lasted, told, lambda error: f"crash: {error.reason}")
+    return dict(zip(durations, found, strict=True))

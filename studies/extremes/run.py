@@ -17,14 +17,27 @@ import numpy as np
 from studies.common.numbers import Number
 from studies.common.options import Options
 from studies.common.study import Study, StudyOutcome
-from studies.common.words import TextTable
+from studies.common.words import text_table
 from studies.extremes import long_runs
-from studies.extremes.cases import BOX, DRAWN, HYDRAULICS, MAPS, RANDOM, cases
+from studies.extremes.cases import BOX, DRAWN, HYDRAULICS, RANDOM, cases
 from studies.extremes.figures import figures
-from studies.extremes.judge import BEFORE, FREE, GOOD, LEAK, MORE, REFUSED, SILENT, Case, Judgement
+from studies.extremes.judge import (
+    BEFORE,
+    FREE,
+    GOOD,
+    LEAK,
+    MORE,
+    PATIENCE,
+    REFUSED,
+    SILENT,
+    Judgement,
+    judge_all,
+    run_long,
+)
 from studies.extremes.long_runs import LongRun
 from studies.extremes.ranges import SPANS
-from studies.extremes.runs import PATIENCE, judge_all, run_long
+from studies.extremes.scenes import MAPS, Case
+from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.scene.limits import DEEPEST
 from support_exudyn.simulation.result_checks import OPEN
 
@@ -172,36 +185,21 @@ def counts(verdicts: Sequence[Judgement]) -> dict[str, int]:
 # --- tables ---
 
 
-def kind_table(judged: Judged) -> TextTable:
+def kind_table(judged: Judged) -> Sheet:
     """How the runs ended, by what they are; the key table."""
     rows = []
     for kind, groups in {**KINDS, "all": (*MAPS, *RANDOM)}.items():
         here = of_groups(judged, groups)
         rows.append((kind, str(len(here)), *map(str, ended(here).values()), str(checked_twice(here))))
     header = ("scenes", "runs", "good", "refused", "silently wrong", "checked by another formulation")
-    return TextTable(header, tuple(rows))
+    return text_table(header, rows)
 
 
-def group_table(judged: Judged) -> TextTable:
-    """How the runs of every group ended."""
-    rows = []
-    for group in (*MAPS, *RANDOM):
-        here = of_groups(judged, (group,))
-        good = [verdict for verdict in here if verdict.outcome == GOOD]
-        rows.append((
-            group, str(len(here)), *map(str, ended(here).values()),
-            f"{np.median([one.error for one in good]):.1g}" if good else "",
-            f"{max(one.energy for one in good):.1g}" if good else "",
-        ))  # fmt: skip
-    header = ("group", "runs", "good", "refused", "silent", "median error", "energy open, largest")
-    return TextTable(header, tuple(rows), width=200)
-
-
-def reason_table(judged: Judged) -> TextTable:
+def reason_table(judged: Judged) -> Sheet:
     """Why runs were refused, the commonest first."""
     counted = Counter(_kind(verdict.reason) for _, verdict in judged if verdict.outcome == REFUSED)
     rows = tuple((str(number), reason) for reason, number in counted.most_common())
-    return TextTable(("runs", "reason"), rows, wide=True, width=200)
+    return text_table(("runs", "reason"), rows, wide=True)
 
 
 def _kind(reason: str) -> str:
@@ -212,13 +210,13 @@ def _kind(reason: str) -> str:
     return short[:110] + ("..." if len(short) > 110 else "")
 
 
-def silent_table(judged: Judged) -> TextTable:
+def silent_table(judged: Judged) -> Sheet:
     """Silent failures, one by one."""
     rows = tuple((case.name, verdict.reason) for case, verdict in judged if verdict.outcome == SILENT)
-    return TextTable(("run", "what is wrong"), rows or (("none", ""),), wide=True, width=200)
+    return text_table(("run", "what is wrong"), rows or (("none", ""),), wide=True)
 
 
-def long_table(long: Long) -> TextTable:
+def long_table(long: Long) -> Sheet:
     """Long runs."""
     rows = []
     for name, run in long.items():
@@ -233,7 +231,7 @@ def long_table(long: Long) -> TextTable:
         "scene", "time [s]", "took [s]", "steps", "impacts", "gap, first tenth [m]", "gap, last tenth [m]",
         "energy open / turned over",
     )  # fmt: skip
-    return TextTable(header, tuple(rows), width=200)
+    return text_table(header, rows)
 
 
 # --- the study ---
@@ -247,7 +245,6 @@ def work(chosen: Options) -> StudyOutcome:
     judged = list(zip(found, verdicts, strict=True))
     tables = {
         "table_kinds": kind_table(judged),
-        "table_groups": group_table(judged),
         "table_reasons": reason_table(judged),
         "table_silent": silent_table(judged),
         "table_long": long_table(long),
@@ -292,4 +289,3 @@ def _of_map(group: str, judged: Judged) -> dict[str, float]:
 
 
 study = Study("extremes", __doc__, work, seconds=830.0)
-main = study.main

@@ -1,18 +1,19 @@
-"""Scenes at the extremes, made from a point of the ranges and what is special to a group.
+"""All scenes of the study: grids for the maps, physically sensible ones, and random corners of every kind.
 
-A random scene of a group takes the point, its number in the group, by which alternatives take turns, and a
-generator of random numbers that draws the rest.
+A random scene of a group takes a point of the ranges, its number in the group, by which alternatives take
+turns, and a generator of random numbers that draws the rest.
 """
 
 import math
-from dataclasses import replace
-from functools import cache
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cache, partial
 from typing import TypedDict
 
 import numpy as np
 
 from studies.common import paper_machine
-from studies.extremes.ranges import Point
+from studies.extremes.ranges import SPANS, Point
 from support_exudyn import (
     ClearancePin,
     CubicStep,
@@ -45,14 +46,33 @@ SHORTEST, LONGEST, STEPS = 0.005, 0.08, 1000  # [s], [s], steps
 BOXED = 0.3  # [s] of runs in the box
 FALL = 0.03  # [s] that the journal takes to fall through its clearance and bounce
 HALF, LOAD = 0.5, 5e4  # of the depth under this load [N], at which journals start in short runs
-RECORDS = 101.0  # of two free bodies: none of them at the impact
+OF_IMPACT = 101.0  # records of two free bodies: none of them at the impact
 MOST_OF_FLIGHT = 10_000.0  # steps of theirs
 SLIDER_BEARING = 0.01  # bore radius at the slider [m]
 ACCURACIES: tuple[Accuracy, ...] = ("draft", "standard", "reference")
-STARTS = ("concentric", "closed", "overlapping", "settled")
+STARTS = {
+    "concentric": 0.0,
+    "closed": 1.0,
+    "overlapping": 1.0,
+    "settled": 0.0,
+}  # and how far off, in clearances
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 LONG_ROD = 0.12  # [m] of the slider-crank that passes dead centres
 GROWTHS = (1.0, 8.0, 64.0)  # of steps
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene of the study.
+
+    name, group: its name, and the group that it belongs to. scenario: makes it, or raises InputError. values:
+    those that a map varies.
+    """
+
+    name: str
+    group: str
+    scenario: Callable[[], Scenario]
+    values: Mapping[str, float] = field(default_factory=dict)
 
 
 class Times(TypedDict):
@@ -77,14 +97,12 @@ def times(point: Point, longest: float = LONGEST) -> Times:
     return {"step": point.step_s, "record_period": period, "duration": period * max(1, round(wanted / period))}
 
 
-def near(point: Point) -> Point:
-    """A journal that starts half as deep as it will come to rest, if the run is too short for a fall."""
-    if times(point)["duration"] >= FALL or point.eccentricity != (0.0, 0.0):
-        return point
-    x, y = rest_direction()
-    sign = 1.0 if point.bore == "first" else -1.0
-    away = 1.0 + HALF * point.normal.resting_depth(LOAD) / point.clearance_m
-    return replace(point, eccentricity=(sign * away * x, sign * away * y))
+def logarithmic(random: np.random.Generator, low: float, high: float) -> float:
+    """A number between two powers of ten, given by their exponents; its logarithm is even."""
+    return float(10.0 ** random.uniform(low, high))
+
+
+# --- the support that falls through its clearance ---
 
 
 @cache
@@ -100,6 +118,16 @@ def rest_direction() -> tuple[float, float]:
     result = simulate(held)
     x, y = (float(result[f"pin.{PIN}.eccentricity_{axis}"][0]) for axis in "xy")
     return x / math.hypot(x, y), y / math.hypot(x, y)
+
+
+def near(point: Point) -> Point:
+    """A journal that starts half as deep as it will come to rest, if the run is too short for a fall."""
+    if times(point)["duration"] >= FALL or point.eccentricity != (0.0, 0.0):
+        return point
+    x, y = rest_direction()
+    sign = 1.0 if point.bore == "first" else -1.0
+    away = 1.0 + HALF * point.normal.resting_depth(LOAD) / point.clearance_m
+    return replace(point, eccentricity=(sign * away * x, sign * away * y))
 
 
 def fallen(point: Point) -> Scenario:
@@ -118,59 +146,11 @@ def corner(point: Point, i: int, random: np.random.Generator) -> Scenario:
     return fallen(point)
 
 
-def stroke_of(point: Point, time: float, stroke: float, accuracy: Accuracy, records: int) -> Scenario:
-    """The support raised or lowered within a time [s], to an accuracy."""
-    drive = CubicStep(stroke=stroke, start=0.1 * time, end=1.1 * time)
-    scene = Scenario(
-        machine=reference_support(),
-        pins={PIN: point.pin},
-        drive=drive,
-        duration=1.2 * time,
-        record_period=1.2 * time / records,
-        accuracy=accuracy,
-        formulation="auto",
-    )
-    return limited(scene)
-
-
-def boxed(point: Point, accuracy: Accuracy, drive: Drive) -> Scenario:
-    """A physically sensible scene to an accuracy, with a drive or held."""
-    scene = Scenario(
-        machine=reference_support(),
-        pins={PIN: point.pin},
-        drive=drive,
-        duration=BOXED * point.pace,
-        record_period=1e-3 * point.pace,
-        accuracy=accuracy,
-        formulation="auto",
-    )
-    return limited(scene)
-
-
-def drawn_boxed(point: Point, i: int, random: np.random.Generator) -> Scenario:
-    """A physically sensible scene: the accuracies take turns, and strokes with supports that are held."""
-    return boxed(point, ACCURACIES[i % 3], Held() if i % 2 else gentle(point))
-
-
-def limited(scene: Scenario) -> Scenario:
-    """A scene to an accuracy, with as many steps as its formulation may take in a minute or so."""
-    assert scene.goal is not None
-    steps = MOST_STEPS if settings_for(scene, scene.goal).formulation == "exudyn" else MOST_EXPLICIT
-    return replace(scene, solver=replace(scene.solver, most_steps=steps))
-
-
-def gentle(point: Point) -> Drive:
-    """A stroke as steep as the paper's, in the second half of the time."""
-    seconds = BOXED * point.pace
-    return CubicStep(stroke=0.1 * seconds, start=0.5 * seconds, end=0.9 * seconds)
-
-
 def with_solver(point: Point, i: int, random: np.random.Generator) -> Scenario:
     """The fall with other settings of the solver, by turns on columns of oil."""
     point = replace(point, spectral_radius=(0.0, 0.5, 1.0, point.spectral_radius)[i % 4])
     solver = replace(settings(point), newton="full" if i % 2 else "modified", growth=GROWTHS[i % 3])
-    actuators = paper_machine.oil_columns() if i % 2 else {}
-    return replace(fallen(point), solver=solver, actuators=actuators)
+    return replace(fallen(point), solver=solver, actuators=paper_machine.oil_columns() if i % 2 else {})
 
 
 def weightless(point: Point, i: int, random: np.random.Generator) -> Scenario:
@@ -180,43 +160,27 @@ def weightless(point: Point, i: int, random: np.random.Generator) -> Scenario:
 
 
 def started(point: Point, i: int, random: np.random.Generator) -> Scenario:
-    """The journal in the middle, touching, pressed in, or settled."""
-    start = STARTS[i % len(STARTS)]
-    x, y = rest_direction()
-    share = {"concentric": 0.0, "closed": 1.0, "overlapping": 1.0, "settled": 0.0}[start]
-    here = replace(point, bore="first", eccentricity=(share * x, share * y))
+    """The journal in the middle, touching, pressed in by 0.1 mm, or settled."""
+    start, share = [*STARTS.items()][i % len(STARTS)]
     if start == "overlapping":
-        deeper = 1.0 + 1e-4 / point.clearance_m  # by 0.1 mm
-        here = replace(here, eccentricity=(deeper * x, deeper * y))
-    scene = fallen(here)
+        share += 1e-4 / point.clearance_m
+    x, y = rest_direction()
+    scene = fallen(replace(point, bore="first", eccentricity=(share * x, share * y)))
     return replace(scene, start="settled" if start == "settled" else "concentric")
 
 
 def everywhere(point: Point, i: int, random: np.random.Generator) -> Scenario:
     """Clearance in every pin at once, by turns with friction."""
-    pin = (point if i % 2 else replace(point, mu=0.0)).pin
-    machine = reference_support()
-    return Scenario(
-        machine=machine,
-        pins=dict.fromkeys(machine.linkage().pins, pin),
-        solver=settings(point),
-        **times(point, 0.08),
-    )
-
-
-def logarithmic(random: np.random.Generator, low: float, high: float) -> float:
-    """A number between two powers of ten, given by their exponents; its logarithm is even."""
-    return float(10.0 ** random.uniform(low, high))
+    pin, machine = (point if i % 2 else replace(point, mu=0.0)).pin, reference_support()
+    pins = dict.fromkeys(machine.linkage().pins, pin)
+    return Scenario(machine=machine, pins=pins, solver=settings(point), **times(point, 0.08))
 
 
 def of_masses(point: Point, i: int, random: np.random.Generator) -> Scenario:
-    """One body up to ten thousand times as heavy, or as light."""
+    """A body up to ten thousand times as heavy, or as light."""
     body, factor = BODIES[i % len(BODIES)], logarithmic(random, -4.0, 4.0)
     machine = reference_support()
-    parts = {
-        name: tuple(_heavier(part, factor) for part in kept) if name == body else kept
-        for name, kept in machine.parts.items()
-    }
+    parts = dict(machine.parts) | {body: tuple(_heavier(part, factor) for part in machine.parts[body])}
     return replace(fallen(point), machine=replace(machine, parts=parts))
 
 
@@ -228,39 +192,13 @@ def _heavier(part: Part, factor: float) -> Part:
     return replace(part, mass=factor * part.mass, inertia=factor * part.inertia, moments=moments)
 
 
-def colliding(point: Point, ratio: float, speed: float) -> Scenario:
-    """Two free bodies of a mass ratio, one of which flies in the other's bore."""
-    stand = ImpactStand(bore_mass=1000.0, journal_mass=1000.0 / ratio, speed=speed)
-    crossing = point.clearance_m / speed
-    duration = 4.0 * crossing
-    return Scenario(
-        machine=stand,
-        pins={"pin": point.pin},
-        gravity=(0.0, 0.0),
-        duration=duration,
-        step=max(min(point.step_s, duration / RECORDS), duration / MOST_OF_FLIGHT),
-        record_period=duration / RECORDS,
-        solver=settings(point),
-    )
-
-
-def drawn_impact(point: Point, i: int, random: np.random.Generator) -> Scenario:
-    """Two free bodies without friction, of any mass ratio and speed."""
-    ratio, speed = logarithmic(random, -4.0, 4.0), logarithmic(random, -4.0, 1.0)
-    return colliding(replace(point, mu=0.0), ratio, speed)
-
-
 def of_posture(point: Point, i: int, random: np.random.Generator) -> Scenario:
     """The support from any height of its hinge, through any stroke within a tenth of a second."""
     height, stroke = float(random.uniform(1.0, 3.6)), float(random.uniform(-1.0, 1.5))  # [m]
     machine: HydraulicSupport = replace(reference_support(), start_hinge_height=height)
-    return Scenario(
-        machine=machine,
-        pins={PIN: point.pin if i % 2 else IdealPin()},
-        drive=CubicStep(stroke=stroke, start=0.01, end=0.11),
-        solver=settings(point),
-        **times(point),
-    )
+    pins = {PIN: point.pin if i % 2 else IdealPin()}
+    drive = CubicStep(stroke=stroke, start=0.01, end=0.11)
+    return Scenario(machine=machine, pins=pins, drive=drive, solver=settings(point), **times(point))
 
 
 def under_roof(point: Point, i: int, random: np.random.Generator) -> Scenario:
@@ -284,15 +222,83 @@ def pressing_roof(
 
     stiffness: [N/m]. span: start and end of its descent [s].
     """
-    start, end = span
-    return Roof(
-        body="canopy",
-        point=place,
-        gap=gap,
-        stiffness=stiffness,
-        damping=0.0,
-        descent=CubicStep(stroke=gap + force / stiffness, start=start, end=end),
+    descent = CubicStep(stroke=gap + force / stiffness, start=span[0], end=span[1])
+    return Roof(body="canopy", point=place, gap=gap, stiffness=stiffness, damping=0.0, descent=descent)
+
+
+def in_space(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """The fall, with both sides of the machine."""
+    return replace(fallen(point), dimensions=3, duration=times(point, 0.05)["duration"], solver=settings(point))
+
+
+def heavy_columns(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """The fall with columns of two bodies each."""
+    return replace(fallen(point), actuators=cylinders_and_rods())
+
+
+# --- the support to an accuracy ---
+
+
+def to_accuracy(point: Point, drive: Drive, duration: float, period: float, accuracy: Accuracy) -> Scenario:
+    """The support with a drive, to an accuracy; duration and time between records [s]."""
+    scene = Scenario(
+        machine=reference_support(),
+        pins={PIN: point.pin},
+        drive=drive,
+        duration=duration,
+        record_period=period,
+        accuracy=accuracy,
+        formulation="auto",
     )
+    return limited(scene)
+
+
+def stroke_of(point: Point, time: float, stroke: float, accuracy: Accuracy, records: int) -> Scenario:
+    """The support raised or lowered within a time [s]."""
+    drive = CubicStep(stroke=stroke, start=0.1 * time, end=1.1 * time)
+    return to_accuracy(point, drive, 1.2 * time, 1.2 * time / records, accuracy)
+
+
+def boxed(point: Point, accuracy: Accuracy, drive: Drive) -> Scenario:
+    """A physically sensible scene, with a drive or held."""
+    return to_accuracy(point, drive, BOXED * point.pace, 1e-3 * point.pace, accuracy)
+
+
+def drawn_boxed(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """A physically sensible scene: accuracies take turns, and rests with strokes as steep as the paper's."""
+    seconds = BOXED * point.pace
+    gentle = CubicStep(stroke=0.1 * seconds, start=0.5 * seconds, end=0.9 * seconds)
+    return boxed(point, ACCURACIES[i % 3], Held() if i % 2 else gentle)
+
+
+def limited(scene: Scenario) -> Scenario:
+    """A scene to an accuracy, with as many steps as its formulation may take in a minute or so."""
+    assert scene.goal is not None
+    steps = MOST_STEPS if settings_for(scene, scene.goal).formulation == "exudyn" else MOST_EXPLICIT
+    return replace(scene, solver=replace(scene.solver, most_steps=steps))
+
+
+# --- other machines ---
+
+
+def colliding(point: Point, ratio: float, speed: float) -> Scenario:
+    """Two free bodies of a mass ratio, of which one flies in the other's bore."""
+    duration = 4.0 * point.clearance_m / speed
+    return Scenario(
+        machine=ImpactStand(bore_mass=1000.0, journal_mass=1000.0 / ratio, speed=speed),
+        pins={"pin": point.pin},
+        gravity=(0.0, 0.0),
+        duration=duration,
+        step=max(min(point.step_s, duration / OF_IMPACT), duration / MOST_OF_FLIGHT),
+        record_period=duration / OF_IMPACT,
+        solver=settings(point),
+    )
+
+
+def drawn_impact(point: Point, i: int, random: np.random.Generator) -> Scenario:
+    """Two free bodies without friction, of any mass ratio and speed."""
+    ratio, speed = logarithmic(random, -4.0, 4.0), logarithmic(random, -4.0, 1.0)
+    return colliding(replace(point, mu=0.0), ratio, speed)
 
 
 def hung_up(point: Point, i: int, random: np.random.Generator) -> Scenario:
@@ -300,13 +306,9 @@ def hung_up(point: Point, i: int, random: np.random.Generator) -> Scenario:
     angle = float(random.uniform(0.0, 2.0 * math.pi))
     machine = replace(ravn_slider_crank(), start_angle=angle)
     pin = _small(replace(point, mu=max(point.mu, 0.5)))
-    x = pin.contact.bearing.clearance
+    pin = replace(pin, eccentricity=(pin.contact.bearing.clearance * math.cos(angle), 0.0))
     return Scenario(
-        machine=machine,
-        pins={SLIDER_PIN: replace(pin, eccentricity=(x * math.cos(angle), 0.0))},
-        drive=Held(),
-        solver=settings(point),
-        **times(point),
+        machine=machine, pins={SLIDER_PIN: pin}, drive=Held(), solver=settings(point), **times(point)
     )
 
 
@@ -349,11 +351,45 @@ def past_dead_centre(point: Point, i: int, random: np.random.Generator) -> Scena
     return replace(cranked(point, 300.0, None), machine=machine)
 
 
-def in_space(point: Point, i: int, random: np.random.Generator) -> Scenario:
-    """The fall, with both sides of the machine."""
-    return replace(fallen(point), dimensions=3, duration=times(point, 0.05)["duration"], solver=settings(point))
+# --- grids of the maps ---
+
+STEP_STIFFNESS, CLEARANCE_SPEED, FRICTION_STEP = MAPS = (
+    "step and stiffness", "clearance and speed", "friction and step",
+)  # fmt: skip
+GRIDS = {STEP_STIFFNESS: 13, CLEARANCE_SPEED: 12, FRICTION_STEP: 13}  # lines and columns
+PACE = 0.5
+RECORDS, STROKE = 500, 0.05  # of a stroke, and its length [m]
 
 
-def heavy_columns(point: Point, i: int, random: np.random.Generator) -> Scenario:
-    """The fall with columns of two bodies each."""
-    return replace(fallen(point), actuators=cylinders_and_rods())
+def mapped() -> Iterator[Case]:
+    """The scenes of the maps."""
+    size = GRIDS[STEP_STIFFNESS]
+    for step in _axis("step_s", size):
+        for stiffness in _axis("stiffness", size):
+            point = Point(step_s=step, stiffness=stiffness, pace=PACE)
+            values = {"step_s": step, "stiffness": stiffness}
+            yield _case(STEP_STIFFNESS, values, partial(fallen, point))
+    size = GRIDS[CLEARANCE_SPEED]
+    for clearance in _axis("clearance_m", size):
+        for time in np.geomspace(0.05, 100.0, size).tolist():
+            values = {"clearance_m": clearance, "speed_m_s": STROKE / time}
+            make = partial(stroke_of, Point(clearance_m=clearance), time, STROKE, "standard", RECORDS)
+            yield _case(CLEARANCE_SPEED, values, make)
+    size = GRIDS[FRICTION_STEP]
+    for static in np.geomspace(1e-7, 5e-2, size).tolist():
+        for step in _axis("step_s", size):
+            rubbing = {"static_speed_m_s": static, "dynamic_speed_m_s": 2.0 * static}
+            values = {"static_speed_m_s": static, "step_s": step}
+            yield _case(
+                FRICTION_STEP, values, partial(fallen, Point(step_s=step, mu=0.25, pace=PACE, **rubbing))
+            )
+
+
+def _axis(name: str, size: int) -> list[float]:
+    values: list[float] = np.geomspace(SPANS[name].low, SPANS[name].high, size).tolist()
+    return values
+
+
+def _case(group: str, values: Mapping[str, float], make: Callable[[], Scenario]) -> Case:
+    named = ", ".join(f"{name} {value:.3g}" for name, value in values.items())
+    return Case(f"{group}: {named}", group, make, values)

@@ -14,15 +14,14 @@ from matplotlib.figure import Figure
 
 from studies.common.numbers import Number
 from studies.common.options import Options
-from studies.common.panels import letters
+from studies.common.panels import finish
 from studies.common.runs import run_cases
 from studies.common.study import Study, StudyOutcome
-from studies.common.words import TextTable
-from studies.outside.cases import ComparedNumber, OutsideCase, cases, compared
-from studies.outside.circles import hinge
-from studies.outside.scenes import SCENES
+from studies.common.words import text_table
+from studies.outside.sources import SCENES, ComparedNumber, OutsideCase, cases, compared, hinge
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.page.pieces import Sheet
 
 FINE = ", half the steps"
 VELENJE = OutsideCase(
@@ -86,7 +85,7 @@ def velenje_row(fine: Result, coarse: Result) -> ComparedNumber:
     return ComparedNumber("velenje", what, "m", 0.0, 5e-6, ours, abs(ours - apart(coarse)), VELENJE.allowed)
 
 
-def case_table(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]]) -> TextTable:
+def case_table(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]]) -> Sheet:
     """A row a case: who computed it, how far off ours is at most, both errors, and the verdict."""
     rows = []
     for case, numbers in found:
@@ -99,28 +98,7 @@ def case_table(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]]) ->
         asked = f"{case.allowed:.0e}{unit if not relative else ''}"
         rows.append((case.title, case.program, case.source, *shown, asked, verdict))
     header = ("case", "program", "source", "error of the source", "our error", "off", "asked", "verdict")
-    return TextTable(header, tuple(rows), left=3, width=220, wide=True)
-
-
-def number_table(numbers: Sequence[ComparedNumber]) -> TextTable:
-    """All numbers, a row each."""
-    rows = [
-        (
-            one.case,
-            one.what,
-            one.unit,
-            f"{one.theirs:.12g}",
-            f"{one.their_error:.1g}",
-            f"{one.ours:.12g}",
-            f"{one.our_error:.1g}",
-            f"{one.off:.2g}",
-            f"{one.allowed:.1g}",
-            "met" if one.met else "not met",
-        )
-        for one in numbers
-    ]
-    header = ("case", "number", "unit", "theirs", "error", "ours", "error", "off", "allowed", "verdict")
-    return TextTable(header, tuple(rows), left=2, width=190)
+    return text_table(header, rows, left=3, wide=True)
 
 
 def figure(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]], runs: Mapping[str, Result]) -> Figure:
@@ -150,8 +128,7 @@ def figure(found: Sequence[tuple[OutsideCase, Sequence[ComparedNumber]]], runs: 
     limit.loglog(list(STIFFER), line, "--", color=style.IDEAL, lw=1.0, label=f"K to the power of -{ORDER:g}")
     limit.set(xlabel="stiffness K [N/m$^{1.5}$]", ylabel="distance from Newton [rad]")
     limit.legend()
-    letters([all_numbers, four_bar, limit])
-    return drawing
+    return finish(drawing, [all_numbers, four_bar, limit])
 
 
 def work(chosen: Options) -> StudyOutcome:
@@ -175,9 +152,8 @@ def work(chosen: Options) -> StudyOutcome:
         "rows": rows,
         "orders": [one.ours for one in rows if one.what.startswith("order")],
     }
-    tables = {"table_cases": case_table(found), "table": number_table(rows)}
+    tables = {"table_cases": case_table(found)}
     return StudyOutcome(numbers, words, {"outside": figure(found, runs)}, tables)
 
 
 study = Study("outside", __doc__, work, seconds=100.0)
-main = study.main

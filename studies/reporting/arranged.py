@@ -1,20 +1,24 @@
-"""What stands where: the first screen, a screen for each study, and the rest in the appendix."""
+"""The report as a page that answers in a minute, and an appendix with all that is behind it.
+
+Every figure and table stands once: on the page if it is a study's key figure or the beginning of its key table,
+else in the appendix; tables that are long on the page stand in the appendix as a whole.
+"""
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from urllib.parse import quote
 
-from markupsafe import Markup
+from jinja2 import PackageLoader
+from markupsafe import Markup, escape
 
-from studies.common.chapter import JudgedClaim, Picture
-from studies.reporting.content import ReportSection
-from studies.reporting.places import APPENDIX, PAGE, Places, anchor
+from studies.common.words import REFERENCE, Chapter, JudgedClaim, Picture
+from studies.reporting.content import ReportSection, around_chapters
 from support_exudyn.postprocessing.page import live_html
 from support_exudyn.postprocessing.page.pieces import (
     FileLink,
@@ -23,9 +27,11 @@ from support_exudyn.postprocessing.page.pieces import (
     ShownFigure,
     ShownTable,
     image,
+    templates,
 )
 
-MACHINE = "machine"  # the figure with the loose pin marked
+PAGE, APPENDIX = "report.html", "appendix.html"
+MACHINE = "machine"  # the figure with the clearance pin marked
 MOST_ROWS = 8  # of a table on the page
 SENTENCES = 3  # on the first screen
 VERDICTS = {  # class, symbol and word of a verdict by its beginning
@@ -38,9 +44,79 @@ VERDICTS = {  # class, symbol and word of a verdict by its beginning
 END_OF_SENTENCE = re.compile(r"(?<=[.!?])\s+(?=[A-Z])")
 
 
+def pages(
+    out: Path,
+    sections: Sequence[ReportSection],
+    waited: Sequence[str] = (),
+    others: Mapping[str, str] | None = None,
+) -> dict[str, str]:
+    """Both pages, by the name of their file.
+
+    Arguments:
+        out: the folder of both; links to other files are relative to it.
+        sections: in the order in which they are to be read.
+        waited: studies of the paper's answer that have not run yet.
+        others: questions of further studies that have not run, by their names.
+
+    Raises OSError if a picture cannot be read.
+    """
+    arranged = Arrangement(out, sections)
+    around = around_chapters(sections)
+    made = templates(PackageLoader("studies.reporting"))
+    given = {"around": around, "arranged": arranged, "waited": waited, "others": others or {}}
+    return {
+        file: made.get_template(f"{file}.j2").render(
+            **given, table_of=ShownTable, scripts=Markup(arranged.live[file].scripts)
+        )
+        for file in (PAGE, APPENDIX)
+    }
+
+
+# --- places ---
+
+
+@dataclass
+class Places:
+    """File and label, such as "Fig. 5", of figures and tables by "study/stem", numbered in reading order."""
+
+    known: dict[str, tuple[str, str]] = field(default_factory=dict)
+    last: dict[str, int] = field(default_factory=dict)
+
+    def number(self, file: str, kind: str, names: Iterable[str]) -> None:
+        """Give figures ("Fig.") or tables ("Table") their places; those that have one keep it."""
+        for name in names:
+            if name not in self.known:
+                self.last[kind] = self.last.get(kind, 0) + 1
+                self.known[name] = file, f"{kind} {self.last[kind]}"
+
+    def link(self, file: str, name: str) -> Markup:
+        """A link from a page to a figure or table; its bare name if the report has none such."""
+        if name not in self.known:
+            return escape(name.rpartition("/")[2])
+        place, label = self.known[name]
+        page = "" if place == file else place
+        return Markup('<a href="{}#{}">{}</a>').format(page, anchor(name), label.replace(" ", "\u00a0"))
+
+    def linked(self, file: str, study: str, text: str) -> Markup:
+        """A sentence of a study, with links in place of its references."""
+        parts = REFERENCE.split(text)  # every second one is a reference
+        return Markup().join(
+            self.link(file, part if "/" in part else f"{study}/{part}") if n % 2 else part
+            for n, part in enumerate(parts)
+        )
+
+
+def anchor(name: str) -> str:
+    """The id of an element: "study-stem" of "study/stem"."""
+    return name.replace("/", "-").replace(" ", "-")
+
+
+# --- what stands where ---
+
+
 @dataclass(frozen=True)
 class ShownClaim:
-    """A claim with its verdict as class, symbol and word, and what shows it."""
+    """A claim with its verdict as class, symbol and word, and links to its evidence."""
 
     claim: JudgedClaim
     why: Markup
@@ -63,7 +139,7 @@ class ShownStudy:
     findings: tuple[Markup, ...]
     figures: tuple[ShownFigure, ...]
     tables: tuple[ShownTable, ...]
-    links: tuple[FileLink, ...]
+    links: tuple[FileLink, ...] = ()
 
 
 class Arrangement:
@@ -72,75 +148,73 @@ class Arrangement:
     Arguments:
         out: the folder of both pages.
         sections: in the order in which they are to be read.
-        beside: studies that stand in the appendix alone.
 
     Raises OSError if a picture cannot be read.
     """
 
-    def __init__(self, out: Path, sections: Sequence[ReportSection], beside: Collection[str] = ()) -> None:
-        self.out = out
-        self.sections = sections
-        self.on_page = [one for one in sections if one.chapter.study not in beside]
-        with_tiles = [one for one in self.on_page if one.chapter.tiles]
-        self.leading = next(iter(with_tiles + self.on_page), None)
+    def __init__(self, out: Path, sections: Sequence[ReportSection]) -> None:
+        self.out, self.sections = out, sections
+        self.by_name = {one.chapter.study: one for one in sections}
+        chapters = [one.chapter for one in sections]
+        self.leading = next(iter([one for one in chapters if one.tiles] + chapters), None)
         self.places = Places()
-        self.first = [name for name in self._first() if name]
+        self.first = list(self._first())
         self.places.number(PAGE, "Fig.", self.first)
-        for one in self.on_page:
+        for one in chapters:
             self.places.number(PAGE, "Fig.", self._key_figure(one))
-            self.places.number(PAGE, "Table", _names(one, one.chapter.sheets[:1]))
-        for one in sections:
-            self.places.number(APPENDIX, "Fig.", _names(one, one.chapter.pictures))
-            self.places.number(APPENDIX, "Table", _names(one, one.chapter.sheets))
+            self.places.number(PAGE, "Table", _names(one, one.sheets[:1]))
+        for one in chapters:
+            self.places.number(APPENDIX, "Fig.", _names(one, one.pictures))
+            self.places.number(APPENDIX, "Table", _names(one, one.sheets))
 
     def _first(self) -> Iterator[str]:
-        """Figures of the first screen: the machine, and the key one of the leading study."""
+        """Figures of the first screen: the machine, and the key figure of the leading study."""
         if self.leading is not None:
-            names = list(_names(self.leading, self.leading.chapter.pictures))
-            machine = f"{self.leading.chapter.study}/{MACHINE}"
+            names, machine = _names(self.leading, self.leading.pictures), f"{self.leading.study}/{MACHINE}"
             yield from (name for name in names if name == machine)
             yield from [name for name in names if name != machine][:1]
 
-    def _key_figure(self, section: ReportSection) -> list[str]:
+    def _key_figure(self, chapter: Chapter) -> list[str]:
         """The first figure of a study that is not on the first screen."""
-        return [name for name in _names(section, section.chapter.pictures) if name not in self.first][:1]
+        return [name for name in _names(chapter, chapter.pictures) if name not in self.first][:1]
 
     # --- the first screen ---
 
     def figure_on_top(self, machine: bool) -> ShownFigure | None:
         """The machine, or the key figure of the leading study."""
         found = [name for name in self.first if name.endswith(f"/{MACHINE}") == machine]
-        return self._figures(PAGE, found)[0] if found else None
+        return self._figure(PAGE, found[0]) if found else None
 
     @property
     def tiles(self) -> list[KeyNumber]:
         """The numbers of the first screen."""
-        tiles = self.leading.chapter.tiles if self.leading is not None else ()
+        tiles = self.leading.tiles if self.leading is not None else ()
         return [KeyNumber(one.name, one.with_clearance, one.ideal, one.change) for one in tiles]
 
     @property
     def computed_by(self) -> str:
         """Engine and method of the leading study."""
-        return self.leading.chapter.computed_by if self.leading is not None else ""
+        return self.leading.computed_by if self.leading is not None else ""
 
     @property
     def sentences(self) -> list[Markup]:
-        """What clearance does, from the leading study; how sure that is, from the claims; else from others."""
-        chapters = [one.chapter for one in self.on_page]
-        told = [(one.study, END_OF_SENTENCE.split(one.answer)) for one in chapters if one.answer]
-        leading = self.leading.chapter.study if self.leading is not None else ""
-        ahead = [(name, text) for name, texts in told if name == leading for text in texts[: SENTENCES - 1]]
-        judged = [
-            (one.study, END_OF_SENTENCE.split(one.answer)[0]) for one in chapters if one.claims and one.answer
-        ]
-        others = [(name, texts[0]) for name, texts in told if name != leading]
-        chosen = list(dict.fromkeys(ahead + judged + others))[:SENTENCES]
-        return [self.places.linked(PAGE, name, text) for name, text in chosen]
+        """The effect of clearance, from the leading study; how sure that is, from the claims; or others."""
+        answers = {
+            one.chapter.study: END_OF_SENTENCE.split(one.chapter.answer)
+            for one in self.sections
+            if one.chapter.answer
+        }
+        leading = self.leading.study if self.leading is not None else ""
+        ahead = [(leading, text) for text in answers.get(leading, ())[: SENTENCES - 1]]
+        others = [(name, texts[0]) for name, texts in answers.items() if name != leading]
+        others.sort(key=lambda one: not self.by_name[one[0]].chapter.claims)
+        return [self.places.linked(PAGE, *one) for one in (ahead + others)[:SENTENCES]]
 
-    @property
+    @cached_property
     def claims(self) -> list[ShownClaim]:
         """All claims of the paper that were judged."""
-        return [self._claim(one.chapter.study, claim) for one in self.on_page for claim in one.chapter.claims]
+        chapters = (one.chapter for one in self.sections)
+        return [self._claim(chapter.study, claim) for chapter in chapters for claim in chapter.claims]
 
     @property
     def counts(self) -> list[tuple[str, str, str, int]]:
@@ -151,9 +225,8 @@ class Arrangement:
     def _claim(self, study: str, claim: JudgedClaim) -> ShownClaim:
         beginnings = [start for start in VERDICTS if claim.verdict.lower().startswith(start)]
         css, symbol, word = VERDICTS[max(beginnings, key=len)] if beginnings else ("", "", claim.verdict)
-        shown_in = tuple(
-            self.places.link(PAGE, name) for name in (claim.figure, claim.table) if name in self.places.known
-        )
+        evidence = (name for name in (claim.figure, claim.table) if name in self.places.known)
+        shown_in = tuple(self.places.link(PAGE, name) for name in evidence)
         return ShownClaim(claim, self.places.linked(PAGE, study, claim.why), css, symbol, word, shown_in)
 
     # --- studies ---
@@ -163,26 +236,27 @@ class Arrangement:
         """The studies on the page: their key figure and key table."""
         return [
             replace(
-                self._study(PAGE, one, self._key_figure(one), _names(one, one.chapter.sheets[:1])),
+                self._study(
+                    PAGE, one, self._key_figure(one.chapter), _names(one.chapter, one.chapter.sheets[:1])
+                ),
                 links=self._more(one),
             )
-            for one in self.on_page
+            for one in self.sections
         ]
 
     @cached_property
     def rest(self) -> list[ShownStudy]:
-        """All studies in the appendix: what the page does not show, and tables that it shows in part."""
-        return [self._study(APPENDIX, one, self._left(one), self._long(one)) for one in self.sections]
-
-    def _left(self, section: ReportSection) -> list[str]:
-        names = _names(section, section.chapter.pictures)
-        return [name for name in names if self.places.known[name].file == APPENDIX]
-
-    def _long(self, section: ReportSection) -> list[str]:
-        sheets = section.chapter.sheets
-        names = zip(_names(section, sheets), sheets, strict=True)
-        known = self.places.known
-        return [n for n, sheet in names if known[n].file == APPENDIX or len(sheet.rows) > MOST_ROWS]
+        """All studies in the appendix: figures and tables that the page has not, or has in part."""
+        known, found = self.places.known, []
+        for one in self.sections:
+            pictures, sheets = (
+                _names(one.chapter, parts) for parts in (one.chapter.pictures, one.chapter.sheets)
+            )
+            figures = [name for name in pictures if known[name][0] == APPENDIX]
+            long = dict(zip(sheets, (len(sheet.rows) > MOST_ROWS for sheet in one.chapter.sheets), strict=True))
+            tables = [name for name in sheets if known[name][0] == APPENDIX or long[name]]
+            found.append(self._study(APPENDIX, one, figures, tables))
+        return found
 
     def _study(
         self, file: str, section: ReportSection, figures: Sequence[str], tables: Sequence[str]
@@ -200,9 +274,8 @@ class Arrangement:
             numbers=linked(chapter.numbers),
             method=linked(chapter.method),
             findings=linked(chapter.findings),
-            figures=tuple(self._figures(file, figures)),
+            figures=tuple(self._figure(file, name) for name in figures),
             tables=tuple(self._table(file, section, name) for name in tables),
-            links=(),
         )
 
     def _more(self, section: ReportSection) -> tuple[FileLink, ...]:
@@ -218,62 +291,45 @@ class Arrangement:
     def live(self) -> dict[str, live_html.LiveHtml]:
         """Live figures of both pages, by the page's file."""
         of_all = {
-            f"{one.chapter.study}/{stem}": figure for one in self.sections for stem, figure in one.live.items()
+            f"{study}/{stem}": live for study, one in self.by_name.items() for stem, live in one.live.items()
         }
+        known = self.places.known
         return {
-            file: live_html.html(
-                {name: of for name, of in of_all.items() if self.places.known[name].file == file}
-            )
+            file: live_html.html({name: live for name, live in of_all.items() if known[name][0] == file})
             for file in (PAGE, APPENDIX)
         }
 
-    def _figures(self, file: str, names: Sequence[str]) -> list[ShownFigure]:
-        found = []
-        by_name = {one.chapter.study: one for one in self.sections}
-        for name in names:
-            study, _, stem = name.partition("/")
-            section = by_name[study]
-            picture = next(one for one in section.chapter.pictures if one.stem == stem)
-            found.append(self._figure(file, section, picture))
-        return found
-
-    def _figure(self, file: str, section: ReportSection, picture: Picture) -> ShownFigure:
-        name = f"{section.chapter.study}/{picture.stem}"
+    def _figure(self, file: str, name: str) -> ShownFigure:
+        study, _, stem = name.partition("/")
+        section = self.by_name[study]
+        picture = next(one for one in section.chapter.pictures if one.stem == stem)
         return ShownFigure(
-            image=image(section.folder / f"{picture.stem}.png"),
-            caption=self.places.linked(file, section.chapter.study, picture.caption),
+            image=image(section.folder / f"{stem}.png"),
+            caption=self.places.linked(file, study, picture.caption),
             live=Markup(self.live[file].places.get(name, "")),
             anchor=anchor(name),
-            label=self.places.known[name].label + ".",
-            links=self._files(section.folder, picture.stem, "csv", "pdf"),
+            label=self.places.known[name][1] + ".",
+            links=self._files(section.folder, stem, "csv", "pdf"),
         )
 
     def _table(self, file: str, section: ReportSection, name: str) -> ShownTable:
         """A table with links to its files; on the page no more than its first rows."""
-        study = section.chapter.study
-        n = list(_names(section, section.chapter.sheets)).index(name)
-        sheet = section.chapter.sheets[n]
+        chapter = section.chapter
+        sheet = chapter.sheets[_names(chapter, chapter.sheets).index(name)]
 
         def linked(text: str) -> Markup:
-            return self.places.linked(file, study, text)
+            return self.places.linked(file, chapter.study, text)
 
-        caption = linked(sheet.caption)
-        rows = sheet.rows
+        caption, rows = linked(sheet.caption), sheet.rows
         if file == PAGE and len(rows) > MOST_ROWS:
             rows = rows[:MOST_ROWS]
             more = Markup(' <a href="{}#{}">All {} rows.</a>').format(APPENDIX, anchor(name), len(sheet.rows))
             caption += more
+        cells = tuple(tuple(map(linked, row)) for row in rows)
         return ShownTable(
-            sheet=Sheet(
-                title=linked(sheet.title),
-                header=sheet.header,
-                rows=tuple(tuple(linked(cell) for cell in row) for row in rows),
-                caption=caption,
-                left=sheet.left,
-                wide=sheet.wide,
-            ),
+            sheet=replace(sheet, title=linked(sheet.title), rows=cells, caption=caption, name=""),
             anchor=anchor(name),
-            label=self.places.known[name].label + ".",
+            label=self.places.known[name][1] + ".",
             links=self._files(section.folder, sheet.name, "csv") if sheet.name else (),
         )
 
@@ -285,9 +341,9 @@ class Arrangement:
         return quote(Path(os.path.relpath(path, self.out)).as_posix())
 
 
-def _names(section: ReportSection, parts: Sequence[Picture | Sheet]) -> list[str]:
+def _names(chapter: Chapter, parts: Sequence[Picture | Sheet]) -> list[str]:
     """The parts as "study/stem" or "study/name"; a table without a name is called by its place."""
     stems = [
         one.stem if isinstance(one, Picture) else one.name or f"table-{n}" for n, one in enumerate(parts, 1)
     ]
-    return [f"{section.chapter.study}/{stem}" for stem in stems]
+    return [f"{chapter.study}/{stem}" for stem in stems]

@@ -1,5 +1,6 @@
 """What elements change and cost, columns driven apart, and the plane beside space."""
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -9,26 +10,44 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
 from studies.common import rise
-from studies.common.panels import legend, letters
-from studies.scene_detail.measures import MM, Change, MeasuredScene, times_as_long
+from studies.common.numbers import rounded
+from studies.common.panels import letters
+from studies.common.words import text_table
+from studies.scene_detail.measures import (
+    FROM_REFERENCE,
+    MM,
+    SMALLEST,
+    Change,
+    MeasuredScene,
+    change,
+    times_as_long,
+)
 from studies.scene_detail.scenes import (
-    CLEARANCE_IN_SPACE,
     CLEARANCE_MM,
     EQUAL,
     FULLEST,
-    PAPERS,
-    PAPERS_IN_SPACE,
     PLAINEST,
     REAR,
     UNEQUAL_FULLEST,
     UNEQUAL_IDEAL,
-    WITH_CLEARANCE,
     DetailScene,
 )
-from studies.scene_detail.tables import FARTHEST, RELATIVE, changes
-from support_exudyn import Result
+from support_exudyn import Estimate, Result, recommend
 from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.page.pieces import Sheet
+from support_exudyn.simulation.evidence.table import EvidenceTable as Tried
+from support_exudyn.simulation.recommend import QUESTIONS
 
+BELOW = "below the error"
+RELATIVE = {  # changes in per cent
+    "mean_pin_force": "mean force [%]",
+    "std_pin_force": "spread [%]",
+    "largest_pin_force_in_stroke": "largest, stroke [%]",
+    "largest_pin_force": "largest, whole run [%]",
+    "std_angular_acceleration": "acceleration, spread [%]",
+}
+CANOPY = "canopy, largest [deg/s²]"
+TIP, FARTHEST = "tip forward, mean [mm]", "tip, farthest [mm]"
 # columns of the figure of changes: of `tables.changes`, with the smallest that is told apart from none
 PANELS = {
     RELATIVE["mean_pin_force"]: ("mean force [%]", 1e-2),
@@ -41,7 +60,6 @@ MORE, LESS, OPEN = style.CONTACT, style.WITH_CLEARANCE, "#777777"
 PURPLE = "#CC79A7"
 DASHES = (0, (4, 2))
 WIDTHS = {"left": 1.8, "right": 0.8}  # the thinner curve is drawn on top
-LEAST_APART = 1e-9  # [N]
 ROW_MM = 4.3  # height of an element's row
 
 
@@ -51,7 +69,6 @@ def figures(measured: Mapping[str, MeasuredScene]) -> dict[str, Figure]:
     return {
         "change_and_cost": change_figure(measured),
         "unequal_columns": unequal_figure(runs),
-        "plane_and_space": space_figure(runs),
     }
 
 
@@ -195,25 +212,120 @@ def _key(label: str, colour: str) -> Line2D:
 # --- plane and space ---
 
 
-def space_figure(runs: Mapping[str, Result]) -> Figure:
-    """Forces above, their distance below."""
-    drawing = Figure(figsize=style.size(180, 105))
-    panels = drawing.subplots(2, 2, sharex=True, sharey="row", height_ratios=(2, 1))
-    pairs = {"no friction": (WITH_CLEARANCE, CLEARANCE_IN_SPACE), "friction 0.25": (PAPERS, PAPERS_IN_SPACE)}
-    force = f"pin.{REAR}.force"
-    for column, (said, (plane, space)) in enumerate(pairs.items()):
-        above, below = panels[:, column]
-        one, other = runs[plane], runs[space]
-        above.plot(one.time, 1e-3 * one[force], color=style.SMOOTH, lw=2.2, label="in the plane")
-        above.plot(other.time, 1e-3 * other[force], color=style.IDEAL, lw=0.7, label="in space")
-        above.annotate(said, (0.98, 0.95), xycoords="axes fraction", ha="right", va="top")
-        apart = np.maximum(np.abs(other[force] - one[force]), LEAST_APART)
-        below.semilogy(other.time, apart, color=style.WITH_CLEARANCE, lw=0.7, label="difference")
-        below.set_xlim(0.0, one.scenario.duration)
-        below.set_xlabel("time [s]")
-    panels[0, 0].set_ylabel("rear pin force [kN]")
-    panels[1, 0].set_ylabel("difference [N]")
-    letters(list(panels.flat))
-    drawing.align_ylabels()
-    legend(drawing, panels[0, 0], 2)
-    return drawing
+UNEQUAL_ROWS = {  # heading and scale
+    "largest_roll": ("roll of the canopy, largest [deg]", 1.0),
+    "largest_yaw": ("yaw of the canopy, largest [deg]", 1.0),
+    "largest_front_column_force": ("front column force, largest of both [kN]", 1e-3),
+    "left_front_column_force_at_the_end": ("left front column, at the end [kN]", 1e-3),
+    "right_front_column_force_at_the_end": ("right front column, at the end [kN]", 1e-3),
+    "largest_moment": ("moment on the rear pin, largest [kN m]", 1e-3),
+    "mean_pin_force": ("rear pin force, mean in the stroke [kN]", 1e-3),
+    "largest_pin_force": ("rear pin force, largest [kN]", 1e-3),
+    "largest_left_depth": ("depth at the left edge, largest [mm]", 1e3),
+    "largest_right_depth": ("depth at the right edge, largest [mm]", 1e3),
+}
+
+
+def changes(one: MeasuredScene, reference: MeasuredScene) -> dict[str, Change]:
+    """What a scene changes against its reference, by heading: per cent, and millimetres of the tip."""
+    found = {
+        heading: change(one.numbers[name], reference.numbers[name]).of(reference.numbers[name].value)
+        for name, heading in RELATIVE.items()
+    }
+    canopy = "largest_canopy_acceleration"
+    found[CANOPY] = change(one.numbers[canopy], reference.numbers[canopy])
+    found[TIP] = change(one.numbers["mean_tip_x"], reference.numbers["mean_tip_x"]).scaled(MM)
+    away = one.numbers[FROM_REFERENCE]
+    found[FARTHEST] = Change(away.value, away.error).scaled(MM)
+    return found
+
+
+def shown(found: Change) -> str:
+    """A change with its error, or that it is below it."""
+    if found.below_error:
+        return f"{BELOW}, {found.error:.1g}"
+    # no more digits than the error leaves, and four at most
+    return f"{'+' if found.value > 0.0 else ''}{_short(found)}"
+
+
+def _short(found: Change) -> str:
+    if found.error < 1e-3 * abs(found.value):
+        digits = max(0, 3 - math.floor(math.log10(abs(found.value))))
+        return f"{found.value:.{digits}f}"
+    return rounded(found.value, found.error)
+
+
+def ratio(times: float) -> str:
+    """A ratio of costs to two digits."""
+    return f"{times:.0f}" if times >= 100.0 else f"{times:.2g}"
+
+
+def change_table(measured: Mapping[str, MeasuredScene], group: str) -> Sheet:
+    """What each element of a group changes, and how many times the reference's time the scene takes."""
+    rows = []
+    for one in measured.values():
+        if one.scene.group == group and one.scene.reference:
+            reference = measured[one.scene.reference]
+            cells = (shown(item) for item in changes(one, reference).values())
+            times = ratio(times_as_long(one, reference))
+            rows.append((one.scene.element, one.scene.reference, *cells, times))
+    header = ("element", "against", *RELATIVE.values(), CANOPY, TIP, FARTHEST, "times the time")
+    return text_table(header, rows, left=2)
+
+
+def _cell(number: Estimate | None, scale: float) -> str:
+    if number is None:
+        return ""
+    if abs(number.value) <= SMALLEST[number.unit]:
+        return "0"  # but for rounding
+    return rounded(scale * number.value, scale * number.error)
+
+
+def unequal_table(measured: Mapping[str, MeasuredScene]) -> Sheet:
+    """What the plane cannot show."""
+    scenes = {name: one for name, one in measured.items() if one.scene.group == "unequal"}
+    rows = tuple(
+        (heading, *(_cell(one.numbers.get(key), scale) for one in scenes.values()))
+        for key, (heading, scale) in UNEQUAL_ROWS.items()
+    )
+    return text_table(("quantity", *scenes), rows)
+
+
+def advice_table(tried: Tried) -> Sheet:
+    """Which scene for which question."""
+    rows = []
+    for question in QUESTIONS:
+        advice = recommend(question, tried)
+        used = max((item.difference + item.error) / item.allowed for item in advice.evidence)
+        fullest = tried.fullest_of(QUESTIONS[question].family).name
+        share = "0 %" if advice.scene == fullest else f"{100.0 * used:.2g} %"
+        rows.append((question, advice.scene, f"{advice.seconds:.2g}", f"{advice.fullest_seconds:.2g}", share))
+    header = ("question", "cheapest scene", "time [s]", "fullest [s]", "off, of what is allowed")
+    return text_table(header, rows, left=2)
+
+
+# --- for sentences ---
+
+
+def strongest(measured: Mapping[str, MeasuredScene], group: str, heading: str, most: int = 3) -> list[str]:
+    """The elements of a group that surely change a number most, each with its change, the strongest first."""
+    found = []
+    for one in measured.values():
+        if one.scene.group == group and one.scene.reference in (PLAINEST, FULLEST):
+            changed = changes(one, measured[one.scene.reference])[heading]
+            if not changed.below_error:
+                found.append((abs(changed.value) - changed.error, one.scene.element[2:], changed))
+    found.sort(key=lambda item: item[0], reverse=True)
+    return [f"{element} ({shown(changed)})" for _, element, changed in found[:most]]
+
+
+def without_effect(measured: Mapping[str, MeasuredScene], group: str, heading: str, least: float) -> list[str]:
+    """The elements of a group that surely change a number by less than this."""
+    return [
+        one.scene.element[2:]
+        for one in measured.values()
+        if one.scene.group == group
+        and one.scene.reference in (PLAINEST, FULLEST)
+        and (changed := changes(one, measured[one.scene.reference])[heading])
+        and abs(changed.value) + changed.error < least
+    ]

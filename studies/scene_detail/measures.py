@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import operator
+import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from studies.common import rise
 from studies.common.numbers import Number, measured
-from studies.common.runs import halvings, impacts
-from studies.scene_detail.runs import Timed, timed
+from studies.common.runs import bar, halvings, impacts, with_coarser
 from studies.scene_detail.scenes import FULLEST, REAR, DetailScene
-from support_exudyn import Estimate, Result
+from support_exudyn import Estimate, Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.mechanics.time_statistics import TimeWindow
 from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, fields_of
 from support_exudyn.simulation.recommend import STROKE, UNEQUAL
+from support_exudyn.sweeps.workers import Workers, report, worker_pool
 
 ROUNDING = 1e-7  # share of a number that no error is below
 # what Newton's tolerance and rounding leave open, below which no error of such a number is put, by its unit
@@ -255,3 +256,48 @@ def table(measured: Mapping[str, MeasuredScene], said: Mapping[str, str]) -> Evi
 def times_as_long(one: MeasuredScene, other: MeasuredScene) -> float:
     """Ratio of the costs."""
     return one.cost.seconds / other.cost.seconds
+
+
+@dataclass(frozen=True)
+class Timed:
+    """A run with errors of a case, and the processor times at its steps and at half of them [s]."""
+
+    run: Result
+    seconds: float
+    half_seconds: float
+
+
+def run_timed(cases: Mapping[str, Scenario], workers: int | Workers) -> dict[str, Timed]:
+    """Run every case at its steps, at half and at a quarter of them, in parallel, under a progress bar.
+
+    Raises SimulationError if a run fails.
+    """
+    half = {name: case.refined() for name, case in cases.items()}
+    jobs = [*((name, case.refined()) for name, case in half.items()), *half.items(), *cases.items()]
+    with bar(f"{len(jobs)} runs") as told, worker_pool(workers) as pool:
+        done = pool.run(jobs, _run, told)
+    found = {}
+    for n, name in enumerate(cases):
+        fine, middle, coarse = (_good(name, *done[k * len(cases) + n]) for k in range(3))
+        found[name] = Timed(with_coarser([coarse[0], middle[0], fine[0]]), coarse[1], middle[1])
+    return found
+
+
+def _run(place: int, name: str, scenario: Scenario) -> tuple[Result | Failure, float]:
+    del name
+    begun = time.process_time()
+    result = simulate(scenario, progress=report, throw=False)
+    return result, time.process_time() - begun
+
+
+def _good(name: str, result: Result | Failure, seconds: float) -> tuple[Result, float]:
+    if isinstance(result, Failure):
+        raise SimulationError(replace(result, reason=f"{name}: {result.reason}"))
+    return result, seconds
+
+
+def timed(scenario: Scenario) -> float:
+    """Processor time of a run [s]."""
+    begun = time.process_time()
+    simulate(scenario)
+    return time.process_time() - begun

@@ -9,10 +9,10 @@ from collections.abc import Mapping
 
 from studies.common.options import Options
 from studies.common.study import Study, StudyOutcome
-from studies.scene_detail import measures, scenes, tables
+from studies.scene_detail import figures as tables
+from studies.scene_detail import measures, scenes
 from studies.scene_detail.figures import figures
-from studies.scene_detail.measures import MeasuredScene
-from studies.scene_detail.runs import run_timed
+from studies.scene_detail.measures import MeasuredScene, run_timed
 from studies.scene_detail.scenes import APART, PLAINEST, UNEQUAL_FULLEST, DetailScene
 from support_exudyn import recommend
 from support_exudyn.simulation.recommend import QUESTIONS, STROKE, UNEQUAL
@@ -52,9 +52,6 @@ def work(chosen: Options) -> StudyOutcome:
         "table_advice": tables.advice_table(tried),
         "table_unequal": tables.unequal_table(measured),
         **{f"table_{group}": tables.change_table(measured, group) for group in GROUPS},
-        "table_evidence": tables.evidence_table(tried),
-        "table_cost": tables.cost_table(measured),
-        "table_values": tables.value_table(measured),
     }
     pairs = ((one, measured[one.scene.reference]) for one in measured.values() if one.scene.group == "space")
     of_space = [tables.changes(*pair)[tables.RELATIVE["mean_pin_force"]] for pair in pairs]
@@ -67,9 +64,8 @@ def work(chosen: Options) -> StudyOutcome:
         "plane_is_enough": all(abs(found.value) + found.error < 1.0 for found in of_space),
         "advised": {name: recommend(name, tried) for name in QUESTIONS},
     }
-    live = {"unequal_columns": (0, 1, 2, 3), "plane_and_space": (0, 1, 2, 3)}
+    live = {"unequal_columns": (0, 1, 2, 3)}
     return StudyOutcome(measures.listed(measured), words, figures(measured), sheets, live=live)
 
 
 study = Study("scene_detail", __doc__, work, seconds=110.0)
-main = study.main

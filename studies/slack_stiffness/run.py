@@ -5,24 +5,43 @@ the rear, with ideal pins and with 0.25 to 2 mm of clearance in all of them: sla
 within it and beyond it, and what links and legs carry.
 """
 
-from collections.abc import Mapping
+from __future__ import annotations
 
-from studies.common.numbers import Found, Number, by_case, cell, rounded
+from collections.abc import Mapping
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from studies.common.numbers import Found, Number, by_case, cell
 from studies.common.options import Options
+from studies.common.panels import finish
 from studies.common.runs import run_cases
 from studies.common.study import Study, StudyOutcome
-from studies.common.words import TextTable
-from studies.slack_stiffness import cases as plan
-from studies.slack_stiffness.cases import CLEARANCES_MM, FRICTION, MACHINES, ROOF_SHARES, PushedSupport, cases
-from studies.slack_stiffness.figures import MIDDLE, loop_figure, slack_figure
-from studies.slack_stiffness.measures import MEASURES, kinematic_slack, numbers, participation, pin_shares
+from studies.common.words import text_table
+from studies.slack_stiffness import loops as plan
+from studies.slack_stiffness.loops import (
+    CLEARANCES_MM,
+    FRICTION,
+    MACHINES,
+    ROOF_SHARES,
+    Loop,
+    PushedSupport,
+    cases,
+    kinematic_slack,
+    numbers,
+    participation,
+    pin_shares,
+)
 from support_exudyn import Result
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.page.pieces import Sheet
 
 ROOF_MOVES_MM = (5.0, 10.0, 20.0, 40.0)  # by how much a roof moves the canopy, either way
 Shares = Mapping[tuple[str, float], Mapping[str, float]]  # of the push, by machine and roof load
 
 
-def key_table(found: Found, shares: Shares) -> TextTable:
+def key_table(found: Found, shares: Shares) -> Sheet:
     """Slack and stiffness of every support under the middle roof load."""
     rows = []
     for machine in MACHINES:
@@ -39,10 +58,10 @@ def key_table(found: Found, shares: Shares) -> TextTable:
         "support", "clearance [mm]", "slack [mm]", "by virtual work [mm]", "within [kN/mm]", "beyond [kN/mm]",
         "turn to turn [kN/mm]",
     )  # fmt: skip
-    return TextTable(header, tuple(rows), left=1)
+    return text_table(header, rows, left=1)
 
 
-def participation_table(found: Found) -> TextTable:
+def participation_table(found: Found) -> Sheet:
     """What is left of the linkage's stiffness, by clearance and by how far the roof moves."""
     rows = []
     for size in CLEARANCES_MM[1:]:
@@ -50,30 +69,74 @@ def participation_table(found: Found) -> TextTable:
         left = [100.0 * participation(slack.value, one) for one in ROOF_MOVES_MM]
         rows.append((f"{size:g}", cell(slack), *(f"{one:.0f} %" for one in left)))
     header = ("clearance [mm]", "slack [mm]", *(f"roof moves ± {one:g} mm" for one in ROOF_MOVES_MM))
-    return TextTable(header, tuple(rows))
+    return text_table(header, rows)
 
 
-def pin_table(shares: Shares) -> TextTable:
+def pin_table(shares: Shares) -> Sheet:
     """Force of each pin over the push, with ideal pins."""
     rows = [
         (machine, *(f"{one:.3f}" for one in shares[machine, MIDDLE].values()), f"{factor(shares, machine):.2f}")
         for machine in MACHINES
     ]
     pins = (name.replace("_", " ") for name in shares[MACHINES[0], MIDDLE])
-    return TextTable(("support", *pins, "slack over clearance"), tuple(rows))
-
-
-def whole_table(found: Found) -> TextTable:
-    """All measures of all cases."""
-    runs = dict.fromkeys(case for _, case in found)
-    rows = [(case, *(cell(found.get((name, case))) for name in MEASURES)) for case in runs]
-    header = ("case", *(f"{name.replace('_', ' ')} [{unit}]" for name, (unit, _) in MEASURES.items()))
-    return TextTable(header, tuple(rows), in_chapter=False, width=200)
+    return text_table(("support", *pins, "slack over clearance"), rows)
 
 
 def factor(shares: Shares, machine: str) -> float:
     """Slack over the radial clearance, by virtual work."""
     return 2.0 * sum(shares[machine, MIDDLE].values())
+
+
+# --- figures ---
+
+Ran = Mapping[str, tuple[PushedSupport, Result]]
+DRAWN_MM = (0.0, 0.5, 1.0, 2.0)  # clearances whose loops are drawn
+MIDDLE = ROOF_SHARES[1]
+
+
+def loop_figure(ran: Ran) -> Figure:
+    """Push over displacement of the canopy, a panel for each machine, under the middle roof load."""
+    drawing = Figure(figsize=style.size(170, 85))
+    panels = list(drawing.subplots(1, 2))
+    for axes, machine in zip(panels, MACHINES, strict=True):
+        for (colour, dashes), size in zip(reversed(style.CURVES[:4]), DRAWN_MM, strict=True):
+            case, run = ran[PushedSupport(machine, size, MIDDLE, FRICTION).name]
+            loop = Loop(case, run)
+            label = f"{size:g} mm" if size else "ideal pins"
+            axes.plot(1e3 * loop.shift, 1e-3 * loop.force, color=colour, ls=dashes, label=label)
+        axes.set(xlabel="displacement of the canopy [mm]", ylabel="horizontal force [kN]", title=machine)
+    return finish(drawing, panels, 4)
+
+
+def slack_figure(found: Found, factors: Mapping[str, float]) -> Figure:
+    """Slack over clearance with what virtual work says (a), and stiffness from turn to turn (b)."""
+    drawing = Figure(figsize=style.size(170, 85))
+    slack, whole = drawing.subplots(1, 2)
+    markers = dict(zip(ROOF_SHARES, ("o", "s", "^"), strict=True))
+    for machine, (colour, dashes) in zip(MACHINES, style.CURVES, strict=False):
+        ends = (0.0, CLEARANCES_MM[-1])
+        slack.plot(ends, [factors[machine] * one for one in ends], color=colour, ls=dashes, lw=0.8)
+        for share, marker in markers.items():
+            _draw(slack, found, "slack", machine, share, color=colour, marker=marker, ls="none")
+            _draw(whole, found, "whole", machine, share, color=colour, marker=marker, ls=dashes)
+    slack.set(xlabel="radial clearance of all pins [mm]", ylabel="slack of the canopy [mm]")
+    whole.set(
+        xlabel="radial clearance of all pins [mm]", ylabel="stiffness from turn to turn [kN/mm]", ylim=(0, None)
+    )
+    for machine, (colour, dashes) in zip(MACHINES, style.CURVES, strict=False):
+        slack.plot([], [], color=colour, ls=dashes, label=machine)
+    for share, marker in markers.items():
+        slack.plot([], [], marker, color="black", mfc="none", label=f"roof load {100 * share:g} % of rated")
+    return finish(drawing, [slack, whole], 3)
+
+
+def _draw(axes: Axes, found: Found, measure: str, machine: str, share: float, **look: Any) -> None:
+    sizes = CLEARANCES_MM[1:]
+    values = [found[measure, PushedSupport(machine, size, share, FRICTION).name].value for size in sizes]
+    axes.plot(sizes, values, mfc="none", ms=4.5, lw=0.8, **look)
+
+
+# --- the study ---
 
 
 def work(chosen: Options) -> StudyOutcome:
@@ -112,13 +175,11 @@ def work(chosen: Options) -> StudyOutcome:
         ),
         "left": participation,
         "middle": MIDDLE,
-        "rounded": rounded,
     }
     sheets = {
         "slack": key_table(found, shares),
         "participation": participation_table(found),
         "pins": pin_table(shares),
-        "all": whole_table(found),
     }
     drawings = {
         "loops": loop_figure(ran),
@@ -132,4 +193,3 @@ def work(chosen: Options) -> StudyOutcome:
 
 
 study = Study("slack_stiffness", __doc__, work, seconds=400.0)
-main = study.main

@@ -20,12 +20,13 @@ from studies.common.panels import letters
 from studies.common.rise import Crest, onset
 from studies.common.runs import impacts, run_with_errors
 from studies.common.study import Study, StudyOutcome
-from studies.common.words import TextTable
+from studies.common.words import text_table
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, Steady, ravn_slider_crank
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.journal import journal
 from support_exudyn.postprocessing.figures.orbit import draw_path
 from support_exudyn.postprocessing.figures.units import DisplayUnit
+from support_exudyn.postprocessing.page.pieces import Sheet
 from user_forces import (
     Ambrosio,
     Frictionless,
@@ -143,7 +144,7 @@ def _over_angle(axes: Axes, result: Result, colour: str, label: str) -> None:
     axes.plot(angle, 1e-3 * result[f"pin.{PIN}.force"], color=colour, lw=0.9, label=label)
 
 
-def agreement_table(found: Found, known: Sequence[int]) -> TextTable:
+def agreement_table(found: Found, known: Sequence[int]) -> Sheet:
     """The first impacts without friction beside the independent solution."""
     rows = []
     for n in known:
@@ -156,15 +157,7 @@ def agreement_table(found: Found, known: Sequence[int]) -> TextTable:
         "initial impact velocity [m/s]",
         "independent solution",
     )
-    return TextTable(header, tuple(rows))
-
-
-def table(numbers: Sequence[Number]) -> TextTable:
-    """All numbers, a row each, beside the reference."""
-    rows = ((n.case, n.name.replace("_", " "), n.unit, cell(n), printed(n)) for n in numbers)
-    return TextTable(
-        ("case", "quantity", "unit", "here", "independent solution"), tuple(rows), left=3, width=120
-    )
+    return text_table(header, rows)
 
 
 # --- the study ---
@@ -188,10 +181,9 @@ def work(chosen: Options) -> StudyOutcome:
             found[f"onset_{n}_time", DRY] for n in range(1, ONSETS + 1) if (f"onset_{n}_time", DRY) in found
         ],
     }
-    tables = {"table_agreement": agreement_table(found, known), "table": table(numbers)}
+    tables = {"table_agreement": agreement_table(found, known)}
     drawings, live = {"slider_crank": figure(results)}, {"slider_crank": (0, 1)}
     return StudyOutcome(numbers, words, drawings, tables, results, live=live)
 
 
 study = Study("slider_crank", __doc__, work, seconds=18.0)
-main = study.main

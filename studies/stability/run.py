@@ -12,27 +12,37 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from studies.common.numbers import Number
 from studies.common.options import Options
+from studies.common.panels import finish
 from studies.common.paper_machine import clearance_rise
 from studies.common.runs import run_cases
 from studies.common.study import Study, StudyOutcome
-from studies.common.words import TextTable
-from studies.stability.cases import (
+from studies.common.words import text_table
+from studies.stability.motions import (
     CASES,
     CLEARANCE,
     PINS,
     STIFFNESSES,
+    Growth,
     PinCase,
+    Prepared,
     all_scenarios,
+    difference,
+    growth,
+    numbers,
     prepared,
     run_name,
 )
-from studies.stability.figures import answer_figure, map_figure
-from studies.stability.measures import Growth, growth, numbers
-from support_exudyn import UniformSpeed
+from support_exudyn import Result, UniformSpeed
 from support_exudyn.mechanics.pin_stability import PRECISE, critical_friction, painleve_friction
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.stability_map import draw_map
+from support_exudyn.postprocessing.figures.stability_map import finish as colour_bar
+from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 
 SHOWN = PinCase("rear_base", "cylinders", 0.1)  # whose motion is drawn
@@ -72,37 +82,7 @@ def whole_stroke(case: PinCase) -> WholeStroke:
     )
 
 
-def growth_table(found: Sequence[Growth]) -> TextTable:
-    """Predicted and measured growth of every case."""
-    rows = [
-        (
-            one.pin,
-            one.stiffness,
-            f"{one.friction:g}",
-            f"{one.predicted:.2f}",
-            f"{one.halved:.2f}",
-            f"{100.0 * one.off:.1f} %",
-            f"{one.frequency_predicted:.2f}",
-            f"{one.frequency_measured:.2f}",
-            "yes" if one.painleve else "",
-        )
-        for one in found
-    ]
-    header = (
-        "pin",
-        "stiffness",
-        "friction",
-        "growth rate, predicted [1/s]",
-        "in a run [1/s]",
-        "off",
-        "frequency, predicted [Hz]",
-        "in a run [Hz]",
-        "beyond Painlevé",
-    )
-    return TextTable(header, tuple(rows), left=2, width=150)
-
-
-def stroke_table(strokes: Mapping[tuple[str, str], WholeStroke]) -> TextTable:
+def stroke_table(strokes: Mapping[tuple[str, str], WholeStroke]) -> Sheet:
     """What is predicted over the whole stroke at a friction of 0.25."""
     rows = []
     for (pin, stiffness), stroke in strokes.items():
@@ -111,35 +91,17 @@ def stroke_table(strokes: Mapping[tuple[str, str], WholeStroke]) -> TextTable:
         assert worst is not None
         told = outlook.found[worst]
         assert told is not None
-        limits = [
-            f"{limit:.3f}" if limit <= 1.0 else "none"
-            for limit in (stroke.critical, stroke.undamped, stroke.painleve)
-        ]
-        rows.append(
-            (
-                pin,
-                stiffness,
-                "stable" if outlook.stable else "shakes",
-                f"{told.growth:.2f}",
-                f"{told.frequency:.1f}",
-                f"{1e3 * outlook.travels[worst]:.0f}",
-                f"{1e6 * told.depth:.3g}",
-                *limits,
-            )
-        )
+        limits = (stroke.critical, stroke.undamped, stroke.painleve)
+        rows.append((
+            pin, stiffness, "stable" if outlook.stable else "shakes", f"{told.growth:.2f}",
+            f"{told.frequency:.1f}", f"{1e3 * outlook.travels[worst]:.0f}", f"{1e6 * told.depth:.3g}",
+            *(f"{limit:.3f}" if limit <= 1.0 else "none" for limit in limits),
+        ))  # fmt: skip
     header = (
-        "pin",
-        "stiffness",
-        "verdict",
-        "fastest growth [1/s]",
-        "at [Hz]",
-        "at stroke [mm]",
-        "depth [µm]",
-        "critical friction",
-        "without damping",
-        "Painlevé's threshold",
-    )
-    return TextTable(header, tuple(rows), left=3, width=150)
+        "pin", "stiffness", "verdict", "fastest growth [1/s]", "at [Hz]", "at stroke [mm]", "depth [µm]",
+        "critical friction", "without damping", "Painlevé's threshold",
+    )  # fmt: skip
+    return text_table(header, rows, left=3)
 
 
 def stroke_numbers(strokes: Mapping[tuple[str, str], WholeStroke]) -> list[Number]:
@@ -157,6 +119,69 @@ def stroke_numbers(strokes: Mapping[tuple[str, str], WholeStroke]) -> list[Numbe
             if math.isfinite(limit)
         ]
     return told
+
+
+# --- figures ---
+
+COLOURS = dict(zip(PINS, (style.WITH_CLEARANCE, style.THIRD, style.SMOOTH, style.PAPER), strict=True))
+MARKERS = dict(zip(STIFFNESSES, ("o", "s", "D", "^"), strict=True))
+LINEAR = 0.1  # [1/s] up to which the axes of growth rates are linear
+
+
+def answer_figure(found: Sequence[Growth], shown: Prepared, runs: Mapping[str, Result]) -> Figure:
+    """Measured over predicted growth rates (a), and the small motion of one case with what is predicted (b)."""
+    drawing = Figure(figsize=style.size(170, 88))
+    rates, motion = drawing.subplots(1, 2, width_ratios=(1.0, 1.15))
+    for one in found:
+        rates.plot(
+            one.predicted, one.halved, MARKERS[one.stiffness], color=COLOURS[one.pin], ms=4, mfc="none", mew=0.9
+        )
+    ends = (1.5 * min(one.predicted for one in found), 1.5 * max(one.predicted for one in found))
+    rates.plot(ends, ends, color="#999999", lw=0.8, zorder=0.5)
+    rates.set_xscale("symlog", linthresh=LINEAR)
+    rates.set_yscale("symlog", linthresh=LINEAR)
+    ticks = [-1.0, 0.0, 1.0, 10.0, 100.0]
+    for axis in (rates.xaxis, rates.yaxis):
+        axis.set_ticks(ticks, [f"{tick:g}" for tick in ticks])
+        axis.set_ticks([], minor=True)
+    rates.set(xlim=ends, ylim=ends, xlabel="predicted growth rate [1/s]", ylabel="in a run [1/s]")
+    for pin, colour in COLOURS.items():
+        rates.plot([], [], "o", color=colour, ms=4, label=pin)
+    for name, marker in MARKERS.items():
+        rates.plot([], [], marker, color="black", ms=4, mfc="none", label=name)
+    drawing.legend(*rates.get_legend_handles_labels(), loc="outside lower left", ncols=4, fontsize=7)
+    _motion(motion, shown, runs)
+    return finish(drawing, [rates, motion])
+
+
+def _motion(axes: Axes, shown: Prepared, runs: Mapping[str, Result]) -> None:
+    time, motion = difference(shown, runs, fine=True)
+    normal = shown.predicted.place / np.linalg.norm(shown.predicted.place)
+    across = motion @ np.array([-normal[1], normal[0]])
+    growth = shown.predicted.growth
+    axes.plot(1e3 * time, 1e9 * across, color=COLOURS[shown.case.pin], label="difference of two runs")
+    size = np.max(np.abs(across) * np.exp(-growth * time))
+    for sign in (1.0, -1.0):
+        label = f"exp({growth:.3g}/s t), predicted" if sign > 0 else None
+        axes.plot(
+            1e3 * time, sign * 1e9 * size * np.exp(growth * time), "--", color="black", lw=0.8, label=label
+        )
+    axes.set(xlim=(0, 1e3 * time[-1]), xlabel="time [ms]", ylabel="motion along the wall [nm]")
+    axes.legend(fontsize=7, loc="upper left")
+
+
+def map_figure(maps: Mapping[str, PinOutlook]) -> Figure:
+    """Growth rates over stroke and friction, a panel for each pin and stiffness, by their titles."""
+    drawing = Figure(figsize=style.size(170, 120))
+    panels = list(drawing.subplots(2, 2, sharex=True, sharey=True).flat)
+    for axes, (title, outlook) in zip(panels, maps.items(), strict=True):
+        colours = draw_map(axes, outlook)
+        axes.set_title(title, fontsize=8)
+    colour_bar(drawing, panels, colours)
+    return finish(drawing, panels)
+
+
+# --- the study ---
 
 
 def work(chosen: Options) -> StudyOutcome:
@@ -182,10 +207,9 @@ def work(chosen: Options) -> StudyOutcome:
         "stability": answer_figure(found, ready[SHOWN.name], runs),
         "map": map_figure({f"{pin}, {name}": strokes[pin, name].outlook for pin, name in MAPPED}),
     }
-    tables = {"table_stroke": stroke_table(strokes), "table": growth_table(found)}
+    tables = {"table_stroke": stroke_table(strokes)}
     kept = {SHOWN.name: runs[run_name(SHOWN.name, 0, fine=True)]}
     return StudyOutcome(reported, words, drawings, tables, kept)
 
 
 study = Study("stability", __doc__, work, seconds=25.0)
-main = study.main

@@ -18,6 +18,7 @@ from user_forces.values.value import InputError
 CONDITIONS = ((0.25, 1.5), (0.1, 1.5), (0.25, 0.5), (0.0, 1.5))  # friction and clearance [mm], single pins
 ADDS_UP = 2.0  # [%]: shifts whose sum is off by less are said to add up; ten times that for shaking
 ALIKE = 0.05  # pins whose effects differ by less of the larger are said to be alike
+SHIFT, SHAKING = "mean_tip_shift_forward", "rms_pin_forces"  # numbers by which pins are ordered
 IDEAL = "ideal"  # without friction
 ALL = "all five"  # of the paper's machine
 SHAKEN = ("rear_link", "shield", "canopy")  # its bodies whose angular acceleration is looked at

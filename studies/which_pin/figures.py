@@ -5,16 +5,13 @@ from itertools import cycle
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import SymLogNorm
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
 from studies.common.numbers import Found
-from studies.common.panels import forward_arrow, legend, letters
-from studies.which_pin.cases import PinPlan
-from studies.which_pin.posture import UnderLoad
-from studies.which_pin.tables import SHAKING, SHIFT
+from studies.common.panels import finish, forward_arrow, letters
+from studies.which_pin.cases import SHAKING, SHIFT, PinPlan
+from studies.which_pin.closed_form import UnderLoad
 from support_exudyn.machines.four_bar_shield import PINS
 from support_exudyn.postprocessing.figures import style
 
@@ -23,14 +20,12 @@ HATCH = "///"
 COLOURS = (style.WITH_CLEARANCE, style.SMOOTH, style.THIRD, "#CC79A7", style.IDEAL)
 DASHES: tuple[style.Dashes, ...] = ("-", (0, (5, 1)), (0, (1, 1)), (0, (3, 1, 1, 1)), "-")
 MARKS = dict(zip(PINS, "osD^x", strict=True))
-FAINT, STRONG = 0.1, 100.0  # [%]: changes between which the shade of a square grows
 
 
 def figures(plan: PinPlan, found: Found, under_loads: Mapping[str, UnderLoad]) -> dict[str, Figure]:
     """All figures, by file name."""
     return {
         **({"tip_shift": shift_figure(plan, found)} if plan.has_tip else {}),
-        "forces": force_figure(plan, found),
         "shaking": shaking_figure(plan, found),
         **({"other_loads": load_figure(under_loads)} if under_loads else {}),
     }
@@ -107,69 +102,6 @@ def _broken(name: str) -> str:
     return name.replace("_", "\n").replace(" ", "\n")
 
 
-def force_figure(plan: PinPlan, found: Found) -> Figure:
-    """Two tables in shades: change of means, and of peaks, against ideal pins."""
-    drawing = Figure(figsize=style.size(170, 130))
-    panels = list(drawing.subplots(2, 1))
-    cases = [plan.case_name(pins, plan.frictions[0]) for pins in _cases(plan)]
-    members = list(plan.forces.values())
-
-    def change(member: str, case: str) -> tuple[float, float]:
-        number = found[f"change_of_mean_force_{member}", case]
-        return number.value, number.numerical_error
-
-    def over_ideal(member: str, case: str) -> tuple[float, float]:
-        peak, ideal = (found[f"largest_force_{member}", one] for one in (case, plan.ideal_of(case)))
-        ratio = peak.value / ideal.value
-        error = (peak.numerical_error + ratio * ideal.numerical_error) / ideal.value
-        return 100.0 * (ratio - 1.0), 100.0 * error
-
-    for axes, of, label in zip(panels, (change, over_ideal), ("mean force", "largest force"), strict=True):
-        _shades(axes, np.array([[of(member, case) for member in members] for case in cases]))
-        axes.set_xticks(range(len(members)), [_broken(name) for name in members], fontsize=7)
-        axes.set_yticks(range(len(cases)), [name.replace("_", " ") for name in _names(plan)], fontsize=7)
-        axes.set(ylabel="clearance pin", xlabel=f"change of the {label} [%] in")
-    letters(panels)
-    return drawing
-
-
-def _shades(axes: Axes, cells: np.ndarray) -> None:
-    """Numbers on squares: red where there is more, blue and hatched where there is less, the darker the more.
-
-    cells: numbers and their errors, shape (rows, columns, 2).
-    """
-    values = np.where(np.abs(cells[:, :, 0]) > cells[:, :, 1], cells[:, :, 0], 0.0)  # else the sign is open
-    strongest = max(STRONG, float(np.abs(values).max()))
-    norm = SymLogNorm(linthresh=FAINT, vmin=-3.0 * strongest, vmax=3.0 * strongest)
-    axes.imshow(values, cmap="RdBu_r", norm=norm, aspect="auto")
-    for row, column in np.ndindex(values.shape):
-        dark = abs(float(norm(values[row, column])) - 0.5) > 0.36
-        if values[row, column] < 0.0:
-            corner = (column - 0.5, row - 0.5)
-            axes.add_patch(
-                Rectangle(corner, 1.0, 1.0, fill=False, hatch=HATCH, ec="#ffffff", lw=0.0, alpha=0.5)
-            )
-        axes.text(
-            column, row, change_text(*cells[row, column]), ha="center", va="center", fontsize=8,
-            color="white" if dark else style.IDEAL,
-        )  # fmt: skip
-    axes.grid(visible=False)
-    axes.spines[:].set_visible(False)
-    axes.tick_params(length=0)
-
-
-def change_text(number: float, error: float) -> str:
-    """A change in per cent to a tenth at most, with its error where that shows; ± alone where it is larger."""
-    digits = 1 if abs(number) < 99.95 and error < 0.95 else 0
-    tells = error >= 0.5 * 10.0**-digits
-    if tells and error >= abs(number):
-        return f"±{abs(number) + error:.{digits}f}"
-    if abs(number) < 0.5 * 10.0**-digits:
-        return f"{0.0:.{digits}f}"
-    text = f"{number:+.{digits}f}" + (f" ± {error:.{digits}f}" if tells else "")
-    return text.replace("-", "\N{MINUS SIGN}")
-
-
 def shaking_figure(plan: PinPlan, found: Found) -> Figure:
     """RMS fluctuations with their errors, as points on logarithmic scales."""
     bodies = dict.fromkeys((plan.subject.watched.body, plan.shaken[-1]))
@@ -193,10 +125,8 @@ def shaking_figure(plan: PinPlan, found: Found) -> Figure:
         axes.set_yscale("log")
         axes.set_ylabel(label)
         axes.set_xticks(places, [_broken(name) for name in _names(plan)], fontsize=7)
-    letters(list(panels))
     drawing.align_ylabels(list(panels))
-    legend(drawing, panels[0], 3)
-    return drawing
+    return finish(drawing, panels, 3)
 
 
 def load_figure(under_loads: Mapping[str, UnderLoad]) -> Figure:
@@ -216,6 +146,4 @@ def load_figure(under_loads: Mapping[str, UnderLoad]) -> Figure:
         axes.set_xlabel("extension [mm]")
     for axes in panels[:, 0]:
         axes.set_ylabel("tip forward [mm]")
-    letters(list(panels.flat))
-    legend(drawing, panels[0, 0], 5)
-    return drawing
+    return finish(drawing, panels, 5)

@@ -8,7 +8,7 @@ import numpy as np
 from studies.common import rise
 from studies.common.numbers import Number, compared, measured_all
 from studies.which_pin.cases import ROOF, TIP, PinPlan
-from studies.which_pin.posture import posture_numbers
+from studies.which_pin.closed_form import posture_numbers
 from support_exudyn import Result
 
 Get = Callable[[Result, Result], float]  # of a run and that of ideal pins

@@ -4,16 +4,201 @@
 the tip's position, to the forces and to the shaking in the rise.
 """
 
-from studies.common.numbers import by_case
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from studies.common.numbers import Found, Number, against, by_case, cell
 from studies.common.options import Options
 from studies.common.runs import run_with_errors
 from studies.common.study import Study, StudyOutcome
-from studies.which_pin import cases, tables
-from studies.which_pin.cases import PinPlan
+from studies.common.words import text_table
+from studies.which_pin import cases
+from studies.which_pin.cases import ALIKE, IDEAL, SHAKING, SHIFT, PinPlan
+from studies.which_pin.closed_form import UnderLoad, loads
 from studies.which_pin.figures import figures
-from studies.which_pin.measures import measure
-from studies.which_pin.posture import loads
+from studies.which_pin.measures import OVER_IDEAL, measure
 from support_exudyn.machines.four_bar_shield import PINS
+from support_exudyn.postprocessing.page.pieces import Sheet
+
+# --- tables and sentences ---
+
+RANKED = {  # title of an order of pins, and its number
+    "by the tip's position": SHIFT,
+    "by the forces": "largest_change_of_a_mean_force",
+    "by the shaking": SHAKING,
+}
+
+
+def rankings(plan: PinPlan) -> dict[str, str]:
+    """The orders of a machine's pins: title and number."""
+    return {title: name for title, name in RANKED.items() if plan.has_tip or name != SHIFT}
+
+
+def effects_of(plan: PinPlan) -> tuple[str, ...]:
+    """By what the pins of a machine are put in order: the tip's shift, if it has one, and the shaking."""
+    return (SHIFT, SHAKING) if plan.has_tip else (SHAKING,)
+
+
+def ranked(plan: PinPlan, found: Found, name: str, friction: float) -> list[str]:
+    """The pins, that with the largest effect alone first."""
+    effects = plan.alone(found, name, friction)
+    return sorted(plan.pins, key=lambda pin: -abs(effects[pin].value))
+
+
+def in_order(effects: Mapping[str, float], errors: Mapping[str, float] | None = None) -> str:
+    """Pins by the size of their effects, the largest first; those that are alike joined by =.
+
+    errors: of the effects, zero by default. Between two groups stands > where every pin before is beyond the
+    errors larger than every pin after, else ?.
+    """
+    errors = errors or dict.fromkeys(effects, 0.0)
+    first, *rest = sorted(effects, key=lambda name: -abs(effects[name]))
+    groups = [[first]]
+    for name in rest:
+        if abs(effects[name]) > (1.0 - ALIKE) * abs(effects[groups[-1][-1]]):
+            groups[-1].append(name)
+        else:
+            groups.append([name])
+    text = ""
+    for n, group in enumerate(groups):
+        if n > 0:
+            before = [name for one in groups[:n] for name in one]
+            after = [name for one in groups[n:] for name in one]
+            least = min(abs(effects[name]) - errors[name] for name in before)
+            most = max(abs(effects[name]) + errors[name] for name in after)
+            text += " > " if least > most else " ? "
+        text += " = ".join(sorted(group, key=list(effects).index))
+    return text
+
+
+def order_of(row: Mapping[str, Number]) -> str:
+    """The order that numbers of pins make, by name of the pin."""
+    effects = {pin: number.value for pin, number in row.items()}
+    return in_order(effects, {pin: number.numerical_error for pin, number in row.items()})
+
+
+def condition_table(plan: PinPlan, found: Found) -> Sheet:
+    """Orders by shift and by shaking under other frictions and clearances."""
+    rows = []
+    for name in effects_of(plan):
+        what = f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]"
+        for friction, size in plan.conditions:
+            if (name, plan.case_name(plan.pins[:1], friction, size)) in found:
+                row = plan.alone(found, name, friction, size)
+                numbers = (cell(n) for n in row.values())
+                rows.append((what, f"{friction:g}, {size:g} mm", *numbers, order_of(row)))
+    return text_table(("effect", "friction, clearance", *plan.pins, "order"), rows, left=2)
+
+
+def together_table(plan: PinPlan, found: Found) -> Sheet:
+    """Whether the whole is the sum of its parts."""
+    rows = []
+    for friction in plan.frictions:
+        for name in effects_of(plan):
+            for pins in _together(plan, found, friction):
+                case = plan.case_name(pins, friction)
+                whole, expected = found[name, case], _expected(plan, found, name, pins, friction)
+                both = cell(expected), cell(whole), against(whole, expected)
+                rows.append((case, name.replace("_", " "), whole.unit, *both))
+    header = ("clearance pins", "quantity", "unit", "of the single ones", "together", "difference")
+    return text_table(header, rows, left=3)
+
+
+def _together(plan: PinPlan, found: Found, friction: float) -> list[tuple[str, ...]]:
+    sets = [plan.pins, *combinations(plan.pins, 2)]
+    return [pins for pins in sets if ("rms_pin_forces", plan.case_name(pins, friction)) in found]
+
+
+# how effects of single pins make that of several: shifts add up, independent vibrations by their squares
+ADD: dict[str, Callable[[Sequence[float]], float]] = {
+    SHIFT: sum,
+    SHAKING: lambda parts: float(np.sqrt(np.sum(np.square(parts)))),
+}
+
+
+def _expected(plan: PinPlan, found: Found, name: str, pins: Sequence[str], friction: float) -> Number:
+    """What the effects of pins alone make together, with what their errors make of it."""
+    alone, add = plan.alone(found, name, friction), ADD[name]
+    values = {pin: alone[pin].value for pin in pins}
+    whole = add([*values.values()])
+    raised = (values | {pin: values[pin] + alone[pin].numerical_error} for pin in pins)
+    error = sum(abs(add([*one.values()]) - whole) for one in raised)
+    return Number(name, plan.case_name(pins, friction), whole, alone[pins[0]].unit, error)
+
+
+@dataclass(frozen=True)
+class Sum:
+    """How far some pins together are off what the single ones make.
+
+    pins: what they are called. text: in words, to its error. off: in per cent of that.
+    """
+
+    pins: str
+    text: str
+    off: float
+
+
+def sums(plan: PinPlan, found: Found, name: str, friction: float) -> list[Sum]:
+    """All pins together against the single ones, and then every pair that was run."""
+    result = []
+    for pins in _together(plan, found, friction):
+        whole = found[name, plan.case_name(pins, friction)]
+        expected = _expected(plan, found, name, pins, friction)
+        off = 100.0 * abs(whole.value / expected.value - 1.0)
+        result.append(Sum(" + ".join(pins), against(whole, expected), off))
+    return result
+
+
+def posture_table(found: Found) -> Sheet:
+    """The simulated shift beside the closed form."""
+    rows = []
+    for case, (run, form) in _closed_forms(found).items():
+        rows.append((case, cell(run), f"{form.value:.4f}", f"{100.0 * (run.value / form.value - 1.0):+.2f} %"))
+    return text_table(("case", "run [mm]", "closed form [mm]", "run is off by"), rows)
+
+
+def off_closed_form(found: Found) -> list[tuple[str, float]]:
+    """Each case, and the share by which its shift is off the closed form."""
+    return [(case, abs(run.value / form.value - 1.0)) for case, (run, form) in _closed_forms(found).items()]
+
+
+def _closed_forms(found: Found) -> dict[str, tuple[Number, Number]]:
+    """The simulated shift forward and that of the closed form, by case."""
+    return {
+        case: (found["mean_tip_shift_forward", case], form)
+        for (name, case), form in found.items()
+        if name == "closed_form_tip_shift_forward"
+    }
+
+
+def load_table(under_loads: Mapping[str, UnderLoad]) -> Sheet:
+    """Shift of the tip by pin and load, and the order that it makes."""
+    rows = []
+    for name, under in under_loads.items():
+        means = {pin: under.mean(pin) for pin in PINS}
+        cells = (f"{1e3 * mean:.2f}" for mean in means.values())
+        rows.append((name, *cells, f"{under.thrust / 1e3:.0f}", in_order(means)))
+    return text_table(("load besides the weight", *PINS, "least column thrust [kN]", "order"), rows)
+
+
+def key_table(plan: PinPlan, found: Found) -> Sheet:
+    """The effects of each pin with friction, the largest first; then all pins together, and ideal pins."""
+    friction = plan.frictions[0]
+    wanted = SHIFT, "mean_canopy_tilt", RANKED["by the forces"], OVER_IDEAL, SHAKING
+    names = [name for name in wanted if (name, IDEAL) in found]
+    cases = [plan.case_name((pin,), friction) for pin in ranked(plan, found, names[0], friction)]
+    cases.append(plan.case_name(plan.pins, friction))
+    rows = [(case.split(",")[0], *(cell(found[name, case]) for name in names)) for case in cases]
+    rows.append((IDEAL, *(cell(found[name, plan.ideal_name(plan.pins, friction)]) for name in names)))
+    header = ("clearance pin", *(f"{name.replace('_', ' ')} [{found[name, IDEAL].unit}]" for name in names))
+    return text_table(header, rows)
+
+
+# --- the study ---
 
 
 def work(chosen: Options) -> StudyOutcome:
@@ -23,44 +208,26 @@ def work(chosen: Options) -> StudyOutcome:
     under_loads = loads(plan.pin(0.0, plan.clearance_mm)) if plan.subject.is_paper else {}
     numbers = measure(plan, results)
     found = by_case(numbers)
-    rankings = {
-        f"table_{title.split()[-1]}_{_mu(friction)}": (title, friction)
-        for title in tables.rankings(plan)
-        for friction in plan.frictions
-    }
-    forces = {f"table_all_forces_{_mu(friction)}": friction for friction in plan.frictions}
-    conditions = tables.condition_table(plan, found)
-    closed_form = {
-        "table_closed_form": tables.posture_table(found),
-        "table_loads": tables.load_table(under_loads),
-    }
+    conditions = condition_table(plan, found)
+    closed_form = {"table_closed_form": posture_table(found), "table_loads": load_table(under_loads)}
     sheets = {
-        "which_pin": tables.key_table(plan, found),
-        "table_together": tables.together_table(plan, found),
+        "which_pin": key_table(plan, found),
+        "table_together": together_table(plan, found),
         **(closed_form if plan.subject.is_paper else {}),
         "table_conditions": conditions,
-        **{name: tables.ranking_table(plan, found, *what) for name, what in rankings.items()},
-        **{name: tables.force_table(plan, found, friction) for name, friction in forces.items()},
     }
     means = {name: {pin: under.mean(pin) for pin in PINS} for name, under in under_loads.items()}
     words = {
         "cases": cases,
         "plan": plan,
         "window": f"{plan.watched.window:g} s",
-        "tables": tables,
+        "tables": sys.modules[__name__],
         "found": found,
-        "orders": {name: tables.in_order(shifts) for name, shifts in means.items()},
+        "orders": {name: in_order(shifts) for name, shifts in means.items()},
         "shifts": {name: sum(shifts.values()) for name, shifts in means.items()},
         "rms_orders": [row for row in conditions.rows if row[0].startswith("rms")],
-        "rankings": rankings,
-        "forces": forces,
     }
     return StudyOutcome(numbers, words, figures(plan, found, under_loads), sheets, results)
 
 
-def _mu(friction: float) -> str:
-    return f"mu{friction:g}".replace(".", "p")
-
-
 study = Study("which_pin", __doc__, work, seconds=70.0, own_machine=True)
-main = study.main

@@ -8,10 +8,12 @@ there are some. Tests of a study of the paper are made on the rough form by defa
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -24,6 +26,7 @@ from support_exudyn import CubicStep, Result, Scenario
 from support_exudyn.postprocessing.figures import style
 from tests.at_once import at_once
 
+Numbers = dict[tuple[str, str], dict[str, Any]]  # of summary.json, by name and case
 ROUGH, WHOLE = "rough", "whole"
 FORMS = [ROUGH, pytest.param(WHOLE, marks=pytest.mark.slow)]
 ONLY_WHOLE = FORMS[1:]
@@ -61,3 +64,9 @@ def written(
         chosen = Options(folder, at_once(), machines=machines)
         STUDIES[study](replace(chosen, subject=subject) if subject else chosen)
     return folder
+
+
+def numbers_of(out: Path) -> Numbers:
+    """All numbers that a study has written."""
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    return {(number["name"], number["case"]): number for number in summary["numbers"]}

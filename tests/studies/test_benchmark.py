@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 from matplotlib import image
 
 from studies.benchmarking import benchmark, trade
 from studies.benchmarking.benchmark import Row, beside, of_points
-from studies.benchmarking.trade import COMMON, ONCE, OURS_COMPILED, PROGRAMS, TradePoint, cheapest, with_kept
+from studies.benchmarking.trade import COMMON, ONCE, OURS_COMPILED, TradePoint, cheapest
 
 
 def point(program: str, error: float, seconds: float = 1.0, setting: str = "") -> TradePoint:
@@ -24,22 +22,9 @@ HERE = [point(*COMMON[:1], 1e-8, 0.5, COMMON[1]), point("MuJoCo", 2e-4, 9.0, "st
 # --- what accuracy costs ---
 
 
-def test_what_is_not_measured_is_taken_as_a_ratio_to_the_common_row() -> None:
-    points = {(one.program, one.setting): one for one in with_kept(HERE)}
-    assert points[COMMON] == HERE[0]
-    assert points["MuJoCo", "step 0.02 ms"] == HERE[1]
-    kept = json.loads(trade.KEPT.read_text("utf-8"))
-    ratio, error = kept["points"]["Drake"]["accuracy 1e-05"]
-    assert points["Drake", "accuracy 1e-05"] == TradePoint(
-        "Drake", "accuracy 1e-05", 0.5 * ratio, ratio, error, True
-    )
-    # every setting of every program is there, so that a figure has all lines
-    assert set(points) == {(name, label) for name, one in PROGRAMS.items() for label in one.settings}
-
-
 def test_errors_are_distances_from_a_tight_run() -> None:
     exact = trade.exact_force()
-    assert exact.value == pytest.approx(444589.8641, rel=2e-8)  # errors in kept.json are distances from it
+    assert exact.value == pytest.approx(444589.8641, rel=2e-8)
     assert exact.error < 1e-8 * exact.value  # measured: 1e-10
 
 
@@ -74,11 +59,12 @@ def test_a_ratio_is_the_median_of_its_turns(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_rows_against_others_come_from_the_points() -> None:
-    found = list(of_points([*HERE, point(OURS_COMPILED + ONCE, 1e-5, 0.1)]))
-    assert [row.name for row in found][:2] == ["accuracy", "Exudyn, stock recipe"]
+    found = list(of_points([*HERE, point(OURS_COMPILED + ONCE, 1e-5, 0.1), point(trade.STOCK, 0.1)]))
     (mujoco,) = (row for row in found if row.name == "MuJoCo")
     assert mujoco.ratio == pytest.approx(1.0 / 90.0)
-    assert next(row for row in found if row.name == "Drake").note == "no setting of theirs is as close"
+    assert "Drake" not in [row.name for row in found]  # not installed
+    (stock,) = (row for row in found if row.name == "Exudyn, stock recipe")
+    assert stock.note == "no setting of theirs is as close"
 
 
 @pytest.mark.parametrize(("other", "verdict"), [(1.0, "met"), (0.5, "missed")])
@@ -88,11 +74,11 @@ def test_the_user_function_has_a_ratio_that_is_asked_for(
     times = {"function": 1.0, "joint": 1.0, "built_in": other}
     ran: list[str] = []
 
-    def run(scenario: object, step: float, contact: str, sensors: bool) -> SimpleNamespace:
+    def run(scenario: object, step: float, contact: str) -> tuple[float, None]:
         ran.append(contact)
-        return SimpleNamespace(solve_time=times[contact])
+        return times[contact], None
 
-    monkeypatch.setattr(benchmark, "run_built_in", run)
+    monkeypatch.setattr(benchmark, "run_connector", run)
     assert benchmark.connector("function").note == f"asked at most 1.25: {verdict}"
     assert ran[:4] == ["function", "built_in"] * 2
     assert benchmark.connector("joint").note == ""
@@ -102,8 +88,8 @@ def test_the_user_function_has_a_ratio_that_is_asked_for(
 
 
 def test_tables_and_figure_are_written(tmp_path: Path) -> None:
-    benchmark.write(tmp_path, [Row("what", "work", "how", 1.0, "against", 2.0, 0.5)], with_kept(HERE), 12.0)
+    benchmark.write(tmp_path, [Row("what", "work", "how", 1.0, "against", 2.0, 0.5)], HERE, 12.0)
     text = (tmp_path / "RESULTS.md").read_text("utf-8")
     assert "| what | work | how | 1 s | against | 2 s | 1/2 |" in text
-    assert "| MuJoCo | step 0.02 ms | 9 | 90 | 2.0e-04 | here |" in text
+    assert "| MuJoCo | step 0.02 ms | 9 | 90 | 2.0e-04 |" in text
     assert image.imread(tmp_path / f"{benchmark.FIGURE}.png").shape[0] > 100

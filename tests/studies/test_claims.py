@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import json
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +10,9 @@ import pytest
 from studies.claims import run as study
 from studies.claims.claim_list import CLAIMS
 from studies.claims.verdicts import BOUNDS, KINDS, Count, Ruling
-from studies.common.chapter import Chapter
 from studies.common.options import Options
-from tests.studies.forms import FORMS, ROUGH, WHOLE, written
+from studies.common.words import Chapter
+from tests.studies.forms import FORMS, ROUGH, WHOLE, Numbers, numbers_of, written
 
 MACHINES = {ROUGH: 2, WHOLE: 8}  # of the first hypercube; half as many of the second, and the reference support
 
@@ -38,9 +36,8 @@ def rows(out: Path) -> dict[str, dict[str, str]]:
 
 
 @pytest.fixture(scope="module")
-def numbers(out: Path) -> dict[tuple[str, str], dict[str, Any]]:
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+def numbers(out: Path) -> Numbers:
+    return numbers_of(out)
 
 
 def test_every_claim_has_a_verdict(rows: dict[str, dict[str, str]]) -> None:
@@ -61,7 +58,7 @@ def test_posture_follows_from_geometry_on_every_machine(rows: dict[str, dict[str
         assert rows[claim]["machines"].startswith("100 % (")
 
 
-def test_the_summary_counts_verdicts_and_repetitions(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+def test_the_summary_counts_verdicts_and_repetitions(numbers: Numbers) -> None:
     counts = {kind: numbers["claims", kind]["value"] for kind in KINDS}
     apart = {kind: numbers["claims", f"{kind}, without repetitions"]["value"] for kind in KINDS}
     assert sum(counts.values()) == numbers["claims", "all"]["value"] == len(CLAIMS)
@@ -76,7 +73,7 @@ def test_the_summary_counts_verdicts_and_repetitions(numbers: dict[tuple[str, st
             assert number["numerical_error"] > 1.0 - BOUNDS[1]
 
 
-def test_our_numbers_are_those_of_the_engine(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+def test_our_numbers_are_those_of_the_engine(numbers: Numbers) -> None:
     # the engine at 0.5 ms and half of it, see clearance_size: 52658.42 and 6551.5 N; its error is 1e-5 and 2e-4
     assert numbers["mean_force", "1.5 mm"]["value"] == pytest.approx(52658.42, rel=2e-5)
     assert numbers["std_force", "1.5 mm"]["value"] == pytest.approx(6551.5, rel=3e-4)
@@ -86,25 +83,13 @@ def test_our_numbers_are_those_of_the_engine(numbers: dict[tuple[str, str], dict
     assert numbers["impulse", "1.5 mm, mode 1"]["value"] == pytest.approx(1154.94, rel=1e-4)
 
 
-def test_every_machine_is_a_row_with_its_data_and_judgements(out: Path, form: str) -> None:
-    with (out / "machines.csv").open(encoding="utf-8", newline="") as file:
-        machines = list(csv.DictReader(file))
-    assert len(machines) == 1 + MACHINES[form] + MACHINES[form] // 2
-    judged = [name for name in machines[0] if name.startswith("claim_")]
-    assert len(judged) == sum(c.judge is not None and not c.closed_form for c in CLAIMS)
-    assert [machine["contact"] for machine in machines].count("cylinders") == MACHINES[form] // 2
-    for machine in machines:
-        assert float(machine["scale"]) > 0.5
-        assert machine["failure"] or {machine[name] for name in judged} <= {"holds", "fails", "undecided"}
-
-
 @pytest.mark.slow  # the hypercube alone is started again in test_hypercube.py
 def test_a_finished_hypercube_is_not_run_again(out: Path, form: str) -> None:
     before = {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()}
-    text = (out / "table.txt").read_text(encoding="utf-8")
+    text = (out / "table.csv").read_text(encoding="utf-8")
     written("claims", form, out, MACHINES[form])
     assert {path: path.stat().st_mtime_ns for path in (out / "machines").iterdir()} == before
-    assert (out / "table.txt").read_text(encoding="utf-8") == text
+    assert (out / "table.csv").read_text(encoding="utf-8") == text
 
 
 class Drawn:
@@ -114,7 +99,7 @@ class Drawn:
         self.numbers: list[int] = []
         claim = CLAIMS[1]
         found = [Ruling(claim)] * needs_more + [Ruling(claim, first=Count(100, 0))] * (50 - needs_more)
-        monkeypatch.setattr(study, "_run", lambda samples, chosen: self.numbers.append(len(samples)))
+        monkeypatch.setattr(study, "run_machines", lambda samples, *_: self.numbers.append(len(samples)))
         monkeypatch.setattr(study, "judged", lambda rows: found)
 
 

@@ -1,4 +1,4 @@
-"""The findings of the study, rough and, by two processes, as it is."""
+"""The findings of the study, rough and as it is."""
 
 from __future__ import annotations
 
@@ -8,20 +8,15 @@ from typing import Any
 
 import pytest
 
-from studies.clearance_influence import contacts
 from studies.clearance_influence import run as study
-from studies.common.chapter import Chapter
 from studies.common.paper_machine import ideal_of
-from tests.studies.forms import FORMS, ROUGH, written
+from studies.common.words import Chapter
+from tests.studies.forms import FORMS, Numbers, written
 
 
 @pytest.fixture(scope="module", params=FORMS)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("results")
-    if request.param == ROUGH:
-        return written("clearance_influence", ROUGH, folder)
-    assert study.main(["--out", str(folder), "--workers", "2"]) == 0
-    return folder
+    return written("clearance_influence", request.param, tmp_path_factory.mktemp("results"))
 
 
 @pytest.fixture(scope="module")
@@ -30,27 +25,23 @@ def summary(out: Path) -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def numbers(summary: dict[str, Any]) -> dict[tuple[str, str], dict[str, Any]]:
+def numbers(summary: dict[str, Any]) -> Numbers:
     return {(n["name"], n["case"]): n for n in summary["numbers"]}
 
 
-def test_the_stiffness_is_the_papers_to_every_digit(
-    numbers: dict[tuple[str, str], dict[str, Any]],
-) -> None:
+def test_the_stiffness_is_the_papers_to_every_digit(numbers: Numbers) -> None:
     number = numbers["stiffness_coefficient", "1.5 mm"]
     assert round(number["value"], 3) == number["paper"] == 857942.947
 
 
-def test_clearance_leaves_the_trend_as_it_is(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+def test_clearance_leaves_the_trend_as_it_is(numbers: Numbers) -> None:
     for case in (study.SMOOTH, study.DRY):
         # departures from the ideal speed are a hundredth of the speed
         speed = numbers["largest_angular_speed_in_rise", study.IDEAL]["value"]
         assert numbers["rms_angular_velocity_departure", case]["value"] < 0.02 * speed
 
 
-def test_clearance_is_compared_at_the_same_friction(
-    out: Path, numbers: dict[tuple[str, str], dict[str, Any]]
-) -> None:
+def test_clearance_is_compared_at_the_same_friction(out: Path, numbers: Numbers) -> None:
     def value(name: str, case: str) -> float:
         return float(numbers[name, case]["value"])
 
@@ -74,9 +65,7 @@ def test_clearance_is_compared_at_the_same_friction(
     assert "same friction" in chapter.answer
 
 
-def test_clearance_makes_acceleration_fluctuate_with_friction(
-    numbers: dict[tuple[str, str], dict[str, Any]],
-) -> None:
+def test_clearance_makes_acceleration_fluctuate_with_friction(numbers: Numbers) -> None:
     spread = {case: numbers["std_angular_acceleration", case]["value"] for case in study.CASES}
     # independent integrator: 17.36 without friction, 70.16 with; the rough form leaves 10 %
     assert spread[study.IDEAL] == pytest.approx(17.2, rel=0.01)
@@ -86,9 +75,7 @@ def test_clearance_makes_acceleration_fluctuate_with_friction(
     assert spread[study.DRY] > 2.0 * spread[study.SMOOTH]
 
 
-def test_statistics_agree_with_the_independent_integrator(
-    numbers: dict[tuple[str, str], dict[str, Any]],
-) -> None:
+def test_statistics_agree_with_the_independent_integrator(numbers: Numbers) -> None:
     # the rough form has a thousand times the tolerance
     assert numbers["mean_pin_force", study.SMOOTH]["value"] == pytest.approx(51503.8, rel=1e-3)
     assert numbers["std_pin_force", study.SMOOTH]["value"] == pytest.approx(6368.9, rel=1e-2)
@@ -96,25 +83,21 @@ def test_statistics_agree_with_the_independent_integrator(
     assert numbers["mean_pin_force", study.DRY]["value"] == pytest.approx(52660.1, rel=1e-3)
 
 
-def test_the_tip_shifts_towards_the_rear_link(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+def test_the_tip_shifts_towards_the_rear_link(numbers: Numbers) -> None:
     # independent posture: -0.98 to -1.27 mm per 0.5 mm of clearance; the contact's depth adds a tenth
     for case in (study.SMOOTH, study.DRY):
         assert -1.27 * 3 * 1.15 < numbers["mean_tip_shift", case]["value"] < -0.98 * 3
 
 
-def test_impacts_at_the_start_exceed_the_load_several_times(
-    numbers: dict[tuple[str, str], dict[str, Any]],
-) -> None:
+def test_impacts_at_the_start_exceed_the_load_several_times(numbers: Numbers) -> None:
     for case in (study.SMOOTH, study.DRY):
         assert numbers["largest_pin_force", case]["value"] > 7.0 * 58778.944
 
 
-def test_a_pin_along_its_length_shakes_thirty_times_as_much(
-    numbers: dict[tuple[str, str], dict[str, Any]],
-) -> None:
+def test_a_pin_along_its_length_shakes_thirty_times_as_much(numbers: Numbers) -> None:
     def shown(contact: str, friction: float, by: str = "value") -> list[float]:
         names = ("mean_pin_force", "rms_pin_force", "largest_pin_force_any_step")
-        return [float(numbers[name, contacts.case_name(contact, friction)][by]) for name in names]
+        return [float(numbers[name, study.contact_case(contact, friction)][by]) for name in names]
 
     # by an independent program from a settled start, which damps by the depth that is reached: with 3e9 N/m in
     # series 31 kN; of the paper's contact, which that damps more, 0.93

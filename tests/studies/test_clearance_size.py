@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from studies.clearance_influence import contacts
 from studies.clearance_influence import run as influence
 from studies.clearance_size import run as study
 from studies.common import rise
@@ -17,13 +14,11 @@ from studies.common.paper_machine import SLIDING_COEFFICIENT, ideal_name
 from studies.common.runs import file_name
 from studies.common.subject import paper_subject
 from support_exudyn import Result
-from tests.studies.forms import FORMS, written
+from tests.studies.forms import FORMS, Numbers, numbers_of, written
 
 DRY = [study.case_name(size, SLIDING_COEFFICIENT) for size in study.SIZES_MM]
 IDEAL = ideal_name(SLIDING_COEFFICIENT)
 SMOOTH = [study.case_name(size, 0.0) for size in study.SIZES_MM]
-
-Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
 @pytest.fixture(scope="module", params=FORMS)
@@ -33,8 +28,7 @@ def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 
 @pytest.fixture(scope="module")
 def numbers(out: Path) -> Numbers:
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+    return numbers_of(out)
 
 
 def row(numbers: Numbers, name: str, cases: list[str]) -> list[float]:
@@ -61,14 +55,14 @@ def test_table_3_agrees_with_an_independent_integrator(numbers: Numbers) -> None
 def test_one_name_is_one_run_in_all_studies() -> None:
     # a quantity of a case has one value on all pages, for it comes from the same run
     paper = paper_subject()
-    of_sizes, of_influence = study.scenarios(paper), influence.scenarios() | contacts.scenarios(paper)
+    of_sizes, of_influence = study.scenarios(paper), influence.scenarios()
     shared = of_sizes.keys() & of_influence.keys()
     assert {study.case_name(1.5, friction) for friction in (0.25, 0.0)} <= shared
     assert {ideal_name(friction) for friction in (0.25, 0.0)} <= shared
     for case in shared:
         assert of_sizes[case] == of_influence[case]
     # the paper's contact among others is that of the study, and not a run of its own
-    assert {contacts.case_name("paper", friction) for friction in (0.25, 0.0)} <= shared
+    assert {influence.contact_case("paper", friction) for friction in (0.25, 0.0)} <= shared
 
 
 def test_the_mean_force_grows_by_the_same_little_amount_each_time(numbers: Numbers) -> None:

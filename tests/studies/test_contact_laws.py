@@ -6,7 +6,6 @@ import inspect
 import json
 import math
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -15,9 +14,9 @@ from studies.common.subject import paper_subject
 from studies.contact_laws import cases as contact_law_cases
 from studies.contact_laws import catalogue
 from studies.contact_laws import run as study
-from studies.contact_laws.free_impact import delivered_restitution, free_impact
+from studies.contact_laws.cases import delivered_restitution, free_impact
 from support_exudyn import simulate
-from tests.studies.forms import ONLY_WHOLE, written
+from tests.studies.forms import ONLY_WHOLE, Numbers, written
 from user_forces import FrictionLaw, Frictionless, NormalLaw
 from user_forces.values.value import only_groups
 
@@ -33,7 +32,7 @@ def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 
 
 @pytest.fixture(scope="module")
-def numbers(out: Path) -> dict[tuple[str, str], dict[str, Any]]:
+def numbers(out: Path) -> Numbers:
     summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     assert summary["study"] == "contact_laws"
     return {(n["name"], n["case"]): n for n in summary["numbers"]}
@@ -59,9 +58,7 @@ def test_every_law_moves_the_machine_and_is_tried_in_impacts() -> None:
     assert {type(law) for law, _ in contact_law_cases.impact_laws().values()} == laws(NormalLaw)
 
 
-def test_restitution_cases_are_named_as_agreed_and_right(
-    numbers: dict[tuple[str, str], dict[str, Any]],
-) -> None:
+def test_restitution_cases_are_named_as_agreed_and_right(numbers: Numbers) -> None:
     assert numbers["delivered_restitution", "exact e=0.9"]["value"] == pytest.approx(0.9, abs=3e-5)
     cases = [case for name, case in numbers if name == "delivered_restitution"]
     of_few = len(catalogue.CYLINDER_LAWS) + 1
@@ -98,7 +95,7 @@ def _check(case: str) -> None:
     assert abs(fine - closed_form) < abs(fine - coarse) < 1e-4
 
 
-def test_the_rest_velocity_matters(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+def test_the_rest_velocity_matters(numbers: Numbers) -> None:
     slow, usual, *fast = (numbers["std_pin_force", case] for case in contact_law_cases.REST)
     # measured: 1 % from 1 to 10 mm/s, 44 % from 10 to 100 mm/s
     assert abs(slow["value"] / usual["value"] - 1.0) < 0.05
@@ -107,7 +104,7 @@ def test_the_rest_velocity_matters(numbers: dict[tuple[str, str], dict[str, Any]
         assert math.isfinite(number["value"])
 
 
-def test_with_friction_the_choice_of_a_law_changes_more(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+def test_with_friction_the_choice_of_a_law_changes_more(numbers: Numbers) -> None:
     def between(name: str, end: str, *without: str) -> float:
         values = [numbers[name, law + end]["value"] for law in catalogue.POWER_LAWS.keys() - without]
         return float(max(values) / min(values) - 1.0)

@@ -14,24 +14,24 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.common.chapter import Chapter
 from studies.common.options import Options
+from studies.common.words import Chapter
 from studies.extremes import judge as judge_module
-from studies.extremes import long_runs, runs, scenes
+from studies.extremes import long_runs, scenes
 from studies.extremes import run as extremes
-from studies.extremes.cases import ALL, BOX, HYDRAULICS, MAPS, cases, mapped
-from studies.extremes.hydraulics import oil_open
+from studies.extremes.cases import ALL, BOX, HYDRAULICS, cases
 from studies.extremes.judge import (
     GOOD,
     REFUSED,
     SILENT,
-    Case,
     Judgement,
     independent,
     judge,
     run_with_its_error,
 )
+from studies.extremes.legs import oil_open
 from studies.extremes.ranges import LARGEST_SPEED, SPANS, Point, drawn
+from studies.extremes.scenes import MAPS, Case, mapped
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.mechanics.time_statistics import TimeStatistics
 from support_exudyn.scene.limits import DEEPEST
@@ -163,22 +163,6 @@ def test_forces_that_are_wrong_at_all_steps_alike_are_seen_by_the_other_formulat
     assert "formulation compiled is" in found.reason
     assert "half the steps" not in found.reason  # which are as wrong
     assert found.other == pytest.approx(0.05, rel=0.1)  # of what is wrong
-
-
-def test_a_path_that_is_wrong_at_all_steps_alike_is_seen_by_the_other_formulation(fallen: Result) -> None:
-    point = next(iter(fallen.scenario.linkage.points))
-
-    def moved(result: Result) -> Result:
-        """By 5 % of its extent, at its end."""
-        share = result.time / result.time[-1]
-        extent = float(np.hypot(np.ptp(result[f"{point}.x"]), np.ptp(result[f"{point}.y"])))
-        wrong = with_channel(result, f"{point}.x", lambda values: values + 0.05 * extent * share)
-        return replace(wrong, coarser=None if result.coarser is None else moved(result.coarser))
-
-    found = judged(fall, moved(fallen))
-    assert found.outcome == SILENT
-    assert "formulation compiled is" in found.reason
-    assert "half the steps" not in found.reason
 
 
 class Boasting(Result):
@@ -343,9 +327,9 @@ def crawl() -> Scenario:
 def test_a_run_that_hangs_is_a_silent_failure(
     make: Callable[[], Scenario], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(runs, "PATIENCE", 0.3)
+    monkeypatch.setattr(judge_module, "PATIENCE", 0.3)
     before, began = signal.getsignal(signal.SIGALRM), time.perf_counter()
-    found = runs.judged(0, of(make))
+    found = judge_module.judged(0, of(make))
     assert found == Judgement(SILENT, "hang: no end after 0.3 s")
     assert time.perf_counter() - began < 50.0  # not 60, or for ever
     # nothing rings later

@@ -10,17 +10,16 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 from studies import __main__ as all_studies
 from studies import report
-from studies.common.chapter import Chapter
 from studies.common.options import Options
-from studies.common.study import StudyOutcome, work_in_folder
-from studies.common.witness import Witness
+from studies.common.study import work_in_folder
+from studies.common.words import Chapter
 from tests.hostile import posix_only
 from tests.processes import ROOT, environment, linux_only, session_of, wait_until
 from tests.studies import hostile_main
@@ -136,9 +135,6 @@ def test_a_folder_that_cannot_be_made_is_said_before_the_work(
     assert capsys.readouterr().err.startswith("error: ")
 
 
-WITH_WITNESS = "judged"  # the name of a study that has a witness
-
-
 def put_studies(monkeypatch: pytest.MonkeyPatch, work: Mapping[str, Callable[[Options], None]]) -> None:
     """Studies of the main command that only do this."""
 
@@ -150,30 +146,17 @@ def put_studies(monkeypatch: pytest.MonkeyPatch, work: Mapping[str, Callable[[Op
         own_machine: bool = False
         question: str = "Why?"
 
-        def begin(self, chosen: Options) -> tuple[Chapter, StudyOutcome]:
+        def __call__(self, chosen: Options) -> Chapter:
             self.work(chosen)
-            said = Chapter(self.name, "Title", "Why?", (), (), (), (), answer="So.")
-            witness = Witness({}, lambda runs: [], lambda numbers: {}) if self.name == WITH_WITNESS else None
-            return said, StudyOutcome([], {}, {}, {}, witness=witness)
-
-        def with_witness(self, chosen: Options, found: StudyOutcome) -> None:
-            self.work(replace(chosen, out=chosen.out.with_name(f"witness of {self.name}")))
+            return Chapter(
+                study=self.name, title="Title", question="Why?", answer="So.",
+                **dict.fromkeys(("method", "findings", "pictures", "sheets"), ()),
+            )  # fmt: skip
 
     monkeypatch.setattr(all_studies, "compiling", nullcontext)
     monkeypatch.setattr(all_studies, "STUDIES", {name: OnlyWork(name, one) for name, one in work.items()})
     monkeypatch.setattr(all_studies, "DEFAULT", tuple(work))
     monkeypatch.setattr(all_studies, "rebuild", lambda out, order: 0)
-
-
-def test_a_witness_is_computed_after_the_papers_studies_and_before_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    ran: list[str] = []
-    names = (WITH_WITNESS, "two", "three")
-    put_studies(monkeypatch, dict.fromkeys(names, lambda chosen: ran.append(chosen.out.name)))
-    monkeypatch.setattr(all_studies, "DEFAULT", names[:2])
-    assert all_studies.main(["--all", "--workers", "1", "--out", str(tmp_path)]) == 0
-    assert ran == [WITH_WITNESS, "two", f"witness of {WITH_WITNESS}", "three"]
 
 
 @pytest.mark.parametrize("error", [InputError("wrong: allowed: right"), RuntimeError("a bug")])
@@ -215,8 +198,7 @@ def test_studies_are_run_by_name_and_unknown_ones_refused(
     said = capsys.readouterr()
     assert "study 2 of 3: two" in said.err
     assert "answer    So." in said.out
-    assert said.out.count("can be read now") == 2  # of the two commands with more than one study
-    assert said.out.count(str(tmp_path / "report.html")) == 3 + 2
+    assert said.out.count(str(tmp_path / "report.html")) == 3
     assert all_studies.main(["four", *place]) == 1
     assert "'four': no such study; allowed: one, two, three" in capsys.readouterr().err
     assert all_studies.main(["one", "--all", *place]) == 1

@@ -10,7 +10,6 @@ import os
 import shutil
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +23,7 @@ from selenium.webdriver.common.by import By
 
 from studies import report
 from studies.catalogue import STUDIES
-from studies.common.chapter import Tile
+from studies.common.words import Tile
 from support_exudyn.postprocessing.page.live import LiveCurve, LiveFigure, LivePanel
 from support_exudyn.postprocessing.page.pieces import Sheet
 from tests.studies.test_report import chapter, put
@@ -67,11 +66,12 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
                 "fluctuation of the force", "0.006 kN ± 4 %", "1.02 kN ± 0.2 %", "of what is faster than 0.1 s"
             ),
         )
-        of = replace(
-            chapter(name),
-            sheets=(SORTED, WIDE) if leads else (WIDE, SORTED),
-            answer=" ".join((text,) * 3) if leads else text,
-            tiles=tiles if leads else (),
+        of = chapter(name).model_copy(
+            update={
+                "sheets": (SORTED, WIDE) if leads else (WIDE, SORTED),
+                "answer": " ".join((text,) * 3) if leads else text,
+                "tiles": tiles if leads else (),
+            }
         )
         folder = put(out, of)
         for picture in of.pictures:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from studies.common.chapter import Chapter
+from studies.common.words import Chapter
 from studies.scene_detail import run as study
-from studies.scene_detail import tables
+from studies.scene_detail.figures import BELOW
 from studies.scene_detail.measures import Change, change
 from studies.scene_detail.scenes import (
     EQUAL,
@@ -25,9 +24,7 @@ from studies.scene_detail.scenes import (
 from support_exudyn import Estimate, recommend
 from support_exudyn.simulation.evidence.table import EvidenceTable, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, comparisons
-from tests.studies.forms import ONLY_WHOLE, written
-
-Numbers = dict[tuple[str, str], dict[str, Any]]
+from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, written
 
 
 @pytest.fixture(scope="module", params=ONLY_WHOLE)
@@ -37,8 +34,7 @@ def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 
 @pytest.fixture(scope="module")
 def numbers(out: Path) -> Numbers:
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+    return numbers_of(out)
 
 
 def test_every_number_is_finite_and_has_an_error(numbers: Numbers) -> None:
@@ -83,7 +79,7 @@ def test_what_changes_nothing_is_said_to_be_below_the_error(numbers: Numbers, ou
     chapter = Chapter.load(out)
     (added,) = (sheet for sheet in chapter.sheets if sheet.title.startswith("What each element changes"))
     (row,) = (row for row in added.rows if row[0] == "+ tail beam, rigid jack")
-    assert all(cell.startswith(tables.BELOW) for cell in row[2:-1])
+    assert all(cell.startswith(BELOW) for cell in row[2:-1])
 
 
 def test_changes_and_errors_add_up() -> None:

@@ -9,13 +9,12 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from studies.common.chapter import Chapter
-from studies.common.loose_supports import support
 from studies.common.options import Options
-from studies.slack_stiffness import cases as plan
+from studies.common.support_legs import support
+from studies.common.words import Chapter
+from studies.slack_stiffness import loops as plan
 from studies.slack_stiffness import run as study
-from studies.slack_stiffness.cases import FRICTION, PushedSupport
-from studies.slack_stiffness.measures import Loop, kinematic_slack, pin_shares
+from studies.slack_stiffness.loops import FRICTION, Loop, PushedSupport, kinematic_slack, pin_shares
 from support_exudyn import simulate
 
 CASE = PushedSupport("reference", 0.5, 0.3, FRICTION)

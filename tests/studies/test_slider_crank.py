@@ -5,21 +5,21 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from studies.common.chapter import Chapter
 from studies.common.options import Options
+from studies.common.words import Chapter
 from studies.slider_crank import run as study
 from support_exudyn import Result
 from support_exudyn.postprocessing.figures import style
 from tests import figure_checks
 from tests.at_once import at_once
+from tests.studies.forms import Numbers
 
 
 @pytest.fixture(scope="module")
-def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], dict[str, Any]]:
+def numbers(tmp_path_factory: pytest.TempPathFactory) -> Numbers:
     out = tmp_path_factory.mktemp("results")
     with pytest.MonkeyPatch.context() as patch:
         whole = study.scenarios()
@@ -27,7 +27,7 @@ def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], d
         patch.setattr(study, "scenarios", lambda: part)
         study.study(Options(out, at_once()))
     assert (out / "slider_crank.png").read_bytes().startswith(b"\x89PNG")
-    assert "onset 5 speed" in Path(out / "table.txt").read_text(encoding="utf-8")
+    assert "onset 5 speed" in Path(out / "numbers.csv").read_text(encoding="utf-8")
     with style.look():
         cases = (study.IDEAL, study.SMOOTH, study.DRY)
         files = {case: f"{case.replace(' ', '_').replace('.', 'p')}.h5" for case in cases}
@@ -46,9 +46,7 @@ def numbers(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], d
     return {(n["name"], n["case"]): n for n in summary["numbers"]}
 
 
-def test_onsets_agree_with_the_independent_solution(
-    numbers: dict[tuple[str, str], dict[str, Any]],
-) -> None:
+def test_onsets_agree_with_the_independent_solution(numbers: Numbers) -> None:
     for n, (time, speed) in enumerate(study.REFERENCE):
         found = numbers[f"onset_{n + 1}_time", study.SMOOTH], numbers[f"onset_{n + 1}_speed", study.SMOOTH]
         assert [number["paper"] for number in found] == [time, speed]
@@ -60,7 +58,7 @@ def test_onsets_agree_with_the_independent_solution(
             assert abs(number["value"] - number["paper"]) < 2.0 * number["numerical_error"] + printed
 
 
-def test_friction_changes_later_touches_only(numbers: dict[tuple[str, str], dict[str, Any]]) -> None:
+def test_friction_changes_later_touches_only(numbers: Numbers) -> None:
     first = [numbers["onset_1_speed", case]["value"] for case in (study.SMOOTH, study.DRY)]
     second = [numbers["onset_2_speed", case]["value"] for case in (study.SMOOTH, study.DRY)]
     assert first[0] == pytest.approx(first[1], rel=1e-9)  # in flight there is no friction

@@ -30,9 +30,8 @@ def test_a_figure_and_its_numbers_are_written(tmp_path: Path, monkeypatch: pytes
     assert (tmp_path / f"{benchmark.FIGURE}.png").stat().st_size > 10_000
     said = " ".join([chapter.answer, *chapter.findings])
     assert "takes 50 ms compiled and shorter fixed steps than those that were tried by a script" in said
-    assert "MuJoCo: right to 0.001 in 8.8 s at step 0.02 ms, kept" in said
-    (sheet,) = chapter.sheets
-    assert len(sheet.rows) == sum(len(one.settings) for one in PROGRAMS.values())
+    sheet = chapter.sheets[0]
+    assert len(sheet.rows) == len(HERE)
     numbers = json.loads((tmp_path / "summary.json").read_text("utf-8"))["numbers"]
     assert len(numbers) == 1 + len(sheet.rows)
     assert all(number["numerical_error"] > 0.0 for number in numbers)

@@ -9,12 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from studies.common.chapter import Chapter
 from studies.common.options import Options
-from studies.stability import cases
+from studies.common.words import Chapter
+from studies.stability import motions as cases
 from studies.stability import run as study
-from studies.stability.cases import PinCase, all_scenarios, prepared
-from studies.stability.measures import ALIKE, fastest, growth, roots
+from studies.stability.motions import ALIKE, PinCase, all_scenarios, fastest, growth, prepared, roots
 from support_exudyn import ClearancePin, Scenario, simulate
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,20 +12,18 @@ import pytest
 from studies.common.subject import own_subject, paper_subject, without_clearance
 from studies.which_pin import cases as which_pin_cases
 from studies.which_pin import closed_form as clearance
+from studies.which_pin.closed_form import loads, mean_shift
 from studies.which_pin.measures import measures
-from studies.which_pin.posture import loads, mean_shift
-from studies.which_pin.tables import in_order, rankings
+from studies.which_pin.run import in_order, rankings
 from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
 from support_exudyn.mechanics.postures import eccentric
-from tests.studies.forms import ONLY_WHOLE, written
+from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, written
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 from user_forces.values.value import InputError
 
 PINS = tuple(reference_support().linkage().pins)
 FRICTIONS = DRY, SMOOTH = 0.25, 0.0
 SUPPORT = reference_support()
-
-Numbers = dict[tuple[str, str], dict[str, Any]]
 
 
 @pytest.fixture(scope="module", params=ONLY_WHOLE)
@@ -36,8 +33,7 @@ def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 
 @pytest.fixture(scope="module")
 def numbers(out: Path) -> Numbers:
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    return {(n["name"], n["case"]): n for n in summary["numbers"]}
+    return numbers_of(out)
 
 
 def alone(numbers: Numbers, name: str, friction: float) -> dict[str, float]:

@@ -12,12 +12,12 @@ import pytest
 
 from studies.catalogue import DEFAULT
 from studies.common import witness
-from studies.common.chapter import Chapter
 from studies.common.numbers import Number, measured_all
 from studies.common.options import Options
 from studies.common.rise import FORCE
 from studies.common.subject import paper_subject
 from studies.common.witness import Witness, is_within, run_on_exudyn, with_errors
+from studies.common.words import Chapter
 from support_exudyn import CubicStep, Result, Scenario
 from tests.at_once import at_once
 from tests.studies.forms import WHOLE, written

@@ -63,8 +63,8 @@ def run_drake(scenario: Scenario, accuracy: float) -> PeerRun:
 
     def note(root: Any) -> None:
         force.move_to(plant.GetPositionsAndVelocities(plant.GetMyContextFromRoot(root)))
-        if log.time and root.get_time() - log.time[-1] < ALONE:
-            log.drop_last()
+        if log.steps and root.get_time() - log.steps[-1][0] < ALONE:
+            log.steps.pop()
         log.note(root.get_time(), *force.journal())
 
     simulator.set_monitor(note)

@@ -27,14 +27,12 @@ from exudyn.itemInterface import (
     ObjectGround,
     ObjectJointRevolute2D,
     ObjectRigidBody2D,
-    SensorMarker,
 )
 
 from studies.benchmarking.peers.plain_support import (
     PIN,
     JournalForce,
     PeerRun,
-    contact_forces,
     contact_numbers,
     journal_force,
     plain_support,
@@ -59,25 +57,23 @@ Evaluator = Literal["built_in", "function", "joint"]
 class BareScene:
     """The support as rigid bodies of the engine with constraints; nothing is in its clearance pin yet.
 
-    mbs: the engine's system. nodes: of the bodies. contact: of the clearance pin. ends: the body and the
-    centre's place in its frame [m], of bore and journal.
+    mbs: the engine's system. contact: of the clearance pin. ends: the body and the centre's place in its
+    frame [m], of bore and journal.
 
     Arguments:
-        scenario: without loads; its actuators are rigid.
-        pin: name of the clearance pin; empty: all pins are ideal.
+        scenario: see `plain_support`.
     """
 
-    def __init__(self, scenario: Scenario, pin: str = "") -> None:
+    def __init__(self, scenario: Scenario) -> None:
         self.scenario, self.linkage = scenario, scenario.machine.linkage()
         self.container = exudyn.SystemContainer()  # owns the system, and must live as long as that
         self.mbs = self.container.AddSystem()
-        self.nodes: dict[str, Any] = {}
         self._objects = {GROUND: self.mbs.AddObject(ObjectGround())}
         self._driven = 0.0  # extension that the engine has [m]
         for name, body in self.linkage.bodies.items():
             self._add_body(name, body)
         for name, joint in self.linkage.pins.items():
-            if name != pin:
+            if name != PIN:
                 ends = self._pair(joint.first, joint.first_point, joint.second, joint.second_point)
                 self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=ends))
         self._actuators = []
@@ -85,15 +81,14 @@ class BareScene:
             ends = self._pair(one.foot, one.foot_point, one.head, one.head_point)
             item = ObjectConnectorDistance(markerNumbers=ends, distance=one.start_length)
             self._actuators.append((self.mbs.AddObject(item), one.start_length))
-        if pin:
-            support, joint = plain_support(scenario), self.linkage.pins[pin]
-            self.contact = support.contact
-            self.ends = self._end(joint.first, support.bore), self._end(joint.second, support.bore)
+        support, joint = plain_support(scenario), self.linkage.pins[PIN]
+        self.contact = support.contact
+        self.ends = self._end(joint.first, support.bore), self._end(joint.second, support.bore)
 
     def _add_body(self, name: str, body: Body) -> None:
         node = self.mbs.AddNode(NodeRigidBody2D(referenceCoordinates=[*body.centre, body.angle]))
         item = self.mbs.AddObject(ObjectRigidBody2D(mass=body.mass, inertia=body.inertia, nodeNumber=node))
-        self.nodes[name], self._objects[name] = node, item
+        self._objects[name] = item
         centre = self.mbs.AddMarker(MarkerBodyPosition(bodyNumber=item, localPosition=[0, 0, 0]))
         weight = [body.mass * self.scenario.gravity[0], body.mass * self.scenario.gravity[1], 0.0]
         self.mbs.AddLoad(LoadForceVector(markerNumber=centre, loadVector=weight))
@@ -115,10 +110,10 @@ class BareScene:
     def _pair(self, first: str, first_point: Vector2, second: str, second_point: Vector2) -> list[Any]:
         return [self.marker(self._end(first, first_point)), self.marker(self._end(second, second_point))]
 
-    def solve(self, step: float, before_step: Callable[[], None], write: bool = False) -> float:
+    def solve(self, step: float, before_step: Callable[[], None]) -> float:
         """Solve by generalised alpha with equal steps [s]; returns the processor time [s].
 
-        before_step: is called before every step. write: let sensors write at every step.
+        before_step: is called before every step.
 
         Raises RuntimeError if the solver does not finish.
         """
@@ -142,10 +137,8 @@ class BareScene:
         settings.timeIntegration.adaptiveStep = False
         settings.timeIntegration.verboseMode = 0
         settings.solution.file.write = False
-        if write:
-            settings.solution.sensors.writePeriod = 0.5 * step
-            # else it stops at the first contact
-            settings.timeIntegration.discontinuous.useRecommendedStepSize = False
+        # else it stops at the first contact of the engine
+        settings.timeIntegration.discontinuous.useRecommendedStepSize = False
         self.mbs.sys["simulationSettings"] = settings  # where `ClearanceJoint` reads that steps are fixed
         solver: Any = exudyn.MainSolverImplicitSecondOrder()
         began = time.process_time()
@@ -165,7 +158,7 @@ class _StockContact:
     def __init__(self, force: JournalForce, clearance: float) -> None:
         self.on_journal, self.clearance = force, clearance
         self.speed = 0.0  # of approach, 0 in free flight [m/s]
-        self.noted = [(0.0, 0.0, -clearance, 0.0)]  # time, force, depth, rate
+        self.noted = [(0.0, 0.0)]  # time, force
 
     def force(  # type: ignore[no-untyped-def]
         self, mbs, t, item, displacement, rotation, velocity, angular_velocity, *unused
@@ -186,7 +179,7 @@ class _StockContact:
         rate = (x * velocity[0] + y * velocity[1]) / (eccentricity or 1.0)
         self.speed = (self.speed or rate) if depth > 0.0 else 0.0
         fx, fy, *_ = self.force(mbs, t, item, displacement, rotation, velocity, angular_velocity)
-        self.noted.append((t, math.hypot(fx, fy), depth, rate))
+        self.noted.append((t, math.hypot(fx, fy)))
         return [0.0, -1.0, 0.0]
 
 
@@ -199,8 +192,7 @@ def run_stock(scenario: Scenario, step: float) -> PeerRun:
 
     Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
     """
-    plain_support(scenario)
-    scene = BareScene(scenario, PIN)
+    scene = BareScene(scenario)
     contact = _StockContact(journal_force(scene.contact), scene.contact.bearing.clearance)
     node = scene.mbs.AddNode(NodeGenericData(initialCoordinates=[0.0], numberOfDataCoordinates=1))
     scene.mbs.AddObject(
@@ -212,35 +204,8 @@ def run_stock(scenario: Scenario, step: float) -> PeerRun:
         )
     )
     took = scene.solve(step, lambda: None)
-    t, force, depth, rate = np.array(contact.noted).T
-    return PeerRun(t, force, depth, rate, took)
-
-
-def peak_acceleration(scenario: Scenario, step: float, body: str) -> float:
-    """Largest angular acceleration of a body that the engine gives at the end of any step [rad/s^2].
-
-    Users of Exudyn run ideal pins with equal steps, and a solver that is not told of the drive's jumps. The
-    acceleration is the engine's own, of its integrator, not one that follows from the motion.
-
-    Arguments:
-        scenario: without clearance pins, of rigid actuators; its own step and solver are not used.
-        step: length of all steps [s].
-        body: its name.
-
-    Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
-    """
-    loaded = scenario.acting_loads or scenario.blocks
-    if scenario.clearance_pins or scenario.actuators or scenario.friction_pins or loaded:
-        raise InputError("a competitor with ideal pins takes rigid actuators, no loads and no friction")
-    scene, found = BareScene(scenario), list[float]()
-
-    def note() -> None:
-        turn = int(scene.mbs.systemData.GetNodeLTGODE2(scene.nodes[body])[0]) + 2
-        found.append(abs(float(scene.mbs.systemData.GetODE2Coordinates_tt()[turn])))
-
-    scene.solve(step, note)
-    note()
-    return max(found)
+    time, force = np.array(contact.noted).T
+    return PeerRun(time, force, took)
 
 
 # --- the engine's own contact, and ours in its place ---
@@ -267,27 +232,24 @@ class _Function:
             self.force.speed = rate
 
 
-def run_built_in(
-    scenario: Scenario, step: float, *, contact: Evaluator = "built_in", sensors: bool = True
-) -> PeerRun:
-    """Run with generalised alpha; what differs between the contacts is who computes the force.
+def run_connector(scenario: Scenario, step: float, contact: Evaluator) -> tuple[float, np.ndarray]:
+    """Run with generalised alpha; the contacts differ in the program that computes the force.
 
     Arguments:
         scenario: see `plain_support`, without friction; its own step and solver are not used.
         step: length of all steps [s].
-        contact: what gives the force.
-        sensors: let sensors write position and velocity of the pin at every step, from which force and
-            impacts follow; without them only the time of the solver is known, and the run is cheaper.
+        contact: of the pin.
 
+    Returns the processor time of the solver [s] and the coordinates of all bodies at the end.
     Raises InputError if the scenario is not covered, RuntimeError if the solver gives up.
     """
-    law = plain_support(scenario).contact
+    scene = BareScene(scenario)
+    law = scene.contact
     if not isinstance(law.friction, Frictionless):
         raise InputError("friction: the engine's own contact has another law; allowed here: Frictionless")
-    scene = BareScene(scenario, PIN)
-    bore, journal = scene.marker(scene.ends[0], ASIDE), scene.marker(scene.ends[1])
     before_step: Callable[[], None] = lambda: None  # noqa: E731
     if contact == "built_in":
+        bore, journal = scene.marker(scene.ends[0], ASIDE), scene.marker(scene.ends[1])
         _add_ball(scene.mbs, law, journal, bore)
     elif contact == "function":
         before_step = _Function(scene).before_step
@@ -300,25 +262,8 @@ def run_built_in(
             bore_radius=law.bearing.bore_radius,
             clearance=law.bearing.clearance,
         )
-    output = exudyn.OutputVariableType
-    placed = [
-        scene.mbs.AddSensor(
-            SensorMarker(markerNumber=marker, outputVariableType=what, storeInternal=True, writeToFile=False)
-        )
-        for what in (output.Position, output.Velocity)
-        for marker in (journal, bore)
-        if sensors
-    ]
-    took = scene.solve(step, before_step, write=True)
-    if not sensors:
-        nothing = np.zeros(0)
-        return PeerRun(nothing, nothing, nothing, nothing, took)
-    stored = [np.array(scene.mbs.GetSensorStoredData(one), dtype=np.float64) for one in placed]
-    away, moving = (one[:, 1:3] - other[:, 1:3] for one, other in (stored[:2], stored[2:]))
-    eccentricity = np.hypot(*away.T)
-    depth = eccentricity - law.bearing.clearance
-    rate = (away * moving).sum(axis=1) / np.maximum(eccentricity, 1e-300)
-    return PeerRun(stored[0][:, 0], contact_forces(law, depth, rate), depth, rate, took)
+    took = scene.solve(step, before_step)
+    return took, np.array(scene.mbs.systemData.GetODE2Coordinates())
 
 
 def _add_ball(mbs: Any, contact: JournalContact, journal: Any, bore: Any) -> None:

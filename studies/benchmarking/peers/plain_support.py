@@ -1,4 +1,4 @@
-"""The support as programs of others take it, and what their runs give: times, forces, impacts.
+"""The support as programs of others take it, and what their runs give: times and forces.
 
 Four links as a tree, two driven columns, a pin in its bore. The tree begins at the front base pin: front
 link, shield, canopy on the shield, rear link on the shield. Its last link ends in the journal, whose bore is
@@ -22,7 +22,6 @@ from support_exudyn.model.linkage import GROUND
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.single_run import paused_collector
 from user_forces.contact import JournalContact
-from user_forces.contact_state import Onset
 from user_forces.friction.laws import Ambrosio, Frictionless
 from user_forces.normal.power_laws import LankaraniNikravesh
 from user_forces.values.value import InputError, Vector2
@@ -193,63 +192,28 @@ def contact_numbers(contact: JournalContact) -> tuple[float, float, float]:
     return law.stiffness, law.damping_factor, law.rest_velocity
 
 
-def contact_forces(contact: JournalContact, depth: np.ndarray, rate: np.ndarray) -> np.ndarray:
-    """Force [N] at the ends of all steps, with the impact velocity at the end of the first in contact."""
-    stiffness, factor, floor = contact_numbers(contact)
-    closed = depth > 0.0
-    begins = closed & ~np.concatenate(([False], closed[:-1]))
-    which = np.maximum.accumulate(np.where(begins, np.arange(len(depth)), 0))
-    speed = np.maximum(rate[which], floor)
-    inside = np.maximum(depth, 0.0)
-    force: np.ndarray = np.maximum(stiffness * inside**1.5 * (1.0 + factor * rate / speed), 0.0)
-    return force
-
-
 # --- runs ---
 
 
-@dataclass(frozen=True)
-class PeerRun:
-    """Outcome of a competitor's run, at the ends of all its steps.
+class PeerRun(NamedTuple):
+    """Outcome of a competitor's run.
 
-    time: [s]. force: magnitude in the clearance pin [N]. depth: [m], rate: [m/s], of the contact. solve_time:
-    of the solver, on the processor [s].
+    time [s], force: magnitude in the clearance pin [N], both at the ends of all steps. solve_time: of the
+    solver, on the processor [s].
     """
 
     time: Series
     force: Series
-    depth: Series
-    rate: Series
     solve_time: float
 
     @property
-    def onsets(self) -> tuple[Onset, ...]:
-        """Impacts, by interpolation of the depth."""
-        return impacts(self.time, self.depth, self.rate)
+    def largest(self) -> float:
+        """The largest force at the end of any step [N]."""
+        return float(self.force.max())
 
 
-def impacts(
-    time: Sequence[float] | Series, depth: Sequence[float] | Series, rate: Sequence[float] | Series
-) -> tuple[Onset, ...]:
-    """Impacts from time [s], depth [m] and its rate [m/s] at the ends of all steps, and how they end.
-
-    Between two steps the depth is the cubic that fits depth and rate at both; where it passes zero is found
-    by bisection, and its slope there is the speed.
-    """
-    t, d, r = (np.asarray(series, dtype=np.float64) for series in (time, depth, rate))
-    found: list[Onset] = []
-    for n in np.flatnonzero((d[:-1] <= 0.0) != (d[1:] <= 0.0)).tolist():
-        h = float(t[n + 1] - t[n])
-        x, slope = _crossing(float(d[n]), float(d[n + 1]), h * float(r[n]), h * float(r[n + 1]))
-        if d[n] <= 0.0:
-            found.append(Onset(float(t[n]) + x * h, slope / h))
-        elif found:  # else it began in contact
-            found[-1] = found[-1].separated(float(t[n]) + x * h, -slope / h)
-    return tuple(found)
-
-
-def _crossing(first: float, last: float, first_slope: float, last_slope: float) -> tuple[float, float]:
-    """The place between 0 and 1 where the cubic with these values and slopes passes zero, and its slope."""
+def _speed_at_zero(first: float, last: float, first_slope: float, last_slope: float) -> float:
+    """The slope, where it passes zero between 0 and 1, of the cubic with these values and slopes at 0 and 1."""
     a, b, c = last - first, first_slope, last_slope
     cubic = np.array([b + c - 2.0 * a, 3.0 * a - 2.0 * b - c, b, first])
     low, high = 0.0, 1.0
@@ -259,7 +223,7 @@ def _crossing(first: float, last: float, first_slope: float, last_slope: float) 
             high = x
         else:
             low = x
-    return high, float(np.polyval(np.polyder(cubic), high))
+    return float(np.polyval(np.polyder(cubic), high))
 
 
 @contextmanager
@@ -271,46 +235,36 @@ def undisturbed() -> Iterator[None]:
 
 @dataclass
 class JournalLog:
-    """What a program notes of the journal at the ends of its steps.
+    """Records of the journal at the ends of a program's steps.
 
-    time [s], depth [m], rate [m/s], force: magnitude [N]. speed: the initial impact velocity, 0 in free
-    flight [m/s].
+    steps: time [s], magnitude of the force [N], depth [m] and its rate [m/s], of each. speed: the initial
+    impact velocity, 0 in free flight [m/s].
     """
 
     support: PlainSupport
-    time: list[float] = field(default_factory=list)
-    depth: list[float] = field(default_factory=list)
-    rate: list[float] = field(default_factory=list)
-    force: list[float] = field(default_factory=list)
+    steps: list[tuple[float, float, float, float]] = field(default_factory=list)
     speed: float = 0.0
 
     def note(self, t: float, place: Pair, velocity: Pair, spin: float) -> None:
-        """Note the end of a step: place [m] and velocity [m/s] of the journal in its bore, and its spin
-        [rad/s].
+        """Note the end of a step: place [m], velocity [m/s] and spin [rad/s] of the journal in its bore.
 
         In the step in which the surfaces met, the initial impact velocity is that at zero depth of the cubic
         through both ends of the step.
         """
         (x, y), (vx, vy) = place, velocity
         eccentricity = math.hypot(x, y)
-        self.time.append(t)
-        self.depth.append(eccentricity - self.support.clearance)
-        self.rate.append((x * vx + y * vy) / (eccentricity or 1.0))
-        if self.depth[-1] <= 0.0:
+        depth, rate = eccentricity - self.support.clearance, (x * vx + y * vy) / (eccentricity or 1.0)
+        if depth <= 0.0:
             self.speed = 0.0
         elif not self.speed:
-            ends = slice(-2, None)
-            (met,) = impacts(self.time[ends], self.depth[ends], self.rate[ends])
-            self.speed = max(met.speed, 0.0)
+            before, _, last_depth, last_rate = self.steps[-1]
+            step = t - before
+            slope = _speed_at_zero(last_depth, depth, step * last_rate, step * rate)
+            self.speed = max(slope / step, 0.0)
         fx, fy, _ = self.support.force(x, y, vx, vy, spin, self.speed)
-        self.force.append(math.hypot(fx, fy))
-
-    def drop_last(self) -> None:
-        """Forget the last step."""
-        for series in (self.time, self.depth, self.rate, self.force):
-            series.pop()
+        self.steps.append((t, math.hypot(fx, fy), depth, rate))
 
     def run(self, took: float) -> PeerRun:
         """The outcome of a run that took so long [s]."""
-        t, force, depth, rate = (np.array(each) for each in (self.time, self.force, self.depth, self.rate))
-        return PeerRun(t, force, depth, rate, took)
+        time, force, *_ = np.array(self.steps).T
+        return PeerRun(time, force, took)

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
-from studies.common.loose_supports import loose_pins, support, tight_pins
-from studies.common.support_legs import PAIRS, legs_data, support_legs
-from support_exudyn import ClearancePin, Line, OilColumn, Result, Scenario, simulate
+import numpy as np
+
+from studies.common.numbers import Found, Number, measured
+from studies.common.rise import DEGREES, MeasuredRun, Series, between
+from studies.common.support_legs import PAIRS, legs_data, loose_pins, support, support_legs, tight_pins
+from support_exudyn import ClearancePin, Line, OilColumn, Result, Scenario, YieldValve, simulate
 from support_exudyn.machines.four_bar_shield import PINS as ALL_PINS
 from support_exudyn.machines.four_column_support import HydraulicSupport, Posture
 from support_exudyn.machines.shield_layout import TAIL
@@ -200,18 +203,11 @@ def _last(run: Result, pin: str, axis: str) -> float:
     return float(run[f"pin.{pin}.eccentricity_{axis}"][-1])
 
 
-def yield_pressure(machine: str) -> float:
-    """Pressure at which the valves of a machine's legs open [Pa]."""
-    leg = legs_data().of(machine).cylinder
-    assert leg.yield_valve is not None
-    return leg.yield_valve.opening_pressure
-
-
-def rated_flow(machine: str) -> float:
-    """Rated flow of the valves of a pair of legs [m^3/s]."""
-    leg = legs_data().of(machine).cylinder
-    assert leg.yield_valve is not None
-    return leg.yield_valve.rated_flow
+def yield_valve(machine: str) -> YieldValve:
+    """The yield valves of a pair of legs of a machine."""
+    valve = legs_data().of(machine).cylinder.yield_valve
+    assert valve is not None
+    return valve
 
 
 def cases(*, small: bool = False) -> list[Blow]:
@@ -225,3 +221,76 @@ def cases(*, small: bool = False) -> list[Blow]:
         for pins in PINS
         for valve in (True, False)
     ]
+
+
+# --- measures ---
+
+BEFORE = 4 * PERIOD  # a blow, when all is still at rest [s]
+Ran = Mapping[str, tuple[Blow, Result]]
+
+
+@dataclass(frozen=True)
+class Struck:
+    """The records of a run from just before the blow on."""
+
+    blow: Blow
+    run: MeasuredRun
+
+    def of(self, channel: str) -> Series:
+        """A channel from just before the blow on, shape (n,)."""
+        inside = between(self.run, self.blow.strike - BEFORE, float(self.run.time[-1]))
+        found: Series = self.run[channel][inside]
+        return found
+
+    def most(self, channel: str, names: Iterable[str]) -> float:
+        """The largest value of a channel of any of some members."""
+        return max(float(self.of(channel.format(name)).max()) for name in names)
+
+    def tilt(self) -> float:
+        """Largest turn of the canopy from where it was, with its sign [rad]; negative: its tip goes down."""
+        turn = self.of("canopy.angle") - self.of("canopy.angle")[0]
+        return float(turn[np.argmax(np.abs(turn))])
+
+    def rise(self) -> float:
+        """Largest rise of the pressure of any leg above that before the blow [Pa]."""
+        courses = [self.of(f"{name}.pressure") for name in PAIRS]
+        return max(float((one - one[0]).max()) for one in courses)
+
+
+# unit, scale from SI, and value in SI, by name
+MEASURES: dict[str, tuple[str, float, Callable[[Struck], float]]] = {
+    "pressure": ("MPa", 1e-6, lambda struck: struck.most("{}.pressure", PAIRS)),
+    "rise": ("MPa", 1e-6, Struck.rise),
+    "least_pressure": ("MPa", 1e-6, lambda struck: min(float(struck.of(f"{n}.pressure").min()) for n in PAIRS)),
+    "flow": ("l/min", 6e4, lambda struck: struck.most("{}.yield_flow", PAIRS)),
+    "volume": ("l", 1e3, lambda struck: sum(float(struck.of(f"{name}.yielded")[-1]) for name in PAIRS)),
+    "pin_force": ("kN", 1e-3, lambda struck: struck.most("pin.{}.force", ALL_PINS)),
+    "tilt": ("deg", DEGREES, Struck.tilt),
+    "block_force": ("kN", 1e-3, lambda struck: struck.most("{}.force", ("block",))),
+}
+OF_VALVES = ("flow", "volume")
+
+
+def numbers(ran: Ran) -> list[Number]:
+    """All numbers of the study."""
+    return [
+        measured(measure, name, unit, run, lambda run, b=blow, s=scale, get=get: s * get(Struck(b, run)))  # type: ignore[misc]
+        for name, (blow, run) in ran.items()
+        for measure, (unit, scale, get) in MEASURES.items()
+        if blow.valve or measure not in OF_VALVES
+    ]
+
+
+def ratios(found: Found, measure: str, blows: Iterable[Blow], change: Callable[[Blow], Blow]) -> list[float]:
+    """A measure of blows over that of what they are changed into, of those alone that were run both."""
+    pairs = [(blow.name, change(blow).name) for blow in blows]
+    return [
+        found[measure, name].value / found[measure, other].value
+        for name, other in pairs
+        if name != other and (measure, name) in found and (measure, other) in found
+    ]
+
+
+def strongest_pin(blow: Blow, run: MeasuredRun) -> str:
+    """The pin of the linkage whose force is the largest in a blow."""
+    return max(ALL_PINS, key=lambda pin: Struck(blow, run).most("pin.{}.force", (pin,)))

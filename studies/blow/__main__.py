@@ -1,6 +1,0 @@
-"""`python -m studies.blow`."""
-
-from studies.blow.run import main
-
-if __name__ == "__main__":
-    raise SystemExit(main())

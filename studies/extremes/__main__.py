@@ -1,6 +1,0 @@
-"""`python -m studies.extremes`."""
-
-from studies.extremes.run import main
-
-if __name__ == "__main__":
-    raise SystemExit(main())
