@@ -28,7 +28,7 @@ class DrivenParts:
     the engine has, and speed, which are those of a time [s].
     """
 
-    mbs: Any
+    mbs: Any = field(repr=False)  # which cannot be shown once it is released
     drive: Drive
     items: list[DrivenItem] = field(default_factory=list)
     state: tuple[float, float] | None = None

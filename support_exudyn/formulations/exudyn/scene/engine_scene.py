@@ -71,7 +71,7 @@ class SceneContact:
         return pin.whole if isinstance(pin, SectionPin) else pin
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)  # the engine's objects cannot be shown once they are released
 class EngineScene:
     """The model of one scenario, assembled and ready for the solver.
 
