@@ -225,22 +225,3 @@ def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it
     difference = compare_figure(compared).axes[1]
     # after the horizon nothing is drawn, for it shows nothing
     assert float(np.max(difference.lines[0].get_xdata())) <= compared.pairs[0].window.horizon
-
-
-def test_a_changed_scene_is_told_apart_from_two_accuracies(
-    parted: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    changed = Result.load(parted / "reference.h5")
-    run: Result | None = changed
-    while run is not None:  # at every accuracy, as a wrong program would
-        for name in ("tip.x", FORCE):
-            run[name][:] *= 1.5 if name.endswith("force") else 1.001
-        run = run.coarser
-    changed.save(parted / "changed.h5")
-    words = ["compare", str(parted / "draft.h5"), str(parted / "changed.h5"), "tip.*", FORCE]
-    assert ended([*words, "--json"]) == 0
-    channels = json.loads(capsys.readouterr().out)["files"]["changed.h5"]["channels"]
-    assert channels["tip.x"]["beside_errors"]["times"] > 10.0
-    assert channels["tip.y"]["beside_errors"]["within"]
-    assert not math.isnan(channels[FORCE]["largest"]["error"])
-    assert ended([*words, "--until", "0.03", "--tolerance", "tip.x=1mm"]) == 1

@@ -19,7 +19,7 @@ from support_exudyn.files.series.units import scaled, unit_checked
 from support_exudyn.files.toml.faults import nearest
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn
 from support_exudyn.postprocessing.comparing.mapping import MappedFile
-from support_exudyn.postprocessing.comparing.with_errors import curve_errors
+from support_exudyn.postprocessing.comparing.with_errors import recorded_columns
 from support_exudyn.postprocessing.figures.units import QUANTITIES
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
@@ -129,10 +129,7 @@ def compared_file(
 
 def of_run(run: Result, path: Path, name: str) -> ComparedFile:
     """A run as a file that is compared."""
-    names = [channel for channel in run.channels if channel != "time"]
-    errors = curve_errors(run, names)
-    columns = {one: ComparedColumn(run.unit(one), run.time, run[one], errors[one]) for one in names}
-    return ComparedFile(name, path, "run of this program", columns, run)
+    return ComparedFile(name, path, "run of this program", recorded_columns(run), run)
 
 
 def _mapped(file: ComparedFile, mapped: MappedFile) -> ComparedFile:

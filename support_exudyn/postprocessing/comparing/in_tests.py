@@ -36,7 +36,7 @@ from support_exudyn.postprocessing.comparing.kept_run import (
     write_baseline,
 )
 from support_exudyn.postprocessing.comparing.tolerance import BOTH_ERRORS, PERCENT, Tolerance, tolerance
-from support_exudyn.postprocessing.comparing.with_errors import curve_errors
+from support_exudyn.postprocessing.comparing.with_errors import recorded_columns
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import Estimate
@@ -185,7 +185,7 @@ def closeness(
     names = [ALONE]
     if isinstance(result, Result):
         numbers = result.numbers(after, until) if result.coarser is not None else {}
-        mine, its = {**numbers, **_curves(result)}, _several(reference)
+        mine, its = {**numbers, **recorded_columns(result)}, _several(reference)
         missing = [name for name in its if name not in mine]
         if missing and isinstance(reference, Mapping):
             why = "the result has no such channel or number with an error"
@@ -225,7 +225,8 @@ def _rule(allowed: float | str | None) -> Tolerance:
 def _several(reference: Any) -> Mapping[str, Any]:
     """Curves and numbers of a reference by their names."""
     if isinstance(reference, Result):
-        return {name: one for name, one in _curves(reference).items() if reference.channels[name].is_determined}
+        names = [name for name, one in reference.channels.items() if name != "time" and one.is_determined]
+        return recorded_columns(reference, names)
     if isinstance(reference, NamedSeries):
         return {reference.name: reference}
     if isinstance(reference, SeriesFile):
@@ -235,12 +236,6 @@ def _several(reference: Any) -> Mapping[str, Any]:
     raise InputError(
         f"reference = {short(reference)}: is one number, the result a whole run; allowed: numbers by names"
     )
-
-
-def _curves(run: Result) -> dict[str, ComparedColumn]:
-    """All channels of a run with their errors."""
-    errors = curve_errors(run, [name for name in run.channels if name != "time"])
-    return {name: ComparedColumn(run.unit(name), run.time, run[name], errors[name]) for name in errors}
 
 
 def _column(item: Any) -> ComparedColumn:

@@ -20,7 +20,7 @@ from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn, ComparedWindow, compared
 from support_exudyn.postprocessing.comparing.tables import faults
 from support_exudyn.postprocessing.comparing.tolerance import BOTH_ERRORS
-from support_exudyn.postprocessing.comparing.with_errors import curve_errors
+from support_exudyn.postprocessing.comparing.with_errors import recorded_columns
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.horizon import horizon
 from support_exudyn.simulation.provenance import provenance
@@ -74,14 +74,13 @@ def kept_run(result: Result) -> KeptRun:
     end = determined_until(result)
     rows = np.unique(np.linspace(0, result.time.size - 1, RECORDS).round().astype(np.intp))
     names = [name for name, channel in result.channels.items() if name != "time" and channel.is_determined]
-    known = curve_errors(result, names)
     own = {f"module {name}": digest for name, digest in own_sources(result.scenario.plain).items()}
     return KeptRun(
         numbers=result.numbers() if math.isinf(end) else {},
         provenance={**result.provenance, "sources": program()["sources"], **own},
         curves={
-            name: ComparedColumn(result.unit(name), result.time[rows], result[name][rows], known[name][rows])
-            for name in names
+            name: ComparedColumn(one.unit, one.time[rows], one.values[rows], one.errors[rows])
+            for name, one in recorded_columns(result, names).items()
         },
         horizon=end,
     )

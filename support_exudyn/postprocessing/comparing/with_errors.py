@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import ndimage
 
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn
 from support_exudyn.postprocessing.figures.channels import error_over_time
 from support_exudyn.scenario.timescales import timescales
 from support_exudyn.simulation.recorded_run import RecordedRun
@@ -29,6 +30,17 @@ ARM = 1.0  # [m], of a body, by which places become angles
 # Share of the largest value of a unit, of the whole run, that a safe error is at least: what is nothing in
 # truth, as the force of a pin that carries nothing or what is missing of an energy, is rounding of others.
 ROUNDED = 1e-12
+
+
+def recorded_columns(result: Result, names: Iterable[str] | None = None) -> dict[str, ComparedColumn]:
+    """Channels of a run with their errors; None: all but time."""
+    if names is None:
+        names = [name for name in result.channels if name != "time"]
+    errors = curve_errors(result, names)
+    return {
+        name: ComparedColumn(result.unit(name), result.time, result[name], error)
+        for name, error in errors.items()
+    }
 
 
 def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
