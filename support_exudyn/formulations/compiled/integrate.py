@@ -20,7 +20,6 @@ from support_exudyn.formulations.compiled.method import (
     MIDST,
     NEXT_STEP,
     UNCUT,
-    begin_method,
     choose_method,
     factor_of,
     fit_step,
@@ -200,7 +199,6 @@ def integrate(
         keep_gaps(scene.legs)
         copy_contacts(scene.contacts, now)
         begin_nodes(scene, t, y, k[0], nodes, report)
-    begin_method(room, going, weights)
     while t < stop:
         if report[STEPS] >= pause:
             going[MIDST], going[AT], going[NEXT_STEP], going[LAST_ERROR] = 1.0, t, h, error_before

@@ -4,9 +4,7 @@ import math
 
 from support_exudyn.formulations.compiled.stabilised import (
     AT_FIRST,
-    FEWEST_STAGES,
-    FIRST_PATIENCE,
-    LONGEST_PATIENCE,
+    PATIENCE,
     RENEWED,
     ROUNDS,
     STIFF_AT,
@@ -30,9 +28,9 @@ from support_exudyn.scene.arrays import (
 from support_exudyn.scene.compilation import compiled, once
 
 # With what a run goes on: whether it is in the midst of a segment, time, next step, last error; the fastest
-# decay, above 0 while steps are stabilised; steps since it was looked for, and after how many it is; how many
-# steps have lately been cut where a law begins or ceases to ask for tension, and for how many more none is
-MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, STIFF_STEPS, PATIENCE, CUT_STEPS, UNCUT, GOING = range(10)
+# decay, above 0 while steps are stabilised; the explicit step before these; steps since it was looked for; how
+# many steps have lately been cut where a law begins or ceases to ask for tension, and for how many more none is
+MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, EXPLICIT_STEP, STIFF_STEPS, CUT_STEPS, UNCUT, GOING = range(10)
 
 
 @compiled
@@ -66,28 +64,29 @@ def choose_method(
     quiet: bool,
     report: Vector,
 ) -> float:
-    """See which method takes the next step, after one of h [s] without an event or with one; its length [s]."""
-    if going[DECAY] > 0.0:
-        going[STIFF_STEPS] += 1
-        if going[STIFF_STEPS] < RENEWED:
-            return min(follow, longest(going[DECAY]))
-        going[STIFF_STEPS] = 0.0
-        report[EVALUATIONS] += ROUNDS
-        decay = fastest_decay(scene, t, y, room.rates, room.along, weights, room.right)
-        if not STIFF_AT < follow * decay < math.inf or stages_for(follow * decay) < FEWEST_STAGES:
-            return leave_stabilised(going, follow)
-        going[DECAY], going[PATIENCE] = decay, FIRST_PATIENCE
-        return min(follow, longest(decay))
+    """Choose the method of the next step, after one of h [s]; the length [s] of the next step.
+
+    follow: that length by the error of the last step. quiet: whether the last step ended without an event.
+    """
     going[STIFF_STEPS] += 1
-    if not quiet or going[STIFF_STEPS] < going[PATIENCE]:
-        return follow
+    decay = going[DECAY]
+    stabilised = decay > 0.0
+    if stabilised and follow * (STAGES - 1) < going[EXPLICIT_STEP] * stages_for(follow * decay):
+        return leave_stabilised(going, follow)  # the explicit method needs fewer evaluations
+    if going[STIFF_STEPS] < (RENEWED if stabilised else PATIENCE) or not (stabilised or quiet):
+        return min(follow, longest(decay)) if stabilised else follow
     going[STIFF_STEPS] = 0.0
     report[EVALUATIONS] += ROUNDS
     decay = fastest_decay(scene, t, y, room.rates, room.along, weights, room.right)
-    if STIFF_AT / h < decay < math.inf:
-        going[DECAY] = decay
-        going[PATIENCE] = min(2.0 * going[PATIENCE], LONGEST_PATIENCE)
-        return AT_FIRST * h
+    if stabilised:
+        if not STIFF_AT < follow * decay < math.inf:
+            return leave_stabilised(going, follow)
+        follow = min(follow, longest(decay))
+    elif STIFF_AT < max(h, follow) * decay < math.inf:
+        going[EXPLICIT_STEP], follow = h, AT_FIRST * h
+    else:
+        return follow
+    going[DECAY] = decay
     return follow
 
 
@@ -121,12 +120,3 @@ def fit_step(room: Scratch, decay: float, h: float, y: Vector) -> None:
         fit_cubic(h, y, room.end, room.rates, room.path)
     else:
         fit(h, y, room.end, room.rates, room.path)
-
-
-@once
-def begin_method(room: Scratch, going: Vector, weights: Vector) -> None:
-    """At the start: the explicit method, and some direction in which the fastest decay is looked for."""
-    if going[PATIENCE] == 0.0:
-        going[PATIENCE] = FIRST_PATIENCE
-        for i in range(weights.size):
-            room.along[i] = (1.0 + 0.1 * (i % 7)) / weights[i]
