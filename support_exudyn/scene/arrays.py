@@ -117,11 +117,16 @@ class SceneArrays(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Room that a run works in.
+    """What a run works on and keeps.
 
     right, impulses: a number a row. end, probe, slope, along: states; see `stabilised`. path: of the
-    interpolation. rates: of a step's stages.
-    now, then: contacts at its start and end.
+    interpolation. rates: of a step's stages. now, then: contacts at its start and end.
+    going: what the next step needs, by its indices. report: counts, and where the run stopped.
+    weights: one over the largest error of a step, for each component of the state.
+    times: of the records [s], from 0; rows: the records. forces: whether these need accelerations and what
+    joints carry.
+    nodes: of the steps since the last pause, four each, with room for all until the next and one row more.
+    onsets: of impacts.
     """
 
     right: Vector
@@ -134,6 +139,14 @@ class Scratch(NamedTuple):
     rates: Matrix
     now: Records
     then: Records
+    going: Vector
+    report: Vector
+    weights: Vector
+    times: Vector
+    rows: Matrix
+    forces: bool
+    nodes: Matrix
+    onsets: Matrix
 
 
 def leg_arrays(records: Records, pumps: Records, gaps: Matrix) -> LegArrays | None:
@@ -151,26 +164,13 @@ def leg_arrays(records: Records, pumps: Records, gaps: Matrix) -> LegArrays | No
     )
 
 
-def scratch(scene: SceneArrays, states: int) -> Scratch:
-    """Room for a scene with so many states."""
-    rows = scene.rows.size
-    return Scratch(
-        right=np.zeros(rows),
-        impulses=np.zeros(rows),
-        end=np.zeros(states),
-        probe=np.zeros(states),
-        slope=np.zeros(states),
-        along=np.zeros(states),
-        path=np.zeros((5, states)),
-        rates=np.zeros((STAGES, states)),
-        now=scene.contacts.copy(),
-        then=scene.contacts.copy(),
-    )
-
-
 STAGES = 7  # of a step
 MOST_OIL_EVENTS = 100_000
 
+# What the next step needs: whether a run is in the midst of a segment, time, next step, last error; the fastest
+# decay, above 0 while steps are stabilised; the explicit step before these; steps since it was looked for; how
+# many steps have lately been cut where a law begins or ceases to ask for tension, and for how many more none is
+MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, EXPLICIT_STEP, STIFF_STEPS, CUT_STEPS, UNCUT, GOING = range(10)
 # what a run counts and where it stopped
 (
     STEPS,

@@ -17,20 +17,18 @@ from support_exudyn.formulations.compiled.stabilised import (
 from support_exudyn.formulations.compiled.step import advance, fit
 from support_exudyn.formulations.compiled.step_control import FASTEST, SAFETY, SLOWEST, factor
 from support_exudyn.scene.arrays import (
+    DECAY,
     EVALUATIONS,
+    EXPLICIT_STEP,
     NOT_A_NUMBER,
     STAGES,
     STIFF,
+    STIFF_STEPS,
     SceneArrays,
     Scratch,
     Vector,
 )
 from support_exudyn.scene.compilation import compiled, once
-
-# With what a run goes on: whether it is in the midst of a segment, time, next step, last error; the fastest
-# decay, above 0 while steps are stabilised; the explicit step before these; steps since it was looked for; how
-# many steps have lately been cut where a law begins or ceases to ask for tension, and for how many more none is
-MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, EXPLICIT_STEP, STIFF_STEPS, CUT_STEPS, UNCUT, GOING = range(10)
 
 
 @compiled
@@ -53,21 +51,13 @@ def leave_stabilised(going: Vector, h: float) -> float:
 
 @once
 def choose_method(
-    scene: SceneArrays,
-    room: Scratch,
-    going: Vector,
-    t: float,
-    h: float,
-    follow: float,
-    y: Vector,
-    weights: Vector,
-    quiet: bool,
-    report: Vector,
+    scene: SceneArrays, room: Scratch, t: float, h: float, follow: float, y: Vector, quiet: bool
 ) -> float:
-    """Choose the method of the next step, after one of h [s]; the length [s] of the next step.
+    """Choose the method of the next step, after one of h [s]; its length [s].
 
     follow: that length by the error of the last step. quiet: whether the last step ended without an event.
     """
+    going = room.going
     going[STIFF_STEPS] += 1
     decay = going[DECAY]
     stabilised = decay > 0.0
@@ -76,8 +66,8 @@ def choose_method(
     if going[STIFF_STEPS] < (RENEWED if stabilised else PATIENCE) or not (stabilised or quiet):
         return min(follow, longest(decay)) if stabilised else follow
     going[STIFF_STEPS] = 0.0
-    report[EVALUATIONS] += ROUNDS
-    decay = fastest_decay(scene, t, y, room.rates, room.along, weights, room.right)
+    room.report[EVALUATIONS] += ROUNDS
+    decay = fastest_decay(scene, t, y, room.rates, room.along, room.weights, room.right)
     if stabilised:
         if not STIFF_AT < follow * decay < math.inf:
             return leave_stabilised(going, follow)
@@ -91,24 +81,16 @@ def choose_method(
 
 
 @once
-def try_step(
-    scene: SceneArrays,
-    room: Scratch,
-    going: Vector,
-    t: float,
-    h: float,
-    y: Vector,
-    weights: Vector,
-    report: Vector,
-) -> float:
+def try_step(scene: SceneArrays, room: Scratch, t: float, h: float, y: Vector) -> float:
     """Try a step of h [s] from t by the method that is on; its error in units of what is allowed."""
-    if going[DECAY] > 0.0:
-        report[EVALUATIONS] += stages_for(h * going[DECAY])
+    decay, report = room.going[DECAY], room.report
+    if decay > 0.0:
+        report[EVALUATIONS] += stages_for(h * decay)
         report[STIFF] += 1
-        error = advance_stabilised(scene, t, h, going[DECAY], y, room.rates, room.end, weights, room.right)
+        error = advance_stabilised(scene, t, h, decay, y, room.rates, room.end, room.weights, room.right)
     else:
         report[EVALUATIONS] += STAGES - 1
-        error = advance(scene, t, h, y, room.rates, room.end, weights, room.right)
+        error = advance(scene, t, h, y, room.rates, room.end, room.weights, room.right)
     report[NOT_A_NUMBER] = 1.0 if math.isnan(error) else 0.0
     return error
 
