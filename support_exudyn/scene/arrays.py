@@ -37,12 +37,12 @@ PIECE = _record("", "begin half")
 # kinds: see PIN and so on. ratio: of a gear. length, angle: at the start
 JOINT = _record("kind row first second course conditions", "length angle ratio")
 PIN, ACTUATOR, CRANK, SLIDE, GEAR = range(5)
-# two bodies and what its rate takes of theirs, and the carrier of a gear, of which the rate takes the turn;
-# first: of the row in the factors | what C a has to be, multiplier, what is left of the position, and the rate
-# that it has to have
-ROW = _record("body other carrier first", "x y t ox oy ot carrier_t wanted held off rate")
-# rows that share a body, i >= j; which of the bodies of each it is
-PAIR = _record("i j side other", "")
+# two bodies, the carrier of a gear, and what its rate takes of their rates; first: of the row in the factors |
+# what C a has to be, multiplier, what is left of the position, and the rate that it has to have
+ROW = _record("body other carrier first", "x y t ox oy ot carrier_x carrier_y carrier_t wanted held off rate")
+# rows that share a body, i >= j, and the places in `row_numbers` of what each takes of it. Indices without a
+# sign: numba asks of all others whether they are negative
+PAIR = np.dtype([(name, np.uint64) for name in ("i", "j", "body", "one", "two")])
 # journal `second` in bore `first`, both points. slot: corner between walls, or ONE_SIDED of one wall alone.
 # law: address of both laws, with constants from `constants` on. state: of the friction law in y.
 # radius: of the bore, or of a pin in a slot. angle: of a slot at the start. | closed, impact velocity: what it
@@ -88,6 +88,7 @@ class LegArrays(NamedTuple):
 class SceneArrays(NamedTuple):
     """All that an evaluation of the equations of motion takes. square: C M^-1 C^T and its factors.
 
+    row_numbers: all that stands in the rows, as one vector.
     repeats: of each row that repeats others, the multipliers of all that cancel each other, (repeats, rows).
     counts: factor of each row [m], see `Kinetics.counts`. spare: a number a row. rounds: in which multipliers
     and accelerations are solved for, at most, see `motion.refine`.
@@ -102,6 +103,7 @@ class SceneArrays(NamedTuple):
     coefficients: Matrix
     joints: Records
     rows: Records
+    row_numbers: Vector
     pairs: Records
     square: Matrix
     repeats: Matrix
@@ -117,11 +119,16 @@ class SceneArrays(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Room that a run works in.
+    """What a run works on and keeps.
 
     right, impulses: a number a row. end, probe, slope, along: states; see `stabilised`. path: of the
-    interpolation. rates: of a step's stages.
-    now, then: contacts at its start and end.
+    interpolation. rates: of a step's stages. now, then: contacts at its start and end.
+    going: what the next step needs, by its indices. report: counts, and where the run stopped.
+    weights: one over the largest error of a step, for each component of the state.
+    times: of the records [s], from 0; rows: the records. forces: whether these need accelerations and what
+    joints carry.
+    nodes: of the steps since the last pause, four each, with room for all until the next and one row more.
+    onsets: of impacts.
     """
 
     right: Vector
@@ -134,6 +141,14 @@ class Scratch(NamedTuple):
     rates: Matrix
     now: Records
     then: Records
+    going: Vector
+    report: Vector
+    weights: Vector
+    times: Vector
+    rows: Matrix
+    forces: bool
+    nodes: Matrix
+    onsets: Matrix
 
 
 def leg_arrays(records: Records, pumps: Records, gaps: Matrix) -> LegArrays | None:
@@ -151,26 +166,13 @@ def leg_arrays(records: Records, pumps: Records, gaps: Matrix) -> LegArrays | No
     )
 
 
-def scratch(scene: SceneArrays, states: int) -> Scratch:
-    """Room for a scene with so many states."""
-    rows = scene.rows.size
-    return Scratch(
-        right=np.zeros(rows),
-        impulses=np.zeros(rows),
-        end=np.zeros(states),
-        probe=np.zeros(states),
-        slope=np.zeros(states),
-        along=np.zeros(states),
-        path=np.zeros((5, states)),
-        rates=np.zeros((STAGES, states)),
-        now=scene.contacts.copy(),
-        then=scene.contacts.copy(),
-    )
-
-
 STAGES = 7  # of a step
 MOST_OIL_EVENTS = 100_000
 
+# What the next step needs: whether a run is in the midst of a segment, time, next step, last error; the fastest
+# decay, above 0 while steps are stabilised; the explicit step before these; steps since it was looked for; how
+# many steps have lately been cut where a law begins or ceases to ask for tension, and for how many more none is
+MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, EXPLICIT_STEP, STIFF_STEPS, CUT_STEPS, UNCUT, GOING = range(10)
 # what a run counts and where it stopped
 (
     STEPS,

@@ -9,6 +9,8 @@ by factors L D L^T of the square matrix, within the envelope that the order of t
 
 import math
 
+import numpy as np
+
 from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.scene.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
 from support_exudyn.scene.compilation import compiled, inlined, often
@@ -17,6 +19,7 @@ SETTLED = 1e-13  # share by which moments that depend on accelerations may still
 # Factors lose as many digits as the lightest body is lighter than the heaviest. So little may be left of that.
 DIGIT, CLOSE = 1e-15, 1e-13
 MOST_ROUNDS = 30
+ONE, TWO = np.uint64(1), np.uint64(2)  # of indices without a sign, see `arrays.PAIR`
 SINGULAR = 1e-11  # share of a row's own square that is left where rows repeat each other: a dead centre
 
 
@@ -145,35 +148,24 @@ def hold(scene: SceneArrays, y: Vector) -> None:
 @often
 def factor(scene: SceneArrays) -> float:
     """Write C M^-1 C^T as its factors L, and 1 / D on the diagonal; the least share that is left of a row."""
-    count = scene.rows.size
-    square = scene.square
+    count, square, numbers = np.uint64(scene.rows.size), scene.square, scene.row_numbers
     for i in range(count):
-        for j in range(scene.rows[i].first, i + 1):
+        for j in range(np.uint64(scene.rows[i].first), i + ONE):
             square[i, j] = 0.0
     for n in range(scene.pairs.size):
         pair = scene.pairs[n]
-        one, two = scene.rows[pair.i], scene.rows[pair.j]
-        if pair.side == 0:
-            body, x, y, t = scene.bodies[one.body], one.x, one.y, one.t
-        elif pair.side == 1:
-            body, x, y, t = scene.bodies[one.other], one.ox, one.oy, one.ot
-        else:
-            body, x, y, t = scene.bodies[one.carrier], 0.0, 0.0, one.carrier_t
-        if pair.other == 0:
-            u, v, w = two.x, two.y, two.t
-        elif pair.other == 1:
-            u, v, w = two.ox, two.oy, two.ot
-        else:
-            u, v, w = 0.0, 0.0, two.carrier_t
-        square[pair.i, pair.j] += body.light * (x * u + y * v) + body.light_turn * t * w
+        body, k, m = scene.bodies[pair.body], pair.one, pair.two
+        moving = numbers[k] * numbers[m] + numbers[k + ONE] * numbers[m + ONE]
+        turning = numbers[k + TWO] * numbers[m + TWO]
+        square[pair.i, pair.j] += body.light * moving + body.light_turn * turning
     if scene.repeats.shape[0] > 0:
         return invert_repeated(scene)
     least = 1.0
     for i in range(count):
-        first = scene.rows[i].first
+        first = np.uint64(scene.rows[i].first)
         for j in range(first, i):
             total = square[i, j]
-            for k in range(max(first, scene.rows[j].first), j):
+            for k in range(max(first, np.uint64(scene.rows[j].first)), j):
                 total -= square[i, k] * square[j, k]
             square[i, j] = total
         own = left = square[i, i]
@@ -266,19 +258,19 @@ def divide(scene: SceneArrays, right: Vector) -> None:
     if scene.repeats.shape[0] > 0:
         divide_repeated(scene, right)
         return
-    count = scene.rows.size
-    square = scene.square
+    count, square = np.uint64(scene.rows.size), scene.square
     for i in range(count):
         total = right[i]
-        for k in range(scene.rows[i].first, i):
+        for k in range(np.uint64(scene.rows[i].first), i):
             total -= square[i, k] * right[k]
         right[i] = total
     for i in range(count):
         right[i] *= square[i, i]
-    for i in range(count - 1, -1, -1):
-        value = right[i]
-        for k in range(scene.rows[i].first, i):
-            right[k] -= square[i, k] * value
+    for n in range(count):
+        m = count - ONE - n
+        value = right[m]
+        for k in range(np.uint64(scene.rows[m].first), m):
+            right[k] -= square[m, k] * value
 
 
 @inlined

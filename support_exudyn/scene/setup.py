@@ -39,6 +39,9 @@ from support_exudyn.scene.time_grid import record_times
 from user_forces.friction.law import FrictionLaw
 from user_forces.values.value import Vector2
 
+# a body that a row is of, and the first of the numbers that the row takes of it
+SIDES = (("body", "x"), ("other", "ox"), ("carrier", "carrier_x"))
+
 
 @dataclass(frozen=True)
 class Model:
@@ -126,6 +129,7 @@ def model_of(scenario: Scenario) -> Model:
         coefficients=found.coefficients,
         joints=joints,
         rows=rows,
+        row_numbers=rows.view(np.float64).reshape(-1),
         pairs=pairs,
         square=square,
         repeats=np.zeros((repeated_count(scenario.held)[0], len(rows))),
@@ -260,21 +264,22 @@ def _rows(joints: Records, held: Sequence[_Joint]) -> tuple[Records, Records, Ma
         for k in range(one.rows):
             row = rows[joint["row"] + k]
             row["body"], row["other"], row["carrier"] = *one.bodies, one.carrier
-    bodies = [(int(row["body"]), int(row["other"]), int(row["carrier"])) for row in rows]
+    width, names = rows.itemsize // 8, list(rows.dtype.names or ())
+    sides = [
+        [(int(row[body]), width * i + names.index(numbers)) for body, numbers in SIDES]
+        for i, row in enumerate(rows)
+    ]
     pairs = [
-        (i, j, side, other)
-        for i, mine in enumerate(bodies)
-        for j, theirs in enumerate(bodies[: i + 1])
-        for side in range(3)
-        for other in range(3)
-        if mine[side] == theirs[other] >= 0
+        (i, j, body, one, two)
+        for i, mine in enumerate(sides)
+        for j, theirs in enumerate(sides[: i + 1])
+        for body, one in mine
+        for other, two in theirs
+        if body == other >= 0
     ]
     for i in range(len(rows)):
-        rows[i]["first"] = min([i, *(j for k, j, _, _ in pairs if k == i)])
-    found = np.zeros(len(pairs), arrays.PAIR)
-    for record, pair in zip(found, pairs, strict=True):
-        record["i"], record["j"], record["side"], record["other"] = pair
-    return rows, found, np.zeros((len(rows), len(rows)))
+        rows[i]["first"] = min([i, *(pair[1] for pair in pairs if pair[0] == i)])
+    return rows, np.array(pairs, arrays.PAIR), np.zeros((len(rows), len(rows)))
 
 
 def _contact(record: Any, place: ContactPlace, build: _Builder, linkage: Linkage, states: int) -> int:

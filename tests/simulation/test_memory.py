@@ -41,7 +41,7 @@ def peak(scenario: Scenario) -> int:
 
 
 @pytest.mark.parametrize(
-    ("formulation", "duration"), [pytest.param("exudyn", 0.4, marks=pytest.mark.slow), ("compiled", 5.0)]
+    ("formulation", "duration"), [pytest.param("exudyn", 0.4, marks=pytest.mark.slow), ("compiled", 10.0)]
 )
 def test_memory_is_flat_in_simulated_time(formulation: str, duration: float) -> None:
     simulate(held(formulation, 0.2))  # what is made once

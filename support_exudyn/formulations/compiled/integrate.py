@@ -1,6 +1,7 @@
 """The run: steps of chosen length, cut at impacts and separations, between two breaks of drives and loads."""
 
-from support_exudyn.formulations.compiled.beginning import begin_run, jump
+from typing import NamedTuple
+
 from support_exudyn.formulations.compiled.events import (
     CUT,
     CUT_MET,
@@ -13,14 +14,6 @@ from support_exudyn.formulations.compiled.events import (
 )
 from support_exudyn.formulations.compiled.landing import copy_contacts, happen, land, met_before
 from support_exudyn.formulations.compiled.method import (
-    AT,
-    CUT_STEPS,
-    DECAY,
-    LAST_ERROR,
-    MIDST,
-    NEXT_STEP,
-    UNCUT,
-    begin_method,
     choose_method,
     factor_of,
     fit_step,
@@ -39,14 +32,21 @@ from support_exudyn.formulations.compiled.oil_events import (
     pass_gap,
 )
 from support_exudyn.formulations.compiled.recording import begin_nodes, note_peaks, write_nodes, write_records
+from support_exudyn.formulations.compiled.start import begin_run, jump
 from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.formulations.compiled.step_control import AFTER_IMPACT, CLOSE, SHORTEN, SMALLEST_STEP
 from support_exudyn.scene.arrays import (
     ACCEPTED,
+    AT,
+    CUT_STEPS,
     CUTS,
     DEAD_CENTRE,
+    DECAY,
     FINISHED,
+    LAST_ERROR,
     LAST_STEP,
+    MIDST,
+    NEXT_STEP,
     PAUSED,
     RECORDS,
     STAGES,
@@ -56,40 +56,216 @@ from support_exudyn.scene.arrays import (
     TOO_MANY_IMPACTS,
     TOO_MANY_OIL_EVENTS,
     TOO_MANY_STEPS,
-    Matrix,
+    UNCUT,
     Records,
     SceneArrays,
     Scratch,
     Vector,
 )
-from support_exudyn.scene.compilation import entry, once
+from support_exudyn.scene.compilation import compiled, entry, once
 
 MOST_CUTS = 150  # of steps cut one after the other where tension begins or ceases; counted threefold
 OVERLOOKED = 500.0  # steps for which that is overlooked then
+LEAST_ERROR = 1e-4  # by which the next step is chosen, at least
+
+
+class StepEvents(NamedTuple):
+    """What happens first in a step.
+
+    contact, what: what happens to which contact, see `events`. x: the fraction of the step at which.
+    oil, leg, gap: whether a gap of a leg passes zero, see `oil_events`.
+    """
+
+    contact: int
+    what: int
+    x: float
+    oil: int
+    leg: int
+    gap: int
+
+
+@entry
+def integrate(
+    scene: SceneArrays,
+    room: Scratch,
+    y: Vector,
+    begin: float,
+    stop: float,
+    jumps: Vector,
+    most_steps: int,
+    pause: int,
+) -> int:
+    """Integrate from `begin` to `stop` [s], between which all courses are smooth, or resume after a pause.
+
+    Arguments:
+        room: with the first step in going[NEXT_STEP]; after a segment or a pause as it was left.
+        y: the state at the start; at the end when it returns.
+        jumps: of the rates of courses at `begin`; impulses of all rows, against them, stand in `room.impulses`.
+        most_steps: before giving up. pause: after so many steps it returns PAUSED, to be called again.
+
+    Returns FINISHED, PAUSED or why the run cannot go on.
+    """
+    going, report = room.going, room.report
+    if going[MIDST] == 0.0:
+        going[AT], going[LAST_ERROR] = begin, LEAST_ERROR
+        if report[RECORDS] == 0.0 and not begin_run(scene, room, y):
+            return DEAD_CENTRE
+        report[RECORDS] = max(1.0, report[RECORDS])
+        jump(scene, room, begin, y, jumps)
+        begin_step(scene, room, begin, y)
+        copy_contacts(scene.contacts, room.now)
+    while going[AT] < stop:
+        if report[STEPS] >= pause:
+            going[MIDST] = 1.0
+            return PAUSED
+        report[STEPS] += 1
+        report[STOPPED_AT], report[LAST_STEP] = going[AT], going[NEXT_STEP]
+        if report[STEPS] > most_steps:
+            return TOO_MANY_STEPS
+        if going[NEXT_STEP] < SMALLEST_STEP:
+            return STUCK
+        code = take_step(scene, room, y, stop)
+        if code != FINISHED:
+            return code
+    going[MIDST] = 0.0
+    return FINISHED
+
+
+@compiled
+def begin_step(scene: SceneArrays, room: Scratch, t: float, y: Vector) -> None:
+    """Evaluate the state at t [s] from which the next step begins."""
+    evaluate(scene, t, y, room.rates[0], room.right)
+    begin_nodes(scene, room, t, y)
+    keep_gaps(scene.legs)
+
+
+@once
+def take_step(scene: SceneArrays, room: Scratch, y: Vector, stop: float) -> int:
+    """Try a step, cut it at the first event, and accept it, or leave a shorter step to try.
+
+    Returns FINISHED, or why the run cannot go on.
+    """
+    going, report = room.going, room.report
+    t, wanted, decay = going[AT], going[NEXT_STEP], going[DECAY]
+    h = stop - t if wanted >= 0.999999 * (stop - t) else wanted
+    forget_beyond(scene.legs)
+    error = try_step(scene, room, t, h, y)
+    if not error <= 1.0:
+        going[NEXT_STEP] = h * min(factor_of(error, 1.0, decay), 1.0)
+        return FINISHED
+    copy_contacts(scene.contacts, room.then)
+    fit_step(room, decay, h, y)
+    events = first_events(scene, room, h)
+    shorter = shortened(scene, room, events, t, h)
+    if shorter > 0.0:
+        going[NEXT_STEP] = shorter
+        return FINISHED
+    if events.oil == AT_ONCE:
+        if not pass_gap(scene.legs, events.leg, events.gap, t, report):
+            return TOO_MANY_OIL_EVENTS
+        begin_step(scene, room, t, y)
+        going[NEXT_STEP] = h
+        return FINISHED
+    if events.oil == GAP:
+        h = land_on_gap(scene, scene.legs, room, events.leg, events.gap, t, h, y, room.weights, report)
+        copy_contacts(scene.contacts, room.then)
+        fit_step(room, 0.0, h, y)
+        n, what, x = first_event(scene, h, room.now, room.then, room.path, room.probe, room.slope)
+        if what == TOO_LONG:
+            going[NEXT_STEP] = h * SHORTEN
+            return FINISHED
+        oil = GAP if what == NOTHING else NONE
+        events = StepEvents(n, what, x, oil, events.leg, events.gap)
+    follow = wanted if h >= stop - t else h * factor_of(error, going[LAST_ERROR], decay)
+    going[LAST_ERROR] = max(error, LEAST_ERROR)
+    return accept(scene, room, events, t, h, follow, y, stop)
+
+
+@once
+def first_events(scene: SceneArrays, room: Scratch, h: float) -> StepEvents:
+    """What happens first to contacts and in legs in a step of h [s] that has been tried."""
+    if room.going[UNCUT] > 0.0:
+        overlook_cuts(room.now)
+    n, what, x = first_event(scene, h, room.now, room.then, room.path, room.probe, room.slope)
+    oil, leg, gap = first_gap(scene.legs)
+    return StepEvents(n, what, x, oil, leg, gap)
+
+
+@once
+def shortened(scene: SceneArrays, room: Scratch, events: StepEvents, t: float, h: float) -> float:
+    """The step [s] to try in place of one of h [s] from t in which too much happens; 0: that one stands.
+
+    Events are met by the explicit method.
+    """
+    hidden = hidden_gap(scene, scene.legs, room, t, h)
+    if room.going[DECAY] > 0.0 and (events.what != NOTHING or events.oil != NONE or hidden < 1.0):
+        return leave_stabilised(room.going, h)
+    if events.what == TOO_LONG:
+        return h * SHORTEN
+    return h * hidden if hidden < 1.0 and h > SHORT else 0.0
+
+
+@once
+def accept(
+    scene: SceneArrays,
+    room: Scratch,
+    events: StepEvents,
+    t: float,
+    h: float,
+    follow: float,
+    y: Vector,
+    stop: float,
+) -> int:
+    """End a step of h [s] from t at its first event, keep what is asked for, and choose the next step.
+
+    follow: length of the next step [s] by the error of this one. Returns FINISHED, or why the run cannot go on.
+    """
+    going, report, now, then = room.going, room.report, room.now, room.then
+    n, what, passes = events.contact, events.what, events.oil == GAP
+    was_cut = n >= 0 and now[n].push < 0.0
+    if what != NOTHING and events.x < 1.0:
+        h, n, what, was_cut = land_on_first(scene, room, events, t, h, was_cut, y)
+        fit_step(room, 0.0, h, y)
+    last, quiet = h >= stop - t, what == NOTHING and events.oil == NONE
+    keep_gaps(scene.legs)
+    copy_contacts(then, scene.contacts)
+    write_nodes(scene, room, t, h)
+    note_peaks(scene, room, t, h)
+    report[ACCEPTED] += 1
+    report[CUTS] += what != NOTHING or passes
+    count_cuts(going, what)
+    write_records(scene, room, t, h, stop + CLOSE if last else t + h)
+    copy_contacts(then, scene.contacts)
+    going[AT] = t = stop if last else t + h
+    for i in range(y.size):
+        y[i] = room.end[i]
+    if quiet:
+        for i in range(y.size):
+            room.rates[0, i] = room.rates[STAGES - 1, i]
+        copy_contacts(then, now)
+    else:
+        code = apply_event(scene, room, events, n, what, was_cut, t, y)
+        if code != FINISHED:
+            return code
+    if what == IMPACT:
+        follow *= AFTER_IMPACT
+    going[NEXT_STEP] = choose_method(scene, room, t, h, follow, y, quiet)
+    return FINISHED
 
 
 @once
 def land_on_first(
-    scene: SceneArrays,
-    room: Scratch,
-    n: int,
-    t: float,
-    h: float,
-    what: int,
-    x: float,
-    was_cut: bool,
-    y: Vector,
-    weights: Vector,
-    report: Vector,
+    scene: SceneArrays, room: Scratch, events: StepEvents, t: float, h: float, was_cut: bool, y: Vector
 ) -> tuple[float, int, int, bool]:
     """Make a step of h [s] again so that it ends at the first of what happens to contacts.
 
     Returns its length [s], the contact, what happens to it, and whether its tension was cut before.
     """
     now, then = room.now, room.then
+    n, what, x = events.contact, events.what, events.x
     while True:
         copy_contacts(then, scene.contacts)
-        h = land(scene, n, t, h, what, x, now, y, room.rates, room.end, weights, room.right, report)
+        h = land(scene, n, t, h, what, x, now, y, room.rates, room.end, room.weights, room.right, room.report)
         copy_contacts(scene.contacts, then)
         m = met_before(n, now, then)
         if m < 0:
@@ -99,38 +275,25 @@ def land_on_first(
 
 
 @once
-def take_up(
-    scene: SceneArrays,
-    room: Scratch,
-    n: int,
-    what: int,
-    was_cut: bool,
-    passes: bool,
-    leg: int,
-    gap: int,
-    t: float,
-    y: Vector,
-    onsets: Matrix,
-    report: Vector,
+def apply_event(
+    scene: SceneArrays, room: Scratch, events: StepEvents, n: int, what: int, was_cut: bool, t: float, y: Vector
 ) -> int:
-    """Take up the run at t [s], where something has happened to contact n, or a gap of a leg passes zero.
+    """Resume at t [s], where something has happened to contact n, or a gap of a leg passes zero.
 
     Returns FINISHED, or why the run cannot go on.
     """
-    now, rates, right = room.now, room.rates, room.right
-    if passes:
-        if not pass_gap(scene.legs, leg, gap, t, report):
+    if events.oil == GAP:
+        if not pass_gap(scene.legs, events.leg, events.gap, t, room.report):
             return TOO_MANY_OIL_EVENTS
     else:
-        evaluate(scene, t, y, room.slope, right)  # places and factors are those of what was looked at last
-        if not happen(scene, n, what, t, y, onsets, report):
+        # places and factors are those of the last look at the step
+        evaluate(scene, t, y, room.slope, room.right)
+        if not happen(scene, n, what, t, y, room.onsets, room.report):
             return TOO_MANY_IMPACTS
-    evaluate(scene, t, y, rates[0], right)
-    copy_contacts(scene.contacts, now)
-    keep_gaps(scene.legs)
-    # whatever rounding says
-    if not passes and what == CUT:
-        now[n].push = 1e-30 if was_cut else -1e-30
+    begin_step(scene, room, t, y)
+    copy_contacts(scene.contacts, room.now)
+    if events.oil != GAP and what == CUT:  # whatever rounding gives
+        room.now[n].push = 1e-30 if was_cut else -1e-30
     return FINISHED
 
 
@@ -154,135 +317,3 @@ def overlook_cuts(contacts: Records) -> None:
     for n in range(contacts.size):
         if abs(contacts[n].push) > CUT_MET:
             contacts[n].push = CUT_MET if contacts[n].push > 0.0 else -CUT_MET
-
-
-@entry
-def integrate(
-    scene: SceneArrays,
-    begin: float,
-    stop: float,
-    jumps: Vector,
-    times: Vector,
-    weights: Vector,
-    going: Vector,
-    most_steps: int,
-    pause: int,
-    y: Vector,
-    room: Scratch,
-    rows: Matrix,
-    nodes: Matrix,
-    onsets: Matrix,
-    report: Vector,
-) -> int:
-    """Run from `begin` to `stop` [s], between which all courses are smooth, or go on after a pause.
-
-    Arguments:
-        jumps: of the rates of courses at `begin`; impulses of all rows, against them, stand in `room.impulses`.
-        times: of the records [s], from 0.
-        weights: one over the largest error of a step, for each component.
-        going: with the first step in NEXT_STEP; after a segment or a pause as it was left.
-        most_steps: before giving up. pause: after so many steps it returns PAUSED, to be called again.
-        y: the state at the start; at the end when it returns.
-        room: after a pause as it was left.
-        rows, onsets, report: are filled.
-        nodes: of the steps since the last pause, four each, with room for all until the next and one row more.
-    """
-    right, end, k, now, then = room.right, room.end, room.rates, room.now, room.then
-    h, error_before, t = going[NEXT_STEP], 1e-4, begin
-    if going[MIDST] != 0.0:
-        t, error_before = going[AT], going[LAST_ERROR]
-    else:
-        if report[RECORDS] == 0.0 and not begin_run(scene, room, y, rows):
-            return DEAD_CENTRE
-        report[RECORDS] = max(1.0, report[RECORDS])
-        jump(scene, room, t, y, jumps, report)
-        evaluate(scene, t, y, k[0], right)
-        keep_gaps(scene.legs)
-        copy_contacts(scene.contacts, now)
-        begin_nodes(scene, t, y, k[0], nodes, report)
-    begin_method(room, going, weights)
-    while t < stop:
-        if report[STEPS] >= pause:
-            going[MIDST], going[AT], going[NEXT_STEP], going[LAST_ERROR] = 1.0, t, h, error_before
-            return PAUSED
-        report[STEPS] += 1
-        report[STOPPED_AT], report[LAST_STEP] = t, h
-        if report[STEPS] > most_steps:
-            return TOO_MANY_STEPS
-        if h < SMALLEST_STEP:
-            return STUCK
-        wanted = h
-        last = h >= 0.999999 * (stop - t)
-        if last:
-            h = stop - t
-        decay = going[DECAY]
-        forget_beyond(scene.legs)
-        error = try_step(scene, room, going, t, h, y, weights, report)
-        if not error <= 1.0:
-            h *= min(factor_of(error, 1.0, decay), 1.0)
-            continue
-        copy_contacts(scene.contacts, then)
-        fit_step(room, decay, h, y)
-        if going[UNCUT] > 0.0:
-            overlook_cuts(now)
-        n, what, x = first_event(scene, h, now, then, room.path, room.probe, room.slope)
-        oil, leg, gap = first_gap(scene.legs)
-        hidden = hidden_gap(scene, scene.legs, room, t, h)
-        # events are met by the explicit method
-        if decay > 0.0 and (what != NOTHING or oil != NONE or hidden < 1.0):
-            h = leave_stabilised(going, h)
-            continue
-        if what == TOO_LONG or (hidden < 1.0 and h > SHORT):
-            h *= SHORTEN if what == TOO_LONG else hidden
-            continue
-        if oil == AT_ONCE:
-            if not pass_gap(scene.legs, leg, gap, t, report):
-                return TOO_MANY_OIL_EVENTS
-            evaluate(scene, t, y, k[0], right)
-            begin_nodes(scene, t, y, k[0], nodes, report)
-            keep_gaps(scene.legs)
-            continue
-        if oil == GAP:
-            h = land_on_gap(scene, scene.legs, room, leg, gap, t, h, y, weights, report)
-            copy_contacts(scene.contacts, then)
-            fit_step(room, 0.0, h, y)
-            last = h >= stop - t
-            n, what, x = first_event(scene, h, now, then, room.path, room.probe, room.slope)
-            if what == TOO_LONG:
-                h *= SHORTEN
-                continue
-            if what != NOTHING:
-                oil = NONE
-        follow = wanted if last else h * factor_of(error, error_before, decay)
-        error_before = max(error, 1e-4)
-        was_cut = n >= 0 and now[n].push < 0.0
-        if what != NOTHING and x < 1.0:
-            h, n, what, was_cut = land_on_first(scene, room, n, t, h, what, x, was_cut, y, weights, report)
-            fit_step(room, 0.0, h, y)
-            last = h >= stop - t
-        keep_gaps(scene.legs)
-        copy_contacts(then, scene.contacts)
-        write_nodes(scene, room, t, h, nodes, report)
-        note_peaks(scene, room, t, h, report)
-        report[ACCEPTED] += 1
-        report[CUTS] += what != NOTHING or oil == GAP
-        count_cuts(going, what)
-        write_records(scene, room, t, h, stop + CLOSE if last else t + h, times, rows, report)
-        copy_contacts(then, scene.contacts)
-        t = stop if last else t + h
-        for i in range(y.size):
-            y[i] = end[i]
-        if what == NOTHING and oil == NONE:
-            for i in range(y.size):
-                k[0, i] = k[STAGES - 1, i]
-            copy_contacts(then, now)
-        else:
-            code = take_up(scene, room, n, what, was_cut, oil == GAP, leg, gap, t, y, onsets, report)
-            if code != FINISHED:
-                return code
-            begin_nodes(scene, t, y, k[0], nodes, report)
-        if what == IMPACT:
-            follow *= AFTER_IMPACT
-        h = choose_method(scene, room, going, t, h, follow, y, weights, what == NOTHING and oil == NONE, report)
-    going[MIDST], going[NEXT_STEP] = 0.0, h
-    return FINISHED

@@ -4,9 +4,7 @@ import math
 
 from support_exudyn.formulations.compiled.stabilised import (
     AT_FIRST,
-    FEWEST_STAGES,
-    FIRST_PATIENCE,
-    LONGEST_PATIENCE,
+    PATIENCE,
     RENEWED,
     ROUNDS,
     STIFF_AT,
@@ -19,20 +17,18 @@ from support_exudyn.formulations.compiled.stabilised import (
 from support_exudyn.formulations.compiled.step import advance, fit
 from support_exudyn.formulations.compiled.step_control import FASTEST, SAFETY, SLOWEST, factor
 from support_exudyn.scene.arrays import (
+    DECAY,
     EVALUATIONS,
+    EXPLICIT_STEP,
     NOT_A_NUMBER,
     STAGES,
     STIFF,
+    STIFF_STEPS,
     SceneArrays,
     Scratch,
     Vector,
 )
 from support_exudyn.scene.compilation import compiled, once
-
-# With what a run goes on: whether it is in the midst of a segment, time, next step, last error; the fastest
-# decay, above 0 while steps are stabilised; steps since it was looked for, and after how many it is; how many
-# steps have lately been cut where a law begins or ceases to ask for tension, and for how many more none is
-MIDST, AT, NEXT_STEP, LAST_ERROR, DECAY, STIFF_STEPS, PATIENCE, CUT_STEPS, UNCUT, GOING = range(10)
 
 
 @compiled
@@ -55,61 +51,46 @@ def leave_stabilised(going: Vector, h: float) -> float:
 
 @once
 def choose_method(
-    scene: SceneArrays,
-    room: Scratch,
-    going: Vector,
-    t: float,
-    h: float,
-    follow: float,
-    y: Vector,
-    weights: Vector,
-    quiet: bool,
-    report: Vector,
+    scene: SceneArrays, room: Scratch, t: float, h: float, follow: float, y: Vector, quiet: bool
 ) -> float:
-    """See which method takes the next step, after one of h [s] without an event or with one; its length [s]."""
-    if going[DECAY] > 0.0:
-        going[STIFF_STEPS] += 1
-        if going[STIFF_STEPS] < RENEWED:
-            return min(follow, longest(going[DECAY]))
-        going[STIFF_STEPS] = 0.0
-        report[EVALUATIONS] += ROUNDS
-        decay = fastest_decay(scene, t, y, room.rates, room.along, weights, room.right)
-        if not STIFF_AT < follow * decay < math.inf or stages_for(follow * decay) < FEWEST_STAGES:
-            return leave_stabilised(going, follow)
-        going[DECAY], going[PATIENCE] = decay, FIRST_PATIENCE
-        return min(follow, longest(decay))
+    """Choose the method of the next step, after one of h [s]; its length [s].
+
+    follow: that length by the error of the last step. quiet: whether the last step ended without an event.
+    """
+    going = room.going
     going[STIFF_STEPS] += 1
-    if not quiet or going[STIFF_STEPS] < going[PATIENCE]:
-        return follow
+    decay = going[DECAY]
+    stabilised = decay > 0.0
+    if stabilised and follow * (STAGES - 1) < going[EXPLICIT_STEP] * stages_for(follow * decay):
+        return leave_stabilised(going, follow)  # the explicit method needs fewer evaluations
+    if going[STIFF_STEPS] < (RENEWED if stabilised else PATIENCE) or not (stabilised or quiet):
+        return min(follow, longest(decay)) if stabilised else follow
     going[STIFF_STEPS] = 0.0
-    report[EVALUATIONS] += ROUNDS
-    decay = fastest_decay(scene, t, y, room.rates, room.along, weights, room.right)
-    if STIFF_AT / h < decay < math.inf:
-        going[DECAY] = decay
-        going[PATIENCE] = min(2.0 * going[PATIENCE], LONGEST_PATIENCE)
-        return AT_FIRST * h
+    room.report[EVALUATIONS] += ROUNDS
+    decay = fastest_decay(scene, t, y, room.rates, room.along, room.weights, room.right)
+    if stabilised:
+        if not STIFF_AT < follow * decay < math.inf:
+            return leave_stabilised(going, follow)
+        follow = min(follow, longest(decay))
+    elif STIFF_AT < max(h, follow) * decay < math.inf:
+        going[EXPLICIT_STEP], follow = h, AT_FIRST * h
+    else:
+        return follow
+    going[DECAY] = decay
     return follow
 
 
 @once
-def try_step(
-    scene: SceneArrays,
-    room: Scratch,
-    going: Vector,
-    t: float,
-    h: float,
-    y: Vector,
-    weights: Vector,
-    report: Vector,
-) -> float:
+def try_step(scene: SceneArrays, room: Scratch, t: float, h: float, y: Vector) -> float:
     """Try a step of h [s] from t by the method that is on; its error in units of what is allowed."""
-    if going[DECAY] > 0.0:
-        report[EVALUATIONS] += stages_for(h * going[DECAY])
+    decay, report = room.going[DECAY], room.report
+    if decay > 0.0:
+        report[EVALUATIONS] += stages_for(h * decay)
         report[STIFF] += 1
-        error = advance_stabilised(scene, t, h, going[DECAY], y, room.rates, room.end, weights, room.right)
+        error = advance_stabilised(scene, t, h, decay, y, room.rates, room.end, room.weights, room.right)
     else:
         report[EVALUATIONS] += STAGES - 1
-        error = advance(scene, t, h, y, room.rates, room.end, weights, room.right)
+        error = advance(scene, t, h, y, room.rates, room.end, room.weights, room.right)
     report[NOT_A_NUMBER] = 1.0 if math.isnan(error) else 0.0
     return error
 
@@ -121,12 +102,3 @@ def fit_step(room: Scratch, decay: float, h: float, y: Vector) -> None:
         fit_cubic(h, y, room.end, room.rates, room.path)
     else:
         fit(h, y, room.end, room.rates, room.path)
-
-
-@once
-def begin_method(room: Scratch, going: Vector, weights: Vector) -> None:
-    """At the start: the explicit method, and some direction in which the fastest decay is looked for."""
-    if going[PATIENCE] == 0.0:
-        going[PATIENCE] = FIRST_PATIENCE
-        for i in range(weights.size):
-            room.along[i] = (1.0 + 0.1 * (i % 7)) / weights[i]

@@ -18,6 +18,7 @@ from support_exudyn.scene.arrays import (
     Vector,
 )
 from support_exudyn.scene.compilation import compiled, once
+from support_exudyn.scene.motion import follow_courses
 from user_forces.roots import NEAR_PEAK, NEAR_TOP, PEAK_LOOKS, PEAK_SAMPLES, StepPeak, peak_place, peak_with
 
 
@@ -70,33 +71,43 @@ def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Ve
 
 
 @compiled
-def begin_nodes(scene: SceneArrays, t: float, y: Vector, slope: Vector, nodes: Matrix, report: Vector) -> None:
+def evaluate_record(scene: SceneArrays, room: Scratch, t: float) -> None:
+    """Let the scene stand as in `room.probe`, within the last step at t [s], with forces if they are needed."""
+    copy_contacts(room.then, scene.contacts)
+    if room.forces:
+        evaluate(scene, t, room.probe, room.slope, room.right)
+    else:
+        follow_courses(scene, t)
+
+
+@compiled
+def begin_nodes(scene: SceneArrays, room: Scratch, t: float, y: Vector) -> None:
     """Write the node at t [s] that the next step begins with, as it has been evaluated."""
-    if nodes.size > 0:
-        write_record(scene, t, y, slope, nodes[OF_STEP * int(report[NODES])])
+    if room.nodes.size > 0:
+        write_record(scene, t, y, room.rates[0], room.nodes[OF_STEP * int(room.report[NODES])])
 
 
 @once
-def write_nodes(scene: SceneArrays, room: Scratch, t: float, h: float, nodes: Matrix, report: Vector) -> None:
+def write_nodes(scene: SceneArrays, room: Scratch, t: float, h: float) -> None:
     """Write the other nodes of a step of h [s] from t, whose end stands in the scene, and begin the next."""
+    nodes = room.nodes
     if nodes.size == 0:
         return
-    first = OF_STEP * int(report[NODES])
+    first = OF_STEP * int(room.report[NODES])
     write_record(scene, t + h, room.end, room.rates[STAGES - 1], nodes[first + 3])
     for n in range(1, 3):
         x = INNER if n == 1 else 1.0 - INNER
         within(room.path, x, 0, room.probe.size, room.probe)
-        copy_contacts(room.then, scene.contacts)
-        evaluate(scene, t + x * h, room.probe, room.slope, room.right)
+        evaluate_record(scene, room, t + x * h)
         write_record(scene, t + x * h, room.probe, room.slope, nodes[first + n])
     copy_contacts(room.then, scene.contacts)
     for i in range(nodes.shape[1]):
         nodes[first + OF_STEP, i] = nodes[first + 3, i]
-    report[NODES] += 1
+    room.report[NODES] += 1
 
 
 @once
-def note_peaks(scene: SceneArrays, room: Scratch, t: float, h: float, report: Vector) -> None:
+def note_peaks(scene: SceneArrays, room: Scratch, t: float, h: float) -> None:
     """Keep the largest forces of a step of h [s] from t, whose ends are `room.now` and `room.then`."""
     now, then = room.now, room.then
     for m in range(then.size):
@@ -107,27 +118,17 @@ def note_peaks(scene: SceneArrays, room: Scratch, t: float, h: float, report: Ve
                 if max(peak.top, final) > then[m].largest:
                     then[m].largest = max(peak.top, final)
                     then[m].largest_at = t + h * (peak.at if peak.top > final else 1.0)
-        report[CLAMPED] += then[m].push < 0.0
+        room.report[CLAMPED] += then[m].push < 0.0
 
 
 @once
-def write_records(
-    scene: SceneArrays,
-    room: Scratch,
-    t: float,
-    h: float,
-    until: float,
-    times: Vector,
-    rows: Matrix,
-    report: Vector,
-) -> None:
+def write_records(scene: SceneArrays, room: Scratch, t: float, h: float, until: float) -> None:
     """Write the records within a step of h [s] from t, up to `until` [s]."""
-    n = int(report[RECORDS])
+    n, times = int(room.report[RECORDS]), room.times
     while n < times.size and times[n] <= until:
         within(room.path, min(1.0, (times[n] - t) / h), 0, room.probe.size, room.probe)
-        copy_contacts(room.then, scene.contacts)
         close_joints(scene, times[n], room.probe, room.right)
-        evaluate(scene, times[n], room.probe, room.slope, room.right)
-        write_record(scene, times[n], room.probe, room.slope, rows[n])
+        evaluate_record(scene, room, times[n])
+        write_record(scene, times[n], room.probe, room.slope, room.rows[n])
         n += 1
-    report[RECORDS] = n
+    room.report[RECORDS] = n

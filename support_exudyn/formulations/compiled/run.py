@@ -4,41 +4,46 @@ import numpy as np
 
 from support_exudyn.formulations import change_points
 from support_exudyn.formulations.compiled.integrate import integrate
-from support_exudyn.formulations.compiled.method import AT, GOING, MIDST, NEXT_STEP
 from support_exudyn.formulations.compiled.outcome import record_width, trajectory
 from support_exudyn.formulations.compiled.start import error_weights, first_state
 from support_exudyn.formulations.statistics.collected import RunStatistics, within_steps
 from support_exudyn.formulations.statistics.steps import OF_STEP
 from support_exudyn.mechanics.body_motion import BodyMotion
+from support_exudyn.mechanics.channels import DataNeeds
 from support_exudyn.mechanics.kinetics import joint_impulses
 from support_exudyn.mechanics.observed_run import Outcome
 from support_exudyn.mechanics.trajectory import Counts, Impulse, OilEvent
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.hydraulics.inlets import Inlet
+from support_exudyn.scenario.recorded_channels import needs
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.arrays import (
     ACCEPTED,
+    AT,
     CLAMPED,
     CUTS,
     DEAD_CENTRE,
     EVALUATIONS,
     FINISHED,
+    GOING,
     IMPACTS,
     JUMP_ENERGY,
     LAST_STEP,
     MOST_OIL_EVENTS,
+    NEXT_STEP,
     NODES,
     NOT_A_NUMBER,
     OIL_EVENTS,
     PAUSED,
     REPORT,
+    STAGES,
     STOPPED_AT,
     STUCK,
     TOO_MANY_IMPACTS,
     TOO_MANY_OIL_EVENTS,
     TOO_MANY_STEPS,
+    Scratch,
     Vector,
-    scratch,
 )
 from support_exudyn.scene.contract import Failure, Progress, SimulationError
 from support_exudyn.scene.hydraulics.fill import empty_legs
@@ -65,76 +70,82 @@ CHATTER = "A valve chatters: give it hysteresis, a poppet or a smaller flow."
 
 
 class _Run:
-    """A run while it goes on."""
+    """A run while it lasts."""
 
     def __init__(self, model: Model) -> None:
         self.model, self.scenario = model, model.scenario
         self.y = first_state(model)
-        self.room = scratch(model.scene, self.y.size)
-        self.rows = np.zeros((model.times.size, width := record_width(model)))
         self.statistics = RunStatistics(self.scenario)
+        width = record_width(model)
         at_once = min(AT_ONCE // model.scene.bodies.size, NUMBERS_AT_ONCE // (OF_STEP * width))
         self.at_once = max(1, at_once)
-        self.nodes = np.empty((OF_STEP * self.at_once + 1 if self.statistics.wanted else 0, width))
-        self.onsets = np.empty((MOST_IMPACTS if model.contacts else 0, 5))
-        self.report = np.zeros(REPORT)
+        self.room = self._scratch(width)
+        self.rows, self.report = self.room.rows, self.room.report
         self.impulses: list[Impulse] = []
         self.code = FINISHED
+
+    def _scratch(self, width: int) -> Scratch:
+        """Room for the run, whose records have so many numbers."""
+        model, tolerance = self.model, self.scenario.solver.tolerance
+        scene, states = model.scene, self.y.size
+        weights = error_weights(model, self.y, tolerance)
+        going = np.zeros(GOING)
+        # steps that only growth limits follow the tolerance too, or runs at several tolerances would be alike
+        going[NEXT_STEP] = FIRST_STEP * min(1.0, (tolerance / AT_FIRST) ** 0.2)
+        return Scratch(
+            right=np.zeros(scene.rows.size),
+            impulses=np.zeros(scene.rows.size),
+            end=np.zeros(states),
+            probe=np.zeros(states),
+            slope=np.zeros(states),
+            along=np.zeros(states),
+            path=np.zeros((5, states)),
+            rates=np.zeros((STAGES, states)),
+            now=scene.contacts.copy(),
+            then=scene.contacts.copy(),
+            going=going,
+            report=np.zeros(REPORT),
+            weights=weights,
+            times=model.times,
+            rows=np.zeros((model.times.size, width)),
+            forces=bool(needs(self.scenario) & (DataNeeds.ACCELERATION | DataNeeds.JOINTS)),
+            nodes=np.empty((OF_STEP * self.at_once + 1 if self.statistics.wanted else 0, width)),
+            onsets=np.empty((MOST_IMPACTS if model.contacts else 0, 5)),
+        )
 
     def go(self, progress: Progress) -> None:
         """Integrate to the end, or to where it cannot go on."""
         model, scenario = self.model, self.scenario
-        weights = error_weights(model, self.y, scenario.solver.tolerance)
-        going = np.zeros(GOING)
-        # steps that only growth limits follow the tolerance too, or runs at several tolerances would be alike
-        going[NEXT_STEP] = FIRST_STEP * min(1.0, (scenario.solver.tolerance / AT_FIRST) ** 0.2)
         pause = self.at_once
         for segment, begin, end in zip(model.courses.segments, model.edges, model.edges[1:], strict=False):
-            if self.code != FINISHED:
-                return
             model.scene.courses[:] = segment
             jumps = self._jumps(begin)
             if begin == 0.0:
                 model.scene.courses["jump"] = jumps
                 for course, one in zip(model.scene.courses, self._followed(), strict=False):  # loads' are last
                     course["still"] = 0.0 in one.breaks
-            while True:
-                self.code = integrate(
-                    model.scene,
-                    begin,
-                    end,
-                    jumps,
-                    model.times,
-                    weights,
-                    going,
-                    scenario.solver.most_steps,
-                    pause,
-                    self.y,
-                    self.room,
-                    self.rows,
-                    self.nodes,
-                    self.onsets,
-                    self.report,
-                )
-                if self.code != PAUSED:
-                    break
+            most = scenario.solver.most_steps
+            while (code := integrate(model.scene, self.room, self.y, begin, end, jumps, most, pause)) == PAUSED:
                 self.take_nodes()
                 pause += self.at_once
-                progress(float(going[AT] / scenario.duration))
-            going[MIDST] = 0.0
+                progress(float(self.room.going[AT] / scenario.duration))
             held = model.scene.joints["course"]
             if jumps[held[held >= 0]].any():  # oil gives way
                 self._note_jump(begin)
+            if code != FINISHED:
+                self.code = code
+                return
 
     def take_nodes(self) -> None:
         """Take the nodes of the steps since the last pause into the statistics."""
         count = int(self.report[NODES])
         if count > 0:
-            rows = np.concatenate([self.rows[:1], self.nodes[: OF_STEP * count]])
+            nodes = self.room.nodes
+            rows = np.concatenate([self.rows[:1], nodes[: OF_STEP * count]])
             time = rows[1:, 0].reshape(count, OF_STEP).copy()
             rows[1:, 0] = within_steps(time).ravel()
             self.statistics.add(time, trajectory(self.model, rows, _oil_events(self)))
-            self.nodes[0], self.report[NODES] = self.nodes[OF_STEP * count], 0.0
+            nodes[0], self.report[NODES] = nodes[OF_STEP * count], 0.0
 
     def stop_before_first_nan(self) -> None:
         """Mark the run as stopped at its first record that is not finite, in the posture that leads there."""
@@ -184,7 +195,7 @@ def run(scenario: Scenario, progress: Progress) -> Outcome:
 def _outcome(going: _Run) -> Outcome:
     model, report = going.model, going.report
     impacts: dict[str, list[Onset]] = {name: [] for name in model.contacts}
-    for number, *onset in going.onsets[: int(report[IMPACTS])].tolist():
+    for number, *onset in going.room.onsets[: int(report[IMPACTS])].tolist():
         impacts[model.contacts[int(number)]].append(Onset(*onset))
     contacts, events = model.scene.contacts, _oil_events(going)
     return Outcome(

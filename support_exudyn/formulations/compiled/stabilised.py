@@ -18,18 +18,14 @@ from support_exudyn.scene.motion import SINGULAR
 DAMPING = 2.0 / 13.0
 STABLE = 1.54  # (s^2 - 1) that a product of step and fastest decay asks for, over it
 MOST_STAGES = 200
-FEWEST_STAGES = 8  # below, the explicit method of order 5 does as well
-STIFF_AT = (
-    1.5  # step times fastest decay beyond which the explicit method is held up by its stability, not its error
-)
-FIRST_PATIENCE, LONGEST_PATIENCE = (
-    50.0,
-    3200.0,
-)  # steps after which that is looked for; doubled where it was in vain
+# step times fastest decay beyond which the explicit method is held up by its stability, not its error
+STIFF_AT = 1.5
+PATIENCE = 50  # steps of the explicit method after which that is looked for
 AT_FIRST = 2.0  # times as long is the first step of this method as those before: it damps what they leave
+STRICTER = 4.0  # times that errors count: those of order 2 remain, those of order 5 are below what is allowed
 MARGIN = 1.2  # on the fastest decay that has been measured
 STRAIGHT = 0.5  # cosine between a state's way and its way back, from which on that is a decay
-SHIFT = 1e-4  # of what a step may err by, over which it is looked how rates change
+SHIFT = 1e-2  # of the error that a step may have, over which rates are compared: far more than rounding
 ROUNDS = 3  # of looking for the fastest decay, each along what the one before has shown
 RENEWED = 25  # steps after which it is looked for again, and whether the method is of use
 
@@ -47,19 +43,30 @@ def longest(decay: float) -> float:
 
 
 @compiled
+def square_of(direction: Vector, weights: Vector) -> float:
+    """Square of the length of a direction, in units of what a step may err by."""
+    square = 0.0
+    for i in range(direction.size):
+        square += (direction[i] * weights[i]) ** 2
+    return square
+
+
+@compiled
 def fastest_decay(
     scene: SceneArrays, t: float, y: Vector, k: Matrix, along: Vector, weights: Vector, right: Vector
 ) -> float:
     """The fastest decay [1/s] of a state whose rate is k[0], by the power method from a direction `along`.
 
     0 if what changes fastest does not go back along its own direction: that is a swing, or a state that another
-    one moves, which this method does not help. k[1] and k[2] are overwritten, `along` is the direction found.
+    one moves, which this method does not help. k[1] and k[2] are overwritten, `along` is the direction found;
+    where it is none, at the start or after a search that came to nothing, any direction takes its place.
     """
     found = back = 0.0
-    for _ in range(ROUNDS):
-        size = 0.0
+    if not square_of(along, weights) > 0.0:
         for i in range(y.size):
-            size += (along[i] * weights[i]) ** 2
+            along[i] = (1.0 + 0.1 * (i % 7)) / weights[i]
+    for _ in range(ROUNDS):
+        size = square_of(along, weights)
         if not size > 0.0:
             return found
         share = SHIFT / math.sqrt(size)
@@ -142,9 +149,10 @@ def advance_stabilised(
         return math.nan
     square = 0.0
     for i in range(y.size):
-        wrong = 0.8 * (y[i] - end[i]) + 0.4 * h * (k[0, i] + k[STAGES - 1, i])
+        # of the end before joints were closed: by how much they are, no shorter step makes less
+        wrong = 0.8 * (y[i] - newer[i]) + 0.4 * h * (k[0, i] + k[STAGES - 1, i])
         square += (wrong * weights[i]) ** 2
-    return math.sqrt(square / y.size)
+    return STRICTER * math.sqrt(square / y.size)
 
 
 @compiled

@@ -1,17 +1,23 @@
-"""The state with which a run begins, and how large its errors may be."""
+"""How a run begins: its state, how large its errors may be, its first record, and jumps of drives."""
 
 import math
 
 import numpy as np
 
+from support_exudyn.formulations.compiled.recording import write_record
+from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.mechanics.body_motion import BodyMotion
 from support_exudyn.mechanics.joint_friction import joint_slips
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.scene.arrays import LOSSES, Vector
+from support_exudyn.scene.arrays import JUMP_ENERGY, LOSSES, WORK, SceneArrays, Scratch, Vector
+from support_exudyn.scene.compilation import compiled, once
 from support_exudyn.scene.equilibrium import settle
 from support_exudyn.scene.hydraulics.fill import weigh_states
+from support_exudyn.scene.legs import begin_legs
+from support_exudyn.scene.motion import SINGULAR, solve
 from support_exudyn.scene.setup import Model
+from user_forces.roots import STILL
 
 PLAY = 1e-3  # [m], stands for that of a machine without any
 SLOWEST = 1e-3  # [m/s], of what journals may do in their bores, for scenes in which nothing falls
@@ -92,3 +98,62 @@ def error_weights(model: Model, y: Vector, tolerance: float) -> Vector:
             found[record["state"]] = abs(law(0.0, 1.0, SMALL)) / SMALL
     found[-LOSSES:] = 1.0 / (mass * speed**2)
     return np.asarray(found / tolerance)
+
+
+# --- compiled ---
+
+
+@once
+def begin_run(scene: SceneArrays, room: Scratch, y: Vector) -> bool:
+    """Write the first record at 0 s, with the contacts that are closed then; whether the linkage moves."""
+    least = evaluate(scene, 0.0, y, room.slope, room.right)
+    for n in range(scene.contacts.size):
+        contact = scene.contacts[n]
+        if contact.depth > (STILL if contact.rate > 0.0 else 0.0):  # else it meets just now
+            contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
+    evaluate(scene, 0.0, y, room.slope, room.right)
+    write_record(scene, 0.0, y, room.slope, room.rows[0])
+    begin_legs(scene.legs)
+    for n in range(scene.courses.size):
+        scene.courses[n].still = 0
+    return least > SINGULAR
+
+
+@compiled
+def kinetic_energy(scene: SceneArrays, y: Vector) -> float:
+    """Kinetic energy of all bodies [J]."""
+    count, total = scene.bodies.size, 0.0
+    for n in range(count):
+        body, i = scene.bodies[n], 3 * (count + n)
+        inertia = 1.0 / body.light_turn - body.stand_in
+        total += 0.5 * ((y[i] ** 2 + y[i + 1] ** 2) / body.light + y[i + 2] ** 2 * inertia)
+    return total
+
+
+@once
+def jump(scene: SceneArrays, room: Scratch, t: float, y: Vector, jumps: Vector) -> None:
+    """Change velocities as speeds of drives jump at t [s], jumps by course."""
+    jumped = False
+    for n in range(jumps.size):
+        jumped = jumped or jumps[n] != 0.0
+    if not jumped:
+        return
+    evaluate(scene, t, y, room.slope, room.right)
+    for n in range(scene.bodies.size):
+        body = scene.bodies[n]
+        body.fx = body.fy = body.m = 0.0
+    for n in range(scene.rows.size):
+        scene.rows[n].wanted = 0.0
+    for n in range(scene.joints.size):
+        joint = scene.joints[n]
+        if joint.course >= 0:
+            scene.rows[joint.row].wanted = jumps[joint.course]
+    solve(scene, room.right)  # impulses and changes of velocities in place of forces and accelerations
+    before = kinetic_energy(scene, y)
+    for n in range(scene.bodies.size):
+        body, i = scene.bodies[n], 3 * (scene.bodies.size + n)
+        y[i], y[i + 1], y[i + 2] = y[i] + body.ax, y[i + 1] + body.ay, y[i + 2] + body.a
+    for n in range(scene.rows.size):
+        room.impulses[n] = scene.rows[n].held
+    room.report[JUMP_ENERGY] = kinetic_energy(scene, y) - before
+    y[WORK] += room.report[JUMP_ENERGY]

@@ -130,6 +130,17 @@ def close_joints(scene: SceneArrays, t: float, y: Vector, right: Vector) -> None
 
 
 @compiled
+def combine(weights: Vector, k: Matrix, stages: int, count: int, out: Vector) -> None:
+    """Write the weighted sum of the rates of so many stages into the first components of `out`."""
+    for i in range(count):
+        out[i] = weights[0] * k[0, i]
+    for j in range(1, stages):
+        weight = weights[j]
+        for i in range(count):
+            out[i] += weight * k[j, i]
+
+
+@compiled
 def advance(
     scene: SceneArrays,
     t: float,
@@ -146,14 +157,12 @@ def advance(
     An error that is no number: the linkage cannot close, or a value is none any more.
     """
     size = y.size
-    free = size - LOSSES  # no rate depends on losses
     for stage in range(1, STAGES):
         last = stage == STAGES - 1
-        for i in range(size if last else free):
-            total = 0.0
-            for j in range(stage):
-                total += WEIGHTS[stage, j] * k[j, i]
-            end[i] = y[i] + h * total
+        count = size if last else size - LOSSES  # no rate depends on losses
+        combine(WEIGHTS[stage], k, stage, count, end)
+        for i in range(count):
+            end[i] = y[i] + h * end[i]
         if last:
             close_joints(scene, t + h, end, right)
         least = evaluate(scene, t + NODES[stage] * h, end, k[stage], right)
@@ -172,17 +181,15 @@ def advance(
 @compiled
 def fit(h: float, y: Vector, end: Vector, k: Matrix, path: Matrix) -> None:
     """Write the coefficients of the interpolation over a step of h [s] into `path`, shape (5, states)."""
+    combine(INNER, k, STAGES, y.size, path[4])
     for i in range(y.size):
         change = end[i] - y[i]
         bend = h * k[0, i] - change
-        inner = 0.0
-        for j in range(STAGES):
-            inner += INNER[j] * k[j, i]
         path[0, i] = y[i]
         path[1, i] = change
         path[2, i] = bend
         path[3, i] = change - h * k[6, i] - bend
-        path[4, i] = h * inner
+        path[4, i] *= h
 
 
 @compiled
