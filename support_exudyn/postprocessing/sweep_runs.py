@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from support_exudyn.files.series.titles import split_title
+from support_exudyn.files.series.units import split_title
 from user_forces.values.value import InputError, short
 
 if TYPE_CHECKING:

@@ -12,6 +12,7 @@ import numpy as np
 
 from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts
 from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
+from support_exudyn.formulations.exudyn.scene.joint_builder import BodyItem
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
 from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
 from support_exudyn.formulations.exudyn.scene.section_pin import SectionPin
@@ -38,16 +39,6 @@ from user_forces.contact_state import InverseMass
 INITIAL = exudyn.ConfigurationType.Initial
 CURRENT = exudyn.ConfigurationType.Current
 FRICTION_ROUNDS = 4  # each with an error smaller by the coefficient of friction times radius over lever
-
-
-@dataclass(frozen=True)
-class BodyItem:
-    """A moving body in the engine: its data, node, object and first coordinate."""
-
-    body: Any
-    node: Any
-    object: Any
-    first: int
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -38,7 +39,6 @@ from exudyn.itemInterface import (
 )
 
 from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenItem
-from support_exudyn.formulations.exudyn.scene.engine_scene import BodyItem
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
 from support_exudyn.formulations.exudyn.scene.sections import ends
 from support_exudyn.mechanics.body_motion import COORDINATES, UNTURNED, SpatialMotion, parameter_rates
@@ -63,6 +63,16 @@ from user_forces.values.value import Vector2
 
 TURN = np.array([0.0, 0.0, 1.0])  # takes the angle out of a body's coordinates
 TILTS: tuple[Kind, ...] = ("tilt_1", "tilt_2")
+
+
+@dataclass(frozen=True)
+class BodyItem:
+    """A moving body in the engine: its data, node, object and first coordinate."""
+
+    body: Any
+    node: Any
+    object: Any
+    first: int
 
 
 class JointBuilder:
