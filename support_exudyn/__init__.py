@@ -56,21 +56,23 @@ if TYPE_CHECKING:
     from support_exudyn.model.guides import ClearanceGuide as ClearanceGuide
     from support_exudyn.model.guides import Guide as Guide
     from support_exudyn.model.guides import IdealGuide as IdealGuide
-    from support_exudyn.model.hydraulics.elements import CheckValve as CheckValve
     from support_exudyn.model.hydraulics.elements import EndStops as EndStops
-    from support_exudyn.model.hydraulics.elements import Line as Line
-    from support_exudyn.model.hydraulics.elements import Poppet as Poppet
     from support_exudyn.model.hydraulics.elements import PumpStation as PumpStation
     from support_exudyn.model.hydraulics.elements import SealFriction as SealFriction
     from support_exudyn.model.hydraulics.elements import SecondStage as SecondStage
     from support_exudyn.model.hydraulics.elements import TrappedAir as TrappedAir
-    from support_exudyn.model.hydraulics.elements import YieldValve as YieldValve
     from support_exudyn.model.hydraulics.inlets import ClosedInlet as ClosedInlet
     from support_exudyn.model.hydraulics.inlets import Inlet as Inlet
     from support_exudyn.model.hydraulics.inlets import RampedOpening as RampedOpening
     from support_exudyn.model.hydraulics.inlets import SuddenOpening as SuddenOpening
     from support_exudyn.model.hydraulics.leg import HydraulicCylinder as HydraulicCylinder
     from support_exudyn.model.hydraulics.leg import OilColumn as OilColumn
+    from support_exudyn.model.hydraulics.valves import CheckValve as CheckValve
+    from support_exudyn.model.hydraulics.valves import LegChannel as LegChannel
+    from support_exudyn.model.hydraulics.valves import LegValve as LegValve
+    from support_exudyn.model.hydraulics.valves import Line as Line
+    from support_exudyn.model.hydraulics.valves import Poppet as Poppet
+    from support_exudyn.model.hydraulics.valves import YieldValve as YieldValve
     from support_exudyn.model.linkage import Body as Body
     from support_exudyn.model.linkage import Crank as Crank
     from support_exudyn.model.linkage import Gear as Gear

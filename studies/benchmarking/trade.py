@@ -155,7 +155,7 @@ def measured(names: Sequence[str] = tuple(PROGRAMS), with_slow: bool = False) ->
     programs = [PROGRAMS[one] for one in names if PROGRAMS[one].is_installed]
     if not programs:
         return
-    warm_up()
+    warm_up(with_legs=False)
     scenario, exact = rise(), exact_force().value
     name, setting = COMMON
     common = PROGRAMS[name]

@@ -230,7 +230,7 @@ def run_machines(
     rows = [_read(place) for place in places]
     missing = [n for n, row in enumerate(rows) if row is None]
     if missing:
-        warm_up()  # compile once, for all processes
+        warm_up(with_legs=False)  # compile once, for all processes
 
         def ended(error: ProcessEndedError) -> MachineRow:  # not kept, so that it is tried again
             return MachineRow(sample=dict(samples[missing[error.place]]), measures=None, failure=error.reason)

@@ -14,14 +14,7 @@ from support_exudyn.model.linkage import LinearActuator, Linkage
 from support_exudyn.model.spatial_linkage import SpatialActuator
 from user_forces.values.value import InputError, Vector2
 
-
-@dataclass(frozen=True)
-class StartPressures:
-    """Pressures [Pa] of a leg at the start: of the piston side, the rod side, and in the tube of two stages."""
-
-    piston: float
-    rod: float
-    tube: float
+SIDES = {"piston": "piston side", "rod": "rod side"}
 
 
 @dataclass(frozen=True)
@@ -38,43 +31,51 @@ class PreloadedLeg:
     load: float
 
     @property
-    def start_pressures(self) -> StartPressures:
-        """The pressures that carry the load, or those of setting. Raises InputError if none can."""
+    def pressures(self) -> dict[str, float]:
+        """Pressures [Pa] of all rooms at the start, that carry the load, or those of setting.
+
+        The room that a valve brings has the pressure of the room behind or before the valve. Raises InputError
+        if no pressures can carry the load.
+        """
         model = self.model
-        tank, rod_area = 0.0, 0.0
+        tank, rod_area = model.sources["tank"], 0.0
         if isinstance(model, HydraulicCylinder):
-            tank, rod_area = model.tank_pressure, model.rod_side_area
+            rod_area = model.rod_side_area
         piston, rod = model.setting_pressure or 0.0, tank
         if model.setting_pressure is None:
             piston = (self.load + tank * rod_area) / model.bore_area
             if piston < tank and rod_area > 0.0:
                 piston, rod = tank, (tank * model.bore_area - self.load) / rod_area
-        tube = piston
+        found = {"piston": piston, "rod": rod}
         if (stage := model.second_stage) is not None:
             pushes = model.bore_area * piston - rod_area * rod
-            tube = (pushes + stage.rod_side_area * rod) / stage.bore_area
-        lowest, chambers = model.vapour_pressure, {"piston side": piston}
-        if isinstance(model, HydraulicCylinder):
-            chambers["rod side"] = rod
-        if stage is not None:
-            chambers["tube"] = tube
-        least = min(chambers, key=lambda name: chambers[name])
-        if lowest is not None and chambers[least] < lowest:
+            found["tube"] = (pushes + stage.rod_side_area * rod) / stage.bore_area
+        found = {name: found[name] for name in model.rooms if name in found}
+        known = found | model.sources
+        for name, path in model.paths.items():
+            if name in model.rooms:
+                found[name] = known[path.after if path.before == name else path.before]
+        self._check_boiling(found)
+        self._check_air(piston)
+        return found
+
+    def _check_boiling(self, pressures: Mapping[str, float]) -> None:
+        """Raise InputError if oil would boil at the start."""
+        lowest, least = self.model.vapour_pressure, min(pressures, key=lambda name: pressures[name])
+        if lowest is not None and pressures[least] < lowest:
             raise InputError(
                 f"actuators.{self.name}.vapour_pressure = {lowest} Pa: in the start posture the leg pushes "
-                f"with {self.load:.4g} N, for which its {least} would have {chambers[least]:.4g} Pa; "
-                "allowed: less than that, or a setting_pressure with a load that balances it"
+                f"with {self.load:.4g} N, for which its {SIDES.get(least, least)} would have "
+                f"{pressures[least]:.4g} Pa; allowed: less than that, or a setting_pressure with a load that "
+                "balances it"
             )
-        self._check_air(piston)
-        return StartPressures(piston, rod, tube)
 
     def _check_air(self, pressure: float) -> None:
         """Raise InputError if the trapped air would fill the chamber at the start, or more."""
         air, model = self.model.trapped_air, self.model
         if air is None:
             return
-        room = model.bore_area * model.oil_length
-        room += model.hose_volume if isinstance(model, HydraulicCylinder) else 0.0
+        room = model.rooms["piston"].volume
         if pressure <= -ATMOSPHERE or not air.at(pressure) < room:
             raise InputError(
                 f"actuators.{self.name}.trapped_air.volume = {air.volume} m^3: at the {pressure:.4g} Pa of the "

@@ -2,75 +2,89 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Mapping
 
 from support_exudyn.mechanics.channels import OIL, ChannelDefinitions, named, table
 from support_exudyn.mechanics.trajectory import LegSeries, Series
 from support_exudyn.model.hydraulics.leg import HydraulicCylinder, HydraulicLeg
+from support_exudyn.model.hydraulics.valves import LegChannel
 
 PUMP = "pump"  # the name of the pump's channels
+# channels of pressures by the names of rooms; of a room that a valve brings it is "VALVE.pressure"
+PRESSURES = {"piston": "pressure", "rod": "rod_pressure", "line": "line_pressure", "tube": "stage_pressure"}
+CHANNELS = {
+    "pressure": LegChannel("Pa", "of the piston side"),
+    "flow": LegChannel("m^3/s", "into the piston side, of inlet, line or drive"),
+    "oil": LegChannel("m^3", "in all its chambers and its line, as volume without pressure"),
+    "rod_pressure": LegChannel("Pa", "of the rod side"),
+    "opening": LegChannel("1", "of the valve; positive: pump to the piston side"),
+    "rod_flow": LegChannel("m^3/s", "into the rod side"),
+    "let_in": LegChannel("m^3", "oil that inlets have let in so far, as volume without pressure"),
+    "viscous_loss": LegChannel("J", "taken by the viscous damping of its seals so far"),
+    "valve_loss": LegChannel("J", "taken by the inlet and the check valve so far"),
+    "relief_flow": LegChannel("m^3/s", "out of the rod side by its relief valve"),
+    "relieved": LegChannel("m^3", "oil that has left by it so far, as volume without pressure"),
+    "line_pressure": LegChannel("Pa", "of the line"),
+    "line_loss": LegChannel("J", "taken by the line so far"),
+    "yield_flow": LegChannel("m^3/s", "out of the piston side by the yield valve"),
+    "yielded": LegChannel("m^3", "oil that has left by it so far, as volume without pressure"),
+    "yield_loss": LegChannel("J", "taken by relief valves so far"),
+    "cavity": LegChannel("m^3", "volume of vapour in all its chambers and its line"),
+    "cavity_energy": LegChannel("J", "stored in it, which the atmosphere gives back as it is filled"),
+    "seal_loss": LegChannel("J", "taken by the seals so far"),
+    "stop_loss": LegChannel("J", "taken by the stops so far"),
+    "stage_pressure": LegChannel("Pa", "inside the tube of both stages"),
+    "stage_extension": LegChannel("m", "of the outer stage since the start"),
+    "stage_loss": LegChannel("J", "taken by the foot valve and the tube's damping so far"),
+}
+PUMP_CHANNELS = {
+    "pressure": LegChannel("Pa", "of the pump's line"),
+    "flow": LegChannel("m^3/s", "that the pump gives"),
+    "given": LegChannel("m^3", "oil that it has given so far, as volume without pressure"),
+    "oil": LegChannel("m^3", "in its line, as volume without pressure"),
+}
 
 
-class LegValue(NamedTuple):
-    """A number that is known of a leg at every instant: its name, unit and meaning."""
-
-    name: str
-    unit: str
-    meaning: str
-
-
-def leg_values(model: HydraulicLeg) -> Iterator[LegValue]:
-    """What is known of a leg with the elements that it has."""
-    yield LegValue("pressure", "Pa", "of the piston side")
-    yield LegValue("flow", "m^3/s", "into the piston side, of inlet, line or drive")
-    yield LegValue("oil", "m^3", "in all its chambers and its line, as volume without pressure")
+def _names(model: HydraulicLeg) -> Iterator[str]:
+    """Names of channels that a leg has besides those of its own valves."""
+    yield from ("pressure", "flow", "oil")
+    yield from (PRESSURES[room] for room in model.rooms if room in PRESSURES)
+    for path in model.paths.values():
+        yield from (path.flow, path.passed, path.loss)
     if isinstance(model, HydraulicCylinder):
-        yield LegValue("rod_pressure", "Pa", "of the rod side")
-        yield LegValue("opening", "1", "of the valve; positive: pump to the piston side")
-        yield LegValue("rod_flow", "m^3/s", "into the rod side")
-        yield LegValue("let_in", "m^3", "oil that inlets have let in so far, as volume without pressure")
-        yield LegValue("viscous_loss", "J", "taken by the viscous damping of its seals so far")
-        yield LegValue("valve_loss", "J", "taken by the inlet and the check valve so far")
-        if model.rod_relief is not None:
-            yield LegValue("relief_flow", "m^3/s", "out of the rod side by its relief valve")
-            yield LegValue("relieved", "m^3", "oil that has left by it so far, as volume without pressure")
-    if model.line is not None:
-        yield LegValue("line_pressure", "Pa", "of the line")
-        yield LegValue("line_loss", "J", "taken by the line so far")
-    if model.yield_valve is not None:
-        yield LegValue("yield_flow", "m^3/s", "out of the piston side by the yield valve")
-        yield LegValue("yielded", "m^3", "oil that has left by it so far, as volume without pressure")
-    if model.yield_valve is not None or getattr(model, "rod_relief", None) is not None:
-        yield LegValue("yield_loss", "J", "taken by relief valves so far")
+        yield from ("opening", "viscous_loss")
     if model.vapour_pressure is not None:
-        yield LegValue("cavity", "m^3", "volume of vapour in all its chambers and its line")
-        yield LegValue("cavity_energy", "J", "stored in it, which the atmosphere gives back as it is filled")
+        yield from ("cavity", "cavity_energy")
     if model.seal_friction is not None:
-        yield LegValue("seal_loss", "J", "taken by the seals so far")
+        yield "seal_loss"
     if model.end_stops is not None or model.second_stage is not None:
-        yield LegValue("stop_loss", "J", "taken by the stops so far")
+        yield "stop_loss"
     if model.second_stage is not None:
-        yield LegValue("stage_pressure", "Pa", "inside the tube of both stages")
-        yield LegValue("stage_extension", "m", "of the outer stage since the start")
-        yield LegValue("stage_loss", "J", "taken by the foot valve and the tube's damping so far")
+        yield "stage_extension"
 
 
-PUMP_VALUES = (
-    LegValue("pressure", "Pa", "of the pump's line"),
-    LegValue("flow", "m^3/s", "that the pump gives"),
-    LegValue("given", "m^3", "oil that it has given so far, as volume without pressure"),
-    LegValue("oil", "m^3", "in its line, as volume without pressure"),
-)
+def channels_of_leg(model: HydraulicLeg) -> dict[str, LegChannel]:
+    """What is recorded of a leg with the elements that it has, by name."""
+    names = {*_names(model)}
+    found = {name: channel for name, channel in CHANNELS.items() if name in names}
+    for name, valve in model.valves.items():
+        path = valve.path(name)
+        found[path.flow] = LegChannel("m^3/s", f"from {path.before} to {path.after}")
+        found[path.passed] = LegChannel("m^3", "oil that has passed so far, as volume without pressure")
+        found[path.loss] = LegChannel("J", "taken by it so far")
+        found |= path.states
+        if valve.room is not None:
+            found[f"{name}.pressure"] = LegChannel("Pa", "of its room")
+    return found
 
 
 def leg_channels(legs: Mapping[str, HydraulicLeg], pump: bool) -> ChannelDefinitions:
     """The channels of legs by name; pump: whether they share one."""
-    known: dict[str, Iterable[LegValue]] = {name: leg_values(model) for name, model in legs.items()}
-    known |= {PUMP: PUMP_VALUES} if pump and legs else {}
+    known = {name: channels_of_leg(model) for name, model in legs.items()}
+    known |= {PUMP: PUMP_CHANNELS} if pump and legs else {}
     found: ChannelDefinitions = {}
-    for name, values in known.items():
-        rows = [(one.name, one.unit, one.meaning, _value(one.name)) for one in values]
+    for name, channels in known.items():
+        rows = [(one, unit, meaning, _value(one)) for one, (unit, meaning) in channels.items()]
         found |= table(name, OIL, named("legs", name), rows)
     return found
 

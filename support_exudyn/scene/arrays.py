@@ -13,6 +13,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from support_exudyn.scene.hydraulics.records import LegArrays
+
 Vector = npt.NDArray[np.float64]
 Matrix = npt.NDArray[np.float64]
 Whole = npt.NDArray[np.int64]
@@ -68,23 +70,6 @@ RUBBING = _record(
 )
 
 
-class LegArrays(NamedTuple):
-    """Hydraulic legs, and their pump if they have one.
-
-    gaps: what passes zero where something happens, shape (legs, GAPS); before: at the start of the step. sides:
-    on which side of zero each is. beyond: how far it has been on the other within the step.
-    events: time, leg, gap, side of each.
-    """
-
-    records: Records
-    pumps: Records
-    gaps: Matrix
-    before: Matrix
-    sides: Matrix
-    beyond: Matrix
-    events: Matrix
-
-
 class SceneArrays(NamedTuple):
     """All that an evaluation of the equations of motion takes. square: C M^-1 C^T and its factors.
 
@@ -128,7 +113,7 @@ class Scratch(NamedTuple):
     times: of the records [s], from 0; rows: the records. forces: whether these need accelerations and what
     joints carry.
     nodes: of the steps since the last pause, four each, with room for all until the next and one row more.
-    onsets: of impacts.
+    onsets: of impacts. oil_events: of legs: time, gap and side of each.
     """
 
     right: Vector
@@ -149,21 +134,12 @@ class Scratch(NamedTuple):
     forces: bool
     nodes: Matrix
     onsets: Matrix
+    oil_events: Matrix
 
 
-def leg_arrays(records: Records, pumps: Records, gaps: Matrix) -> LegArrays | None:
-    """Legs as a run changes them, from their records, pump and gaps; None without legs."""
-    if not records.size:
-        return None
-    return LegArrays(
-        records=records.copy(),
-        pumps=pumps.copy(),
-        gaps=gaps.copy(),
-        before=np.zeros_like(gaps),
-        sides=np.zeros_like(gaps),
-        beyond=np.zeros_like(gaps),
-        events=np.zeros((MOST_OIL_EVENTS, 4)),
-    )
+def leg_arrays(legs: LegArrays) -> LegArrays | None:
+    """Legs as a run changes them; None without legs."""
+    return legs.copies() if legs.records.size else None
 
 
 STAGES = 7  # of a step

@@ -365,6 +365,30 @@ def _load_law(
     return load
 
 
+@cache
+def valve_law(action: Callable[..., tuple[float, ...]], states: int, count: int) -> Callable[..., float]:
+    """The action of a valve of a leg for `call_law`, with so many states and parameters, see `LegValve`.
+
+    It gives the flow [m^3/s]. Of out it reads memory and states, and writes the gap, the rates of the states,
+    and the states at rest.
+    """
+
+    def valve(
+        before: float, after: float, pilot: float, opening: float, travel: float, constants: Any, out: Any
+    ) -> float:
+        results = numba.carray(out, 1 + 2 * states)
+        found: tuple[float, ...] = action(
+            *(before, after, pilot, opening, travel, results[0]),
+            *numbers(results, 1, states),
+            *numbers(numba.carray(constants, count), 0, count),
+        )
+        for i in range(1 + 2 * states):
+            results[i] = found[1 + i]
+        return found[0]
+
+    return valve
+
+
 @intrinsic  # type: ignore[untyped-decorator]
 def call_law(
     context: Any,

@@ -9,11 +9,12 @@ from support_exudyn.scene.arrays import (
     ONE_SIDED,
     STRETCH,
     WORK,
-    LegArrays,
     SceneArrays,
     Vector,
 )
 from support_exudyn.scene.compilation import FIRST_COURSE, call_law, compiled, inlined, once
+from support_exudyn.scene.hydraulics.leg import powers_of
+from support_exudyn.scene.hydraulics.records import LegArrays
 from support_exudyn.scene.motion import push, push_point, spin_of
 from user_forces.contact import SHALLOWEST
 from user_forces.face import point_on_face
@@ -172,12 +173,8 @@ def with_legs(
     """Losses by damping and friction, and the power of what drives [W], with those of legs and their pump."""
     if legs is None:
         return damping, friction, work
-    for n in range(legs.records.size):
-        leg = legs.records[n]
-        work, damping, friction = work + leg.work, damping + leg.loss, friction + leg.friction
-    for n in range(legs.pumps.size):
-        work += legs.pumps[n].work
-    return damping, friction, work
+    works, losses, frictions = powers_of(legs)
+    return damping + losses, friction + frictions, work + works
 
 
 @once

@@ -4,20 +4,19 @@ Functions that take `LegArrays | None` do nothing where there are no legs. Numba
 argument, before it compiles the rest.
 """
 
-from support_exudyn.scene.arrays import LegArrays, Records, SceneArrays, Vector
+from support_exudyn.scene.arrays import SceneArrays, Vector
 from support_exudyn.scene.compilation import compiled, once
 from support_exudyn.scene.forces import lengthening, push_apart
-from support_exudyn.scene.hydraulics.gaps import begin_sides
 from support_exudyn.scene.hydraulics.leg import press_all
-from support_exudyn.scene.hydraulics.records import RELIEF, YIELD
-from support_exudyn.scene.hydraulics.rest import rest_legs
+from support_exudyn.scene.hydraulics.records import LegArrays, Records
+from support_exudyn.scene.hydraulics.rest import begin_sides, rest_legs
 
 
 @compiled
 def begin_legs(legs: LegArrays | None) -> None:
     """Write the side of zero on which each gap is at the start of a run."""
     if legs is not None:
-        begin_sides(legs.records, legs.gaps, legs.sides)
+        begin_sides(legs.gaps, legs.valves)
 
 
 @compiled
@@ -40,7 +39,7 @@ def press_legs(scene: SceneArrays, legs: LegArrays | None, y: Vector, slope: Vec
     """Forces, powers and rates of the states of all legs and of the pump, see `hydraulics.leg`."""
     if legs is not None:
         tell_legs(scene, legs.records)
-        press_all(legs.records, legs.pumps, legs.gaps, y, slope)
+        press_all(legs, y, slope)
         push_legs(scene, legs.records)
         reach(legs)
 
@@ -56,12 +55,10 @@ def push_legs(scene: SceneArrays, legs: Records) -> None:
 @once
 def reach(legs: LegArrays) -> None:
     """Keep how far the gap of each valve with hysteresis has been on the other side since it was forgotten."""
-    for n in range(legs.records.size):
-        leg = legs.records[n]
-        if leg.jumps != 0:
-            legs.beyond[n, YIELD] = max(legs.beyond[n, YIELD], -legs.sides[n, YIELD] * legs.gaps[n, YIELD])
-        if leg.rod_jumps != 0:
-            legs.beyond[n, RELIEF] = max(legs.beyond[n, RELIEF], -legs.sides[n, RELIEF] * legs.gaps[n, RELIEF])
+    for k in range(legs.gaps.size):
+        gap = legs.gaps[k]
+        if gap.valve >= 0 and legs.valves[gap.valve].jumps != 0:
+            gap.beyond = max(gap.beyond, -gap.side * gap.now)
 
 
 @compiled
@@ -69,5 +66,5 @@ def press_resting_legs(scene: SceneArrays, legs: LegArrays | None, y: Vector, sl
     """Forces of all legs at rest, see `hydraulics.rest`; their states there into y."""
     if legs is not None:
         tell_legs(scene, legs.records)
-        rest_legs(legs.records, legs.pumps, legs.gaps, y, slope)
+        rest_legs(legs, y, slope)
         push_legs(scene, legs.records)

@@ -137,7 +137,7 @@ def model_of(scenario: Scenario) -> Model:
         spare=np.zeros(len(rows)),
         rounds=rounds_of(scenario.held),
         contacts=contacts,
-        legs=arrays.leg_arrays(legs.records, legs.pumps, legs.gaps),
+        legs=arrays.leg_arrays(legs.arrays),
         loads=loads,
         rubbing=rubbing,
         constants=np.array([*build.constants, 0.0]),

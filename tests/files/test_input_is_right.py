@@ -30,7 +30,8 @@ from support_exudyn.machines.check import check_machine
 from support_exudyn.machines.check.joint_warnings import joint_warnings
 from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.model.linkage import pinned
-from tests.cases.cylinder_cases import CYLINDER, Ram
+from tests.cases.cylinder_cases import CYLINDER
+from tests.formulations.hydraulics.leg_cases import Uprights
 from user_forces import InputError
 
 ROCKER = (Path(load_machine.__code__.co_filename).parent / "crank_rocker.toml").read_text(encoding="utf-8")
@@ -266,7 +267,11 @@ def test_tooth_forces_are_reported_for_pins_do_not_carry_them() -> None:
 def test_a_jack_past_its_stroke_is_refused_at_any_duration(duration: float) -> None:
     short = replace(CYLINDER, rod_side_length=0.05, inlet=SuddenOpening(start=0.1, end=99.0))
     scenario = Scenario(
-        machine=Ram(), actuators={"jack": short}, duration=duration, formulation="compiled", record_period=0.01
+        machine=Uprights(),
+        actuators={"leg0": short},
+        duration=duration,
+        formulation="compiled",
+        record_period=0.01,
     )
-    with pytest.raises(SimulationError, match=r"jack is extended by 0.* m, beyond its cylinder's end"):
+    with pytest.raises(SimulationError, match=r"leg0 is extended by 0.* m, beyond its cylinder's end"):
         simulate(scenario)

@@ -116,5 +116,5 @@ def test_energy_adds_up_with_a_loose_pin_of_an_actuator() -> None:
     pins = {"front_column_head": ClearancePin(contact=paper_contact(1.0, 0.25))}
     result = simulate(support(pins=pins, actuators=cylinders_and_rods(), drive=Held(), duration=0.2))
     assert len(result.onsets["front_column_head"]) > 1
-    # as on massless actuators (`test_oil_columns`, which says 3e-4); measured 1e-4 and less
+    # as on massless actuators (`test_legs_in_machines`, which says 3e-4); measured 1e-4 and less
     assert result.energy_error < 5e-4 * result.dissipated

@@ -8,14 +8,19 @@ from typing import Any
 import pytest
 
 from support_exudyn import (
+    CubicStep,
     CylinderAndRod,
+    Held,
     OilColumn,
     PumpStation,
     Scenario,
     YieldValve,
+    bore_area,
+    reference_support,
     simulate,
 )
 from support_exudyn.model.actuator_model import ActuatorModel
+from tests.cases.machine_cases import support
 from tests.formulations.hydraulics.leg_cases import COLUMN, CYLINDER, STAGE, Uprights
 from user_forces import InputError
 
@@ -88,3 +93,57 @@ def test_what_would_boil_at_the_start_is_named_with_its_own_pressure() -> None:
     simulate(standing(replace(COLUMN, vapour_pressure=5e5)))
     with pytest.raises(InputError, match=r"its rod side would have 5e\+05 Pa"):
         simulate(standing(replace(CYLINDER, vapour_pressure=6e5)))
+
+
+def on_support(**changes: Any) -> Scenario:
+    both = {"front_column": CYLINDER, "rear_column": CYLINDER}
+    return Scenario(**({"machine": support(), "duration": 1.0, "drive": Held(), "actuators": both} | changes))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"actuators": {"middle": COLUMN}}, r"actuators\.middle.*allowed: front_column, rear_column"),
+        (
+            {
+                "actuators": {"front_column": replace(COLUMN, oil_length=0.05)},
+                "drive": CubicStep(stroke=-0.1, start=0.1, end=0.6),
+            },
+            r"oil_length = 0\.05 m.*no oil is left",
+        ),
+        (
+            {"drives": {"front_column": CubicStep()}},
+            r"front_column: is a HydraulicCylinder.*front_column\.inlet",
+        ),
+        ({"drive": CubicStep()}, r"drive = CubicStep: nothing follows it.*allowed: Held\(\)"),
+        (
+            {"actuators": {"front_column": replace(CYLINDER, oil_length=5.0)}},
+            r"oil_length = 5\.0 m: the actuator is .* long",
+        ),
+        (
+            {"actuators": {"front_column": replace(CYLINDER, system_pressure=1e3)}},
+            r"system_pressure = 1000\.0 Pa: allowed: > tank_pressure",
+        ),
+    ],
+)
+def test_legs_that_do_not_fit_their_machine_are_refused(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        on_support(**changes)
+
+
+def test_cylinders_follow_no_drive_and_other_actuators_do() -> None:
+    assert on_support().driven == ()
+    assert not on_support().jumps
+    assert on_support(machine=reference_support(), dimensions=3).driven == ()
+    mixed = on_support(actuators={"front_column": CYLINDER}, drive=CubicStep())
+    assert mixed.driven == ("rear_column",)
+    assert mixed.compliant_actuators == ("front_column",)
+
+
+def test_wrong_numbers_of_columns_are_refused() -> None:
+    with pytest.raises(InputError, match="bulk_modulus"):
+        OilColumn(bore_area=1.0, oil_length=1.0, bulk_modulus=0.0)
+    with pytest.raises(InputError, match="diameter"):
+        bore_area(0.0)
+    with pytest.raises(InputError, match=r"OilColumn\.damping_time = 0\.001.*allowed: a line"):
+        OilColumn(bore_area=0.1, oil_length=0.5, bulk_modulus=1.5e9, damping_time=1e-3)

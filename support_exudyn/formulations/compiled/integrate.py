@@ -73,14 +73,13 @@ class StepEvents(NamedTuple):
     """What happens first in a step.
 
     contact, what: what happens to which contact, see `events`. x: the fraction of the step at which.
-    oil, leg, gap: whether a gap of a leg passes zero, see `oil_events`.
+    oil, gap: whether a gap of a leg passes zero, and which, see `oil_events`.
     """
 
     contact: int
     what: int
     x: float
     oil: int
-    leg: int
     gap: int
 
 
@@ -161,13 +160,13 @@ def take_step(scene: SceneArrays, room: Scratch, y: Vector, stop: float) -> int:
         going[NEXT_STEP] = shorter
         return FINISHED
     if events.oil == AT_ONCE:
-        if not pass_gap(scene.legs, events.leg, events.gap, t, report):
+        if not pass_gap(scene.legs, room, events.gap, t):
             return TOO_MANY_OIL_EVENTS
         begin_step(scene, room, t, y)
         going[NEXT_STEP] = h
         return FINISHED
     if events.oil == GAP:
-        h = land_on_gap(scene, scene.legs, room, events.leg, events.gap, t, h, y, room.weights, report)
+        h = land_on_gap(scene, scene.legs, room, events.gap, t, h, y, room.weights, report)
         copy_contacts(scene.contacts, room.then)
         fit_step(room, 0.0, h, y)
         n, what, x = first_event(scene, h, room.now, room.then, room.path, room.probe, room.slope)
@@ -175,7 +174,7 @@ def take_step(scene: SceneArrays, room: Scratch, y: Vector, stop: float) -> int:
             going[NEXT_STEP] = h * SHORTEN
             return FINISHED
         oil = GAP if what == NOTHING else NONE
-        events = StepEvents(n, what, x, oil, events.leg, events.gap)
+        events = StepEvents(n, what, x, oil, events.gap)
     follow = wanted if h >= stop - t else h * factor_of(error, going[LAST_ERROR], decay)
     going[LAST_ERROR] = max(error, LEAST_ERROR)
     return accept(scene, room, events, t, h, follow, y, stop)
@@ -187,8 +186,8 @@ def first_events(scene: SceneArrays, room: Scratch, h: float) -> StepEvents:
     if room.going[UNCUT] > 0.0:
         overlook_cuts(room.now)
     n, what, x = first_event(scene, h, room.now, room.then, room.path, room.probe, room.slope)
-    oil, leg, gap = first_gap(scene.legs)
-    return StepEvents(n, what, x, oil, leg, gap)
+    oil, gap = first_gap(scene.legs)
+    return StepEvents(n, what, x, oil, gap)
 
 
 @once
@@ -283,7 +282,7 @@ def apply_event(
     Returns FINISHED, or why the run cannot go on.
     """
     if events.oil == GAP:
-        if not pass_gap(scene.legs, events.leg, events.gap, t, room.report):
+        if not pass_gap(scene.legs, room, events.gap, t):
             return TOO_MANY_OIL_EVENTS
     else:
         # places and factors are those of the last look at the step

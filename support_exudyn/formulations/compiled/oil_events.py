@@ -8,19 +8,10 @@ Without legs nothing happens, and the code for it is not compiled, see `SceneArr
 import math
 
 from support_exudyn.formulations.compiled.step import advance, close_joints, evaluate, within
-from support_exudyn.scene.arrays import (
-    EVALUATIONS,
-    OIL_EVENTS,
-    STAGES,
-    LegArrays,
-    SceneArrays,
-    Scratch,
-    Vector,
-)
+from support_exudyn.model.hydraulics.valves import SHUT
+from support_exudyn.scene.arrays import EVALUATIONS, OIL_EVENTS, STAGES, SceneArrays, Scratch, Vector
 from support_exudyn.scene.compilation import compiled
-from support_exudyn.scene.hydraulics.flows import OPEN
-from support_exudyn.scene.hydraulics.gaps import met
-from support_exudyn.scene.hydraulics.records import RELIEF, YIELD
+from support_exudyn.scene.hydraulics.records import LegArrays
 from user_forces.roots import PEAK_LOOKS, Bracket, StepPeak, narrowed, peak_place, peak_with, zero_of
 
 LOOKS = 40  # for a gap, by false position
@@ -30,55 +21,48 @@ NONE, GAP, AT_ONCE = range(3)  # what is found
 @compiled
 def keep_gaps(legs: LegArrays | None) -> None:
     """Keep the gaps as they stand in the scene."""
-    if legs is None:
-        return
-    for n in range(legs.gaps.shape[0]):
-        for k in range(legs.gaps.shape[1]):
-            legs.before[n, k] = legs.gaps[n, k]
+    if legs is not None:
+        for k in range(legs.gaps.size):
+            legs.gaps[k].before = legs.gaps[k].now
 
 
 @compiled
 def forget_beyond(legs: LegArrays | None) -> None:
     """Begin a step: no gap has been passed."""
-    if legs is None:
-        return
-    for n in range(legs.gaps.shape[0]):
-        for k in range(legs.gaps.shape[1]):
-            legs.beyond[n, k] = -math.inf
+    if legs is not None:
+        for k in range(legs.gaps.size):
+            legs.gaps[k].beyond = -math.inf
 
 
 @compiled
-def first_gap(legs: LegArrays | None) -> tuple[int, int, int]:
-    """What happens first in legs in a step that has been tried: what, leg, gap."""
-    what, leg, gap, first = NONE, -1, -1, 2.0
+def first_gap(legs: LegArrays | None) -> tuple[int, int]:
+    """What happens first in legs in a step that has been tried: what, and which gap."""
+    what, first_of_all, first = NONE, -1, 2.0
     if legs is None:
-        return what, leg, gap
-    for n in range(legs.gaps.shape[0]):
-        for k in range(legs.gaps.shape[1]):
-            side = legs.sides[n, k]
-            end, begin, near = legs.gaps[n, k] * side, legs.before[n, k] * side, met(k)
-            if side == 0.0:
-                continue
-            if end >= -near:
-                continue
-            jumped = min(legs.before[n, k], legs.gaps[n, k]) == OPEN  # where an inlet opens or closes
-            if begin <= near or jumped:
-                return AT_ONCE, n, k
-            at = begin / (begin - end)
-            if at < first:
-                what, leg, gap, first = GAP, n, k, at
-    return what, leg, gap
+        return what, first_of_all
+    for k in range(legs.gaps.size):
+        gap = legs.gaps[k]
+        end, begin = gap.now * gap.side, gap.before * gap.side
+        if gap.side == 0.0 or end >= -gap.near:
+            continue
+        jumped = min(gap.before, gap.now) == SHUT  # where an inlet opens or closes
+        if begin <= gap.near or jumped:
+            return AT_ONCE, k
+        at = begin / (begin - end)
+        if at < first:
+            what, first_of_all, first = GAP, k, at
+    return what, first_of_all
 
 
 @compiled
 def beyond_at(
-    scene: SceneArrays, legs: LegArrays, room: Scratch, n: int, k: int, t: float, h: float, x: float
+    scene: SceneArrays, legs: LegArrays, room: Scratch, k: int, t: float, h: float, x: float
 ) -> float:
-    """How far a gap of leg n is on the other side at a fraction x of a step of h [s] from t."""
+    """How far a gap is on the other side at a fraction x of a step of h [s] from t."""
     within(room.path, x, 0, room.probe.size, room.probe)
     close_joints(scene, t + x * h, room.probe, room.right)
     evaluate(scene, t + x * h, room.probe, room.slope, room.right)
-    return float(-legs.sides[n, k] * legs.gaps[n, k])
+    return float(-legs.gaps[k].side * legs.gaps[k].now)
 
 
 @compiled
@@ -91,19 +75,19 @@ def hidden_gap(scene: SceneArrays, legs: LegArrays | None, room: Scratch, t: flo
     found = 1.0
     if legs is None:
         return found
-    for n in range(legs.gaps.shape[0]):
-        for k in (YIELD, RELIEF):
-            jumps = legs.records[n].jumps if k == YIELD else legs.records[n].rod_jumps
-            end, begin = legs.gaps[n, k] * legs.sides[n, k], legs.before[n, k] * legs.sides[n, k]
-            most = legs.beyond[n, k]
-            if jumps == 0 or not end >= -met(k) or not max(begin, end) + 2.0 * most > 0.0:
-                continue
-            peak = StepPeak(-math.inf, 0.0, 0.0, 1.0)
-            for look in range(PEAK_LOOKS):
-                x = peak_place(peak, look)
-                peak = peak_with(peak, look, x, beyond_at(scene, legs, room, n, k, t, h, x))
-            found = min(found, peak.at if peak.top > met(k) else 1.0)
-            evaluate(scene, t + h, room.end, room.slope, room.right)
+    for k in range(legs.gaps.size):
+        gap = legs.gaps[k]
+        if gap.valve < 0 or legs.valves[gap.valve].jumps == 0:
+            continue
+        end, begin, most = gap.now * gap.side, gap.before * gap.side, gap.beyond
+        if not end >= -gap.near or not max(begin, end) + 2.0 * most > 0.0:
+            continue
+        peak = StepPeak(-math.inf, 0.0, 0.0, 1.0)
+        for look in range(PEAK_LOOKS):
+            x = peak_place(peak, look)
+            peak = peak_with(peak, look, x, beyond_at(scene, legs, room, k, t, h, x))
+        found = min(found, peak.at if peak.top > gap.near else 1.0)
+        evaluate(scene, t + h, room.end, room.slope, room.right)
     return found
 
 
@@ -112,7 +96,6 @@ def land_on_gap(
     scene: SceneArrays,
     legs: LegArrays | None,
     room: Scratch,
-    n: int,
     k: int,
     t: float,
     h: float,
@@ -120,38 +103,35 @@ def land_on_gap(
     weights: Vector,
     report: Vector,
 ) -> float:
-    """Make a step of h [s] again so that it ends where a gap of leg n passes zero; its length [s].
+    """Make a step of h [s] again so that it ends where a gap of a leg passes zero; its length [s].
 
     By false position, on the side that it passes to.
     """
     if legs is None:
         return h
-    bracket, length = Bracket(0.0, h, legs.before[n, k], legs.gaps[n, k]), h
+    bracket, length = Bracket(0.0, h, legs.gaps[k].before, legs.gaps[k].now), h
     for _ in range(LOOKS):
         length = zero_of(bracket)
         advance(scene, t, length, y, room.rates, room.end, weights, room.right)
         report[EVALUATIONS] += STAGES - 1
-        if abs(legs.gaps[n, k]) <= met(k):
+        if abs(legs.gaps[k].now) <= legs.gaps[k].near:
             break
-        bracket = narrowed(bracket, length, legs.gaps[n, k])
+        bracket = narrowed(bracket, length, legs.gaps[k].now)
     return length
 
 
 @compiled
-def pass_gap(legs: LegArrays | None, n: int, k: int, t: float, report: Vector) -> bool:
-    """A gap of leg n passes zero at t [s]: note it, change what a valve remembers; whether there is room."""
+def pass_gap(legs: LegArrays | None, room: Scratch, k: int, t: float) -> bool:
+    """A gap passes zero at t [s]: note it, change what a valve remembers; whether there is room."""
     if legs is None:
         return False
-    i = int(report[OIL_EVENTS])
-    if i >= legs.events.shape[0]:
+    i, gap = int(room.report[OIL_EVENTS]), legs.gaps[k]
+    if i >= room.oil_events.shape[0]:
         return False
-    legs.sides[n, k] = -legs.sides[n, k]
-    leg, opened = legs.records[n], 1.0 if legs.sides[n, k] > 0.0 else 0.0
-    if k == YIELD:
-        leg.open = opened
-    elif k == RELIEF:
-        leg.rod_open = opened
-    row = legs.events[i]
-    row[0], row[1], row[2], row[3] = t, n, k, legs.sides[n, k]
-    report[OIL_EVENTS] += 1
+    gap.side = -gap.side
+    if gap.valve >= 0:
+        legs.valves[gap.valve].memory = 1.0 if gap.side > 0.0 else 0.0
+    row = room.oil_events[i]
+    row[0], row[1], row[2] = t, k, gap.side
+    room.report[OIL_EVENTS] += 1
     return True

@@ -47,7 +47,6 @@ from support_exudyn.scene.arrays import (
 )
 from support_exudyn.scene.contract import Failure, Progress, SimulationError
 from support_exudyn.scene.hydraulics.fill import empty_legs
-from support_exudyn.scene.hydraulics.records import GAP_NAMES
 from support_exudyn.scene.limits import ENDS, past_ends
 from support_exudyn.scene.setup import Model, model_of
 from user_forces.contact_state import Onset
@@ -111,6 +110,7 @@ class _Run:
             forces=bool(needs(self.scenario) & (DataNeeds.ACCELERATION | DataNeeds.JOINTS)),
             nodes=np.empty((OF_STEP * self.at_once + 1 if self.statistics.wanted else 0, width)),
             onsets=np.empty((MOST_IMPACTS if model.contacts else 0, 5)),
+            oil_events=np.empty((MOST_OIL_EVENTS if model.legs.names else 0, 3)),
         )
 
     def go(self, progress: Progress) -> None:
@@ -217,12 +217,13 @@ def _outcome(going: _Run) -> Outcome:
 
 def _oil_events(going: _Run) -> dict[str, tuple[OilEvent, ...]]:
     """What happened in each leg with elements."""
-    names, legs = going.model.legs.names, going.model.scene.legs
-    if legs is None:
+    legs, arrays = going.model.legs, going.model.scene.legs
+    if arrays is None:
         return {}
-    found: dict[str, list[OilEvent]] = {name: [] for name in names if going.scenario.legs[name].elements}
-    for t, leg, gap, side in legs.events[: int(going.report[OIL_EVENTS])].tolist():
-        found[names[int(leg)]].append(OilEvent(t, GAP_NAMES[int(gap)], side > 0.0))
+    found: dict[str, list[OilEvent]] = {name: [] for name in legs.names if going.scenario.legs[name].elements}
+    for t, k, side in going.room.oil_events[: int(going.report[OIL_EVENTS])].tolist():
+        leg = legs.names[arrays.gaps[int(k)]["leg"]]
+        found[leg].append(OilEvent(t, legs.gaps[int(k)], side > 0.0))
     return {name: tuple(events) for name, events in found.items()}
 
 
@@ -248,7 +249,7 @@ def _failure(going: _Run) -> Failure:
         reason, advice = broken
     elif pressed := _pressed_through(going):
         reason, advice = pressed, ENDS
-    elif legs is not None and (empty := empty_legs(going.model.legs.names, legs.records)):
+    elif legs is not None and (empty := empty_legs(going.model.legs, legs)):
         reason, advice = empty, EMPTY
     elif singular := change_points.ended_at(scenario, going.y[:count]):
         reason, advice = singular, change_points.ADVICE

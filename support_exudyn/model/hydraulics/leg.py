@@ -13,24 +13,36 @@ e is the extension since the start, v its rate; F pushes the ends apart. Flows f
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import field
+from functools import cached_property
 from typing import ClassVar
 
 from support_exudyn.model.actuator_model import ActuatorModel
 from support_exudyn.model.hydraulics.elements import (
     ATMOSPHERE,
-    CheckValve,
     EndStops,
-    Line,
     SealFriction,
     SecondStage,
     Shared,
     TrappedAir,
-    YieldValve,
 )
 from support_exudyn.model.hydraulics.inlets import ClosedInlet, Inlet
+from support_exudyn.model.hydraulics.valves import (
+    NO_CHECK,
+    SMOOTH,
+    CheckValve,
+    LegValve,
+    Line,
+    Path,
+    Room,
+    YieldValve,
+    let_in,
+    pass_foot,
+)
+from user_forces.kernel import Formula
 from user_forces.values.units import (
     CubicMetres,
     CubicMetresPerSecond,
@@ -52,6 +64,21 @@ ELEMENTS = (  # fields of a leg that make it more than its oil
     "setting_pressure",
     "check_valve",
     "rod_relief",
+    "valves",
+)
+CHECK_OPEN = "check valve open"
+TAKEN = (
+    "piston",
+    "rod",
+    "tube",
+    "line",
+    "tank",
+    "supply",
+    "inlet",
+    "rod_inlet",
+    "yield_valve",
+    "rod_relief",
+    "foot",
 )
 
 
@@ -76,6 +103,7 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
         second_stage: the inner stage, if the leg is telescopic.
         setting_pressure: of the piston side at the start [Pa], > 0, with the tank's on the rod side; None: what
             carries the static load of the start posture with ideal pins.
+        valves: others, by name, see `LegValve`; what is recorded of them is named leg.valve.flow and so on.
     """
 
     extensive: ClassVar[tuple[str, ...]] = ("bore_area",)
@@ -91,6 +119,7 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
     end_stops: EndStops | None = None
     second_stage: SecondStage | None = None
     setting_pressure: Pascals[Positive] | None = None
+    valves: Mapping[str, LegValve] = field(default_factory=dict)
 
     @property
     def hydraulic(self) -> HydraulicLeg:
@@ -100,7 +129,49 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
     @property
     def elements(self) -> tuple[str, ...]:
         """Names of the fields that make it more than its oil."""
-        return tuple(name for name in ELEMENTS if getattr(self, name, None) is not None)
+        return tuple(name for name in ELEMENTS if getattr(self, name, None) not in (None, {}))
+
+    @property
+    def sources(self) -> dict[str, float]:
+        """Constant pressures that oil comes from or goes to [Pa], by name."""
+        return {"tank": 0.0}
+
+    @property
+    def check(self) -> tuple[float, ...]:
+        """Numbers of the check valve, see `CheckValve.numbers`."""
+        return NO_CHECK
+
+    @cached_property
+    def rooms(self) -> dict[str, Room]:
+        """Rooms of the leg by name."""
+        return self._rooms()
+
+    @cached_property
+    def paths(self) -> dict[str, Path]:
+        """Ways of the oil by name; of two that are recorded as the same flow the last one is."""
+        return self._paths()
+
+    def _rooms(self) -> dict[str, Room]:
+        found = {"piston": Room(self.bore_area * self.oil_length, self.bore_area, air=self.trapped_air)}
+        if (stage := self.second_stage) is not None:
+            found["tube"] = Room(stage.bore_area * stage.oil_length, -stage.bore_area, stage.bore_area)
+        of_valves = {"line": self.line, **self.valves}
+        return found | {name: valve.room for name, valve in of_valves.items() if valve and valve.room}
+
+    def _paths(self) -> dict[str, Path]:
+        found = {}
+        if (line := self.line) is not None:
+            path = line.path("line")._replace(flow="flow", passed="", loss="line_loss", event=CHECK_OPEN)
+            found["line"] = path._replace(formula=line.behind(self.check), joins=self.check == NO_CHECK)
+        if self.yield_valve is not None:
+            found["yield_valve"] = self.yield_valve.path("yield_valve")._replace(
+                flow="yield_flow", passed="yielded", loss="yield_loss", event="yield valve open"
+            )
+        if (stage := self.second_stage) is not None and self.end_stops is not None:
+            numbers = stage.nominal_flow / math.sqrt(stage.nominal_drop), SMOOTH * stage.nominal_drop
+            foot = Formula(pass_foot, (*numbers, self.end_stops.lowest, stage.release))
+            found["foot"] = Path(foot, "piston", "tube", loss="stage_loss")
+        return found | {name: valve.path(name) for name, valve in self.valves.items()}
 
     @abstractmethod
     def stiffness(self, extension: float) -> float:
@@ -119,6 +190,23 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
                 f"{where}.end_stops = None: allowed with a second stage: stops of the outer one, "
                 "whose lowest place releases the foot valve"
             )
+        self._check_valves(where)
+
+    def _check_valves(self, where: str) -> None:
+        """Raise InputError if a valve joins rooms that are not there, or has the name of another part."""
+        known = [*self.sources, *self.rooms]
+        for name, valve in self.valves.items():
+            if name in TAKEN or not name.isidentifier():
+                raise InputError(
+                    f"{where}.valves.{name}: allowed: a name of letters, none of {', '.join(TAKEN)}"
+                )
+            path = valve.path(name)
+            for end in (path.before, path.after):
+                if end not in known:
+                    raise InputError(
+                        f"{where}.valves.{name}: joins {end!r}, which the leg does not have; allowed: "
+                        f"{', '.join(known)}"
+                    )
 
 
 @value
@@ -247,6 +335,41 @@ class HydraulicCylinder(HydraulicLeg):
                     f"{where}.tank_pressure = {self.tank_pressure} Pa: oil would come in through {name}, which "
                     f"is open down to {valve.closes_at} Pa; allowed: at most that"
                 )
+
+    @property
+    def sources(self) -> dict[str, float]:
+        """Pressures of tank and pump [Pa]."""
+        return {"tank": self.tank_pressure, "supply": self.system_pressure}
+
+    @property
+    def check(self) -> tuple[float, ...]:
+        """Numbers of the check valve."""
+        return NO_CHECK if self.check_valve is None else self.check_valve.numbers
+
+    def _rooms(self) -> dict[str, Room]:
+        """The piston side with its hose, the rod side, which both stages share, and the others."""
+        others, stage = super()._rooms(), self.second_stage
+        piston = others.pop("piston")
+        area, length = (0.0, 0.0) if stage is None else (stage.rod_side_area, stage.rod_side_length)
+        volume = self.rod_side_area * self.rod_side_length + self.rod_side_hose_volume + area * length
+        rod = Room(volume, area - self.rod_side_area, -area)
+        return {"piston": piston._replace(volume=piston.volume + self.hose_volume), "rod": rod} | others
+
+    def _paths(self) -> dict[str, Path]:
+        """Both sides of the inlet, and the others."""
+        numbers = self.nominal_flow / math.sqrt(self.nominal_drop), SMOOTH * self.nominal_drop
+        there, check = ("piston", self.check) if self.line is None else ("line", NO_CHECK)
+        inlet = Path(
+            Formula(let_in, (*numbers, *check)), "supply", there, "tank",
+            flow="flow", passed="let_in", loss="valve_loss", event=CHECK_OPEN,
+        )  # fmt: skip
+        rod = inlet._replace(formula=Formula(let_in, (*numbers, *NO_CHECK)), flow="rod_flow")
+        found = {"inlet": inlet, "rod_inlet": rod._replace(before="tank", after="rod", back="supply")}
+        if self.rod_relief is not None:
+            found["rod_relief"] = self.rod_relief.path("rod_relief")._replace(
+                before="rod", flow="relief_flow", passed="relieved", loss="yield_loss", event="rod relief open"
+            )
+        return found | super()._paths()
 
     def stiffness(self, extension: float) -> float:
         """Stiffness of the closed chambers [N/m] at an extension since the start [m]."""

@@ -13,11 +13,10 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.scene.compilation import compiled, entry
-from support_exudyn.scene.hydraulics.leg import press_all, press_leg
-from support_exudyn.scene.hydraulics.records import Matrix, Records
+from support_exudyn.scene.hydraulics.leg import powers_of, press_all, press_leg
+from support_exudyn.scene.hydraulics.records import LegArrays, Matrix
 
 Places = npt.NDArray[np.int64]
-Watched = npt.NDArray[np.float64]  # (WATCHED, legs, GAPS)
 NEWTON_ROUNDS, HALVINGS = 60, 12  # of Newton's method; of a step of it that makes nothing better
 SHIFT = 1e-7  # of what a state is of, over which rates are differenced
 CONVERGED = 1e-10  # the same, by which a state changes in the last round: the next change would be its square
@@ -25,9 +24,6 @@ SOLVED = 1e-15  # the same, of the residual, with which there is nothing to solv
 AHEAD = 1e-5  # of a step, over which gaps are differenced
 # rows of what is known of the states: one over what each is of, values and rates at both ends, room
 WEIGHT, START, START_RATE, END, END_RATE, LATER, LATER_RATE, KNOWN = range(8)
-# what is known of each gap: its side of zero, how near to that rounding is, the gap and its rate at the start
-# of the step, its rate at the end
-SIDE, NEAR, BEFORE, RATE_BEFORE, RATE, WATCHED = range(6)
 
 
 @compiled
@@ -67,9 +63,7 @@ def eliminate(rows: Matrix) -> None:
 
 
 @compiled
-def linearise(
-    legs: Records, pumps: Records, gaps: Matrix, h: float, known: Matrix, places: Places, rows: Matrix
-) -> None:
+def linearise(legs: LegArrays, h: float, known: Matrix, places: Places, rows: Matrix) -> None:
     """Write 1 - h/2 df/dz into the columns of `rows` but the last, by differences."""
     m, y, slope = rows.shape[0], known[END], known[END_RATE]
     for i in range(m):
@@ -78,7 +72,7 @@ def linearise(
         kept = y[places[j]]
         y[places[j]] = kept + SHIFT / known[WEIGHT, places[j]]
         shift = y[places[j]] - kept
-        press_all(legs, pumps, gaps, y, slope)
+        press_all(legs, y, slope)
         y[places[j]] = kept
         for i in range(m):
             rate = (slope[places[i]] - rows[i, m]) / shift
@@ -88,16 +82,14 @@ def linearise(
 
 
 @compiled
-def advance_legs(
-    legs: Records, pumps: Records, gaps: Matrix, h: float, known: Matrix, places: Places, rows: Matrix
-) -> bool:
+def advance_legs(legs: LegArrays, h: float, known: Matrix, places: Places, rows: Matrix) -> bool:
     """Solve for the states of all legs, and of their pump, at the end of a step of h [s]; whether it converged.
 
     By Newton's method; where a whole step of it makes nothing better, by a part of it. With h = 0 the states
     are those of the start. Records have lengths, rates and inlets of the end, and take what follows.
 
     Arguments:
-        legs, pumps, gaps: see `press_all`.
+        legs: see `press_all`.
         known: shape (KNOWN, states); the rows END and END_RATE are written.
         places: of the m states that are solved for, then of the integrals.
         rows: room, shape (m, m + 1).
@@ -105,7 +97,7 @@ def advance_legs(
     m, y, slope = rows.shape[0], known[END], known[END_RATE]
     for i in range(y.size):
         y[i] = known[START, i]
-    press_all(legs, pumps, gaps, y, slope)
+    press_all(legs, y, slope)
     if h == 0.0:
         return True
     left = fill_residual(h, known, places, rows)
@@ -113,7 +105,7 @@ def advance_legs(
     for _ in range(NEWTON_ROUNDS):
         if converged:
             break
-        linearise(legs, pumps, gaps, h, known, places, rows)
+        linearise(legs, h, known, places, rows)
         fill_residual(h, known, places, rows)
         eliminate(rows)
         change = 0.0
@@ -123,7 +115,7 @@ def advance_legs(
             if not size <= change:
                 change = size
         converged, share = change <= CONVERGED, 1.0
-        press_all(legs, pumps, gaps, y, slope)
+        press_all(legs, y, slope)
         then = fill_residual(h, known, places, rows)
         for _ in range(HALVINGS):
             if converged or then < left:
@@ -131,7 +123,7 @@ def advance_legs(
             share *= 0.5
             for i in range(m):
                 y[places[i]] -= share * rows[i, 0]
-            press_all(legs, pumps, gaps, y, slope)
+            press_all(legs, y, slope)
             then = fill_residual(h, known, places, rows)
         left = then
     for i in range(m, y.size):
@@ -142,9 +134,7 @@ def advance_legs(
 
 @entry
 def pull_of_leg(
-    legs: Records,
-    pumps: Records,
-    gaps: Matrix,
+    legs: LegArrays,
     h: float,
     known: Matrix,
     places: Places,
@@ -158,86 +148,68 @@ def pull_of_leg(
     Arguments:
         length, rate: of the leg at the end of the step [m], [m/s]. Others: see `advance_legs`.
     """
-    legs[n].length, legs[n].rate = length, rate
-    if not advance_legs(legs, pumps, gaps, h, known, places, rows):
+    legs.records[n].length, legs.records[n].rate = length, rate
+    if not advance_legs(legs, h, known, places, rows):
         return math.nan
-    return float(-legs[n].force)
+    return float(-legs.records[n].force)
 
 
 @entry
-def passes_gap(legs: Records, pumps: Records, gaps: Matrix, h: float, known: Matrix, watched: Watched) -> bool:
+def passes_gap(legs: LegArrays, h: float, known: Matrix) -> bool:
     """Whether a gap may pass zero in a step of h [s] that has been solved; writes the rates of all gaps.
 
     A gap may pass zero if it is beyond at the end, or if it comes nearer at the start and leaves at the end.
-
-    Arguments:
-        legs, pumps, gaps: see `press_all`. known: see `advance_legs`.
-        watched: shape (WATCHED, legs, GAPS), of which RATE is written.
     """
     ahead = AHEAD * h
-    for n in range(legs.size):
-        legs[n].kept_length, legs[n].kept_inflow = legs[n].length, legs[n].inflow
-        legs[n].length += ahead * legs[n].rate
-        legs[n].inflow += ahead * legs[n].inflow_rate
+    for n in range(legs.records.size):
+        leg = legs.records[n]
+        leg.kept_length, leg.kept_inflow = leg.length, leg.inflow
+        leg.length += ahead * leg.rate
+        leg.inflow += ahead * leg.inflow_rate
     for i in range(known.shape[1]):
         known[LATER, i] = known[END, i] + ahead * known[END_RATE, i]
-    press_all(legs, pumps, gaps, known[LATER], known[LATER_RATE])
-    for n in range(legs.size):
-        legs[n].length, legs[n].inflow = legs[n].kept_length, legs[n].kept_inflow
-        for k in range(gaps.shape[1]):
-            watched[RATE, n, k] = gaps[n, k]
-    press_all(legs, pumps, gaps, known[END], known[END_RATE])
+    press_all(legs, known[LATER], known[LATER_RATE])
+    for n in range(legs.records.size):
+        leg = legs.records[n]
+        leg.length, leg.inflow = leg.kept_length, leg.kept_inflow
+    for k in range(legs.gaps.size):
+        legs.gaps[k].rate = legs.gaps[k].now
+    press_all(legs, known[END], known[END_RATE])
     passes = False
-    for n in range(legs.size):
-        for k in range(gaps.shape[1]):
-            side, gap = watched[SIDE, n, k], gaps[n, k]
-            rate = (watched[RATE, n, k] - gap) / ahead
-            watched[RATE, n, k] = rate
-            turns = side * watched[RATE_BEFORE, n, k] < 0.0 and side * rate > 0.0
-            passes = passes or (side != 0.0 and (-side * gap > watched[NEAR, n, k] or turns))
+    for k in range(legs.gaps.size):
+        gap = legs.gaps[k]
+        gap.rate = (gap.rate - gap.now) / ahead
+        turns = gap.side * gap.rate_before < 0.0 and gap.side * gap.rate > 0.0
+        passes = passes or (gap.side != 0.0 and (-gap.side * gap.now > gap.near or turns))
     return passes
 
 
 @entry
-def spring_of_leg(legs: Records, gaps: Matrix, known: Matrix, n: int, inflow: float) -> tuple[float, float]:
-    """Stiffness [N/m] and free length [m] of leg n, whose force is linear in its length and has no state.
+def spring_of_leg(legs: LegArrays, inflow: float, length: float, rate: float) -> tuple[float, float, float]:
+    """Stiffness [N/m] and free length [m] of the only leg, whose force is linear in its length, without states.
 
-    Evaluated at the length that the drive has given the leg, and at one longer by all of the oil's length.
+    Evaluated at the length that the drive has given the leg, and at one longer by all of the oil's length. And
+    the power [W] of the drive.
 
     Arguments:
-        legs, gaps: see `press_all`. known: see `advance_legs`. n: which leg.
-        inflow: that the drive has let in, as an extension [m].
+        legs: see `press_all`. inflow: that the drive has let in, as an extension [m].
+        length: of the leg [m]. rate: at which the drive lets oil in, as that of an extension [m/s].
     """
-    leg = legs[n]
-    leg.inflow, reach = inflow, leg.oil_length + inflow
-    leg.length = leg.length0 + leg.inflow
-    press_leg(legs, n, leg.supply, False, known[END], known[END_RATE], gaps[n])
-    force = leg.force
-    leg.length += reach
-    press_leg(legs, n, leg.supply, False, known[END], known[END_RATE], gaps[n])
-    stiffness = (force - leg.force) / reach
-    return float(stiffness), float(leg.length0 + leg.inflow + force / stiffness)
+    leg, still = legs.records[0], legs.numbers[:0]
+    leg.inflow, leg.inflow_rate = inflow, rate
+    reach = legs.chambers[leg.chamber + leg.chambers - 1].reference / leg.bore + inflow
+    forces = (0.0, 0.0)
+    for longer in (reach, 0.0):
+        leg.length = leg.length0 + inflow + longer
+        press_leg(legs, 0, still, still)
+        forces = (leg.force, forces[0])
+    stiffness = (forces[0] - forces[1]) / reach
+    leg.length = length
+    press_leg(legs, 0, still, still)
+    return float(stiffness), float(leg.length0 + inflow + forces[0] / stiffness), float(leg.work)
 
 
 @entry
-def power_of_spring(legs: Records, gaps: Matrix, known: Matrix, n: int, length: float, rate: float) -> float:
-    """Power [W] of the drive that lets oil into leg n, see `spring_of_leg`, at a length and a rate of inflow.
-
-    Arguments:
-        legs, gaps, known, n: see `spring_of_leg`. length: of the leg [m].
-        rate: at which the drive lets oil in, as that of an extension [m/s].
-    """
-    legs[n].length, legs[n].inflow_rate = length, rate
-    press_leg(legs, n, legs[n].supply, False, known[END], known[END_RATE], gaps[n])
-    return float(legs[n].work)
-
-
-@entry
-def powers_of_legs(legs: Records, pumps: Records) -> tuple[float, float, float]:
-    """Powers [W] as evaluated last: of what gives oil, taken by flows and dampers, and taken by seals."""
-    work = loss = friction = 0.0
-    for n in range(legs.size):
-        work, loss, friction = work + legs[n].work, loss + legs[n].loss, friction + legs[n].friction
-    for n in range(pumps.size):
-        work += pumps[n].work
-    return work, loss, friction
+def powers_of_legs(legs: LegArrays) -> tuple[float, float, float]:
+    """Powers as by `powers_of`, from Python."""
+    return powers_of(legs)

@@ -1,4 +1,4 @@
-"""Oil in a chamber: pressure, what it carries along, and the energy that it stores. Pressures are above p_a.
+"""Oil in a chamber: pressure, what the oil carries along, the energy that it stores. Pressures are above p_a.
 
 liquid volume:  W exp(-p/B) (LOG),  W - p V_ref/B (LINEAR)
 pressure p:     liquid volume + V_air (p_a/(p + p_a))^(1/n) = V
@@ -8,7 +8,7 @@ import math
 
 from support_exudyn.model.hydraulics.elements import ATMOSPHERE
 from support_exudyn.scene.compilation import compiled, inlined
-from support_exudyn.scene.hydraulics.records import LOG
+from support_exudyn.scene.hydraulics.records import LOG, Records
 
 ROUNDS = 60  # of Newton's method, which has found the pressure after some six
 FOUND = 1e-14  # share of the pressure that it changes no more by
@@ -60,79 +60,54 @@ def pressure_with_air(
     return float(p)
 
 
-@inlined
-def fill_chamber(
-    law: int,
-    oil: float,
-    volume: float,
-    reference: float,
-    modulus: float,
-    air: float,
-    exponent: float,
-    lowest: float,
-) -> tuple[float, float, float]:
-    """Pressure of a chamber if nothing boiled, its pressure [Pa], and the volume of its cavity [m^3].
+@compiled
+def fill_chamber(chambers: Records, c: int) -> float:
+    """Write pressure [Pa] and cavity [m^3] of a chamber, by its oil and volume; its pressure if nothing boiled.
 
+    And the weight, how much a volume of its oil counts as without pressure, over it, and the enthalpy, how much
+    energy its oil carries along per volume without pressure [J/m^3]: B (1 - exp(-p/B)), or p.
     No number where no room or no oil is left, see `fill.empty_legs`.
-
-    Arguments:
-        law, oil, reference, modulus, air, exponent: see `stored_in`. volume: of the chamber [m^3].
-        lowest: pressure at which the oil boils [Pa]; -inf: oil pulls.
     """
+    chamber = chambers[c]
+    law, oil, volume, span, modulus = chamber.law, chamber.oil, chamber.volume, chamber.span, chamber.modulus
+    chamber.cavity = 0.0
     if not (volume > 0.0 and oil > 0.0):
-        return math.nan, math.nan, 0.0
-    if air > 0.0:
-        p = pressure_with_air(law, oil, volume, reference, modulus, air, exponent)
+        p = math.nan
+    elif chamber.air > 0.0:
+        p = pressure_with_air(law, oil, volume, span, modulus, chamber.air, chamber.air_exponent)
     else:
-        p = liquid_pressure(law, oil, volume, reference, modulus)
-    if not p < lowest:
-        return p, p, 0.0
-    liquid = liquid_volume(law, oil, lowest, reference, modulus)
-    return p, lowest, volume - liquid - air_volume(air, exponent, lowest)
-
-
-@inlined
-def weight(law: int, pressure: float, modulus: float) -> float:
-    """What a volume of oil under pressure [Pa] counts as without pressure, over it."""
-    return math.exp(pressure / modulus) if law == LOG else 1.0
-
-
-@inlined
-def enthalpy(law: int, pressure: float, modulus: float) -> float:
-    """What oil under pressure [Pa] carries along [J/m^3], per volume without: B (1 - exp(-p/B)), or p."""
-    return -modulus * math.expm1(-pressure / modulus) if law == LOG else pressure
+        p = liquid_pressure(law, oil, volume, span, modulus)
+    chamber.pressure = p
+    if p < chamber.vapour:
+        chamber.pressure = chamber.vapour
+        liquid = liquid_volume(law, oil, chamber.vapour, span, modulus)
+        chamber.cavity = volume - liquid - air_volume(chamber.air, chamber.air_exponent, chamber.vapour)
+    if law == LOG:
+        chamber.weight = oil / volume
+        if chamber.air > 0.0 or chamber.cavity > 0.0:
+            chamber.weight = math.exp(chamber.pressure / modulus)
+        chamber.enthalpy = modulus * (1.0 - 1.0 / chamber.weight)
+    else:
+        chamber.enthalpy = chamber.pressure
+    return float(p)
 
 
 @compiled
-def stored_in(
-    law: int,
-    oil: float,
-    pressure: float,
-    reference: float,
-    modulus: float,
-    air: float,
-    exponent: float,
-    cavity: float,
-) -> float:
-    """Energy [J] stored in a chamber: in its liquid, its air, and in the cavity, which has been pulled open.
-
-    Arguments:
-        law: of the oil. oil: as its volume without pressure [m^3]. pressure: in the chamber [Pa].
-        reference: volume V_ref of a linear law [m^3]. modulus: B of the oil [Pa].
-        air: volume of trapped air without pressure [m^3]. exponent: of its change.
-        cavity: volume of the vapour [m^3].
-    """
-    if law == LOG:
+def stored_in(chambers: Records, c: int) -> float:
+    """Energy [J] stored in a chamber: in its liquid, its air, and in the cavity, which has been pulled open."""
+    chamber = chambers[c]
+    pressure, modulus, exponent = chamber.pressure, chamber.modulus, chamber.air_exponent
+    if chamber.law == LOG:
         strain = pressure / modulus
-        total = oil * modulus * (-math.expm1(-strain) - strain * math.exp(-strain))
+        total = chamber.oil * modulus * (-math.expm1(-strain) - strain * math.exp(-strain))
     else:
-        total = 0.5 * pressure * pressure * reference / modulus
-    if air > 0.0:
+        total = 0.5 * pressure * pressure * chamber.span / modulus
+    if chamber.air > 0.0:
         absolute = pressure + ATMOSPHERE
-        volume = air_volume(air, exponent, pressure)
+        volume = air_volume(chamber.air, exponent, pressure)
         if abs(exponent - 1.0) < 1e-9:
-            total += ATMOSPHERE * air * math.log(absolute / ATMOSPHERE)
+            total += ATMOSPHERE * chamber.air * math.log(absolute / ATMOSPHERE)
         else:
-            total += (absolute * volume - ATMOSPHERE * air) / (exponent - 1.0)
-        total += ATMOSPHERE * (volume - air)
-    return float(total - pressure * cavity)
+            total += (absolute * volume - ATMOSPHERE * chamber.air) / (exponent - 1.0)
+        total += ATMOSPHERE * (volume - chamber.air)
+    return float(total - pressure * chamber.cavity)

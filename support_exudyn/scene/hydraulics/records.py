@@ -1,104 +1,86 @@
-"""Legs and the pump as records of numbers, on which compiled functions work, and their states.
+"""Legs as records of numbers, on which compiled functions work: legs, chambers, valves, gaps, the pump.
 
-A leg with all elements has these states; what it does not have takes none, so that a plain column has none:
+A chamber, or a source of constant pressure, is a record of its own, and so is each valve between two of them.
+The records of a leg follow each other, and so do its states in y. Oil is counted as a pressure:
 
-    oil of the piston side | of the rod side | in the tube, the tube's way and speed | of the line |
-    poppet's s and its rate | integrals of flows and losses
+    state = (W - W at the start) / scale,   scale = V at the start / B
 
-Oil is counted as a pressure: state = (W - W at the start) / scale, scale = V at the start / B, so that it is of
-the size of what it changes. W is the volume that the oil has without pressure.
+so that it is of the size of what it changes. W is the volume that the oil has without pressure. Places of
+states and of integrals over time are -1 for none.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 F, N = np.float64, np.int64
 Records = npt.NDArray[np.void]
+Vector = npt.NDArray[np.float64]
 Matrix = npt.NDArray[np.float64]
 
-
-LOG, LINEAR = range(2)  # laws of the oil
-# integrals over time: what each element has taken [J], and the oil that has left through relief valves, and
-# come in by the inlet [m^3]
-(
-    VALVE_LOSS,
-    YIELD_LOSS,
-    LINE_LOSS,
-    SEAL_LOSS,
-    STOP_LOSS,
-    STAGE_LOSS,
-    VISCOUS_LOSS,
-    YIELDED,
-    RELIEVED,
-    LET_IN,
-    INTEGRALS,
-) = range(11)
+LOG, LINEAR, CONSTANT = range(3)  # laws of the oil; CONSTANT: of a source
 
 
-def _record(whole: str, numbers: str, places: int = 0) -> np.dtype[np.void]:
+def _record(whole: str, numbers: str, pairs: str = "") -> np.dtype[np.void]:
     fields = [(name, N) for name in whole.split()] + [(name, F) for name in numbers.split()]
-    return np.dtype([*fields, *([("integrals", N, (places,))] if places else [])])
+    return np.dtype([*fields, *((name, F, (2,)) for name in pairs.split())])
 
 
-# Whole: ends, course of inlet or drive; law of the oil; places of states in y, -1 for none; driven: a drive
-# lets the oil in; check: a check valve is there; hysteresis of both relief valves.
-# Then: what is known before the run, what relief valves remember, what is told and follows at an instant; last
-# the places of the integrals, -1 for none
+# Ends, course of inlet or drive; driven: a drive lets the oil in. From which chamber, valve and state to which
+# its own stand. stage: place of the tube's way, behind which its speed stands. Places of integrals.
+# Known before the run | the actuator's length, extension let in by a drive, their rates, the opening of the
+# inlet | what follows: travel of the outer stage and its rate; pilot: the pressure that the inlet has for the
+# rod side; direction from foot to head | stops of both stages
 LEG = _record(
-    "foot head course law state rod stage line poppet driven check jumps rod_jumps",
-    # oil and chambers
-    "length0 modulus vapour air air_exponent "
-    "bore oil_length hose oil0 scale rod_area rod_length rod_hose rod_oil0 rod_scale "
-    "bore2 oil_length2 oil02 scale2 rod_area2 rod_length2 "
-    "tube_mass tube_damping foot_factor foot_smooth release "
-    "line_volume line_oil0 line_scale line_resistance "
-    # inlet, check valve, relief valves
-    "supply tank flow_factor smooth pilot_ratio pilot_range cracking "
-    "opens closes slope rod_opens rod_closes rod_slope poppet_rate poppet_decay "
-    # seals and stops
-    "damping coulomb static stribeck transition "
-    "lowest highest stop stop_damping lowest2 highest2 stop2 stop_damping2 "
-    # memory
-    "open rod_open "
-    # what is told at an instant: the actuator's length, extension let in by a drive, and their rates; the inlet
+    "foot head course driven chamber chambers valve valves first states stage supply tank "
+    "viscous_loss seal_loss stop_loss stage_loss",
+    "bore length0 damping coulomb static stribeck transition tube_mass tube_damping "
     "length rate inflow inflow_rate opening "
-    # what follows
-    "force work loss friction drawn pressure rod_pressure pressure2 line_pressure "
-    "oil volume rod_oil rod_volume oil2 volume2 line_oil reference stopped kinetic "
-    "flow rod_flow yield_flow relief_flow cavity rod_cavity cavity2 line_cavity "
-    # direction from foot to head in the plane; what is put aside while gaps are differenced
-    "ux uy kept_length kept_inflow",
-    INTEGRALS,
+    "travel travel_rate pilot force work loss friction stopped kinetic ux uy kept_length kept_inflow",
+    "lowest highest stop stop_damping",
 )
-# the pump, with the places of its line's oil and of what it has given
-PUMP = _record("state", "flow pressure range volume modulus oil0 scale now given work")
+# law: of the oil. room: its volume at the start, that grows by travel of the outer stage and length of the leg.
+# reference: V_ref of a linear law. fed, grown: growth of oil and of V_ref by what a drive lets in. weight,
+# enthalpy: see `fill_chamber`; 1 and 0 of sources
+CHAMBER = _record(
+    "law state source",
+    "modulus vapour air air_exponent oil0 scale room by_travel by_length reference fed grown "
+    "oil volume span pressure cavity weight enthalpy",
+)
+# chambers before it, the same while the opening of the inlet is negative, and behind it; its states; integrals
+# of the oil that has passed and of losses; law: address of its action, with parameters from `constants` on.
+# jumps: its flow depends on its memory. joins: both chambers have the same pressure at rest
+VALVE = _record("before back after state states passed loss constants jumps joins", "law memory flow")
+# the pump; its line is a chamber. given: place of what it has given
+PUMP = _record("chamber given", "flow pressure range now work")
+# what passes zero where something happens: of all chambers, of all valves, then four of the stops of each leg.
+# valve: -1 of others. near: how near to zero it is met. rest: the side on which it is then at the start of a
+# run. now, and before, at the start of the step; side: of zero on which it is, 0 for a gap that is not there;
+# beyond: how far it has been on the other side within the step
+GAP = _record("leg valve", "near rest now before side beyond rate rate_before")
+STOPS = 4
+# first of all numbers is the room of the actions of valves: memory, then gap; states, then their rates; rest
+MEMORY, STATES = 0, 1
 
-# what passes zero where something happens
-(
-    CAVITY,
-    ROD_CAVITY,
-    CAVITY_2,
-    LINE_CAVITY,
-    YIELD,
-    RELIEF,
-    LOW,
-    HIGH,
-    LOW_2,
-    HIGH_2,
-    CHECK,
-    GAPS,
-) = range(12)
-# what each is called, and begins where its gap becomes positive; a cavity is there while its gap is negative
-GAP_NAMES = (
-    "piston side filled",
-    "rod side filled",
-    "tube filled",
-    "line filled",
-    "yield valve open",
-    "rod relief open",
-    "lower stop met",
-    "upper stop met",
-    "lower stop of the tube met",
-    "upper stop of the tube met",
-    "check valve open",
-)
+
+class LegArrays(NamedTuple):
+    """Hydraulic legs, and their pump if they have one; numbers: room of actions, and behind it parameters."""
+
+    records: Records
+    chambers: Records
+    valves: Records
+    pumps: Records
+    gaps: Records
+    numbers: Vector
+
+    def copies(self) -> "LegArrays":
+        """The same numbers in arrays of their own."""
+        return LegArrays(
+            self.records.copy(),
+            self.chambers.copy(),
+            self.valves.copy(),
+            self.pumps.copy(),
+            self.gaps.copy(),
+            self.numbers.copy(),
+        )

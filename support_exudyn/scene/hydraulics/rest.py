@@ -1,11 +1,11 @@
-"""Legs at rest, for a static equilibrium: oil stays inside, and tubes, lines and poppets come to rest."""
+"""Legs at the start of a run: on which side of zero their gaps are, and where they rest in an equilibrium."""
 
-from support_exudyn.mechanics.trajectory import Series
+import math
+
 from support_exudyn.scene.compilation import compiled, entry
-from support_exudyn.scene.hydraulics.flows import SEAT
-from support_exudyn.scene.hydraulics.gaps import MET_PRESSURE
-from support_exudyn.scene.hydraulics.leg import press_all
-from support_exudyn.scene.hydraulics.records import Matrix, Records
+from support_exudyn.scene.hydraulics.fill import MET_PRESSURE
+from support_exudyn.scene.hydraulics.leg import flow_through, press_all
+from support_exudyn.scene.hydraulics.records import MEMORY, STATES, LegArrays, Records, Vector
 
 ROUNDS = 40  # of Newton's method
 SHIFT = 1e-9  # [m] over which it is looked how the force on a tube changes
@@ -14,61 +14,92 @@ SHARE = 1e-6  # of the oil in a line, over which it is looked how pressures chan
 ROUNDINGS = 8.0  # of pressures
 
 
+@entry
+def begin_sides(gaps: Records, valves: Records) -> None:
+    """Write the side of zero on which each gap is, 0 for those that are not there.
+
+    A gap that is met just at the start is on the side on which nothing happens yet: valves closed, chambers
+    filled, stops free. So what happens from there on is told. A valve with hysteresis is as it remembers.
+    """
+    for k in range(gaps.size):
+        gap = gaps[k]
+        gap.side = 1.0 if gap.now > 0.0 else -1.0
+        if math.isnan(gap.now):
+            gap.side = 0.0
+        elif gap.valve >= 0 and valves[gap.valve].jumps != 0:
+            gap.side = 1.0 if valves[gap.valve].memory != 0.0 else -1.0
+        elif abs(gap.now) <= gap.near:
+            gap.side = gap.rest
+
+
 @compiled
-def rest_line(legs: Records, n: int, pumps: Records, gaps: Matrix, y: Series, slope: Series) -> None:
-    """Evaluate all legs with the pressure of a leg's line that of the leg, unless a check valve is between."""
-    leg = legs[n]
-    press_all(legs, pumps, gaps, y, slope)
-    if leg.line < 0 or leg.check != 0:
-        return
-    shift = SHARE * leg.line_scale * leg.modulus
+def join_rooms(legs: LegArrays, n: int, y: Vector, slope: Vector) -> None:
+    """Evaluate all legs with the same pressure before and behind those valves of a leg that join rooms."""
+    press_all(legs, y, slope)
+    leg = legs.records[n]
     for _ in range(ROUNDS):
-        drop = leg.line_pressure - leg.pressure
-        if not abs(drop) > ROUNDINGS * 2.2e-16 * (leg.modulus + abs(leg.pressure)):
-            break
-        before, line_before = y[leg.state], y[leg.line]
-        y[leg.state], y[leg.line] = before + shift / leg.scale, line_before - shift / leg.line_scale
-        press_all(legs, pumps, gaps, y, slope)
-        fall = drop - (leg.line_pressure - leg.pressure)
-        moved = shift * drop / fall if fall > 0.0 else 0.0
-        y[leg.state], y[leg.line] = before + moved / leg.scale, line_before - moved / leg.line_scale
-        press_all(legs, pumps, gaps, y, slope)
-        if not fall > 0.0:
+        moves = False
+        for k in range(leg.valve, leg.valve + leg.valves):
+            valve = legs.valves[k]
+            if valve.joins != 0:
+                moves = join(legs, k, y, slope) or moves
+        if not moves:
             break
 
 
 @compiled
-def rest_tube(legs: Records, n: int, pumps: Records, gaps: Matrix, y: Series, slope: Series) -> None:
+def join(legs: LegArrays, k: int, y: Vector, slope: Vector) -> bool:
+    """Let oil through a valve that joins two rooms, by a step of Newton's method; whether oil has moved."""
+    first, second = legs.chambers[legs.valves[k].before], legs.chambers[legs.valves[k].after]
+    drop = first.pressure - second.pressure
+    if not abs(drop) > ROUNDINGS * 2.2e-16 * (second.modulus + abs(second.pressure)):
+        return False
+    shift = SHARE * min(first.scale, second.scale) * first.modulus
+    before, after = y[first.state], y[second.state]
+    y[first.state], y[second.state] = before - shift / first.scale, after + shift / second.scale
+    press_all(legs, y, slope)
+    fall = drop - (first.pressure - second.pressure)
+    moved = shift * drop / fall if fall > 0.0 else 0.0
+    y[first.state], y[second.state] = before - moved / first.scale, after + moved / second.scale
+    press_all(legs, y, slope)
+    return bool(fall > 0.0)
+
+
+@compiled
+def rest_tube(legs: LegArrays, n: int, y: Vector, slope: Vector) -> None:
     """Evaluate all legs with the tube of a leg of two stages where nothing pushes it, by Newton's method."""
-    place = legs[n].stage + 1
+    place = legs.records[n].stage
     y[place + 1] = 0.0
     for _ in range(ROUNDS):
-        rest_line(legs, n, pumps, gaps, y, slope)
+        join_rooms(legs, n, y, slope)
         pushed = slope[place + 1]
         y[place] += SHIFT
-        rest_line(legs, n, pumps, gaps, y, slope)
+        join_rooms(legs, n, y, slope)
         rise = (slope[place + 1] - pushed) / SHIFT
         y[place] -= SHIFT
         step = -pushed / rise if rise < 0.0 else 0.0
         y[place] += step
-        rest_line(legs, n, pumps, gaps, y, slope)
+        join_rooms(legs, n, y, slope)
         if not abs(step) > FOUND:
             break
 
 
 @entry
-def rest_legs(legs: Records, pumps: Records, gaps: Matrix, y: Series, slope: Series) -> None:
+def rest_legs(legs: LegArrays, y: Vector, slope: Vector) -> None:
     """Let all legs rest at the lengths that their records tell, and evaluate them there, see `press_all`."""
-    for n in range(legs.size):
-        leg = legs[n]
+    for n in range(legs.records.size):
+        leg = legs.records[n]
         leg.rate = 0.0
         if leg.stage >= 0:
-            rest_tube(legs, n, pumps, gaps, y, slope)
+            rest_tube(legs, n, y, slope)
         else:
-            rest_line(legs, n, pumps, gaps, y, slope)
-        leg.open = 1.0 if leg.pressure > leg.opens + MET_PRESSURE else 0.0
-        leg.rod_open = 1.0 if leg.rod_pressure > leg.rod_opens + MET_PRESSURE else 0.0
-        if leg.poppet >= 0:
-            above = leg.pressure - leg.opens
-            y[leg.poppet], y[leg.poppet + 1] = above if above > 0.0 else above / SEAT, 0.0
-    press_all(legs, pumps, gaps, y, slope)
+            join_rooms(legs, n, y, slope)
+        for k in range(leg.valve, leg.valve + leg.valves):
+            valve = legs.valves[k]
+            valve.memory = 0.0
+            flow_through(legs, n, k, y)
+            if valve.jumps != 0 and legs.numbers[MEMORY] > MET_PRESSURE:
+                valve.memory = 1.0
+            for i in range(valve.states):
+                y[valve.state + i] = legs.numbers[STATES + valve.states + i]
+    press_all(legs, y, slope)

@@ -17,7 +17,7 @@ from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.hydraulics.elements import PumpStation
 from support_exudyn.model.hydraulics.inlets import Inlet
 from support_exudyn.scene.hydraulics.fill import Legs, empty_legs, fill_legs
-from support_exudyn.scene.hydraulics.implicit import KNOWN, power_of_spring, spring_of_leg
+from support_exudyn.scene.hydraulics.implicit import spring_of_leg
 from support_exudyn.scene.hydraulics.series import INPUTS, leg_series
 
 INITIAL = exudyn.ConfigurationType.Initial
@@ -32,25 +32,24 @@ class LegSpring:
 
     def __init__(self, item: LegItem) -> None:
         self._mbs, self.item = item.mbs, item
-        legs = fill_legs([item.preloaded], None, 0)
-        self._leg = legs.records, legs.gaps, np.zeros((KNOWN, 0))
+        self._leg = fill_legs([item.preloaded], None, 0).arrays
         self._supply = Supply(math.nan, 0.0, 0.0)  # that the engine's spring has
 
     def let_in(self, supply: Supply) -> None:
         """Let a drive let so much oil into the leg."""
         before, self._supply = self._supply, supply
         if supply.inflow != before.inflow:
-            stiffness, length = spring_of_leg(*self._leg, 0, supply.inflow)
+            stiffness, length, _ = spring_of_leg(self._leg, supply.inflow, 0.0, 0.0)
             self._mbs.SetObjectParameter(self.item.object, "stiffness", stiffness)
             self._mbs.SetObjectParameter(self.item.object, "referenceLength", length)
 
     def power(self) -> float:
         """Power of the drive now [W]."""
-        rate = self._supply.inflow_rate
+        inflow, rate, _ = self._supply
         if rate == 0.0:
             return 0.0
         length = self._mbs.GetObjectOutput(self.item.object, OUTPUT.Distance)
-        return float(power_of_spring(*self._leg, 0, length, rate))
+        return float(spring_of_leg(self._leg, inflow, length, rate)[2])
 
 
 class EngineLegs:
@@ -191,7 +190,7 @@ class EngineLegs:
     def empty(self) -> str:
         """Which leg has no room or no oil left, in words; empty if none."""
         for circuit in self.circuits:
-            if said := empty_legs([item.preloaded.name for item in circuit.items], circuit.records):
+            if said := empty_legs(circuit.legs, circuit.arrays):
                 return said
         return ""
 

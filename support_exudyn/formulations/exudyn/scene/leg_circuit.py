@@ -36,7 +36,6 @@ from support_exudyn.scene.hydraulics.implicit import (
     pull_of_leg,
 )
 from support_exudyn.scene.hydraulics.leg import evaluate_legs
-from support_exudyn.scene.hydraulics.records import RELIEF, YIELD
 from support_exudyn.scene.hydraulics.rest import rest_legs
 from support_exudyn.scene.hydraulics.series import INPUTS
 from user_forces.lawful import LawError
@@ -125,15 +124,15 @@ class LegCircuit:
 
     def __init__(self, items: Sequence[LegItem], pump: PumpStation | None, weight: float) -> None:
         self.items = tuple(items)
-        legs = fill_legs([item.preloaded for item in items], pump, 0)
-        self.records, self.pumps, self.gaps = legs.records, legs.pumps, legs.gaps
+        self.legs = legs = fill_legs([item.preloaded for item in items], pump, 0)
+        self.arrays, self.records = legs.arrays, legs.records
         self.known = np.zeros((KNOWN, legs.states))
         self.known[WEIGHT], self.known[START], self.known[END] = 1.0, legs.start, legs.start
         weigh_states(legs, self.known[WEIGHT], weight / float(legs.records["bore"].max()), ENERGY, PLAY)
         integrals = np.zeros(legs.states, bool)
-        integrals[[place for record in legs.records for place in record["integrals"] if place >= 0]] = True
-        for one in legs.pumps:
-            integrals[one["state"] + 1] = True
+        for places in legs.places:
+            integrals[[*places.oil.values(), *places.losses.values()]] = True
+        integrals[legs.arrays.pumps["given"]] = True
         self._places = np.concatenate([np.flatnonzero(~integrals), np.flatnonzero(integrals)])
         free = int((~integrals).sum())
         self._rows = np.empty((free, free + 1))
@@ -152,7 +151,7 @@ class LegCircuit:
                 self._tell()
             if self.settles:
                 self.records[n]["length"], self.records[n]["rate"] = start + stretch, rate
-                rest_legs(self.records, self.pumps, self.gaps, self.known[START], self.known[END_RATE])
+                rest_legs(self.arrays, self.known[START], self.known[END_RATE])
                 return -float(self.records[n]["force"])
             return self._solve(n, start + stretch, rate)
 
@@ -160,12 +159,7 @@ class LegCircuit:
 
     def _solve(self, n: int, length: float, rate: float) -> float:
         """Force of leg n that pulls its ends together [N], with the states at the end of the step."""
-        return float(
-            pull_of_leg(
-                self.records, self.pumps, self.gaps, self.step, self.known, self._places, self._rows,
-                n, length, rate,
-            )
-        )  # fmt: skip
+        return float(pull_of_leg(self.arrays, self.step, self.known, self._places, self._rows, n, length, rate))
 
     def let_in(self, n: int, supply: Supply) -> None:
         """Let a drive or an inlet let so much oil into leg n."""
@@ -208,18 +202,18 @@ class LegCircuit:
 
     def _evaluate(self) -> None:
         known = self.known
-        evaluate_legs(self.records, self.pumps, self.gaps, known[START], known[START_RATE])
+        evaluate_legs(self.arrays, known[START], known[START_RATE])
         known[END], known[END_RATE] = known[START], known[START_RATE]
 
-    def pass_gap(self, n: int, k: int, positive: bool) -> None:
-        """A gap of a leg has passed zero; valves remember."""
-        if k in (YIELD, RELIEF):
-            self.records[n]["open" if k == YIELD else "rod_open"] = float(positive)
+    def pass_gap(self, k: int, positive: bool) -> None:
+        """A gap has passed zero; valves remember."""
+        if (valve := self.arrays.gaps[k]["valve"]) >= 0:
+            self.arrays.valves[valve]["memory"] = float(positive)
 
-    def jumps(self, n: int, k: int) -> bool:
+    def jumps(self, k: int) -> bool:
         """Whether a gap is that of a valve with hysteresis."""
-        record = self.records[n]
-        return bool((k == YIELD and record["jumps"]) or (k == RELIEF and record["rod_jumps"]))
+        valve = self.arrays.gaps[k]["valve"]
+        return bool(valve >= 0 and self.arrays.valves[valve]["jumps"])
 
     def states(self) -> bytes:
         """States at the end of the last step, as bytes."""
@@ -232,5 +226,5 @@ class LegCircuit:
 
     def powers(self) -> tuple[float, float, float]:
         """Power [W] of pump, drive and tank, of what is lost in flows and dampers, and of seals, now."""
-        work, loss, friction = powers_of_legs(self.records, self.pumps)
+        work, loss, friction = powers_of_legs(self.arrays)
         return work, loss, friction

@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from support_exudyn import Held, RampedOpening, Result, Scenario, SolverSettings, simulate
-from support_exudyn.model.hydraulics.elements import CheckValve, EndStops, YieldValve
-from tests.cases.cylinder_cases import Ram, opened
+from support_exudyn.model.hydraulics.elements import EndStops
+from support_exudyn.model.hydraulics.valves import CheckValve, YieldValve
+from tests.cases.cylinder_cases import opened
 from tests.formulations.hydraulics import leg_cases
 
 CYLINDER = opened(RampedOpening(start=0.02, end=0.15, ramp=0.02, extent=1.0), damping=5e4)
-CHANNELS = ("jack.length", "ram.velocity_y", "jack.pressure", "jack.rod_pressure")
+CHANNELS = ("leg0.length", "mass0.velocity_y", "leg0.pressure", "leg0.rod_pressure")
 YIELDS = YieldValve(opening_pressure=3e6, rated_flow=2e-2, rated_overpressure=1e6)
 CASES = {
     "plain": CYLINDER,
@@ -34,8 +35,8 @@ def lift(name: str, formulation: str, step: float = 4e-4) -> Result:
     settings = SolverSettings(tolerance=1e-9) if formulation == "compiled" else SolverSettings()
     return simulate(
         Scenario(
-            machine=Ram(),
-            actuators={"jack": CASES[name]},
+            machine=leg_cases.Uprights(),
+            actuators={"leg0": CASES[name]},
             drive=DRIVES.get(name, Held()),
             duration=0.3,
             step=step,
@@ -60,7 +61,7 @@ def test_legs_are_those_of_the_compiled_formulation_to_second_order(name: str) -
     assert error(fine, wanted) < 1e-3
     assert 3.3 < error(coarse, wanted) / error(fine, wanted) < 4.7
     if name not in QUIET:
-        events, known = fine.oil_events["jack"], wanted.oil_events["jack"]
+        events, known = fine.oil_events["leg0"], wanted.oil_events["leg0"]
         assert known
         assert [one[1:] for one in events] == [one[1:] for one in known]
         np.testing.assert_allclose([e.time for e in events], [e.time for e in known], atol=2e-5)

@@ -1,0 +1,196 @@
+"""Oil columns and hydraulic cylinders in machines, against closed forms, rigid actuators and balances."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from support_exudyn import (
+    CubicStep,
+    Drive,
+    Held,
+    Inlet,
+    OilColumn,
+    RampedOpening,
+    Result,
+    RigidActuator,
+    Roof,
+    Scenario,
+    SimulationError,
+    SuddenOpening,
+    UniformSpeed,
+    bore_area,
+    simulate,
+)
+from tests.cases.cylinder_cases import lift, on_cylinders, opened
+from tests.cases.run_cases import FORCE, loose_support, support
+from tests.formulations.hydraulics.leg_cases import LENGTH, Uprights
+from user_forces import value
+
+MASS, GRAVITY = 3000.0, 9.81
+AREA = bore_area(0.25, number=2)
+OIL = OilColumn(bore_area=AREA, oil_length=0.5, bulk_modulus=1.5e9)
+BOTH = {"front_column": OIL, "rear_column": OIL}
+ONE_OF_OIL = {"front_column": OIL, "rear_column": RigidActuator()}
+
+
+def pushed(oil: OilColumn, drive: Drive, step: float = 1e-4, duration: float = 0.3) -> Result:
+    return simulate(
+        Scenario(
+            machine=Uprights(masses=(MASS,)),
+            actuators={"leg0": oil},
+            drive=drive,
+            duration=duration,
+            step=step,
+            record_period=1e-3,
+        )
+    )
+
+
+def test_a_machine_on_oil_stays_where_it_is() -> None:
+    result = pushed(OIL, Held())
+    assert (result.counts.steps, result.counts.failed_newton) == (3000, 0)  # there is nothing to fail on
+    # rounding of a length of 1.6 m; the load of 29 kN compresses the oil by 0.1 mm
+    np.testing.assert_allclose(result["mass0.y"], LENGTH, atol=1e-12)
+    np.testing.assert_allclose(result["leg0.force"], MASS * GRAVITY, rtol=1e-9)
+    # the whole support too, with ideal pins: its static forces are a linear solve
+    still = simulate(support(actuators=BOTH, drive=Held(), duration=0.2))
+    np.testing.assert_allclose(still[FORCE], 58778.944, rtol=1e-6)  # as printed in the reference
+
+
+def test_a_machine_with_closed_valves_stays_where_it_is() -> None:
+    result = simulate(on_cylinders(False, duration=1.0))
+    for name in ("front_column", "rear_column"):
+        # rounding of a length of 1.6 m, over a second; 1e-9 m was asked for
+        assert np.ptp(result[f"{name}.length"]) < 1e-12
+        assert np.ptp(result[f"{name}.pressure"]) < 1.0  # [Pa]
+    np.testing.assert_allclose(result[FORCE], 58778.944, rtol=1e-6)  # as with rigid actuators
+    settled = simulate(on_cylinders(True, start="settled", duration=0.3))
+    # the journal has sunk, and pressures have changed with the posture
+    assert np.ptp(settled["rear_column.length"]) < 1e-10
+    assert settled["rear_column.pressure"][0] != pytest.approx(result["rear_column.pressure"][0], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("bore", "length", "published"), [(0.4, 3.0, 16.8), (0.5, 3.0, 26.2), (0.5, 3.55, 22.2), (0.6, 4.5, 25.1)]
+)
+def test_the_published_stiffness_of_four_shields_follows_from_one_bulk_modulus(
+    bore: float, length: float, published: float
+) -> None:
+    legs = OilColumn(bore_area=bore_area(bore, number=2), oil_length=length, bulk_modulus=1.96e9)
+    assert legs.stiffness(0.0) / (1e3 * 9.81 / 1e-3) == pytest.approx(published, rel=5e-3)  # t/mm
+
+
+def test_a_sudden_start_follows_the_closed_form_of_an_oscillator() -> None:
+    # so long a cushion that its stiffness stays 1e8 N/m while 2.5 mm are let in
+    oil = OilColumn(bore_area=1.0, oil_length=2000.0, bulk_modulus=2e11)
+    w = math.sqrt(1e8 / MASS)
+    speed = 0.01
+    result = pushed(oil, UniformSpeed(stroke=speed, start=0.05, end=1.05), step=5e-5)
+    t = result.time - 0.05
+    # u'' + w^2 u = 0, u(0) = 0, u'(0) = speed
+    expected = MASS * GRAVITY + np.where(t > 1e-9, 1e8 * speed / w * np.sin(w * t), 0.0)
+    # second order: 180 rad/s and 5e-5 s leave 4e-4, most of it as phase after 0.25 s
+    largest = np.abs(expected - MASS * GRAVITY).max()
+    np.testing.assert_allclose(result["leg0.force"], expected, atol=1e-3 * largest)
+    assert result.impulses == ()
+
+
+def test_stiffer_oil_tends_to_rigid_actuators_with_order_one() -> None:
+    drive = CubicStep(start=0.05, end=0.55, stroke=0.1)
+    rigid = simulate(support(drive=drive, duration=0.3))
+
+    def off(stiffer: float) -> float:
+        oil = replace(OIL, bulk_modulus=stiffer * OIL.bulk_modulus)
+        soft = simulate(support(actuators=dict.fromkeys(BOTH, oil), drive=drive, duration=0.3, step=2.5e-4))
+        late = rigid.time > 0.2  # over some vibrations of the start, which nothing damps
+        return abs(float((soft["tip.y"] - rigid["tip.y"])[late].mean()))
+
+    # compliance is what moves: ten times stiffer, ten times nearer; 5 % for what vibrates
+    assert off(10.0) / off(100.0) == pytest.approx(10.0, rel=0.05)
+
+
+def test_energy_adds_up_where_one_column_is_of_oil() -> None:
+    drive = UniformSpeed(start=0.1, end=2.1)
+    result = simulate(loose_support(drive=drive, actuators=ONE_OF_OIL, duration=0.3, step=6.25e-5))
+    # the journal's fall and the sudden start make the oil vibrate at 40 Hz, which generalised alpha damps a
+    # little between impacts: 6e-4 at this step
+    assert result.energy_error < 1e-3 * result.dissipated
+    # the rigid one alone is struck
+    assert [sorted(impulse.actuators) for impulse in result.impulses] == [["rear_column"]]
+
+
+def test_energy_adds_up_over_a_stroke_that_halves_the_stiffness() -> None:
+    coarse, fine = (
+        pushed(OIL, CubicStep(stroke=0.5, start=0.0, end=0.25), step=step) for step in (1.25e-4, 6.25e-5)
+    )
+    # second order, of 15 kJ of work; what the oil gives back as there is more of it is 3 J
+    assert fine.energy_error < 1e-5 * fine["energy.work"][-1]
+    assert fine.energy_error < 0.35 * coarse.energy_error
+    assert fine["leg0.length"][-1] == pytest.approx(LENGTH + 0.5, abs=1e-3)
+
+
+def test_energy_adds_up_with_loose_pins_and_valves() -> None:
+    scenario = on_cylinders(True, RampedOpening(start=0.1, end=0.3, ramp=0.1), duration=0.35)
+    scenario = replace(scenario, solver=replace(scenario.solver, impact_steps=64))
+    coarse, fine = (simulate(scenario.refined(n)) for n in (1, 2))
+    # the valves turn 100 kJ into heat; impacts and pressures follow to second order
+    assert fine.energy_error < 1e-4 * fine["energy.damping_loss"][-1]
+    assert fine.energy_error < 0.6 * coarse.energy_error
+    assert fine["rear_column.pressure"].max() == pytest.approx(coarse["rear_column.pressure"].max(), rel=0.02)
+
+
+def test_a_ram_is_set_against_a_roof_with_the_pressure_of_the_pump() -> None:
+    # flow ends where the root is steepest: pressure drops of the open valve become zero on both sides
+    roof = Roof(body="mass0", point=(0.0, LENGTH), gap=0.03, stiffness=1e9, descent=Held(), damping=1e-3)
+    cylinder = opened(SuddenOpening(start=0.05, end=2.0), damping=5e4)
+    scenario = Scenario(
+        machine=Uprights(),
+        loads={"roof": roof},
+        actuators={"leg0": cylinder},
+        drive=Held(),
+        duration=1.0,
+        step=5e-4,
+    )
+    result = simulate(scenario)
+    # the trapezoidal rule hops about the end by the flow of a step, some 100 Pa
+    assert result["leg0.pressure"][-1] == pytest.approx(31.5e6, abs=1e3)
+    assert result["leg0.rod_pressure"][-1] == pytest.approx(0.5e6, abs=1e3)
+    assert result["leg0.force"][-1] == pytest.approx(31.5e6 * 0.098 - 0.5e6 * 0.03, rel=1e-4)
+    assert result.energy_error < 1e-4 * result["energy.work"][-1]
+
+
+def test_a_piston_at_the_end_of_its_cylinder_stops_the_run() -> None:
+    cylinder = opened(SuddenOpening(start=0.0, end=0.4), rod_side_length=0.05)
+    with pytest.raises(SimulationError, match=r"leg0 is extended by 0\.05.*allowed: -0\.5 to 0\.05 m"):
+        lift(cylinder, duration=0.5)
+
+
+@value
+class Swelling(Inlet):
+    """A valve that opens along a sine and has no break at all."""
+
+    frequency: float
+
+    def opening(self, t: float) -> float:
+        return 0.5 * math.sin(2.0 * math.pi * self.frequency * t)
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        return ()
+
+    @property
+    def shortest_time(self) -> float:
+        return 1.0 / self.frequency
+
+
+def test_a_valve_without_breaks_is_followed() -> None:
+    result = lift(opened(Swelling(frequency=1.0), damping=1e5), duration=0.5)
+    moved = result["leg0.length"] - result["leg0.length"][0]
+    # no oil is lost: what has flowed in stands under the piston, but for its compression of 1e-3
+    flowed = np.trapezoid(result["leg0.flow"], result.time)
+    assert moved[-1] == pytest.approx(flowed / 0.098, rel=0.01)
+    assert moved[-1] > 0.05
