@@ -206,7 +206,7 @@ def test_scenarios_are_read_as_they_were_written(data: st.DataObject) -> None:
         (TOP + "[drive]\nstroke_mm = 3", "a.toml: drive: says no mode, table or type; allowed: mode = 1 or 2"),
         (
             TOP + "drive.mode = 2\ndrive.stroke_mm = 5000",
-            "a.toml: drives.rear_column: rear_column cannot",
+            "a.toml: drives.front_column and drives.rear_column: front_column and rear_column cannot follow",
         ),
         (TOP + "drive.table = 'no.csv'", "a.toml: drive.table = 'no.csv': allowed: a file that can be read"),
         (TOP + "channels = ['tip.z']", "a.toml: channels = 'tip.z'"),

@@ -119,10 +119,11 @@ class ContactConnector:
 
         inverse_mass: of the journal in that state.
 
-        Surfaces that approach and touch within rounding are separated, so that their impact is located.
+        Surfaces that touch within rounding are separated if they approach, so that their impact is located, and
+        closed otherwise: a journal that is put on its bore at rest has no impact.
         """
         depth, rate, slip, *_ = self.observe(state)
-        closed = depth > (STILL if rate > 0.0 else 0.0)
+        closed = depth > (STILL if rate > 0.0 else -STILL)
         speed = max(0.0, rate) if closed else 0.0
         self.kept = self.reached = PinMemory(closed, speed, depth, rate, slip)
         self._swing_step, self._size, self._went_on_from = math.inf, 0.0, None
