@@ -119,7 +119,7 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
     end_stops: EndStops | None = None
     second_stage: SecondStage | None = None
     setting_pressure: Pascals[Positive] | None = None
-    valves: Mapping[str, LegValve] = field(default_factory=dict)
+    valves: Mapping[str, LegValve] = field(default_factory=dict, hash=False)  # a table has no hash
 
     @property
     def hydraulic(self) -> HydraulicLeg:
