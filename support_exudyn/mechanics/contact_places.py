@@ -180,7 +180,7 @@ class ContactPlace:
         return [(c, s, 0.0)[:dimensions], (-s, c, 0.0)[:dimensions]]
 
     def in_space(self, lateral: float) -> ContactPlace:
-        """The same face of a block, so far to the right [m]."""
+        """Return the same contact place at a lateral distance [m] from the middle plane."""
         ends: dict[str, Any] = {end: at(getattr(self, end), lateral) for end in ("bore_point", "journal_point")}
         return replace(self, **ends)
 

@@ -91,7 +91,7 @@ class Pose:
 
     @cached_property
     def velocity(self) -> Series:
-        """Of the centre of mass (n, 3) [m/s]."""
+        """Velocity of the centre of mass [m/s], shape (n, 3)."""
         return self._columns("velocity_x", "velocity_y", "velocity_z")
 
     @cached_property

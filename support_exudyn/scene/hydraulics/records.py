@@ -75,7 +75,7 @@ class LegArrays(NamedTuple):
     numbers: Vector
 
     def copies(self) -> "LegArrays":
-        """The same numbers in arrays of their own."""
+        """Return a copy in which a run may change all arrays."""
         return LegArrays(
             self.records.copy(),
             self.chambers.copy(),
