@@ -1,4 +1,4 @@
-"""How fast is the program beside others, and how wrong is each for what it costs? About six minutes.
+"""How fast is the program, compared with others, and how large is its error? About six minutes.
 
 A row of the table is: name, work, program, the program that it is compared with, ratio. Both sides of a row
 are timed in turns in this process; the ratio is the median of the turns' ratios. Rows against the programs of

@@ -250,7 +250,7 @@ def key(sample: Sample) -> str:
 
 @cache
 def _own_sources() -> str:
-    """Digest of the sources of all studies, and of the data beside them."""
+    """Digest of the sources of all studies, and of their data."""
     digest, root = hashlib.sha256(), Path(studies.__path__[0])
     for path in sorted([*root.rglob("*.py"), *root.rglob("*.toml")]):
         digest.update(path.read_bytes())

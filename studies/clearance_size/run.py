@@ -112,7 +112,7 @@ def measure(subject: Subject, results: Mapping[str, Result]) -> list[Number]:
 
 
 def of_paper(name: str, case: str) -> float | None:
-    """The printed value; the paper's friction is not known, so it stands beside the cases with friction."""
+    """The printed value; the paper's friction is not known, so it stands with the cases that have friction."""
     tables = {
         "mean_pin_force": paper_machine.MEAN_FORCE,
         "std_pin_force": paper_machine.FORCE_SPREAD,

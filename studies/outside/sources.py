@@ -47,7 +47,7 @@ class OutsideCase:
 
 @dataclass(frozen=True)
 class ComparedNumber:
-    """A number of a case beside ours.
+    """A number of a case with ours.
 
     what, unit. theirs, their_error: of the source. ours, our_error: as runs of twice the steps tell it.
     allowed: by how much ours may be off, in the unit.
@@ -78,7 +78,7 @@ class ComparedNumber:
         return self.their_error if self.their_error < self.allowed else 0.0
 
     def number(self) -> Number:
-        """The number as summary.json has it: ours, beside that of the source."""
+        """The number as summary.json has it: ours, with that of the source."""
         return Number(self.what, self.case, self.ours, self.unit, self.our_error, self.theirs)
 
 
@@ -106,7 +106,7 @@ def cases() -> list[OutsideCase]:
 
 
 def compared(case: OutsideCase, fine: Result, coarse: Result) -> list[ComparedNumber]:
-    """All numbers of a case beside those of a run, and of one of twice the steps."""
+    """All numbers of a case with those of a run, and of a run of twice the steps."""
     found = []
     for number in case.numbers:
         what, measure = _measure(number)

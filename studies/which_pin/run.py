@@ -154,7 +154,7 @@ def sums(plan: PinPlan, found: Found, name: str, friction: float) -> list[Sum]:
 
 
 def posture_table(found: Found) -> Sheet:
-    """The simulated shift beside the closed form."""
+    """The simulated shift with that of the closed form."""
     rows = []
     for case, (run, form) in _closed_forms(found).items():
         rows.append((case, cell(run), f"{form.value:.4f}", f"{100.0 * (run.value / form.value - 1.0):+.2f} %"))

@@ -42,7 +42,7 @@ def add_report(parser: argparse.ArgumentParser) -> None:
         help="files of runs, as Result.save writes them, then channels that are drawn over time: names, or "
         "patterns as 'pin.*.force' (clearance pins, their bodies, traced points)",
     )
-    add_out(parser, f"folder for {FILE}, or a file .html (RUN_{FILE} beside the first run)")
+    add_out(parser, f"folder for {FILE}, or a file .html (RUN_{FILE} next to the first run)")
     add_json(parser)
 
 
@@ -109,7 +109,7 @@ def add_measure(parser: argparse.ArgumentParser) -> None:
         help="TOML file of the instruments; without it perfect ones, 10 times a second: pressure and extension "
         "of all columns, tilt of all bodies and of the base",
     )
-    add_out(parser, "the table, CSV; by default RUN_measured.csv beside the run", "FILE")
+    add_out(parser, "the table, CSV; by default RUN_measured.csv next to the run", "FILE")
     add_json(parser)
 
 

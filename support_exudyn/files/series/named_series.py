@@ -46,7 +46,7 @@ class SeriesFile:
 
 # --- what is asked of a reader ---
 
-Progress = Callable[[float], None]  # is told the share that is read, 0 to 1
+Progress = Callable[[float], None]  # receives the share that is read, 0 to 1
 
 
 def silent(share: float) -> None:
@@ -61,7 +61,7 @@ class Asked:
         matches counts.
     analysis: the name of one, of several in a file; None: the first.
     names: patterns of the series that are wanted; all if there are none.
-    progress: is told the share that is read.
+    progress: receives the share that is read.
     """
 
     units: Mapping[str, str] = field(default_factory=dict)

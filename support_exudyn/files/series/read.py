@@ -73,7 +73,7 @@ def read_series(
         analysis: of an ADAMS result file, its name; None: the first.
         names: patterns of the series that are wanted, all if there are none. Of large result files only those
             take memory.
-        progress: is told the share that is read.
+        progress: receives the share that is read.
 
     Raises InputError for a file of no known kind, damaged or ambiguous, with what is wrong and where; OSError
     if it cannot be read.

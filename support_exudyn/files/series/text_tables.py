@@ -163,7 +163,7 @@ ALLOWED = "text in UTF-8, UTF-16 or Windows-1252"
 
 
 def text_of(path: Path) -> tuple[bytes, list[str]]:
-    """The text of a file in UTF-8, its lines ended by line feeds, and what is told of it.
+    """The text of a file in UTF-8, its lines ended by line feeds, and notes on it.
 
     Raises InputError for what is no text, or more than fits into memory; OSError if it cannot be read.
     """

@@ -149,7 +149,7 @@ BRACKETS = re.compile(r"(.*\S)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\))", re.DOTALL)
 
 
 def split_title(title: str) -> tuple[str, str | None, str]:
-    """The name of a column, its unit (None: it has none), and what has to be told of it, or nothing."""
+    """The name of a column, its unit (None: it has none), and a note on it, or nothing."""
     title = title.strip()
     if found := BRACKETS.fullmatch(title):
         name, square, round_ = found.groups()

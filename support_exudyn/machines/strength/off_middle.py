@@ -195,7 +195,7 @@ def untold(data: MachineData, strength: StrengthData) -> str:
             pair = f"{FILE_KEYS['actuators']}.{name}"
             wrong.append(f"{where} and {pair}, the distance of two; allowed: one of them")
         elif one.count > MOST:
-            wrong.append(f"{where}; allowed: 1 in the middle or 2 beside it")
+            wrong.append(f"{where}; allowed: 1 in the middle or 2 at its sides")
     return "; ".join(wrong)
 
 

@@ -364,7 +364,7 @@ class YieldValve(LegValve):
                 f"{self.opening_pressure} Pa"
             )
         if self.poppet is not None and self.closing_pressure < self.opening_pressure:
-            raise ValueError(f"closing_pressure = {self.closing_pressure} Pa: allowed beside a poppet: none")
+            raise ValueError(f"closing_pressure = {self.closing_pressure} Pa: allowed with a poppet: none")
         return self
 
     @property

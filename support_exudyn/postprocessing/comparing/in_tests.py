@@ -49,7 +49,7 @@ from user_forces.values.value import InputError, short
 Measured = Result | NamedSeries | Estimate | float
 Reference = Measured | SeriesFile | str | PathLike[str] | Mapping[str, NamedSeries | Estimate | float]
 ALONE = "it"  # the name of a number without a name
-FOLDER, ENDING = "baseline", ".json"  # of baselines beside tests and scenarios
+FOLDER, ENDING = "baseline", ".json"  # of baselines next to tests and scenarios
 WAIT = 0.05  # [s] until it is checked again whether another process is done
 OLD = 86400.0  # [s] since the runs of another program were made: nobody works with it any more
 NO_NAME = re.compile(r"[^\w.-]+")  # is left out of a file's name

@@ -19,7 +19,7 @@ def begin_sides(gaps: Records, valves: Records) -> None:
     """Write the side of zero on which each gap is, 0 for those that are not there.
 
     A gap that is met just at the start is on the side on which nothing happens yet: valves closed, chambers
-    filled, stops free. So what happens from there on is told. A valve with hysteresis is as it remembers.
+    filled, stops free. Records then show what happens from there on. A valve with hysteresis keeps its state.
     """
     for k in range(gaps.size):
         gap = gaps[k]
