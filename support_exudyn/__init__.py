@@ -90,8 +90,11 @@ if TYPE_CHECKING:
     from support_exudyn.model.loads.load import Load as Load
     from support_exudyn.model.loads.load import LoadChannel as LoadChannel
     from support_exudyn.model.loads.load import LoadedPoint as LoadedPoint
+    from support_exudyn.model.loads.load import LoadedStretch as LoadedStretch
     from support_exudyn.model.loads.load import MomentLoad as MomentLoad
+    from support_exudyn.model.loads.load import StretchLoad as StretchLoad
     from support_exudyn.model.loads.load import TurnedBody as TurnedBody
+    from support_exudyn.model.loads.roofs import BeddedRoof as BeddedRoof
     from support_exudyn.model.loads.roofs import GroundReaction as GroundReaction
     from support_exudyn.model.loads.roofs import Roof as Roof
     from support_exudyn.model.loads.springs import SpringDamper as SpringDamper

@@ -36,6 +36,8 @@ CLEARANCE_MM = 1.5
 CRANK_SPEED = 10.0  # [rad/s]
 RECORD_PERIOD = 0.05  # [s]
 STEP = 2e-3  # [s]
+GROWTH = 8.0
+AT_REST = 64.0  # the same where nothing moves
 IMPACT_STEPS = 64
 MOST_STEPS = 10**9
 IDEAL, SMOOTH, DRY, OIL, REST = "ideal pins", "1.5 mm", "friction", "oil columns", "at rest"
@@ -79,7 +81,11 @@ def _support(duration: float, sliding_coefficient: float | None = None, drive: D
         formulation="exudyn",
         step=STEP,
         record_period=RECORD_PERIOD,
-        solver=SolverSettings(impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS),
+        solver=SolverSettings(
+            impact_steps=IMPACT_STEPS,
+            growth=GROWTH if drive is None else AT_REST,
+            most_steps=MOST_STEPS,
+        ),
     )
 
 
@@ -102,7 +108,7 @@ def _crank(duration: float) -> Scenario:
         step=STEP,
         record_period=RECORD_PERIOD,
         gravity=(0.0, -9.81),
-        solver=SolverSettings(impact_steps=IMPACT_STEPS, most_steps=MOST_STEPS),
+        solver=SolverSettings(impact_steps=IMPACT_STEPS, growth=GROWTH, most_steps=MOST_STEPS),
     )
 
 

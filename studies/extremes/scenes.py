@@ -58,6 +58,7 @@ STARTS = {
 }  # and how far off, in clearances
 BODIES = ("rear_link", "front_link", "shield", "canopy")
 LONG_ROD = 0.12  # [m] of the slider-crank that passes dead centres
+GROWTHS = (1.0, 8.0, 64.0)  # of steps
 
 
 @dataclass(frozen=True)
@@ -148,7 +149,7 @@ def corner(point: Point, i: int, random: np.random.Generator) -> Scenario:
 def with_solver(point: Point, i: int, random: np.random.Generator) -> Scenario:
     """The fall with other settings of the solver, by turns on columns of oil."""
     point = replace(point, spectral_radius=(0.0, 0.5, 1.0, point.spectral_radius)[i % 4])
-    solver = replace(settings(point), newton="full" if i % 2 else "modified")
+    solver = replace(settings(point), newton="full" if i % 2 else "modified", growth=GROWTHS[i % 3])
     return replace(fallen(point), solver=solver, actuators=paper_machine.oil_columns() if i % 2 else {})
 
 

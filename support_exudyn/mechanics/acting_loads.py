@@ -27,7 +27,7 @@ from support_exudyn.mechanics.channels import LOADED, ChannelDefinitions, named,
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.reactions import push, twist
 from support_exudyn.mechanics.trajectory import LoadSeries, Series
-from support_exudyn.model.loads.load import ActingLoad, Load, MomentLoad
+from support_exudyn.model.loads.load import ActingLoad, Load, MomentLoad, StretchLoad
 from support_exudyn.model.to_space import at
 from user_forces.kernel import compiled_or_plain, numbers
 from user_forces.values.value import Vector2
@@ -111,13 +111,32 @@ class _TurnStrain(Strain):
         twist(total, self.motion, self.load.other, -forces * self.axis)
 
 
+class _StretchStrain(Strain):
+    """The ways up of both ends of a stretch, of a `StretchLoad`."""
+
+    def __init__(self, load: StretchLoad, name: str, motion: Motion) -> None:
+        del name
+        self.load, self.motion = load, motion
+        self.ends = [_point(motion, load.body, point, load.lateral) for point in load.points]
+        ways = [end.position[:, 1] - point[1] for end, point in zip(self.ends, load.points, strict=True)]
+        self.numbers = np.column_stack([*ways, *(end.velocity[:, 1] for end in self.ends)])
+
+    def apply(self, total: Series, forces: Series) -> None:
+        for end, size in zip(self.ends, forces.T, strict=True):
+            up = np.zeros_like(end.position)
+            up[:, 1] = size
+            push(total, self.motion, self.load.body, up, end.position)
+
+
 def strain_of(load: ActingLoad, name: str, motion: Motion) -> Strain:
     """The strain of a load of this name. Raises TypeError for a load of no strain kind."""
     if isinstance(load, Load):
         return _PointStrain(load, name, motion)
     if isinstance(load, MomentLoad):
         return _TurnStrain(load, name, motion)
-    raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load or MomentLoad")
+    if isinstance(load, StretchLoad):
+        return _StretchStrain(load, name, motion)
+    raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
 
 
 def load_series(load: ActingLoad, name: str, motion: Motion, time: Series) -> LoadSeries:

@@ -339,9 +339,9 @@ def load_law(load: ActingLoad) -> tuple[Callable[..., float], tuple[float, ...]]
 def _load_law(
     action: Callable[..., tuple[float, ...]], forces: int, motion: int, courses: int, count: int
 ) -> Callable[..., float]:
-    """A load as a function that gives the force forward [N] or the moment [N m].
+    """A load as a function that gives the force forward [N], the moment [N m], or F1 of a stretch [N].
 
-    Into out it writes the power of what moves the load and the loss [W], and then the force up [N].
+    Into out it writes the power of what moves the load and the loss [W], and then the force up or F2 [N].
 
     Arguments:
         forces: how many of them the action gives.

@@ -7,6 +7,7 @@ from support_exudyn.scene.arrays import (
     FRICTION_LOSS,
     MOMENT,
     ONE_SIDED,
+    STRETCH,
     WORK,
     SceneArrays,
     Vector,
@@ -150,6 +151,12 @@ def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
             one.fx = call_law(one.law, t, turn, spin, 0.0, 0.0, constants, scene.out)
             push(scene, point.body, 0.0, 0.0, one.fx)
             push(scene, origin.body, 0.0, 0.0, -one.fx)
+        elif one.kind == STRETCH:
+            first, second = point.y - one.first, origin.y - one.second
+            one.fx = call_law(one.law, t, first, second, point.vy, origin.vy, constants, scene.out)
+            one.fy = scene.out[2]
+            push_point(scene, one.point, 0.0, one.fx)
+            push_point(scene, one.origin, 0.0, one.fy)
         else:
             x, y_ = point.x - origin.x, point.y - origin.y
             vx, vy = point.vx - origin.vx, point.vy - origin.vy

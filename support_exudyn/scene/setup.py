@@ -15,7 +15,7 @@ from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
 from support_exudyn.mechanics.joint_friction import friction_joints
 from support_exudyn.model.linkage import GROUND, Linkage
-from support_exudyn.model.loads.load import Load, TimeFunction
+from support_exudyn.model.loads.load import Load, StretchLoad, TimeFunction
 from support_exudyn.model.pins import IdealPin
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene import arrays
@@ -326,7 +326,9 @@ def _loads(scenario: Scenario, build: _Builder, course: int) -> Records:
         point, origin = (0.0, 0.0), (0.0, 0.0)
         if isinstance(load, Load):
             kind, point, origin = arrays.FORCE, load.point, load.origin
-        record["kind"] = kind
+        elif isinstance(load, StretchLoad):
+            kind, against, (point, origin) = arrays.STRETCH, load.body, load.points
+        record["kind"], record["first"], record["second"] = kind, point[1], origin[1]
         record["point"], record["origin"] = build.point(load.body, point), build.point(against, origin)
         record["law"], record["constants"] = build.law(*load_law(load))
         record["course"], record["courses"] = course, len(load.courses)

@@ -73,6 +73,24 @@ class StepPlan:
             end = self.next_time(end)
         return end
 
+    def far_time(self, t: float, size: float) -> float:
+        """The last record that a step of this size [s] from t [s] reaches, not beyond a break.
+
+        The next time of a grid of such steps if it reaches none.
+        """
+        passed = self._breaks_until(t)
+        stop = self.breaks[passed] if passed < len(self.breaks) else self.duration
+        reached = math.floor((t + size + self._tolerance) / self.record_period) * self.record_period
+        if reached <= t + self._tolerance:
+            return self._grid_time(t, size)
+        return reached if reached < stop - self._tolerance else stop
+
+    def records_between(self, start: float, end: float) -> list[float]:
+        """The records after one time and before another [s], both excluded."""
+        first = math.floor((start + self._tolerance) / self.record_period) + 1
+        last = math.ceil((end - self._tolerance) / self.record_period)
+        return [n * self.record_period for n in range(first, last)]
+
     def _grid_time(self, t: float, largest: float) -> float:
         if t >= self.duration - self._tolerance:
             return self.duration
@@ -110,6 +128,10 @@ class StepPlan:
     def _breaks_until(self, t: float) -> int:
         """How many breaks are not after t [s]. There may be thousands, and every step asks."""
         return bisect_right(self.breaks, t + self._tolerance)
+
+    def passes_record(self, start: float, end: float) -> bool:
+        """Whether a step from one time to another [s] reaches beyond the first record or break after it."""
+        return end > self._stops_around(start)[1] + self._tolerance
 
     def record_at(self, t: float) -> float | None:
         """The record that t [s] is but for rounding, if it is one: a multiple of the period, or the end [s]."""

@@ -18,6 +18,7 @@ import pytest
 from studies.common.paper_machine import oil_columns
 from support_exudyn import (
     AppliedForce,
+    BeddedRoof,
     BushingPin,
     ClearancePin,
     CubicStep,
@@ -79,6 +80,14 @@ RISE = CubicStep(start=0.01, end=0.06, stroke=0.01)
 JUMP = UniformSpeed(start=0.02, end=0.06, stroke=0.01)
 TABLE = TableDrive(times=(0.0, 0.03, 0.05), extensions=(0.0, 0.004, 0.001))
 PRESS = AppliedForce(body="canopy", point=(0.5, 3.0), full_force=(1e4, -1e5), start=0.01, end=0.04)
+BED = BeddedRoof(
+    body="canopy",
+    points=((0.77, 1.993), (2.77, 1.993)),
+    bedding=5e8,
+    gaps=(0.001, 0.003),
+    descent=CubicStep(stroke=0.006, start=0.0, end=0.05),
+    damping=2.0,
+)
 PINS = tuple(support().linkage.pins)
 
 
@@ -137,6 +146,9 @@ SCENES: dict[str, Callable[[], Scenario]] = {
     ),
     "roof over a loose pin": lambda: pressed_support(
         over_the_canopy(GAP + 0.001, start=0.0, end=0.05), pins=loose(PIN), start="settled", duration=0.06
+    ),
+    "bed of rock": lambda: pressed_support(
+        BED, actuators=oil_columns(), start="settled", duration=0.06, record_period=1e-3
     ),
     "falling block": lambda: on_the_held(block(height=0.005), duration=0.05),
     "falling block over a loose pin": lambda: on_the_held(

@@ -1,25 +1,90 @@
-"""Roofs by a reaction curve: closed forms, an independent integrator, both formulations."""
+"""Roofs over a stretch and by a reaction curve: closed forms, an independent integrator, both formulations."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from support_exudyn import (
+    BeddedRoof,
+    Body,
+    CubicStep,
     GroundReaction,
+    Linkage,
+    Machine,
     Scenario,
     SolverSettings,
     SpringDamper,
     reference_support,
     simulate,
 )
+from support_exudyn.model.linkage import pinned
 from support_exudyn.model.loads.load import ActingLoad
 from tests.roof_cases import DAMPED, MASS, OVER_THE_COLUMNS, TOP, Ram
+from user_forces import value
 
 EXACT = SolverSettings(tolerance=1e-9)
+
+
+@value
+class Plate(Machine):
+    """A plate of 4 m and 1 t on a pivot in its middle, and nothing else."""
+
+    spin: float = 0.0
+
+    def linkage(self) -> Linkage:
+        plate = Body(mass=1000.0, inertia=1500.0, centre=(0.0, 1.0), spin=self.spin)
+        return Linkage(bodies={"plate": plate}, pins={"pivot": pinned("ground", "plate", (0.0, 1.0))})
+
+
+def over_the_plate(**changes: object) -> BeddedRoof:
+    fields: dict[str, object] = {
+        "body": "plate", "points": ((-2.0, 1.0), (2.0, 1.0)), "bedding": 1e6, "gaps": (0.01, 0.002),
+        "descent": CubicStep(stroke=0.012, start=0.0, end=0.2), "damping": 0.3,
+    }  # fmt: skip
+    return BeddedRoof(**fields | changes)
+
+
+@cache
+def tilted(damping: float) -> np.ndarray:
+    """Angle and spin of the plate after 0.6 s, with the integral over 4000 points (the rule of midpoints)."""
+    roof = over_the_plate(damping=damping)
+    s = (np.arange(4000) + 0.5) / 4000
+    x = -2.0 + 4.0 * s
+    gaps = 0.01 + s * (0.002 - 0.01)
+
+    def rates(t: float, state: np.ndarray) -> list[float]:
+        angle, spin = state
+        depth = roof.descent.extension(t) + x * math.sin(angle) - gaps
+        rate = roof.descent.speed(t) + x * math.cos(angle) * spin
+        spread = 1e6 * np.maximum(0.0, depth) * np.maximum(0.0, 1.0 + damping * rate)
+        return [spin, -float((spread * x).mean()) * 4.0 * math.cos(angle) / 1500.0]
+
+    found = solve_ivp(rates, (0.0, 0.6), [0.0, 0.0], "DOP853", rtol=1e-10, atol=1e-12, max_step=1e-3)
+    return found.y[:, -1]
+
+
+@pytest.mark.parametrize(("formulation", "share"), [("exudyn", 2e-4), ("compiled", 1e-6)])
+@pytest.mark.parametrize("damping", [0.0, 0.3])
+def test_a_bedding_is_the_integral_over_its_stretch(formulation: str, share: float, damping: float) -> None:
+    scene = Scenario(
+        machine=Plate(), loads={"roof": over_the_plate(damping=damping)}, duration=0.6, step=1e-4,
+        formulation=formulation, solver=EXACT,
+    )  # fmt: skip
+    result = simulate(scene)
+    found = np.array([result["plate.angle"][-1], result["plate.angular_velocity"][-1]])
+    size = [np.abs(result[f"plate.{what}"]).max() for what in ("angle", "angular_velocity")]
+    # the reference's own points are good to 1e-7
+    np.testing.assert_allclose(found / size, tilted(damping) / size, atol=share)
+    turned = np.abs(result["energy.work"]).max()
+    assert result.energy_error < 1e-4 * turned
+    if damping > 0.0:
+        assert result["energy.damping_loss"][-1] > 1e-3 * turned
 
 
 def over_the_canopy(load: ActingLoad | dict[str, ActingLoad], **changes: object) -> Scenario:
@@ -31,10 +96,19 @@ def over_the_canopy(load: ActingLoad | dict[str, ActingLoad], **changes: object)
     return Scenario(**fields | changes)
 
 
-@pytest.mark.parametrize("load", ["linear", "smooth"])
+def on_the_canopy(**changes: object) -> BeddedRoof:
+    x, y = OVER_THE_COLUMNS
+    fields: dict[str, object] = {
+        "body": "canopy", "points": ((x - 0.6, y), (x + 1.4, y)), "bedding": 5e8, "gaps": (0.001, 0.003),
+        "descent": CubicStep(stroke=0.006, start=0.0, end=0.1),
+    }  # fmt: skip
+    return BeddedRoof(**fields | changes)
+
+
+@pytest.mark.parametrize("load", ["bedding", "linear", "smooth"])
 def test_kinks_of_the_force_cost_no_accuracy(load: str) -> None:
     # by where the point is, so that nothing tells when: two tolerances of the method with error control
-    roof = reaction(body="canopy", between=load)
+    roof = on_the_canopy(damping=1.0) if load == "bedding" else reaction(body="canopy", between=load)
     scene = over_the_canopy(roof, formulation="compiled")
     rough, fine = (
         simulate(replace(scene, solver=SolverSettings(tolerance=t)))["front_column.force"] for t in (1e-6, 1e-9)

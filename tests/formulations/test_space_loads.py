@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from support_exudyn import (
     AppliedForce,
     AppliedTorque,
+    BeddedRoof,
     CubicStep,
     FallingBlock,
     Held,
@@ -24,10 +25,12 @@ from support_exudyn import (
     TorsionSpring,
     simulate,
 )
+from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
 from tests.cases.run_cases import PIN, loose_support, support
 from tests.cases.spatial_cases import InSpace, observed
 from tests.roof_cases import ON_OIL
+from tests.roof_cases import OVER_THE_COLUMNS as OVER
 
 TIP = (3.19590271431274, 1.95)  # of the reference support's canopy [m]
 INERTIA = (0.03, 0.05, 0.04, 0.0, 0.0, 0.0)
@@ -161,6 +164,73 @@ def test_turns_beyond_half_a_turn_are_counted() -> None:
     assert np.abs(result["energy.balance"]).max() < 3e-4 * 0.5 * INERTIA[2] * 3600.0
 
 
+# --- a bed of rock over a stretch of a body ---
+
+BED_COMES_DOWN = CubicStep(stroke=0.05, start=0.0, end=0.1)
+ENDS = ((-1.0, 0.1), (1.5, 0.3))
+GAPS = (0.002, 0.006)
+BEDDING, DAMPING = 2e3, 0.4
+
+
+def on_a_free_body(loads: dict[str, ActingLoad]) -> Result:
+    """A body that spins about all axes, and is pressed beside its centre."""
+    body = SpatialBody(
+        mass=20.0, inertia=(3.0, 9.0, 8.0, 0.0, 0.0, 0.0), centre=(0.0, 0.0, 0.0), spin=(0.8, 0.5, -0.6)
+    )
+    scenario = Scenario(
+        machine=InSpace(space=SpatialLinkage(bodies={"a": body})),
+        dimensions=3,
+        loads=loads,
+        duration=0.2,
+        step=5e-4,
+        record_period=1e-2,
+        gravity=(0.0, 0.0),
+    )
+    return simulate(scenario)
+
+
+def bed(**changes: object) -> BeddedRoof:
+    fields: dict[str, object] = {
+        "body": "a",
+        "points": ENDS,
+        "lateral": 0.3,
+        "bedding": BEDDING,
+        "gaps": GAPS,
+        "damping": DAMPING,
+        "descent": BED_COMES_DOWN,
+    }
+    return BeddedRoof(**fields | changes)
+
+
+def test_many_single_roofs_tend_to_the_bed_with_second_order() -> None:
+    whole = on_a_free_body({"roof": bed()})
+    length = float(np.hypot(2.5, 0.2))
+    channels = ("a.x", "a.y", "a.z", "a.roll", "a.yaw", "a.angle")
+    errors = []
+    for count in (8, 32):
+        loads: dict[str, ActingLoad] = {}
+        for n in range(count):
+            s = (n + 0.5) / count
+            loads[f"roof_{n}"] = Roof(
+                body="a",
+                point=(-1.0 + 2.5 * s, 0.1 + 0.2 * s),
+                lateral=0.3,
+                stiffness=BEDDING * length / count,
+                gap=GAPS[0] + s * (GAPS[1] - GAPS[0]),
+                damping=DAMPING,
+                descent=BED_COMES_DOWN,
+            )
+        run = on_a_free_body(loads)
+        errors.append([float(np.abs(run[name] - whole[name]).max()) for name in channels])
+    moved = [float(np.ptp(whole[name])) for name in channels]
+    assert moved[1] > 1e-2  # it is pressed down, and rolled
+    assert np.ptp(whole["roof.pressed"]) > 0.5  # another part of it is pressed all the time
+    for coarse, fine, way, name in zip(*errors, moved, channels, strict=True):
+        assert fine < 2e-3 * way + 1e-12, name
+        assert coarse > 6.0 * fine or fine < 1e-9, name
+    assert whole.energy_error < 1e-4 * whole["energy.work"].max()
+
+
 # --- the support ---
 
 BLOCK = FallingBlock(body="canopy", point=TIP, mass=1e3, height=0.01, speed=2.0, stiffness=1e9, restitution=0.4)
@@ -182,6 +252,13 @@ LOADS = {
         descent=COMES_DOWN,
         stiffness=1e8,
         damping=0.5,
+    ),
+    "bed": BeddedRoof(
+        body="canopy",
+        points=((OVER[0] - 0.6, OVER[1]), (OVER[0] + 1.4, OVER[1])),
+        bedding=5e8,
+        gaps=(0.001, 0.003),
+        descent=CubicStep(stroke=0.006, start=0.0, end=0.05),
     ),
     "block": BLOCK,
     "block with a sloping face": replace(BLOCK, slope=0.2),
@@ -215,7 +292,7 @@ def beside(**loads: Load) -> Result:
 WHOLE = AppliedForce(body="canopy", point=TIP, full_force=(0.0, -4e5), start=0.0, end=0.02)
 
 
-@pytest.mark.parametrize("load", [WHOLE, LOADS["roof"], BLOCK], ids=["force", "roof", "block"])
+@pytest.mark.parametrize("load", [WHOLE, LOADS["bed"], BLOCK], ids=["force", "bed", "block"])
 def test_left_mirrors_right(load: Load) -> None:
     right, left = (beside(load=replace(load, lateral=z)) for z in (0.5, -0.5))
     roll = np.abs(right["canopy.roll"]).max()

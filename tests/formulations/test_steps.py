@@ -141,6 +141,42 @@ def test_the_last_record_is_the_end_and_comes_once() -> None:
     assert plan.next_time(0.018) == 0.027
 
 
+# --- steps that pass over records ---
+
+
+@given(planned=plans(), factor=st.floats(1.0, 20.0))
+def test_far_times_lie_on_records_and_breaks_or_the_grid_and_within_the_step(
+    planned: tuple[StepPlan, Times], factor: float
+) -> None:
+    plan, _ = planned
+    size = factor * min(plan.step, plan.record_period)
+    t, times = 0.0, [0.0]
+    while t < plan.duration:
+        t = plan.far_time(t, size)
+        assert t > times[-1]
+        times.append(t)
+    # a share of 1e-9 is not worth another step
+    assert max(b - a for a, b in pairwise(times)) <= size * (1.0 + 2e-9) + 1e-12
+    for b in [*plan.breaks, plan.duration]:
+        # breaks that differ from a record by rounding only are the same time
+        assert any(abs(t - b) < 1e-12 for t in times)
+    passed = [r for a, b in pairwise(times) for r in plan.records_between(a, b)]
+    found = sorted(passed + [t for t in times if plan.record_at(t) is not None])
+    # every record once; rounding of times up to 15 s
+    assert found == pytest.approx(expected_stops(plan.duration, plan.record_period, []), abs=4e-15)
+
+
+def test_far_times_by_hand() -> None:
+    plan = StepPlan(duration=1.0, record_period=0.1, step=0.05, breaks=[0.57])
+    assert plan.far_time(0.1, 0.35) == pytest.approx(0.4)
+    assert plan.far_time(0.4, 0.35) == 0.57
+    # none is reached: to 0.6 in two steps of 0.015
+    assert plan.far_time(0.57, 0.02) == pytest.approx(0.585)
+    assert plan.far_time(0.57, 0.2) == pytest.approx(0.7)
+    assert plan.records_between(0.1, 0.4) == pytest.approx([0.2, 0.3])
+    assert plan.records_between(0.1, 0.2) == []
+
+
 # --- late in a long run ---
 
 
@@ -219,3 +255,11 @@ def test_a_record_is_told_as_it_was_asked_for() -> None:
     assert plan.record_at(0.3) == 3 * 0.1 != 0.3
     assert plan.record_at(0.301) is None
     assert plan.record_at(math.nextafter(1.0, 0.0)) == 1.0
+
+
+def test_a_step_that_ends_at_a_record_passes_none() -> None:
+    plan = StepPlan(1.0, 0.1, 0.01, [0.25])
+    assert not plan.passes_record(0.05, 0.1)
+    assert plan.passes_record(0.05, 0.11)
+    assert plan.passes_record(0.1, 0.3)
+    assert plan.passes_record(0.22, 0.27)  # beyond a break

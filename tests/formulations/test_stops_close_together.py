@@ -20,6 +20,7 @@ from support_exudyn import (
     OilColumn,
     Result,
     Scenario,
+    SolverSettings,
     TableDrive,
     UniformSpeed,
     bore_area,
@@ -62,8 +63,12 @@ SCENES: dict[str, Callable[[float], Scenario]] = {
     "two drives": lambda t: support(drive=uniform(BREAK), drives={"front_column": uniform(t)}, **SHORT),
     "oil": lambda t: support(drive=cubic(t), actuators=OILS, **SHORT),
     "load": lambda t: support(loads={"press": pressed(t)}, **SHORT),
+    "growing steps": lambda t: support(drive=cubic(t), solver=SolverSettings(growth=8), **SHORT),
     "with_clearance": lambda t: loose_support(0.5, 0.25, drive=cubic(t), start="settled", **SHORT),
     "clearance, struck": lambda t: loose_support(0.5, 0.25, drive=uniform(t), start="settled", **SHORT),
+    "clearance, growing steps": lambda t: loose_support(
+        0.5, 0.25, drive=cubic(t), start="settled", solver=SolverSettings(growth=8), **SHORT
+    ),
     "space": lambda t: support(drive=uniform(t), dimensions=3, **SHORT),
     "clearance in space": lambda t: loose_support(
         0.5, drive=cubic(t), dimensions=3, start="settled", **SHORT | {"duration": 0.015}

@@ -17,12 +17,14 @@ from scipy.spatial.transform import Rotation
 from support_exudyn import (
     AppliedForce,
     AppliedTorque,
+    BeddedRoof,
     BushingPin,
     CubicStep,
     GroundReaction,
     HarmonicCourse,
     Held,
     LoadedPoint,
+    LoadedStretch,
     PinPlace,
     Reciprocating,
     Roof,
@@ -31,6 +33,7 @@ from support_exudyn import (
     Steady,
     TableCourse,
     TorsionSpring,
+    UniformSpeed,
     ravn_slider_crank,
     reference_support,
     simulate,
@@ -40,7 +43,7 @@ from support_exudyn.files.toml.text import parsed
 from support_exudyn.mechanics.acting_loads import MANY, add_load, largest_forces, load_series
 from support_exudyn.mechanics.body_motion import UNTURNED, BodyMotion, Motion, SpatialMotion, parameter_rates
 from support_exudyn.mechanics.kinetics import kinetics_of
-from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel, MomentLoad
+from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel, MomentLoad, StretchLoad
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
 from support_exudyn.postprocessing.look import looks
 from support_exudyn.postprocessing.summary import what_is_run
@@ -73,6 +76,9 @@ SPRING = SpringDamper(
 COIL = TorsionSpring(body="rocker", other="crank", stiffness=30.0, free_turn=0.3, damping=0.4)
 DESCENT = CubicStep(stroke=0.3, start=0.0, end=0.6)
 ROOF = Roof(body="rocker", point=(0.3, 0.1), descent=DESCENT, stiffness=2e4, damping=0.2, gap=0.02)
+BED = BeddedRoof(
+    body="rocker", points=((0.3, 0.1), (0.5, 0.2)), descent=DESCENT, bedding=1e5, damping=0.2, gaps=(0.0, 0.1)
+)
 CURVE = GroundReaction(
     body="rocker", point=(0.3, 0.1), convergences=(0.0, 0.2, 0.5), forces=(3e4, 1e4, 2e4), between="smooth"
 )
@@ -89,6 +95,8 @@ LOADS: dict[str, ActingLoad] = {
     "roof": ROOF,
     "stiff roof without damping": replace(ROOF, damping=0.0, descent=Steady(rate=0.3), stiffness=2e6),
     "falling roof": replace(ROOF, damping=3.0, descent=Reciprocating(stroke=0.2, period=0.11)),
+    "bed": BED,
+    "bed without damping": replace(BED, damping=0.0),
     "reaction curve": CURVE,
     "reaction curve of lines": replace(CURVE, between="linear"),
     "bushing": BUSHING["force"],
@@ -179,11 +187,28 @@ class TurnProbe(MomentLoad):
         return {name: LoadChannel("", "") for name in ("turn", "spin")}
 
 
+@value
+class StretchProbe(StretchLoad):
+    """Constant forces at both ends of a stretch, which records their ways and then their rates."""
+
+    @staticmethod
+    @kernel
+    def action(
+        t: float, first: float, second: float, first_rate: float, second_rate: float
+    ) -> tuple[float, ...]:
+        return 3.0, -2.0, 0.0, 0.0, 0.0, first, second, first_rate, second_rate
+
+    @property
+    def channels(self) -> Mapping[str, LoadChannel]:
+        return {name: LoadChannel("", "") for name in ("first", "second", "first_rate", "second_rate")}
+
+
 PROBES: list[ActingLoad] = [
     PointProbe(body="rocker", point=(0.3, 0.1), lateral=0.2, other="crank"),
     PointProbe(body="rocker", point=(0.3, 0.1), lateral=0.2, other="ground"),
     TurnProbe(body="rocker", other="crank"),
     TurnProbe(body="rocker"),
+    StretchProbe(body="rocker", points=((0.3, 0.1), (0.5, 0.2)), lateral=0.2),
 ]
 
 
@@ -257,6 +282,25 @@ def test_a_roof_by_hand() -> None:
     damped = replace(held, damping=2.0)
     pushes = [damped.acting(at(y=0.5, vy=speed)).channels["force"] for speed in (0.5, 0.0, -0.25, -0.5, -1.0)]
     assert pushes == [500.0, 250.0, 125.0, 0.0, 0.0]
+
+
+def test_place_and_pressed_length_of_a_bedding_on_what_stands_still() -> None:
+    # a wedge: pressed from where the gap is closed to the second point, resultant at its third
+    roof = BeddedRoof(
+        body="ram",
+        points=((-1.0, 1.0), (2.0, 1.0)),
+        bedding=2e6,
+        gaps=(0.02, 0.005),
+        descent=UniformSpeed(stroke=0.015, start=0.0, end=1e-3),
+    )
+    found = roof.acting(LoadedStretch(0.02, 0.0, 0.0, 0.0, 0.0))
+    pressed = 3.0 * 0.01 / 0.015
+    force = 0.5 * 2e6 * 0.01 * pressed
+    expected = {"pressed": pressed, "force": force, "place": 3.0 - pressed / 3.0}
+    assert found.channels == pytest.approx(expected | {"gap_first": 0.005, "gap_second": -0.01}, rel=1e-12)
+    assert sum(found.forces) == pytest.approx(-force, rel=1e-12)
+    apart = roof.acting(LoadedStretch(0.0, 0.0, 0.0, 0.0, 0.0)).channels
+    assert (apart["force"], apart["place"], apart["pressed"]) == (0.0, 0.0, 0.0)
 
 
 def test_a_spring_whose_ends_meet_has_no_force() -> None:

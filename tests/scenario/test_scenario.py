@@ -97,6 +97,7 @@ def test_bores_and_their_sides_are_checked() -> None:
         ("spectral_radius", 1.1, ">= 0 and <= 1"),
         ("newton_tolerance", 0.1, "> 0 and <= 0.001"),
         ("impact_steps", 15, ">= 16 and <= 10000"),
+        ("growth", 65.0, ">= 1 and <= 64"),
         ("tolerance", 1e-14, ">= 1e-13 and <= 0.01"),
         ("newton", "none", "'modified' or 'full'"),
         ("most_steps", 0, ">= 1"),

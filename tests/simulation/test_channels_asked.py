@@ -21,6 +21,7 @@ from support_exudyn import (
     OilColumn,
     Result,
     Scenario,
+    SolverSettings,
     Steady,
     UniformSpeed,
     bore_area,
@@ -46,9 +47,13 @@ SCENES = {
     "ideal, driven": support(**SHORT),
     "ideal, struck": support(**SHORT | {"drive": UniformSpeed(stroke=0.001, start=0.006, end=0.02)}),
     "ideal, struck at once": support(**SHORT | {"drive": UniformSpeed(stroke=0.001, start=0.0, end=0.02)}),
+    "ideal, growing steps": support(**SHORT, solver=SolverSettings(growth=8)),
     "oil": support(**SHORT, actuators=OILS),
     "one column of oil": support(**SHORT, actuators={"rear_column": OIL}),
     "with_clearance": loose_support(0.5, 0.25, **SHORT),
+    "clearance, growing steps": loose_support(
+        0.5, 0.25, **SHORT, solver=SolverSettings(growth=8), start="settled"
+    ),
     "clearance, friction with a state": support(**SHORT, pins={PIN: ClearancePin(contact=BRISTLES)}),
     "slider-crank": Scenario(
         machine=ravn_slider_crank(), drive=Steady(rate=500.0), duration=0.005, step=1e-5, record_period=1e-4

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from studies.common.paper_machine import oil_columns
-from support_exudyn import Failure, Held, Result, Scenario, simulate
+from support_exudyn import Failure, Held, Result, Scenario, SolverSettings, simulate
 from tests.cases.run_cases import Pair, loose_support
 from tests.formulations.test_momentum import ONE, TWO
 
@@ -27,6 +27,7 @@ CASES = {
     "exudyn": held("exudyn"),
     "compiled": held("compiled", actuators=oil_columns()),
     "space": replace(held("exudyn"), dimensions=3),
+    "growing": replace(held("exudyn"), solver=SolverSettings(growth=4.0)),
 }
 
 

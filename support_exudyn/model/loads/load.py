@@ -1,9 +1,10 @@
-"""Loads: functions of time and of the motion of what they act on, of two strain kinds.
+"""Loads: functions of time and of the motion of what they act on, of three strain kinds.
 
 | kind | strain | force |
 |---|---|---|
 | `Load` | way of a point against another | a force on the point, and the opposite one on the other |
 | `MomentLoad` | turn of a body against another | a moment on the body, and the opposite one on the other |
+| `StretchLoad` | ways up of both ends of a stretch of a body | forces up that are spread over the stretch |
 """
 
 from __future__ import annotations
@@ -54,6 +55,16 @@ class TurnedBody(NamedTuple):
     spin: float
 
 
+class LoadedStretch(NamedTuple):
+    """Both ends of a stretch: time [s], their ways up since the start posture [m], their rates [m/s]."""
+
+    time: float
+    first: float
+    second: float
+    first_rate: float
+    second_rate: float
+
+
 class LoadChannel(NamedTuple):
     """A channel of a load: its unit, and what it is."""
 
@@ -99,7 +110,7 @@ class ActingLoad(AnyLoad, ABC):
             = (*forces, stored energy, power of what moves it, power that is lost, *values of its channels)
 
     It is a static method and a `user_forces.kernel.kernel`, in plain Python with `if` and `math`, which Python
-    runs and numba compiles. `at` is the motion, a `LoadedPoint` or `TurnedBody`. Parameters
+    runs and numba compiles. `at` is the motion, a `LoadedPoint`, `TurnedBody` or `LoadedStretch`. Parameters
     are named as attributes of the load; the last one may be `*name`, for a tuple.
 
     The contract: the force is continuous in time and motion, and smooth between two neighbouring `breaks` but
@@ -232,6 +243,42 @@ class MomentLoad(ActingLoad, ABC):
         """The opposite moment acts on the other body."""
         del name
         return self.other
+
+
+@value
+class StretchLoad(ActingLoad, ABC):
+    """Forces, up or down, over the stretch between two points of a body.
+
+    The body is rigid, so that forces q(s) up, at shares s of the way from the first point to the second, do as
+    two forces at its ends,
+
+        F1 = integral of (1 - s) q ds,   F2 = integral of s q ds,
+
+    whose sum and moments are theirs.
+
+    Arguments:
+        body: name of the body.
+        points: both ends of the stretch, start posture [m].
+        lateral: how far to the right of the machine's plane it is in space [m]; without effect in the plane.
+    """
+
+    MOTION: ClassVar[Any] = LoadedStretch
+    RATES: ClassVar[tuple[str, ...]] = ("first_rate", "second_rate")
+    FORCES: ClassVar[int] = 2
+
+    points: Metres[tuple[Vector2, Vector2]]
+    lateral: Metres[Real] = 0.0
+
+    @model_validator(mode="after")
+    def _has_a_length(self) -> Self:
+        if self.length <= COINCIDE:
+            raise ValueError(f"points = {self.points} m: allowed: two that are > {COINCIDE:g} m apart")
+        return self
+
+    @property
+    def length(self) -> float:
+        """Length of the stretch [m]."""
+        return math.dist(*self.points)
 
 
 def check_two(body: str, other: str) -> None:

@@ -269,6 +269,17 @@ class EngineScene:
         spins = {name: motion.spin(name)[0] for name in self.bodies}
         return {name: float(np.linalg.norm(spin) if spin.size > 1 else spin) for name, spin in spins.items()}
 
+    def coordinate_masses(self) -> Series:
+        """A mass for each of the engine's coordinates [kg], [kg m^2], by which accelerations are weighed."""
+        found: list[float] = []
+        for item in self.bodies.values():
+            body = item.body
+            if isinstance(self.linkage, Linkage):
+                found += body.mass, body.mass, body.inertia
+            else:  # the spin is twice the rate of the Euler parameters
+                found += 3 * [body.mass] + 4 * [4.0 * sum(body.inertia[:3]) / 3.0]
+        return np.array(found)
+
 
 def slide(scene: EngineScene, rest: float) -> None:
     """Move on by a time [s] that is not worth a step, by the rates that the last one has ended with.

@@ -7,14 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
+from support_exudyn.formulations.exudyn.solver.within_steps import RunningIntegrals, StepEnd, between
 from support_exudyn.formulations.statistics.collected import RunStatistics
 from support_exudyn.formulations.statistics.ends import beside_jumps
 from support_exudyn.mechanics.channels import EVERYTHING, DataNeeds
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.time_statistics import TimeStatistics
+from support_exudyn.mechanics.trajectory import Series
 from user_forces.contact_state import PinMemory
 
-# of a state
+# of a StepEnd after its time
 STATE = (DataNeeds.POSITION, DataNeeds.VELOCITY, DataNeeds.CONTACTS)
 AT_ONCE = 250  # ends of steps: then they become statistics
 
@@ -74,52 +76,6 @@ class _StateRows:
                 rows[:] = rows[:width] + rows[-width:]
 
 
-class RunningIntegrals:
-    """Integrals over time of several quantities.
-
-    Over each step a quantity is taken as the parabola through its last three values, so the error is of
-    third order; just after `restart` as a straight line. Steps may differ.
-
-    Arguments:
-        number: of quantities.
-    """
-
-    def __init__(self, number: int) -> None:
-        self.totals = [0.0] * number
-        self._last: tuple[float, Sequence[float]] | None = None  # time and values
-        self._jump: float | None = None  # time after which the quantities are other than before
-        self._before: tuple[float, Sequence[float]] | None = None
-
-    def restart(self) -> None:
-        """The quantities have a kink here: do not use what was before the last values."""
-        self._before = None
-
-    def jump(self, t: float) -> None:
-        """The quantities jump at t [s], the end of the last step."""
-        self._before = self._last = None
-        self._jump = t
-
-    def add(self, t: float, values: Sequence[float]) -> None:
-        """The quantities' values at the end of a step, t [s]."""
-        if self._jump is not None:  # all that is known of the first step after a jump is its end
-            for n, value in enumerate(values):
-                self.totals[n] += (t - self._jump) * value
-            self._jump = None
-        elif self._last is not None:
-            t1, last = self._last
-            h2 = t - t1
-            if self._before is not None and (h1 := t1 - self._before[0]) > 0.25 * h2:
-                w2 = h2 * (2.0 * h2 + 3.0 * h1) / (6.0 * (h1 + h2))
-                w1 = h2 * (h2 + 3.0 * h1) / (6.0 * h1)
-                w0 = h2 * h2 * h2 / (6.0 * h1 * (h1 + h2))
-                for n, before in enumerate(self._before[1]):
-                    self.totals[n] += w2 * values[n] + w1 * last[n] - w0 * before
-            else:
-                for n, value in enumerate(values):
-                    self.totals[n] += 0.5 * h2 * (last[n] + value)
-        self._before, self._last = self._last, (t, values)
-
-
 class Recorder:
     """Collects a History while a run goes on, and statistics from the ends of all steps.
 
@@ -156,12 +112,15 @@ class Recorder:
         self._observe = observe
         self.statistics = RunStatistics(scene.scenario)
         self.follows = observe is not None and bool(self.statistics.wanted)  # whether ends of steps are kept
+        self._powers_now = (0.0, 0.0, 0.0)  # [W]
+        self._start: StepEnd | None = None  # of the step going on
 
     def after_step(self, t: float, kink: bool) -> None:
         """Add a step that has been accepted; `kink`: an impact or a break of the drive lies at its end."""
         if not self.integrates:
             return
-        self.energies.add(t, self._powers(t))
+        self._powers_now = self._powers(t)
+        self.energies.add(t, self._powers_now)
         if kink:
             self.energies.restart()
 
@@ -174,6 +133,44 @@ class Recorder:
         """Valves have opened or closed at t [s], the end of the last step."""
         if self.integrates:
             self.energies.add(t, self._powers(t))
+
+    def begin_step(self, t: float) -> None:
+        """Begin a step at t [s] that may pass over records."""
+        self._start = self._state(t)
+
+    @property
+    def passes_records(self) -> bool:
+        """Whether the step going on was begun as one that may pass over records."""
+        return self._start is not None
+
+    def end_step(self) -> None:
+        """The records that the step has passed over are kept."""
+        self._start = None
+
+    def record_between(self, t: float, end: float) -> None:
+        """Keep the state at time t [s] inside the step that has just ended at another [s]."""
+        if self._start is None:
+            raise RuntimeError("begin_step: was not called before the step")
+        state = between(self._start, self._state(end), t)
+        # in contact or not, with which impact: as over all of the step
+        state.memory[:, :2] = self._start.memory[:, :2]
+        kept = (state.position, state.velocity, state.memory)
+        self._keep(self._records, t, kept, state.totals.tolist())
+        if self.follows:
+            self._keep(self._ends, t, kept, state.totals.tolist())
+            self._begins.append(False)
+
+    def _state(self, t: float) -> StepEnd:
+        data = self._data
+        return StepEnd(
+            t,
+            data.GetODE2Coordinates(),
+            data.GetODE2Coordinates_t(),
+            data.GetODE2Coordinates_tt(),
+            _memories([pin.kept for _, pin in self._pins]),
+            np.array(self.energies.totals),
+            np.array(self._powers_now),
+        )
 
     def record(self, t: float) -> None:
         """Keep the state at time t [s]."""
@@ -215,22 +212,32 @@ class Recorder:
         self._begins = [True]
 
     def _keep_now(self, rows: _StateRows, t: float, remembered: Sequence[PinMemory] | None) -> None:
-        """Add a row with the state at t [s]; remembered: what pins remember, None: as they do now."""
         data = self._data
-        keeps_position, keeps_velocity, keeps_memory = self._kept
-        position, velocity, memory = rows.states
-        rows.time.append(t)
-        if keeps_position:
-            position.frombytes(data.GetODE2Coordinates().tobytes())
-        if keeps_velocity:
-            velocity.frombytes(data.GetODE2Coordinates_t().tobytes())
-        if keeps_memory:
-            for kept in [pin.kept for _, pin in self._pins] if remembered is None else remembered:
-                memory.extend(kept)
-        rows.totals.extend(self.energies.totals)
-        rows.deflections.extend(friction.deflection for _, friction in self._frictions)
+        position, velocity, memory = self._kept
+        pins = [pin.kept for _, pin in self._pins] if remembered is None else remembered
+        self._keep(
+            rows,
+            t,
+            (
+                data.GetODE2Coordinates() if position else None,
+                data.GetODE2Coordinates_t() if velocity else None,
+                _memories(pins) if memory else None,
+            ),
+            self.energies.totals,
+        )
         if self._keeps_legs:
             rows.legs.frombytes(self._legs.states())
+
+    def _keep(
+        self, rows: _StateRows, t: float, state: Sequence[Series | None], totals: Sequence[float]
+    ) -> None:
+        """Add a row; parts of the state that are not to be kept may be None."""
+        rows.time.append(t)
+        for numbers, part, keep in zip(rows.states, state, self._kept, strict=True):
+            if keep and part is not None:
+                numbers.frombytes(part.tobytes())
+        rows.totals.extend(totals)
+        rows.deflections.extend(friction.deflection for _, friction in self._frictions)
 
     def history(self) -> History:
         """What has been recorded so far."""
@@ -277,3 +284,8 @@ class Recorder:
                 damping += lost
                 friction -= rubbed
         return driving, damping, friction
+
+
+def _memories(pins: Series | Sequence[PinMemory]) -> Series:
+    """Memory of all clearance pins, shape (clearance pins, fields of PinMemory)."""
+    return np.asarray(pins, dtype=np.float64).reshape(-1, len(PinMemory._fields))

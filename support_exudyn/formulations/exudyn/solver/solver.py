@@ -28,6 +28,7 @@ from support_exudyn.formulations.exudyn.solver.refusals import (
     unlawful,
     why,
 )
+from support_exudyn.formulations.exudyn.solver.step_growth import StepGrowth, step_growth
 from support_exudyn.mechanics.trajectory import Counts, Impulse, Series
 from support_exudyn.scene.contract import Failure, Progress, SimulationError
 from support_exudyn.scene.limits import DEEPEST, SOFT, rounding_of_positions, too_deep
@@ -77,10 +78,16 @@ class SolverRun:
             scene.repeats,
         )
         self.impact_steps = scenario.solver.impact_steps
+        # what a load does need not show in accelerations, and long steps would pass over where it begins
+        # and states of legs and friction are not interpolated at records that a step passes over
+        states = scene.legs.circuits or any(one.law.has_state for one in self.frictions)
+        grows = scenario.solver.growth > 1.0 and not (scenario.acting_loads or states)
+        self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
         self.steps = self.cut_steps = self.failed_newton = 0
         self.most_steps, self.looks = scenario.solver.most_steps, scenario.solver.result_checks
         self.trying = False  # a step has been tried and not accepted yet
+        self.repeated = False  # that step is tried again, shorter
         self.calm: Series | None = None  # coordinates before velocities grew as Newton's method failed,
         self.calm_speed = 0.0  # and the largest velocity that is none of it
         newton = self.settings.timeIntegration.newton
@@ -133,6 +140,7 @@ class SolverRun:
         """Prepare every attempt at a step that would end at t."""
         again = self.trying
         if again:
+            self.repeated = True
             if self.legs.wants_cut or any(pin.wants_cut for pin in self.pins):
                 self.cut_steps += 1
             else:
@@ -194,6 +202,8 @@ class SolverRun:
         self.recorder.after_step(t, kink)
         for friction in self.frictions:
             friction.accept()
+        if self.smooth is not None:
+            self._look_for_smoothness(t, self.smooth)
         self.recorder.end(t, remembered if met else None)
         if (later := self._arrived(t)) != t:
             t, breaks = later, self.plan.breaks_at(later)
@@ -202,6 +212,8 @@ class SolverRun:
             self.recorder.energies.totals[0] += self.scene.align(t)
             self.scene.refresh_memory()
             self.legs.refresh()
+        if self.smooth is not None and self.plan.passes_record(t, goal):
+            self.recorder.begin_step(t)
         self.solver.it.currentStepSize = max(SMALLEST_STEP, goal - t)
         return True
 
@@ -279,6 +291,19 @@ class SolverRun:
             if (depth := pin.reached.depth) > deepest:
                 raise SimulationError(self._failure(too_deep(name, depth, pin.contact.bearing), SOFT))
 
+    def _look_for_smoothness(self, t: float, smooth: StepGrowth) -> None:
+        """See whether steps after t may be longer, and keep the records that the last has passed over."""
+        if self.recorder.passes_records:
+            for passed in self.plan.records_between(self.time, t):
+                self.recorder.record_between(passed, t)
+            self.recorder.end_step()
+        at_rest = all(pin.impact_steps.step == math.inf and pin.reached.depth > 0.0 for pin in self.pins)
+        if at_rest and not self.repeated and not self.plan.follows_break(t):
+            smooth.follow(t - self.time, self.data.GetODE2Coordinates_tt())
+        else:
+            smooth.restart()
+        self.repeated = False
+
     def _jump(self, t: float, breaks: list[float]) -> None:
         """Velocities after the breaks that t [s] is, if the speed of a drive jumps there, and valves."""
         drives = self.scene.scenario.drives_in_use
@@ -311,7 +336,10 @@ class SolverRun:
     def _next_time(self, t: float) -> float:
         """Where the step that starts at t is to end: on the grid, or at an impact seen coming [s]."""
         largest = self._longest_step(t)
-        goal = self.plan.next_time(t, max(largest, SMALLEST_IMPACT_STEP))
+        if self.smooth is not None and largest == math.inf:
+            goal = self.plan.far_time(t, self.smooth.size)
+        else:
+            goal = self.plan.next_time(t, max(largest, SMALLEST_IMPACT_STEP))
         for landing in (*(pin.landing for pin in self.pins), self.legs.landing):
             if landing < goal and t + SHARE * (goal - t) < landing:
                 goal = landing

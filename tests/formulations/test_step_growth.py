@@ -1,0 +1,103 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.polynomial import Polynomial
+
+from support_exudyn.formulations.exudyn.solver.step_growth import CALM_STEPS, SMOOTH, StepGrowth
+from support_exudyn.formulations.exudyn.solver.within_steps import StepEnd, between
+
+MASS = np.array([2.0, 2.0, 1.0])
+WEIGHT = math.sqrt(2.0) * 9.81
+LARGEST = SMOOTH * WEIGHT / math.sqrt(2.0)  # change of an acceleration in x that is allowed [m/s^2]
+
+
+def steps(longest: float = 16.0) -> StepGrowth:
+    return StepGrowth(1.0, longest, MASS, WEIGHT)
+
+
+def followed(smooth: StepGrowth, change: float, count: int) -> list[float]:
+    """Sizes after each of so many steps over which an acceleration changes by so much."""
+    sizes, acceleration = [], np.zeros(3)
+    for _ in range(count):
+        acceleration = acceleration + np.array([change, 0.0, 0.0])
+        smooth.follow(smooth.size, acceleration)
+        sizes.append(smooth.size)
+    return sizes
+
+
+def test_steps_double_after_calm_ones_up_to_the_longest() -> None:
+    sizes = followed(steps(5.0), 0.2 * LARGEST, 3 * CALM_STEPS + 1)
+    # the first step has none before it to compare with
+    assert sizes == [1.0] * CALM_STEPS + [2.0] * CALM_STEPS + [4.0] * CALM_STEPS + [5.0]
+
+
+def test_steps_stay_when_accelerations_change_somewhat() -> None:
+    assert followed(steps(), 0.5 * LARGEST, 20) == [1.0] * 20
+
+
+def test_steps_halve_at_once_when_they_change_much() -> None:
+    smooth = steps()
+    followed(smooth, 0.0, 40)
+    assert smooth.size == 16.0
+    assert followed(smooth, 1.1 * LARGEST, 6) == [8.0, 4.0, 2.0, 1.0, 1.0, 1.0]
+
+
+def test_large_accelerations_are_the_measure_if_they_are_larger_than_gravity() -> None:
+    smooth = StepGrowth(1.0, 16.0, MASS, 0.0)
+    for n in range(CALM_STEPS + 1):
+        smooth.follow(1.0, np.array([1e5 * (1.0 + 0.2 * SMOOTH * n), 0.0, 0.0]))
+    assert smooth.size == 2.0
+
+
+def test_restart_begins_with_the_shortest() -> None:
+    smooth = steps()
+    followed(smooth, 0.0, 40)
+    smooth.restart()
+    assert smooth.size == 1.0
+    # and as from the start: nothing to compare the first step with, and four calm ones before they double
+    assert followed(smooth, 0.0, CALM_STEPS + 1) == [1.0] * CALM_STEPS + [2.0]
+
+
+def test_restart_forgets_the_acceleration_before() -> None:
+    smooth = steps()
+    followed(smooth, 0.0, CALM_STEPS)
+    smooth.restart()
+    smooth.follow(1.0, np.array([1e6, 0.0, 0.0]))  # another one, and yet no change over a step
+    for _ in range(CALM_STEPS):
+        smooth.follow(1.0, np.array([1e6, 0.0, 0.0]))
+    assert smooth.size == 2.0
+
+
+# --- states inside a step ---
+
+
+def state(t: float, position: Polynomial, integral: Polynomial) -> StepEnd:
+    velocity, acceleration, power = position.deriv(), position.deriv(2), integral.deriv()
+    line = np.array([3.0 - 2.0 * t])
+    return StepEnd(
+        t,
+        np.array([position(t)]),
+        np.array([velocity(t)]),
+        np.array([acceleration(t)]),
+        line,
+        np.array([integral(t)]),
+        np.array([power(t)]),
+    )
+
+
+@pytest.mark.parametrize("t", [0.5, 0.7, 0.9999, 1.5])
+def test_quintics_cubics_and_lines_are_met(t: float) -> None:
+    cubic, quintic = Polynomial([1.0, -2.0, 0.5, 0.3]), Polynomial([1.0, -2.0, 0.5, 0.3, -0.7, 0.2])
+    # rounding of numbers up to 3
+    found = between(state(0.5, quintic, cubic), state(1.5, quintic, cubic), t)
+    assert found.time == t
+    assert found.position == pytest.approx(state(t, quintic, cubic).position, abs=1e-14)
+    assert found.totals == pytest.approx(state(t, quintic, cubic).totals, abs=1e-14)
+    assert found.memory == pytest.approx([3.0 - 2.0 * t], abs=1e-14)
+    found = between(state(0.5, cubic, cubic), state(1.5, cubic, cubic), t)
+    exact = state(t, cubic, cubic)
+    assert found.velocity == pytest.approx(exact.velocity, abs=1e-14)
+    assert found.acceleration == pytest.approx(exact.acceleration, abs=1e-14)
