@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from support_exudyn.commands.command_line import add_json, answer, folder, refusing, say, shown_progress, warn
-from support_exudyn.postprocessing.comparing.baselines import BaselineFolder, CheckedScenario
-from support_exudyn.postprocessing.comparing.kept_run import lines
+from support_exudyn.postprocessing.comparing.baselines import BaselineFolder, CheckedScenario, lines
 from user_forces.values.value import InputError
 
 EPILOG = """

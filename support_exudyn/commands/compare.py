@@ -160,7 +160,6 @@ def _show(console: Console, compared: FilesCompared) -> None:
         sheet = tables.table(pair)
         header = [head if n < sheet.left else f">{head}" for n, head in enumerate(sheet.header)]
         show_table(console, sheet.title, header, sheet.rows)
-        faults = [text for one in pair.channels.values() for text in tables.faults(one)]
-        for line in (*tables.notes(pair), *faults):
+        for line in (*tables.notes(pair), *pair.faults):
             console.print(line, markup=False, soft_wrap=True)
     console.print(tables.VERDICTS[compared.verdict], markup=False, soft_wrap=True)

@@ -114,10 +114,9 @@ def assert_close() -> AssertClose:
     ) -> None:
         __tracebackhide__ = True
         from support_exudyn.postprocessing.comparing.in_tests import closeness
-        from support_exudyn.postprocessing.comparing.tables import faults
 
         found = closeness(result, reference, tolerance, channels=channels, after=after, until=until)
-        if lines := [line for one in found for line in faults(one)]:
+        if lines := [line for channel in found for line in channel.faults]:
             raise AssertionError("\n".join(lines))
 
     return check

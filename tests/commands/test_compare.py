@@ -123,7 +123,7 @@ def test_what_is_compared(
         ("reference.csv larger.csv compare.toml", "allowed: --map compare.toml"),
         ("reference.csv far.csv", "tip.x of reference.csv and far.csv: times"),
         ("wide.csv wide.csv --figure a.png", f"{MOST + 1} channels: allowed in a figure: {MOST}"),
-        ("marked.csv same.csv Marker", "Marker: its file gives no unit"),
+        ("marked.csv same.csv Marker", "Marker: is in no unit in marked.csv"),
         ("marked.csv kind.csv pin.force", "pin.force: is in kN in marked.csv, and in mm in kind.csv"),
         ("marked.csv kind.csv --tolerance pin.force=1N", "pin.force: is in kN in marked.csv"),
         ("marked.csv same.csv less.csv --tolerance pin.force=1%", "pin.force: less.csv has no such channel"),

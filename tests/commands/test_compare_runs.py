@@ -114,7 +114,7 @@ def test_errors_cover_what_a_finer_run_finds(runs: Path, accuracy: str) -> None:
             assert 0.0 < mine.error < math.inf
             assert abs(mine.value - its.value) <= mine.error + its.error, (name, number)
     two_accuracies = compare_files(runs / "with_clearance.h5", runs / "fine.h5").pairs[0]
-    assert not any(channel.beside_errors.ratio > 10.0 for channel in two_accuracies.channels.values())
+    assert not any(channel.over_errors > 10.0 for channel in two_accuracies.channels.values())
 
 
 def test_the_same_run_other_records_and_a_bit(runs: Path) -> None:
@@ -218,10 +218,10 @@ def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it
     assert ended([*words, "--json"]) == 0
     pair = json.loads(capsys.readouterr().out)["files"]["reference.h5"]
     for name, channel in pair["channels"].items():
-        assert channel["beside_errors"]["within"], name
+        assert channel["over_errors"] <= 1.0, name
         assert set(channel["statistics"]) == {"mean", "rms"}, name
         assert all(what["equal"] is not False for what in channel["statistics"].values()), name
     compared = compare_files(draft, fine, channels=["tip.x"])
     difference = compare_figure(compared).axes[1]
     # after the horizon nothing is drawn, for it shows nothing
-    assert float(np.max(difference.lines[0].get_xdata())) <= compared.pairs[0].window.horizon
+    assert float(np.max(difference.lines[0].get_xdata())) <= compared.pairs[0].horizon

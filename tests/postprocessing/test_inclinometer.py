@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from support_exudyn import CubicStep, Result, Scenario, machine, reference_support, simulate
-from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer, specific_force
+from support_exudyn.postprocessing.instruments.sensors import Inclinometer, specific_force
 from support_exudyn.postprocessing.instruments.station import MeasuringStation, measure
 from tests import synthetic
 

@@ -1,27 +1,271 @@
-"""Baselines of the scenarios in a folder: made, compared, and changed where that is asked for."""
+"""Baselines: kept numbers and curves of runs with their errors, and what has changed since.
+
+The file is JSON with a line for each number and curve, so that its versions can be compared. A number
+is a text of its value, its error and its unit; a curve is a text of its values.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+import json
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any, NamedTuple
 
-from support_exudyn.files import ScenarioFile
-from support_exudyn.files.scenarios.scenario_file import OTHER_FILES, read_scenario_file
+import numpy as np
+
+from support_exudyn.files.scenarios.scenario_file import OTHER_FILES, ScenarioFile, read_scenario_file
 from support_exudyn.files.toml.text import load_toml
-from support_exudyn.files.whole_file import writing_alone
-from support_exudyn.postprocessing.comparing.in_tests import ENDING, FOLDER
-from support_exudyn.postprocessing.comparing.kept_run import (
-    KeptRun,
-    RunChange,
-    changes,
-    kept_run,
-    read_baseline,
-    write_baseline,
-)
+from support_exudyn.files.whole_file import contents, missing_file, whole_file, writing_alone
+from support_exudyn.mechanics.trajectory import Series
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn, compared
+from support_exudyn.postprocessing.comparing.compared_file import recorded_columns
+from support_exudyn.postprocessing.comparing.mapping import BOTH_ERRORS
 from support_exudyn.scene.contract import Progress, SimulationError
+from support_exudyn.simulation.estimate import Estimate
+from support_exudyn.simulation.horizon import horizon
+from support_exudyn.simulation.provenance import provenance
+from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
-from user_forces.values.value import InputError
+from support_exudyn.sweeps.key import program
+from support_exudyn.sweeps.own_sources import own_sources
+from user_forces.values.value import InputError, cleaned
+
+FOLDER, ENDING = "baseline", ".json"  # of baselines next to scenarios and tests
+RECORDS = 100  # of every curve that are kept
+FORMAT = "support_exudyn baseline 2"
+MOST = 100_000_000  # bytes
+SHOWN = 12  # changes of a scenario that are printed
+DIGITS, OF_ERRORS = 13, 3  # of values and errors that are written; errors count rounding from 1e-10 on
+DAMAGES = (LookupError, AttributeError, TypeError, ValueError, RecursionError, OverflowError)
+MEND = (
+    "allowed: a file as `baseline make` writes it; take it from version control, or remove it and make it again"
+)
+
+
+@dataclass(frozen=True)
+class KeptRun:
+    """What is kept of a run, so that a change can be recognised later.
+
+    numbers: by name.
+    provenance: versions, platform, time, digests of our own sources and of the user's modules.
+    scenario: of the run, as plain data; empty where it is not compared.
+    curves: thinned, at common times, by channel, in SI.
+    horizon: up to when curves are determined [s], see `determined_until`.
+    """
+
+    numbers: Mapping[str, Estimate]
+    provenance: Mapping[str, str]
+    scenario: Mapping[str, Any] = field(default_factory=dict)
+    curves: Mapping[str, ComparedColumn] = field(default_factory=dict)
+    horizon: float = math.inf
+
+
+def kept_run(result: Result) -> KeptRun:
+    """What is kept of a run.
+
+    Beyond the horizon impacts depend on the steps, and so does any number of the whole run: of a run with a
+    horizon no numbers are kept.
+
+    result: with errors. Raises InputError if the result has nothing to estimate errors by.
+    """
+    if result.coarser is None:
+        raise InputError(
+            "the run has no numerical errors, so that no change can be recognised; allowed: a run with an "
+            "accuracy, or made with errors=True"
+        )
+    end = determined_until(result)
+    rows = np.unique(np.linspace(0, result.time.size - 1, RECORDS).round().astype(np.intp))
+    names = [name for name, channel in result.channels.items() if name != "time" and channel.is_determined]
+    own = {f"module {name}": digest for name, digest in own_sources(result.scenario.plain).items()}
+    return KeptRun(
+        numbers=result.numbers() if math.isinf(end) else {},
+        provenance={**result.provenance, "sources": program()["sources"], **own},
+        curves={
+            name: ComparedColumn(column.unit, *(each[rows] for each in column[1:]))
+            for name, column in recorded_columns(result, names).items()
+        },
+        horizon=end,
+    )
+
+
+def kept_numbers(numbers: Mapping[str, Estimate]) -> KeptRun:
+    """Numbers of one's own with their errors, kept as those of a run are."""
+    return KeptRun(numbers=dict(numbers), provenance={**provenance(), "sources": program()["sources"]})
+
+
+def determined_until(result: Result) -> float:
+    """Until when a run is determined [s]: the earlier horizon of it and of the next coarser run."""
+    runs = [run for run in (result, result.coarser) if run is not None and run.coarser is not None]
+    return min(map(horizon, runs), default=math.inf)
+
+
+# --- what has changed ---
+
+
+class RunChange(NamedTuple):
+    """A difference between a run and its baseline.
+
+    kind: "changed", "new", or "gone". what: "number", "channel", "key" of the scenario. name: of it. values:
+    what it was and is, in words. ratio: the difference over both errors; infinite if nothing measures it.
+    """
+
+    kind: str
+    what: str
+    name: str
+    values: str = ""
+    ratio: float = math.inf
+
+
+def changes(old: KeptRun, new: KeptRun) -> list[RunChange]:
+    """All that has changed by more than the errors of both runs, is new, or gone, the worst first.
+
+    Keys of the scenario stand first, for they explain the rest. What is not determined is not compared: numbers
+    of which an error is not known or that one of the runs has no more because of its horizon, and curves beyond
+    the horizon of either run.
+    """
+    was, now = dict(_leaves(old.scenario)), dict(_leaves(new.scenario))
+    keys = [
+        *(RunChange("gone", "key", name, str(was[name])) for name in was if name not in now),
+        *(RunChange("new", "key", name, str(now[name])) for name in now if name not in was),
+        *(
+            RunChange("changed", "key", name, f"{was[name]} -> {now[name]}")
+            for name in was
+            if name in now and was[name] != now[name]
+        ),
+    ]
+    rest = list(_changed_columns("channel", old.curves, new.curves, min(old.horizon, new.horizon)))
+    if math.isinf(old.horizon) == math.isinf(new.horizon):
+        mine, its = (
+            {name: ComparedColumn.of_number(number, number.unit) for name, number in run.numbers.items()}
+            for run in (old, new)
+        )
+        rest += _changed_columns("number", mine, its, math.inf)
+    return [*sorted(keys), *sorted(rest, key=lambda change: (-change.ratio, change.name))]
+
+
+def _changed_columns(
+    what: str, old: Mapping[str, ComparedColumn], new: Mapping[str, ComparedColumn], end: float
+) -> Iterator[RunChange]:
+    """Changes of curves up to a time [s], or of numbers: both errors are what is allowed."""
+    for name in [*old, *(name for name in new if name not in old)]:
+        if name not in old or name not in new:
+            yield RunChange("gone" if name in old else "new", what, name)
+            continue
+        was, now = old[name], new[name]
+        if was.unit != now.unit:
+            yield RunChange("changed", what, name, f"in {was.unit} -> in {now.unit}")
+        elif not (was.time.size and was.time[0] > end):
+            channel = compared(name, was, now, BOTH_ERRORS, until=end)
+            if channel.gaps or channel.verdict == "not within":
+                ratio = math.inf if channel.gaps else channel.over_errors
+                yield RunChange("changed", what, name, channel.faults[0].removeprefix(f"{name}: "), ratio)
+
+
+def _leaves(data: Any, place: str = "") -> Iterator[tuple[str, Any]]:
+    """The items of nested data with their places in it, such as pins.B.friction or gravity[1]."""
+    if isinstance(data, Mapping) and data:
+        for key, item in data.items():
+            yield from _leaves(item, f"{place}.{key}" if place else str(key))
+    elif isinstance(data, (list, tuple)) and data:
+        for n, item in enumerate(data):
+            yield from _leaves(item, f"{place}[{n}]")
+    else:
+        yield place, data
+
+
+def lines(found: Sequence[RunChange], most: int = SHOWN) -> list[str]:
+    """The first changes as sentences, and how many more there are."""
+    shown = [f"{each.kind} {each.what} {each.name}{': ' * bool(each.values)}{each.values}" for each in found]
+    return shown[:most] + [f"and {len(found) - most} more"] * (len(found) > most)
+
+
+# --- the file ---
+
+
+def write_baseline(kept: KeptRun, path: Path) -> None:
+    """Write a baseline whole or not at all. Raises OSError that names the file if it cannot be written."""
+    time = next((curve.time for curve in kept.curves.values()), np.zeros(0))
+    data = {
+        "format": FORMAT,
+        "provenance": dict(kept.provenance),
+        "horizon_s": kept.horizon if math.isfinite(kept.horizon) else None,
+        "numbers": {
+            name: f"{_value(number.value)} {_text([number.error], OF_ERRORS)} {number.unit}"
+            for name, number in kept.numbers.items()
+        },
+        "time_s": _text(time.tolist(), DIGITS),
+        "curves": {
+            name: {
+                "unit": curve.unit,
+                "values": _text(curve.values.tolist(), DIGITS),
+                "errors": _text(curve.errors.tolist(), OF_ERRORS),
+            }
+            for name, curve in kept.curves.items()
+        },
+        "scenario": kept.scenario,
+    }
+    text = json.dumps(data, indent=1, allow_nan=False)
+    with whole_file(path) as temporary:
+        temporary.write_text(f"{text}\n", encoding="utf-8", newline="\n")
+
+
+def _value(value: float) -> str:
+    return repr(float(value)) if math.isfinite(value) else "nan"
+
+
+def _text(values: Iterable[float], digits: int) -> str:
+    """Numbers in a text; those that are not known, or without end, as nan."""
+    return " ".join(f"{value:.{digits}g}" if math.isfinite(value) else "nan" for value in values)
+
+
+def read_baseline(path: Path) -> KeptRun:
+    """Read what `write_baseline` wrote.
+
+    Raises InputError if the file is no baseline or damaged; OSError if it cannot be read.
+    """
+    if not path.exists():
+        raise missing_file(path, "the file of a baseline")
+    try:
+        data = json.loads(contents(path, MOST).decode("utf-8"))
+        if not isinstance(data, dict) or data.pop("format", None) != FORMAT:
+            raise ValueError(f"it does not begin with {FORMAT!r}")
+        time = _numbers(data["time_s"])
+        return KeptRun(
+            numbers={name: _estimate(*text.split(" ", 2)) for name, text in data["numbers"].items()},
+            provenance=data["provenance"],
+            scenario=data["scenario"],
+            curves={name: _curve(time, **curve) for name, curve in data["curves"].items()},
+            horizon=math.inf if data["horizon_s"] is None else data["horizon_s"],
+        )
+    except DAMAGES as error:
+        why = cleaned(" ".join(str(error).split()))[:200]
+        raise InputError(f"{path}: is no baseline, or damaged ({why}); {MEND}") from None
+
+
+def _estimate(value: str, error: str, unit: str) -> Estimate:
+    """A number and its error, which is infinite if it is not known."""
+    return Estimate(float(value), float(_known_errors(_numbers(error))[0]), unit)
+
+
+def _curve(time: Series, unit: str | None, values: str, errors: str) -> ComparedColumn:
+    """A curve; errors that are not known are infinite. Raises ValueError if it has not as many as times."""
+    column = ComparedColumn(unit, time, _numbers(values), _known_errors(_numbers(errors)))
+    if not column.values.size == column.errors.size == time.size:
+        raise ValueError("a curve has more or fewer values than there are times")
+    return column
+
+
+def _known_errors(errors: Series) -> Series:
+    return np.where(np.isnan(errors), math.inf, errors)
+
+
+def _numbers(text: str) -> Series:
+    return np.array([float(word) for word in text.split()], dtype=np.float64)
+
+
+# --- the scenarios of a folder ---
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import tempfile
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from markupsafe import Markup
@@ -15,8 +14,8 @@ from matplotlib.figure import Figure
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.comparing import tables
 from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared
-from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.channels import label_values
+from support_exudyn.postprocessing.figures import style
+from support_exudyn.postprocessing.figures.channels import Curve, draw_panels, label_values
 from support_exudyn.postprocessing.figures.units import readable, said
 from support_exudyn.postprocessing.page.live import of_drawing
 from support_exudyn.postprocessing.page.live_html import html
@@ -25,10 +24,11 @@ from user_forces.values.value import InputError
 
 TEMPLATE = "compare.html.j2"
 FIGURES, PAGES = (".png", ".pdf", ".svg"), (".html",)
-OTHERS = tuple(look for look in style.CURVES if look[0] != style.IDEAL)  # the reference is black
+REFERENCE: tuple[str, style.Dashes] = (style.IDEAL, "-")
+OTHERS = tuple(look for look in style.CURVES if look[0] != style.IDEAL)
 MOST = 8  # channels
 FEW = 60  # points of a curve that are drawn as markers
-CURVES_MM, DIFFERENCE_MM, REST_MM, LINE_MM = 38.0, 30.0, 30.0, 4.5
+PANEL_MM, REST_MM, LINE_MM = 34.0, 30.0, 4.5
 ALLOWED, AFTER = "#009E73", "#f0f0f0"  # colours of what is allowed, and of what lies after the horizon
 CAPTION = (
     "Curves as their files have them (few points: markers); below each, the difference from the reference up "
@@ -57,81 +57,79 @@ def compare_figure(compared: FilesCompared, most: int | None = None) -> Figure:
 
     Raises InputError if files are too many, or of all channels more than `MOST`.
     """
-    names = list(dict.fromkeys(name for pair in compared.pairs for name in pair.channels))
+    pairs = compared.pairs
+    names = list(dict.fromkeys(name for pair in pairs for name in pair.channels))
     if most is None and len(names) > MOST:
         raise InputError(
             f"{len(names)} channels: allowed in a figure: {MOST}; name fewer, such as {names[0]!r}"
         )
-    if len(compared.pairs) > len(OTHERS):
-        raise InputError(f"{len(compared.pairs) + 1} files: allowed in a figure: {len(OTHERS) + 1}")
+    if len(pairs) > len(OTHERS):
+        raise InputError(f"{len(pairs) + 1} files: allowed in a figure: {len(OTHERS) + 1}")
     names = names[:most]
-    times = [one.common.time for pair in compared.pairs for one in pair.channels.values()]
-    ends = min(float(time[0]) for time in times), max(float(time[-1]) for time in times)
-    horizon = min(pair.window.horizon for pair in compared.pairs)
-    others = ", ".join(pair.other.name for pair in compared.pairs)
+    panels = [panel for name in names for panel in _panels(compared, name)]
+    horizon = min(pair.horizon for pair in pairs)
     with style.look():
-        height = REST_MM + (CURVES_MM + DIFFERENCE_MM) * len(names) + LINE_MM * (1 + len(compared.pairs))
-        drawing = style.begin(170, height, f"{others} compared with {compared.reference.name}")
-        ratios = [CURVES_MM, DIFFERENCE_MM] * len(names)
-        panels = drawing.subplots(2 * len(names), 1, sharex=True, squeeze=False, height_ratios=ratios)[:, 0]
+        height = REST_MM + PANEL_MM * len(panels) + LINE_MM * (1 + len(pairs))
+        drawing = style.begin(170, height, _title(compared))
+        rows, seconds = draw_panels(drawing, panels)
         for n, name in enumerate(names):
-            there = {OTHERS[k][0]: pair for k, pair in enumerate(compared.pairs) if name in pair.channels}
-            _curves(panels[2 * n], name, there, ends)
-            _differences(panels[2 * n + 1], name, there)
-        if horizon < ends[1]:
-            for axes in panels:
-                axes.axvspan(horizon, ends[1], color=AFTER, lw=0.0, zorder=0)
-        panels[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.2), fontsize=7, borderaxespad=0.0)
-        drawing.align_ylabels(list(panels))
-        panels[-1].set_xlabel("time [s]")
-        if ends[1] > ends[0]:
-            panels[-1].set_xlim(*ends)
+            rows[2 * n].set_title(name, fontsize=8)
+            _mark(rows[2 * n + 1], [pair for pair in pairs if name in pair.channels], name)
+        end = rows[0].get_xlim()[1]
+        if seconds.scale * horizon < end:
+            for axes in rows:
+                axes.axvspan(seconds.scale * horizon, end, color=AFTER, lw=0.0, zorder=0)
+        rows[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.2), fontsize=7, borderaxespad=0.0)
         style.caption(drawing, CAPTION)
     return drawing
 
 
-def _curves(axes: Axes, name: str, there: dict[str, ComparedPair], ends: tuple[float, float]) -> None:
-    """The curves of a channel as their files have them, by the colours of the pairs."""
-    first = next(iter(there.values()))
-    unit, drawn = first.channels[name].unit, []
-    for colour, file in ((style.IDEAL, first.reference), *((key, pair.other) for key, pair in there.items())):
+def _title(compared: FilesCompared) -> str:
+    return f"{', '.join(pair.other.name for pair in compared.pairs)} compared with {compared.reference.name}"
+
+
+def _panels(compared: FilesCompared, name: str) -> list[tuple[str, list[Curve]]]:
+    """Unit and curves of the two panels of a channel: those of the files, and the differences."""
+    there = [(pair, look) for pair, look in zip(compared.pairs, OTHERS, strict=False) if name in pair.channels]
+    channels = [pair.channels[name] for pair, _ in there]
+    unit, times = channels[0].unit, [channel.common.time for channel in channels]
+    first, last = min(time[0] for time in times), max(time[-1] for time in times)
+    curves, differences = [], []
+    for file, (colour, dashes) in (
+        (compared.reference, REFERENCE),
+        *((pair.other, look) for pair, look in there),
+    ):
         column = file.columns[name].in_unit(unit, name)
-        chosen = (column.time >= ends[0]) & (column.time <= ends[1])
-        drawn.append((file, colour, column.time[chosen], column.values[chosen]))
-    shown = readable(unit, max(float(np.nanmax(np.abs(curve[3]), initial=0.0)) for curve in drawn))
-    for file, colour, time, values in drawn:
-        look: dict[str, Any] = {"ls": dict(OTHERS).get(colour, "-"), "lw": 1.0}
-        if file.run is None and time.size <= FEW:  # points are seen as such
-            look = {"ls": "", "marker": "o", "ms": 3.5, "mfc": "none", "mew": 1.0, "zorder": 3}
-        axes.plot(time, shown.scale * values, color=colour, label=file.name, **look)
-    label_values(axes, units.QUANTITIES.get(unit, "value"), shown.name)
-    axes.set_title(name, fontsize=8)
+        shown = (column.time >= first) & (column.time <= last)
+        few = file.run is None and np.count_nonzero(shown) <= FEW
+        line = column.time[shown], column.values[shown]
+        curves.append(Curve(file.name, *line, None, colour, "" if few else dashes))
+    for channel, (_, look) in zip(channels, there, strict=True):
+        before = slice(channel.before)
+        line = channel.common.time[before], channel.common.difference[before]
+        differences.append(Curve("difference", *line, channel.errors[before], *look))
+    return [(unit, curves), (unit, differences)]
 
 
-def _differences(axes: Axes, name: str, there: dict[str, ComparedPair]) -> None:
-    """The differences from the reference before the horizon, with numerical errors, inside what is allowed."""
-    channels = [pair.channels[name] for pair in there.values()]
-    sizes = [one.largest.value for one in channels if math.isfinite(one.largest.value)]
-    shown, titles = readable(channels[0].unit, max(sizes, default=0.0)), []
-    for (colour, pair), one in zip(there.items(), channels, strict=True):
-        time, errors = one.common.time[: one.before], shown.scale * one.errors[: one.before]
-        difference = shown.scale * one.common.difference[: one.before]
-        axes.plot(
-            time, difference, color=colour, lw=0.9, marker="." if time.size <= FEW else "", label="difference"
-        )
-        axes.fill_between(time, difference - errors, difference + errors, color=colour, alpha=0.25, lw=0.0)
+def _mark(axes: Axes, pairs: list[ComparedPair], name: str) -> None:
+    """Mark what is allowed in a panel of differences; its title states the largest one and the verdict."""
+    channels, titles = [pair.channels[name] for pair in pairs], []
+    for pair, channel in zip(pairs, channels, strict=True):
         largest = "nothing lies before the horizon"
-        if math.isfinite(one.measures.largest):
-            largest = f"largest {said(one.measures.largest, one.unit)} at {one.measures.largest_time:.4g} s"
-        verdict = f", {tables.verdict_words(one)}" if one.tolerance is not None else ""
+        if math.isfinite(channel.measures.largest):
+            at = f"{channel.measures.largest_time:.4g} s"
+            largest = f"largest {said(channel.measures.largest, channel.unit)} at {at}"
+        verdict = f", {tables.verdict_words(channel)}" if channel.tolerance is not None else ""
         titles.append(f"{pair.other.name}: {largest}{verdict}")
+    axes.set_title("; ".join(titles), fontsize=7)
+    sizes = [channel.largest.value for channel in channels if math.isfinite(channel.largest.value)]
+    shown = readable(channels[0].unit, max(sizes, default=0.0))
+    label_values(axes, "difference", shown.name)
     if math.isfinite(channels[0].allowed):
         bound = shown.scale * channels[0].allowed
         axes.axhspan(-bound, bound, color=ALLOWED, alpha=0.10, lw=0.0, zorder=0)
         for end in (-bound, bound):
             axes.axhline(end, color=ALLOWED, lw=0.8, ls="--", label="allowed")
-    label_values(axes, "difference", shown.name)
-    axes.set_title("; ".join(titles), fontsize=7)
 
 
 def write_page(compared: FilesCompared, path: Path) -> None:
@@ -141,7 +139,7 @@ def write_page(compared: FilesCompared, path: Path) -> None:
     """
     check_ending(path, PAGES)
     drawn = [FilesCompared(compared.reference, (pair,)) for pair in compared.pairs]
-    figures = [compare_figure(one, len(one.pairs[0].channels)) for one in drawn]
+    figures = [compare_figure(each, len(each.pairs[0].channels)) for each in drawn]
     pages = html(
         {f"curves{n}": of_drawing(figure, range(len(figure.axes))) for n, figure in enumerate(figures)}
     )
@@ -153,14 +151,13 @@ def write_page(compared: FilesCompared, path: Path) -> None:
             files.append({
                 "name": pair.other.name,
                 "anchor": f"file{n}",
-                "faults": [text for one in pair.channels.values() for text in tables.faults(one)],
+                "faults": pair.faults,
                 "sentences": [line[:1].upper() + line[1:].rstrip(".") for line in tables.notes(pair)],
                 "tables": [ShownTable(tables.table(pair))],
                 "curves": ShownFigure(image(printed), CAPTION, Markup(pages.places[f"curves{n}"])),
             })  # fmt: skip
-    names = ", ".join(pair.other.name for pair in compared.pairs)
     page = {
-        "title": f"{names} compared with {compared.reference.name}",
+        "title": _title(compared),
         "verdict": tables.VERDICTS[compared.verdict],
         "files": files,
     }

@@ -1,18 +1,19 @@
-"""A column against its reference at common times: differences, errors, statistics and a verdict."""
+"""A channel against its reference: both columns joined in time, with measures, errors and a verdict."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.files.series.units import converted
+from support_exudyn.postprocessing.comparing.mapping import PERCENT, Tolerance
 from support_exudyn.postprocessing.comparing.measures import (
     CommonCurves,
     CurveMeasures,
@@ -21,21 +22,17 @@ from support_exudyn.postprocessing.comparing.measures import (
     curve_measures,
     on_common_times,
 )
-from support_exudyn.postprocessing.comparing.tolerance import (
-    JudgedDifference,
-    Tolerance,
-    ToleranceVerdict,
-    worst,
-)
 from support_exudyn.postprocessing.figures.selection import CLEARANCE
+from support_exudyn.postprocessing.figures.units import said
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import InputError
 
 Values = npt.NDArray[np.float64]
-LARGEST = "largest difference"
-GAPS = "values that are missing"
+Verdict = Literal["within", "not within", "not decided", "no tolerance"]
+WORST_FIRST: tuple[Verdict, ...] = ("not within", "not decided", "within", "no tolerance")
 ANGLE, TURN = "rad", 2.0 * math.pi
-ROUNDING = 1e-6  # of a turn, by which a file's digits may leave the range of a wrapped angle
+LEFT_OF_A_TURN = 1e-6  # share by which a file's digits may leave the range of a wrapped angle
+ROUNDING = 1e-9  # share of what is allowed: 1.1 - 1.0 is 0.1, in whatever digits
 
 
 class ComparedColumn(NamedTuple):
@@ -69,11 +66,16 @@ class ComparedColumn(NamedTuple):
             zero, one = converted(NamedSeries(name, self.unit, np.zeros(2), np.array([0.0, 1.0])), unit)
             scale = one - zero
             column = self._replace(values=zero + scale * self.values, errors=abs(scale) * self.errors)
-        values = unwrapped(column.values) if unit == ANGLE else column.values
-        return column._replace(unit=unit, values=values)
+        return column._replace(unit=unit, values=_unwrapped(column.values) if unit == ANGLE else column.values)
+
+    def errors_at(self, at: Values) -> Values:
+        """Errors at other times [s], (m,): those of the next record, as errors grow with time."""
+        if not self.time.size:
+            return self.errors
+        return self.errors[np.minimum(np.searchsorted(self.time, at - CLEARANCE), self.time.size - 1)]
 
 
-def unwrapped(angle: Values) -> Values:
+def _unwrapped(angle: Values) -> Values:
     """A continuous angle [rad] from one that was wrapped into a single turn; others stay as they are.
 
     An angle was wrapped if all values lie within a turn and neighbours are more than half a turn apart.
@@ -81,28 +83,29 @@ def unwrapped(angle: Values) -> Values:
     known = np.isfinite(angle)
     values = angle[known]
     jumps = np.abs(np.diff(values)).max(initial=0.0) > 0.5 * TURN
-    if not jumps or np.ptp(values) > (1.0 + ROUNDING) * TURN:
+    if not jumps or np.ptp(values) > (1.0 + LEFT_OF_A_TURN) * TURN:
         return angle
     continuous = angle.copy()
     continuous[known] = np.unwrap(values)
     return continuous
 
 
-@dataclass(frozen=True)
-class ComparedWindow:
-    """The part of two files that is compared.
+def decide(value: float, error: float, allowed: float) -> Verdict:
+    """Whether the magnitude of a difference is within what is allowed.
 
-    after, until: times [s]. horizon: from when on curves are compared by their statistics [s]; infinite: never.
-    among: how many statistics are reported together.
+    It is not decided if the error of the difference is larger than what is allowed and could turn the answer,
+    or if a difference or its error is not known: NaN, or infinite.
     """
+    unsure = error > allowed and value - error <= allowed
+    if math.isnan(value) or not math.isfinite(error) or unsure:
+        return "not decided"
+    return "within" if value <= allowed * (1.0 + ROUNDING) else "not within"
 
-    after: float = -math.inf
-    until: float = math.inf
-    horizon: float = math.inf
-    among: int = 1
 
-
-EVERYTHING = ComparedWindow()
+def worst(verdicts: Iterable[Verdict]) -> Verdict:
+    """The verdict on all: the worst of those on each."""
+    each = set(verdicts)
+    return next((verdict for verdict in WORST_FIRST if verdict in each), "no tolerance")
 
 
 @dataclass(frozen=True)
@@ -140,28 +143,18 @@ class ComparedChannel:
             return Estimate(math.nan, math.nan, self.unit)
         return Estimate(abs(self.measures.largest), float(self.errors[self._largest_at]), self.unit)
 
-    @property
-    def beside_errors(self) -> JudgedDifference:
-        """The difference at the record with the largest multiple of its error; no tolerance without errors."""
-        where = self._farthest
-        if where is None:
-            return JudgedDifference(LARGEST, math.nan, 0.0, math.nan)
-        apart = abs(float(self.common.difference[where]))
-        return JudgedDifference(LARGEST, apart, 0.0, float(self.errors[where]))
-
-    @property
-    def record(self) -> int:
-        """Index of the record that decides: the farthest beyond its error, or the largest difference."""
-        by_errors = self.tolerance is not None and self.tolerance.is_errors
-        return self._farthest if by_errors and self._farthest is not None else self._largest_at
-
     @cached_property
-    def _farthest(self) -> int | None:
-        """Index of the record with the largest multiple of its error; None: no error is known."""
+    def _multiples(self) -> Values:
+        """The difference over its error at each time before the horizon, (n,); -1 where no error is known."""
         apart, errors = np.abs(self.common.difference[: self.before]), self.errors[: self.before]
-        known = np.isfinite(errors) & np.isfinite(apart)
         ratios = np.divide(apart, errors, out=np.where(apart > 0.0, math.inf, 0.0), where=errors > 0.0)
-        return int(np.where(known, ratios, -1.0).argmax()) if known.any() else None
+        return np.where(np.isfinite(errors) & np.isfinite(apart), ratios, -1.0)
+
+    @property
+    def over_errors(self) -> float:
+        """The largest multiple of the numerical error by which the curves differ; NaN if no error is known."""
+        largest = float(self._multiples.max(initial=-1.0))
+        return largest if largest >= 0.0 else math.nan
 
     @property
     def _largest_at(self) -> int:
@@ -172,39 +165,66 @@ class ComparedChannel:
         """Number of times at which the other curve is not known and the reference is."""
         return int(np.count_nonzero(np.isfinite(self.common.reference) & ~np.isfinite(self.common.other)))
 
-    @property
-    def judged(self) -> tuple[JudgedDifference, ...]:
-        """The differences that are judged: the largest before the horizon, and statistics after it.
+    @cached_property
+    def judged(self) -> tuple[tuple[Verdict, str], ...]:
+        """The verdict on each number that a tolerance bounds, with a sentence; empty without a tolerance.
 
-        Curves that are the same to the bit have the same errors, whatever these are. Values of the reference
-        that the other curve lacks cannot be judged. Without numerical errors that of interpolation counts.
+        They are the largest difference before the horizon, and statistics after it. With the errors as
+        tolerance it is the record with the largest multiple of its error. Curves that are the same to the bit
+        have the same errors, whatever these are. Without numerical errors that of interpolation counts.
         """
+        value, error, _ = self.largest
+        if self.tolerance is None:
+            return ()
         if self.gaps:
-            return (JudgedDifference(GAPS, math.nan, 0.0, 0.0),)
+            return (("not decided", f"no value at {self.gaps} times at which the reference is known"),)
         if np.array_equal(self.common.reference, self.common.other, equal_nan=True):
-            return (JudgedDifference(LARGEST, 0.0, 0.0, 0.0),)
-        if self.tolerance is not None and self.tolerance.is_errors:
-            judged = self.beside_errors
-            known = not math.isnan(judged.allowed)
-            return (judged if known else JudgedDifference(LARGEST, self.largest.value, math.inf, 0.0),)
-        found = []
-        if self.before:
-            value, error, _ = self.largest
-            if math.isnan(error) and math.isfinite(value):
-                error = float(self.common.interpolation_error[self._largest_at])
-            found.append((LARGEST, value, error))
-        found += [(name, abs(one.difference), one.half) for name, one in self.statistics.items()]
-        return tuple(
-            JudgedDifference(name, value, error if math.isfinite(error) else math.inf, self.allowed)
-            for name, value, error in found
-        )
+            return (("within", ""),)
+        judged = []
+        if math.isfinite(value):
+            at, allowed = self._largest_at, self.allowed
+            if not self.tolerance.is_errors:
+                error = float(self.common.interpolation_error[at]) if math.isnan(error) else error
+            elif math.isnan(self.over_errors):
+                error, allowed = math.nan, 0.0
+            else:
+                at = int(self._multiples.argmax())
+                value, error, allowed = abs(float(self.common.difference[at])), 0.0, float(self.errors[at])
+            when = f" at {self.common.time[at]:.6g} s" if self.common.time.size > 1 else ""
+            now, was = self.common.other[at], self.common.reference[at]
+            what = f"{now:.9g} {self.unit}{when}, where the reference is {was:.9g},"
+            judged.append(self._judge(what, value, error, allowed))
+        for name, each in self.statistics.items():
+            what = f"the {name} after the horizon"
+            judged.append(self._judge(what, abs(each.difference), each.half, self.allowed))
+        return tuple(judged)
+
+    def _judge(self, what: str, value: float, error: float, allowed: float) -> tuple[Verdict, str]:
+        """The verdict on a difference, and a sentence on it."""
+        verdict = decide(value, error, allowed)
+        rule = "" if self.tolerance is None else self.tolerance.text
+        text = f"{what} differs by {said(value, self.unit, 4)}; allowed: {said(allowed, self.unit, 4)} ({rule})"
+        if verdict == "not decided":
+            known = said(error, self.unit, 2) if math.isfinite(error) else "not known"
+            text += f"; not decided, its error is {known}: a finer accuracy may decide"
+        if not allowed and rule.endswith(PERCENT):
+            text += "; the reference is constant: give an amount with its unit"
+        return verdict, text
 
     @property
-    def verdict(self) -> ToleranceVerdict:
+    def verdict(self) -> Verdict:
         """Whether the channel is within its tolerance; "not decided" if there is nothing to judge by."""
         if self.tolerance is None:
             return "no tolerance"
-        return worst(judged.verdict for judged in self.judged) if self.judged else "not decided"
+        return worst(verdict for verdict, _ in self.judged) if self.judged else "not decided"
+
+    @property
+    def faults(self) -> list[str]:
+        """Why a channel is not within its tolerance, or not decided: a sentence a number, the worst first."""
+        if self.tolerance is not None and not self.judged:
+            return [f"{self.name}: not decided: there are no two common values"]
+        bad = [each for each in self.judged if each[0] != "within"]
+        return [f"{self.name}: {text}" for _, text in sorted(bad, key=lambda each: WORST_FIRST.index(each[0]))]
 
 
 def compared(
@@ -212,8 +232,12 @@ def compared(
     reference: ComparedColumn,
     other: ComparedColumn,
     tolerance: Tolerance | None = None,
-    window: ComparedWindow = EVERYTHING,
+    *,
     unit: str | None = None,
+    after: float = -math.inf,
+    until: float = math.inf,
+    horizon: float = math.inf,
+    among: int = 1,
 ) -> ComparedChannel:
     """Compare a column with its reference.
 
@@ -223,29 +247,31 @@ def compared(
         name: of the channel.
         reference, other: curves, or numbers; the unit of a number may be None, which is then that of the other.
         tolerance: by how much they may differ; None: there is no verdict.
-        window: what is compared of curves.
         unit: of the comparison; None: that of the other column.
+        after, until: the part of curves that is compared [s].
+        horizon: from when on curves are compared by their statistics [s]; infinite: never.
+        among: how many statistics are reported together.
 
     Raises InputError if a curve stands against a number, if the curves do not overlap, or if units do not fit.
     """
     if bool(other.time.size) != bool(reference.time.size):
-        raise InputError(f"{name}: is a curve beside a number; allowed: curves with curves")
+        raise InputError(f"{name}: a curve cannot be compared with a number; allowed: curves with curves")
     if unit is None:
         unit = other.unit if other.unit is not None else reference.unit or ""
     reference, other = reference.in_unit(unit, name), other.in_unit(unit, name)
     if other.time.size:
         curves = reference.time, reference.values, other.time, other.values
-        common = on_common_times(*curves, window.after, window.until)
-        errors = _summed(_errors_at(common.time, reference), _errors_at(common.time, other))
-        size = float(np.ptp(common.reference[np.isfinite(common.reference)])) if _known(common) else 0.0
+        common = on_common_times(*curves, after, until)
+        known = common.reference[np.isfinite(common.reference)]
+        extent = float(np.ptp(known)) if known.size else 0.0
     else:
         common = CommonCurves(np.zeros(1), reference.values, other.values, np.zeros(1), 0)
-        errors = _summed(reference.errors, other.errors)
-        size = abs(float(reference.values[0]))
+        extent = abs(float(reference.values[0]))
     if unit == ANGLE and other.time.size:
         common = common._replace(other=common.other - _turns_apart(common))
+    errors = _summed(reference.errors_at(common.time), other.errors_at(common.time))
     errors = errors + common.interpolation_error
-    before = common.time < window.horizon
+    before = common.time < horizon
     return ComparedChannel(
         name,
         unit,
@@ -254,24 +280,15 @@ def compared(
         int(before.sum()),
         curve_measures(common.time[before], common.reference[before], common.other[before]),
         _means(common, errors, unit),
-        compared_statistics(common.reference[~before], common.other[~before], window.among),
+        compared_statistics(common.reference[~before], common.other[~before], among),
         tolerance,
-        math.nan if tolerance is None else tolerance.in_si(name, unit, size),
+        math.nan if tolerance is None else tolerance.in_si(name, unit, extent),
     )
-
-
-def _errors_at(at: Values, column: ComparedColumn) -> Values:
-    """Errors of a curve at other times [s], (m,): those of the next record, as errors grow with time."""
-    return column.errors[np.minimum(np.searchsorted(column.time, at - CLEARANCE), column.time.size - 1)]
 
 
 def _summed(first: Values, second: Values) -> Values:
     """The errors of a difference, (n,): the sum of both sides; an unknown error, NaN, is left out."""
     return np.where(np.isnan(first), second, np.where(np.isnan(second), first, first + second))
-
-
-def _known(common: CommonCurves) -> bool:
-    return bool(np.isfinite(common.reference).any())
 
 
 def _turns_apart(common: CommonCurves) -> float:

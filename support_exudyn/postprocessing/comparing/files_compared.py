@@ -5,28 +5,33 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
+import numpy as np
+
 from support_exudyn.files.series.named_series import Progress, silent
+from support_exudyn.files.series.units import scaled, unit_checked
 from support_exudyn.postprocessing import summary
-from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, ComparedWindow, compared
-from support_exudyn.postprocessing.comparing.compared_file import (
-    ComparedFile,
-    channel_unit,
-    compared_file,
-    of_run,
-)
-from support_exudyn.postprocessing.comparing.mapping import CompareFile, read_compare_file, tolerances_of
-from support_exudyn.postprocessing.comparing.measures import STATISTICS
-from support_exudyn.postprocessing.comparing.shift import TimeShift, found_shift
-from support_exudyn.postprocessing.comparing.tolerance import (
-    Tolerance,
-    ToleranceVerdict,
-    of_channel,
-    read_tolerances,
+from support_exudyn.postprocessing.comparing.compared_channel import (
+    ComparedChannel,
+    Verdict,
+    compared,
     worst,
 )
+from support_exudyn.postprocessing.comparing.compared_file import ComparedFile, read_files
+from support_exudyn.postprocessing.comparing.mapping import (
+    CompareFile,
+    Tolerance,
+    of_channel,
+    read_compare_file,
+    read_tolerances,
+    tolerances_of,
+)
+from support_exudyn.postprocessing.comparing.measures import STATISTICS
+from support_exudyn.postprocessing.comparing.shift import TimeShift, time_shift
 from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.postprocessing.figures.units import QUANTITIES
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError
@@ -40,8 +45,7 @@ Comparable = Result | str | Path
 class ComparedPair:
     """A file compared with the reference.
 
-    channels: by their names. window: the part that is compared, and the earlier horizon of both; beyond it
-    single impacts are no result of a run.
+    channels: by their names. after, until: the part that is compared [s].
     shift: the shift in time that was determined, and applied to `other`; None: none was asked for.
     left_out: channels of the reference that are not compared, each with the reason.
     """
@@ -49,14 +53,25 @@ class ComparedPair:
     reference: ComparedFile
     other: ComparedFile
     channels: Mapping[str, ComparedChannel]
-    window: ComparedWindow
+    after: float
+    until: float
     shift: TimeShift | None
     left_out: Mapping[str, str]
 
     @property
-    def verdict(self) -> ToleranceVerdict:
+    def horizon(self) -> float:
+        """The earlier horizon of both [s]; beyond it single impacts are no result of a run."""
+        return min(self.reference.horizon, self.other.horizon)
+
+    @property
+    def verdict(self) -> Verdict:
         """The worst of those on the channels."""
         return worst(channel.verdict for channel in self.channels.values())
+
+    @property
+    def faults(self) -> list[str]:
+        """Why channels are not within their tolerances, or not decided."""
+        return [text for channel in self.channels.values() for text in channel.faults]
 
 
 @dataclass(frozen=True)
@@ -67,7 +82,7 @@ class FilesCompared:
     pairs: tuple[ComparedPair, ...]
 
     @property
-    def verdict(self) -> ToleranceVerdict:
+    def verdict(self) -> Verdict:
         """Whether all channels of all files are within their tolerances; "no tolerance" if none was given."""
         return worst(pair.verdict for pair in self.pairs)
 
@@ -100,78 +115,86 @@ def compare_files(
     Raises InputError if something cannot be read, mapped or compared: what, where, and what is allowed; OSError
     if a file is not there.
     """
-    given = [one if isinstance(one, Result) else Path(one) for one in (reference, *others)]
-    if len(given) < FEWEST:
-        raise InputError(f"{len(given)} file: allowed: {FEWEST} or more, the first is the reference")
+    files = [each if isinstance(each, Result) else Path(each) for each in (reference, *others)]
+    if len(files) < FEWEST:
+        raise InputError(f"{len(files)} file: allowed: {FEWEST} or more, the first is the reference")
     if isinstance(mapping, (str, Path)):
-        mapping = read_compare_file(Path(mapping), [path for path in given if isinstance(path, Path)])
+        mapping = read_compare_file(Path(mapping), [path for path in files if isinstance(path, Path)])
     mapping = mapping or CompareFile()
-    first, *rest = _read(given, mapping, channels, progress)
+    first, *rest = read_files(files, mapping, channels, progress)
     asked = read_tolerances(tolerance) if isinstance(tolerance, str) else list(tolerance)
     tolerances = [*asked, *tolerances_of(mapping)]
     named = [*channels, *(each.pattern for each in tolerances)]
     chosen = [_common(first, other, channels, named) for other in rest]
-    compared = list(dict.fromkeys(name for units, _ in chosen for name in units))
+    common = list(dict.fromkeys(name for units, _ in chosen for name in units))
     for each in tolerances:
-        matching(compared, [each.pattern], f"channel is compared, tolerance {each.text}")
+        matching(common, [each.pattern], f"channel is compared, tolerance {each.text}")
     pairs = []
     for other, (units, left_out) in zip(rest, chosen, strict=True):
-        shift = found_shift(first, other, units) if find_shift else None
+        shift = _surest_shift(first, other, units) if find_shift else None
         if shift is not None:
             other = other.shifted(-shift.shift)
-        window = ComparedWindow(after, until, min(first.horizon, other.horizon), len(units) * len(STATISTICS))
-        columns = {
-            name: _channel(first, other, name, unit, window, of_channel(tolerances, name))
-            for name, unit in units.items()
-        }
-        pairs.append(ComparedPair(first, other, columns, window, shift, left_out))
+        pair = ComparedPair(first, other, {}, after, until, shift, left_out)
+        columns = {name: _channel(pair, name, units, of_channel(tolerances, name)) for name in units}
+        pairs.append(replace(pair, channels=columns))
     return FilesCompared(first, tuple(pairs))
 
 
-def _read(
-    given: Sequence[Path | Result], mapping: CompareFile, channels: Sequence[str], progress: Progress
-) -> list[ComparedFile]:
-    """Files, called by their names; with folder or place if another file has the same name."""
-    files: list[ComparedFile] = []
-    for n, path in enumerate(given):
-        if isinstance(path, Result):
-            files.append(of_run(path, Path(f"run {n + 1}"), f"run {n + 1}"))
-            continue
-        alike = {other for other in given if isinstance(other, Path) and other.name == path.name}
-        name = path.name if len(alike) == 1 else str(path)
-        name = f"{name} ({n + 1})" if name in [file.name for file in files] else name
-
-        def piece(share: float, n: int = n) -> None:
-            progress((n + share) / len(given))
-
-        files.append(compared_file(path, mapping.of(path), name, channels, piece))
-    progress(1.0)
-    return files
-
-
 def _channel(
-    reference: ComparedFile,
-    other: ComparedFile,
-    name: str,
-    unit: str,
-    window: ComparedWindow,
-    tolerance: Tolerance | None,
+    pair: ComparedPair, name: str, units: Mapping[str, str], tolerance: Tolerance | None
 ) -> ComparedChannel:
     """Compare a channel; the means of two runs are taken from all of their steps."""
+    reference, other, unit = pair.reference, pair.other, units[name]
     try:
-        one = compared(name, reference.columns[name], other.columns[name], tolerance, window, unit)
+        channel = compared(
+            name,
+            reference.columns[name],
+            other.columns[name],
+            tolerance,
+            unit=unit,
+            after=pair.after,
+            until=pair.until,
+            horizon=pair.horizon,
+            among=len(units) * len(STATISTICS),
+        )
     except InputError as error:
         raise InputError(f"{name} of {reference.name} and {other.name}: {error}") from None
-    times = one.common.time
-    first, second = (file.mean(name, unit, float(times[0]), float(times[-1])) for file in (reference, other))
+    ends = float(channel.common.time[0]), float(channel.common.time[-1])
+    first, second = (file.mean(name, unit, *ends) for file in (reference, other))
     if first is None or second is None:
-        return one
+        return channel
     known = [mean.error for mean in (first, second) if not math.isnan(mean.error)]
     apart = Estimate(second.value - first.value, sum(known) if known else math.nan, unit)
-    return replace(one, means=(first, second, apart))
+    return replace(channel, means=(first, second, apart))
 
 
-# --- the channels that two files have in common ---
+def _surest_shift(reference: ComparedFile, other: ComparedFile, units: Mapping[str, str]) -> TimeShift:
+    """The shift of the channel that is sure of it and has the largest correlation.
+
+    units: of the channels that are tried, in SI.
+
+    Raises InputError if no channel is sure: the curves are not alike, or alike at several shifts.
+    """
+    sure, reasons = [], []
+    for name, unit in units.items():
+        mine, its = (file.columns[name].in_unit(unit, name) for file in (reference, other))
+        try:
+            shift = time_shift(mine.time, mine.values, its.time, its.values)._replace(channel=name)
+        except InputError as error:
+            reasons.append(f"{name}: {error}")
+            continue
+        if shift.is_sure:
+            sure.append(shift)
+        reasons.append(f"{name}: correlation {shift.correlation:.2f}, at another shift {shift.next_best:.2f}")
+    if sure:
+        return max(sure, key=lambda shift: shift.correlation)
+    raise InputError(
+        f"--shift: {other.name} and {reference.name}: no shift in time is sure ({'; '.join(reasons[:3])}); "
+        f'allowed: a channel with one clear event, or shift_s of [files."{other.path.name}"] in compare.toml'
+    )
+
+
+# --- the channels that two files have in common, each in a unit ---
 
 
 def _common(
@@ -193,19 +216,20 @@ def _common(
         raise InputError(
             f"{reference.path}, {other.path}: have no channel in common; {_way_out(reference, other)}"
         )
-    units, left_out = {}, {}
+    units, left_out, unlike = {}, {}, []
     for name in asked:
         if name not in its:
             left_out[name] = f"{other.name} has no such channel"
             continue
         try:
-            units[name] = channel_unit(reference, other, name)
+            units[name] = _channel_unit(reference, other, name)
         except InputError as error:
             if name in {*named, *reference.mapped, *other.mapped}:
                 raise
             left_out[name] = str(error)
+            unlike.append(str(error))
     if not units:
-        raise InputError("\n".join([why for name, why in left_out.items() if name in its][:SHOWN]))
+        raise InputError("\n".join(unlike[:SHOWN]))
     return units, left_out
 
 
@@ -222,12 +246,61 @@ def _usual(reference: ComparedFile, other: ComparedFile) -> list[str]:
 
 def _way_out(reference: ComparedFile, other: ComparedFile) -> str:
     """The names of channels in both files, and how to map one to another."""
-    shown = []
-    for file in (reference, other):
-        more = f" and {len(file.columns) - SHOWN} more" if len(file.columns) > SHOWN else ""
-        shown.append(f"{file.name} has {', '.join(list(file.columns)[:SHOWN])}{more}")
-    first, second = next(iter(reference.columns)), next(iter(other.columns))
+    files = (reference, other)
+    shown = "; ".join(f"{file.name} has {first_names(list(file.columns))}" for file in files)
+    first, second = (next(iter(file.columns)) for file in files)
     return (
-        f"{'; '.join(shown)}; allowed: columns called as channels, or --map compare.toml, which says which "
+        f"{shown}; allowed: columns called as channels, or --map compare.toml, which says which "
         f'column is which: [files."{other.path.name}".columns] "{first}" = "{second}"'
     )
+
+
+def first_names(names: Sequence[str]) -> str:
+    """The first of some names, and how many more there are."""
+    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
+    return f"{', '.join(names[:SHOWN])}{more}"
+
+
+def _channel_unit(reference: ComparedFile, other: ComparedFile, channel: str) -> str:
+    """The unit in which a channel is compared: that of a run, else the SI unit of what the files name.
+
+    Raises InputError if a file names none, or if both are of two kinds.
+    """
+    files = (reference, other)
+    units = [file.columns[channel].unit for file in files]
+    known = [unit for unit in units if unit is not None]
+    of_runs = [
+        unit for file, unit in zip(files, units, strict=True) if file.run is not None and unit is not None
+    ]
+    for unit in of_runs[:1] or map(_si_unit, known):  # g may be an acceleration, not where kg are
+        if len(known) == len(files) and all(_of_a_kind(each, unit) for each in known):
+            return unit
+    lacking = files[units.index(None)] if None in units else other
+    column = lacking.mapped.get(channel, channel)
+    mine, its = ("no unit" if unit is None else unit or "pure numbers" for unit in units)
+    raise InputError(
+        f"{channel}: is in {mine} in {reference.name}, and in {its} in {other.name}; allowed: units of "
+        f"one kind, in the column's title, '{column} [mm]', or in compare.toml, "
+        f'[files."{lacking.path.name}".units] "{column}" = "mm"'
+    )
+
+
+@cache
+def _si_unit(unit: str) -> str:
+    """The SI unit of the kind of a unit: "N" of kN, "m" of inch; the unit itself if no channel is of its kind.
+
+    Raises InputError if it is no unit.
+    """
+    unit_checked(unit, "unit")
+    kinds = [each for each in QUANTITIES if _of_a_kind(unit, each)]
+    return "J" if "J" in kinds and "J" in unit else next(iter(kinds), unit)  # work and moment have one unit
+
+
+@cache
+def _of_a_kind(first: str, second: str) -> bool:
+    """Whether quantities in the first unit can be given in the second."""
+    try:
+        scaled(np.ones(1), first, second, "unit")
+    except InputError:
+        return False
+    return True

@@ -19,14 +19,9 @@ import numpy as np
 
 from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
 from support_exudyn.files.whole_file import writing_alone
-from support_exudyn.postprocessing.comparing.compared_channel import (
-    ComparedChannel,
-    ComparedColumn,
-    ComparedWindow,
-    compared,
-)
-from support_exudyn.postprocessing.comparing.compared_file import run_or_series
-from support_exudyn.postprocessing.comparing.kept_run import (
+from support_exudyn.postprocessing.comparing.baselines import (
+    ENDING,
+    FOLDER,
     changes,
     determined_until,
     kept_numbers,
@@ -35,8 +30,9 @@ from support_exudyn.postprocessing.comparing.kept_run import (
     read_baseline,
     write_baseline,
 )
-from support_exudyn.postprocessing.comparing.tolerance import BOTH_ERRORS, PERCENT, Tolerance, tolerance
-from support_exudyn.postprocessing.comparing.with_errors import recorded_columns
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, ComparedColumn, compared
+from support_exudyn.postprocessing.comparing.compared_file import recorded_columns, run_or_series
+from support_exudyn.postprocessing.comparing.mapping import BOTH_ERRORS, PERCENT, Tolerance, tolerance
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import Estimate
@@ -49,7 +45,6 @@ from user_forces.values.value import InputError, short
 Measured = Result | NamedSeries | Estimate | float
 Reference = Measured | SeriesFile | str | PathLike[str] | Mapping[str, NamedSeries | Estimate | float]
 ALONE = "it"  # the name of a number without a name
-FOLDER, ENDING = "baseline", ".json"  # of baselines next to tests and scenarios
 WAIT = 0.05  # [s] until it is checked again whether another process is done
 OLD = 86400.0  # [s] since the runs of another program were made: nobody works with it any more
 NO_NAME = re.compile(r"[^\w.-]+")  # is left out of a file's name
@@ -62,7 +57,7 @@ class RunCache:
 
     The key of a run is that of sweeps: all fields of the scenario, versions of packages, a digest of our
     sources and of modules of one's own. Another program thus never reads a run of this one. Several processes
-    may use the folder: one makes a run, others that ask for the same wait for it.
+    may use the folder: the first makes a run, others that ask for the same wait for it.
 
     folder: where they are kept; made if it is missing. Runs of other programs, a day old, are removed.
     """
@@ -133,7 +128,7 @@ class SessionBaselines:
         named = {ALONE: item} if isinstance(item, Estimate) else item
         if isinstance(named, Result):
             now = kept_run(named)
-        elif isinstance(named, Mapping) and all(isinstance(one, Estimate) for one in named.values()):
+        elif isinstance(named, Mapping) and all(isinstance(each, Estimate) for each in named.values()):
             now = kept_numbers(named)
         else:
             allowed = "a Result with errors, an Estimate, or Estimates by their names"
@@ -179,35 +174,33 @@ def closeness(
     """
     if isinstance(reference, (str, PathLike)):
         reference = run_or_series(Path(reference))
-    rule = _rule(allowed)
-    mine: Mapping[str, Any] = {ALONE: result}
-    its: Mapping[str, Any] = {ALONE: reference}
-    names = [ALONE]
+    rule, its = _rule(allowed), _columns(reference)
     if isinstance(result, Result):
+        if isinstance(reference, (int, float, Estimate)):
+            refused = f"reference = {short(reference)}: is a number, the result a whole run"
+            raise InputError(f"{refused}; allowed: numbers by names")
         numbers = result.numbers(after, until) if result.coarser is not None else {}
-        mine, its = {**numbers, **recorded_columns(result)}, _several(reference)
+        mine = {name: _column(number) for name, number in numbers.items()} | recorded_columns(result)
         missing = [name for name in its if name not in mine]
-        if missing and isinstance(reference, Mapping):
-            why = "the result has no such channel or number with an error"
-            raise InputError(f"{missing[0]}: {why}; {meant(missing[0], list(mine))}")
+        if missing and (isinstance(reference, Mapping) or len(missing) == len(its)):
+            known = meant(missing[0], list(mine))
+            raise InputError(f"{missing[0]}: the result has no such channel or number with an error; {known}")
         names = [name for name in its if name in mine]
-        if not names:
-            known = ", ".join(list(result.channels)[1:4])
-            raise InputError(f"reference: has no channel of the result; allowed: names such as {known}")
         names = matching(names, channels) if channels else names
-    elif isinstance(result, NamedSeries):
-        names, mine, its = [result.name], {result.name: result}, {result.name: reference}
+    else:
+        mine, column = _columns(result), _column(reference)
+        names = list(mine)
+        its = dict.fromkeys(mine, column)
     if rule.is_errors:
         runs = [run for run in (result, reference) if isinstance(run, Result)]
         until = min([until, *map(determined_until, runs)])
-    window = ComparedWindow(after, until)
-    found = [compared(name, _column(its[name]), _column(mine[name]), rule, window) for name in names]
-    if rule.is_errors and (unknown := [one.name for one in found if np.isnan(one.errors).all()]):
+    close = [compared(name, its[name], mine[name], rule, after=after, until=until) for name in names]
+    if rule.is_errors and (unknown := [each.name for each in close if np.isnan(each.errors).all()]):
         raise InputError(
             f"{unknown[0]}: no numerical error is known; allowed: a tolerance, such as '2 %', or runs with an "
             "accuracy"
         )
-    return sorted(found, key=lambda one: one.verdict == "within")
+    return sorted(close, key=lambda channel: channel.verdict == "within")
 
 
 def _rule(allowed: float | str | None) -> Tolerance:
@@ -222,26 +215,20 @@ def _rule(allowed: float | str | None) -> Tolerance:
     )
 
 
-def _several(reference: Any) -> Mapping[str, Any]:
-    """Curves and numbers of a reference by their names."""
-    if isinstance(reference, Result):
-        names = [name for name, one in reference.channels.items() if name != "time" and one.is_determined]
-        return recorded_columns(reference, names)
-    if isinstance(reference, NamedSeries):
-        return {reference.name: reference}
-    if isinstance(reference, SeriesFile):
-        return reference.series
-    if isinstance(reference, Mapping):
-        return reference
-    raise InputError(
-        f"reference = {short(reference)}: is one number, the result a whole run; allowed: numbers by names"
-    )
+def _columns(item: Any) -> dict[str, ComparedColumn]:
+    """Curves and numbers by their names, as columns. Raises InputError if an item is neither."""
+    if isinstance(item, Result):
+        determined = [name for name, each in item.channels.items() if each.is_determined and name != "time"]
+        return recorded_columns(item, determined)
+    if isinstance(item, SeriesFile):
+        item = item.series
+    if isinstance(item, Mapping) and item:
+        return {name: _column(each) for name, each in item.items()}
+    return {item.name if isinstance(item, NamedSeries) else ALONE: _column(item)}
 
 
 def _column(item: Any) -> ComparedColumn:
-    """A curve or number as a column. Raises InputError if it is none."""
-    if isinstance(item, ComparedColumn):
-        return item
+    """A curve or number as a column. Raises InputError if it is neither."""
     if isinstance(item, NamedSeries):
         return ComparedColumn.of_series(item)
     if isinstance(item, Estimate):

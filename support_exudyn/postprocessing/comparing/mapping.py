@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import field
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
-from support_exudyn.files.series.units import is_unit
+import numpy as np
+
+from support_exudyn.files.series.units import is_unit, scaled
 from support_exudyn.files.toml.faults import Faults, Place, nearest
 from support_exudyn.files.toml.reading import Reader, read_value
 from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import missing_file
-from support_exudyn.postprocessing.comparing.tolerance import Tolerance, tolerance
+from support_exudyn.postprocessing.figures.selection import is_called
 from user_forces.values.units import Seconds
-from user_forces.values.value import InputError, Real, Value, value
+from user_forces.values.value import InputError, Real, Value, short, value
+
+WRITTEN = re.compile(r"\s*([+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*")
+PERCENT, ERRORS = "%", "errors"
+ALLOWED = "allowed: a share of the reference's range, '2 %', or an amount with its unit, '0.1 mm'"
 
 
 @value
@@ -83,10 +91,10 @@ def read_compare_file(path: Path, files: Iterable[Path]) -> CompareFile:
     except FileNotFoundError as error:
         raise missing_file(path, "the TOML file of a comparison") from error
     file = read_value(CompareFile, table, str(path), {MappedColumn: _name_alone})
-    faults, given = Faults(str(path)), list(files)
+    faults, compared = Faults(str(path)), list(files)
     for name, mapped in file.files.items():
-        if not any(_fits(one, name) for one in given):
-            names = list(dict.fromkeys(one.name for one in given))
+        if not any(_fits(each, name) for each in compared):
+            names = list(dict.fromkeys(each.name for each in compared))
             faults.add(("files", name), f"no file of this name is compared; {nearest(name, names)}")
         for column, unit in mapped.units.items():
             if not is_unit(unit):
@@ -97,6 +105,66 @@ def read_compare_file(path: Path, files: Iterable[Path]) -> CompareFile:
     return file
 
 
+def _name_alone(reader: Reader, item: Any, place: Place) -> MappedColumn | None:
+    """The short form of a column: its name."""
+    return MappedColumn(column=item) if isinstance(item, str) else None
+
+
+# --- tolerances ---
+
+
+class Tolerance(NamedTuple):
+    """A tolerance bounds how much the channels that a pattern matches may differ.
+
+    pattern: name of a channel, or a pattern as in a shell. text: as it was written. amount: number of `unit`,
+    which is "%" of the reference's range, a unit of the channel, or "errors": the numerical errors of both
+    sides are allowed, record by record.
+    """
+
+    pattern: str
+    text: str
+    amount: float
+    unit: str
+
+    @property
+    def is_errors(self) -> bool:
+        """Whether the numerical errors of both sides are allowed."""
+        return self.unit == ERRORS
+
+    def in_si(self, channel: str, unit: str, extent: float) -> float:
+        """The amount that is allowed of a channel in SI; NaN if the errors are allowed.
+
+        Arguments:
+            channel: its name. unit: of it, in SI.
+            extent: the range of the reference: its largest less its least value, in SI.
+
+        Raises InputError if it is an amount of another kind.
+        """
+        if self.unit in (PERCENT, ERRORS):
+            return self.amount / 100.0 * extent
+        return float(scaled(np.array([self.amount]), self.unit, unit, f"tolerance of {channel}")[0])
+
+
+BOTH_ERRORS = Tolerance("*", "both errors", math.nan, ERRORS)
+
+
+def tolerance(pattern: str, text: str) -> Tolerance:
+    """A tolerance as people write it. Raises InputError if the text is none."""
+    parts = WRITTEN.fullmatch(text)
+    amount = float(parts[1]) if parts else math.nan
+    if not pattern.strip() or parts is None or not parts[2] or not math.isfinite(amount):
+        raise InputError(f"{short(pattern)} = {short(text)}: {ALLOWED}")
+    return Tolerance(pattern.strip(), text.strip(), amount, parts[2])
+
+
+def read_tolerances(text: str) -> list[Tolerance]:
+    """The tolerances of a command line, 'pin.*.force=2%,tip.*=0.1mm'. Raises InputError if it holds none."""
+    parts = [part.rpartition("=") for part in text.split(",") if part.strip()]
+    if not parts or not all(sign for _, sign, _ in parts):
+        raise InputError(f"{short(text)}: allowed: CHANNEL=AMOUNT, such as 'pin.*.force=2%,tip.*=0.1mm'")
+    return [tolerance(pattern, amount) for pattern, _, amount in parts]
+
+
 def tolerances_of(file: CompareFile, where: str = "compare.toml") -> list[Tolerance]:
     """The tolerances of a file, in its order. Raises InputError, which names the file, if one is none."""
     try:
@@ -105,6 +173,6 @@ def tolerances_of(file: CompareFile, where: str = "compare.toml") -> list[Tolera
         raise InputError(f"{where}: tolerances: {error}") from None
 
 
-def _name_alone(reader: Reader, item: Any, place: Place) -> MappedColumn | None:
-    """The short form of a column: its name."""
-    return MappedColumn(column=item) if isinstance(item, str) else None
+def of_channel(tolerances: Sequence[Tolerance], channel: str) -> Tolerance | None:
+    """The first tolerance whose pattern matches a channel; None if none does."""
+    return next((each for each in tolerances if is_called(channel, each.pattern)), None)

@@ -1,4 +1,4 @@
-"""Two curves at common times: the measures of their distance, and their statistics after the horizon.
+"""Two curves on common times: the join, the measures of their distance, and their statistics after the horizon.
 
 Common times are those of the coarser curve inside the overlap. The finer curve is interpolated there by
 straight lines, and the error of that is estimated. At a time that both have, both values are taken as they are.
@@ -72,15 +72,13 @@ def on_common_times(
 
     Raises InputError if no time of the coarser curve lies there.
     """
-    both = bool(reference_time.size and other_time.size)
-    start = max(reference_time[0], other_time[0], after) if both else math.inf
-    end = min(reference_time[-1], other_time[-1], until) if both else -math.inf
-    mine, its = (
-        (time >= start - CLEARANCE) & (time <= end + CLEARANCE) for time in (reference_time, other_time)
-    )
+    times = reference_time, other_time
+    start = max([after, *(time[0] if time.size else math.inf for time in times)])
+    end = min([until, *(time[-1] if time.size else -math.inf for time in times)])
+    mine, its = ((time >= start - CLEARANCE) & (time <= end + CLEARANCE) for time in times)
     if not (mine.any() or its.any()):
         between = "" if math.isinf(after) and math.isinf(until) else f" between {after:g} and {until:g} s"
-        spans = [f"from {t[0]:g} to {t[-1]:g} s" if t.size else "(none)" for t in (reference_time, other_time)]
+        spans = [f"from {time[0]:g} to {time[-1]:g} s" if time.size else "(none)" for time in times]
         raise InputError(
             f"times {spans[0]} and {spans[1]}: none lies{between} where both curves are; "
             "allowed: curves that overlap there"
@@ -114,14 +112,12 @@ def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Valu
     left = right - 1
     nearest = np.where(at - time[left] <= time[right] - at, left, right)
     own = np.abs(time[nearest] - at) <= np.maximum(same, 4.0 * np.spacing(np.abs(at)))
-    span = time[right] - time[left]
-    share = np.clip((at - time[left]) / span, 0.0, 1.0)
-    result = np.where(own, values[nearest], (1.0 - share) * values[left] + share * values[right])
+    result = np.where(own, values[nearest], np.interp(at, time, values))
     bent = np.zeros(time.size)
     if time.size > 2:
         inside = np.abs(np.diff(np.diff(values) / np.diff(time)) / (time[2:] - time[:-2]))
         bent = np.pad(inside, 1, mode="edge")
-    error = share * (1.0 - share) * span**2 * np.fmax(bent[left], bent[right])
+    error = np.maximum((at - time[left]) * (time[right] - at), 0.0) * np.fmax(bent[left], bent[right])
     error = np.where(np.isfinite(result), error, math.nan)
     return result, np.where(own, 0.0, error), int(np.count_nonzero(~own))
 

@@ -1,4 +1,4 @@
-"""A comparison as a table with notes and reasons, as data for scripts, as JUnit XML for test servers."""
+"""A comparison as a table with notes, as data for scripts, as JUnit XML for test servers."""
 
 from __future__ import annotations
 
@@ -11,24 +11,25 @@ from typing import Any
 import numpy as np
 
 from support_exudyn.files.whole_file import whole_file
-from support_exudyn.postprocessing.comparing.compared_channel import GAPS, LARGEST, ComparedChannel
-from support_exudyn.postprocessing.comparing.files_compared import SHOWN, ComparedPair, FilesCompared
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedChannel, Verdict
+from support_exudyn.postprocessing.comparing.files_compared import ComparedPair, FilesCompared, first_names
 from support_exudyn.postprocessing.comparing.measures import CONFIDENCE
-from support_exudyn.postprocessing.comparing.tolerance import WORST_FIRST, JudgedDifference, ToleranceVerdict
 from support_exudyn.postprocessing.figures.selection import CLEARANCE
 from support_exudyn.postprocessing.figures.units import readable_change, said
 from support_exudyn.postprocessing.page.pieces import Sheet
+from support_exudyn.postprocessing.summary import to_error
 from support_exudyn.simulation.estimate import Estimate
 from user_forces.values.value import cleaned
 
 NAME = "support-exudyn compare"
 HEADER = (
     "channel", "unit", "reference, mean", "difference, mean", "largest", "at [s]", "RMS/range", "C",
-    "over errors", "verdict",
+    "beyond errors", "verdict",
 )  # fmt: skip
 DIGITS = 6  # of numbers without a known error
-MOST_DECIMALS = 9
-VERDICTS: dict[ToleranceVerdict, str] = {
+MOST_DIGITS = 9  # of numbers with their errors
+CERTAIN = 10.0  # times the numerical errors from which on a difference is certain: errors are estimates
+VERDICTS: dict[Verdict, str] = {
     "within": "All channels are within their tolerances.",
     "not within": "Not all channels are within their tolerances.",
     "not decided": "Whether all channels are within their tolerances is not decided.",
@@ -38,99 +39,67 @@ VERDICTS: dict[ToleranceVerdict, str] = {
 
 def table(pair: ComparedPair) -> Sheet:
     """The table of a comparison: a row for each channel. The title states files, times and errors."""
-    channels = pair.channels.values()
-    first = min(one.common.time[0] for one in channels)
-    last = max(one.common.time[-1] for one in channels)
+    times = [channel.common.time for channel in pair.channels.values()]
+    first, last = min(time[0] for time in times), max(time[-1] for time in times)
     known = [file.name for file in (pair.reference, pair.other) if file.has_errors]
     errors = f"± numerical errors of {' and '.join(known)}" if known else "numerical errors not known"
     header = HEADER if pair.verdict != "no tolerance" else HEADER[:-1]
     return Sheet(
         f"{pair.other.name} less {pair.reference.name}, {first:g} to {last:g} s ({errors})",
         header,
-        tuple(_row(one)[: len(header)] for one in channels),
+        tuple(_row(channel)[: len(header)] for channel in pair.channels.values()),
         "Means are over all times; largest difference, RMS over the reference's range and C of Sprague and "
-        "Geers over those before the horizon. Over errors: the largest multiple of the numerical error.",
+        "Geers over those before the horizon. Beyond errors: no, if the numerical errors explain all "
+        f"differences; yes from {CERTAIN:g} times these errors on; uncertain between.",
         left=2,
     )
 
 
-def _row(one: ComparedChannel) -> tuple[str, ...]:
+def _row(channel: ComparedChannel) -> tuple[str, ...]:
     """The cells of a channel, in the unit in which its mean and its differences are read best."""
-    largest, size = one.largest, max(abs(mean.value) for mean in one.means[:2])
-    apart = largest.value if math.isfinite(largest.value) else abs(one.mean.value)
-    unit = readable_change(one.unit, size, apart)
+    largest, measures = channel.largest, channel.measures
+    apart = largest.value if math.isfinite(largest.value) else abs(channel.mean.value)
+    unit = readable_change(channel.unit, max(abs(mean.value) for mean in channel.means[:2]), apart)
     return (
-        one.name,
+        channel.name,
         unit.name,
-        _plain_number(unit.scale * one.means[0].value),
-        _with_error(one.mean, unit.scale),
-        _with_error(largest._replace(value=one.measures.largest), unit.scale),
-        _plain_number(one.measures.largest_time),
-        _plain_number(100.0 * one.measures.rms_of_range, 3, " %"),
-        _plain_number(100.0 * one.measures.combined_error, 3, " %"),
-        _plain_number(one.beside_errors.ratio, 2),
-        verdict_words(one),
+        _number(unit.scale * channel.means[0].value),
+        _with_error(channel.mean, unit.scale),
+        _with_error(largest._replace(value=measures.largest), unit.scale),
+        _number(measures.largest_time),
+        _number(100.0 * measures.rms_of_range, 3, " %"),
+        _number(100.0 * measures.combined_error, 3, " %"),
+        beyond_errors(channel),
+        verdict_words(channel),
     )
 
 
-def _plain_number(value: float, digits: int = DIGITS, unit: str = "") -> str:
+def _number(value: float, digits: int = DIGITS, unit: str = "") -> str:
     return "-" if math.isnan(value) else f"{value:.{digits}g}{unit}"
 
 
-def _with_error(estimate: Estimate, scale: float) -> str:
+def _with_error(number: Estimate, scale: float) -> str:
     """A number in a unit, with its error if that is known."""
-    value, error = scale * estimate.value, scale * estimate.error
-    if math.isnan(value) or math.isnan(error):
-        return _plain_number(value)
-    if not math.isfinite(error) or error <= 0.0:
-        return f"{value:.{DIGITS}g} ± {'not known' if error else '0'}"
-    digits = max(0, 1 - math.floor(math.log10(error)))
-    shown = f"{value:.{digits}f}" if digits <= MOST_DECIMALS else f"{value:.{DIGITS}g}"
-    return f"{shown} ± {error:.1g}"
+    if math.isnan(number.value) or math.isnan(number.error):
+        return _number(scale * number.value)
+    shown = to_error(number, scale, MOST_DIGITS)
+    return shown if math.isfinite(number.error) else f"{_number(scale * number.value)} ± not known"
 
 
-def verdict_words(one: ComparedChannel) -> str:
+def beyond_errors(channel: ComparedChannel) -> str:
+    """Whether the curves differ by more than their numerical errors, in a word; "-" if no error is known."""
+    times = channel.over_errors
+    if math.isnan(times):
+        return "-"
+    return "no" if times <= 1.0 else "yes" if times >= CERTAIN else "uncertain"
+
+
+def verdict_words(channel: ComparedChannel) -> str:
     """The verdict on a channel, with its tolerance."""
-    if one.tolerance is None:
+    if channel.tolerance is None:
         return "no tolerance"
-    words = {"within": "within ", "not within": "NOT within "}.get(one.verdict, "not decided, ")
-    return f"{words}{one.tolerance.text}"
-
-
-# --- why a channel is not within its tolerance ---
-
-
-def faults(one: ComparedChannel) -> list[str]:
-    """Why a channel is not within its tolerance, or not decided: a sentence a number, the worst first."""
-    if one.tolerance is None:
-        return []
-    if not one.judged:
-        return [f"{one.name}: not decided: there are no two common times."]
-    worst_first = sorted(one.judged, key=lambda judged: WORST_FIRST.index(judged.verdict))
-    return [
-        f"{one.name}: {_fault(one, judged, one.tolerance.text)}"
-        for judged in worst_first
-        if judged.verdict in ("not within", "not decided")
-    ]
-
-
-def _fault(one: ComparedChannel, judged: JudgedDifference, rule: str) -> str:
-    if judged.what == GAPS:
-        return f"not decided: no value at {one.gaps} times at which the reference is known."
-    words = f"{judged.what} after the horizon differs by"
-    if judged.what == LARGEST:
-        where = one.record
-        at = f" at {one.common.time[where]:.6g} s" if one.common.time.size > 1 else ""
-        now, was = (f"{curve[where]:.9g}" for curve in (one.common.other, one.common.reference))
-        words = f"{now} {one.unit}{at}, where the reference is {was}, differs by"
-    allowed = said(judged.allowed, one.unit, 4)
-    if one.tolerance is not None and one.tolerance.is_relative and not judged.allowed:
-        allowed += ", for the reference is constant (give an amount with its unit)"
-    words += f" {said(judged.value, one.unit, 4)}; allowed: {allowed} ({rule})"
-    if judged.verdict == "not within":
-        return words
-    error = said(judged.error, one.unit, 2) if math.isfinite(judged.error) else "not known"
-    return f"{words}; not decided, its error is {error}: a finer accuracy may decide"
+    words = {"within": "within ", "not within": "NOT within "}.get(channel.verdict, "not decided, ")
+    return f"{words}{channel.tolerance.text}"
 
 
 # --- notes ---
@@ -148,57 +117,47 @@ def notes(pair: ComparedPair) -> Iterator[str]:
             f"{pair.other.name} {late} {pair.reference.name} by {said(abs(shift.shift), 's', 5)} in "
             f"{shift.channel} (correlation {shift.correlation:.4f}); that is taken off its times"
         )
-    if math.isfinite(pair.window.horizon):
+    if math.isfinite(pair.horizon):
         yield from _horizon(pair)
-    for name, one in pair.channels.items():
-        for file, values in ((pair.reference, one.common.reference), (pair.other, one.common.other)):
+    for name, channel in pair.channels.items():
+        sides = (pair.reference, channel.common.reference), (pair.other, channel.common.other)
+        for file, values in sides:
             if missing := int(np.count_nonzero(~np.isfinite(values))):
                 yield f"{name}: {file.name} has no value at {missing} of {values.size} times"
-    yield from _times(pair)
+    name, channel = next(iter(pair.channels.items()))
+    time, own = channel.common.time, pair.reference.columns[name].time
+    start, end = max(float(own[0]), pair.after), min(float(own[-1]), pair.until)
+    gap = max(float(time[0]) - start, end - float(time[-1]))
+    if gap > CLEARANCE + 1.5 * float(np.diff(time).max(initial=0.0)):  # more than a record's distance
+        yield (
+            f"compared are {time[0]:.6g} to {time[-1]:.6g} s of {start:.6g} to {end:.6g} s of "
+            f"{pair.reference.name}, for {pair.other.name} has no more"
+        )
     lacking = [name for name in pair.left_out if name not in pair.other.columns]
     for names in (lacking, [name for name in pair.left_out if name not in lacking]):
         if names:
-            yield f"left out: {_some(names)}; {pair.left_out[names[0]]}"
-
-
-def _some(names: list[str]) -> str:
-    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
-    return f"{', '.join(names[:SHOWN])}{more}"
+            yield f"left out: {first_names(names)}; {pair.left_out[names[0]]}"
 
 
 def _horizon(pair: ComparedPair) -> Iterator[str]:
     """Up to when curves are compared point by point, and which of their statistics differ after that."""
     file = min((pair.reference, pair.other), key=lambda file: file.horizon)
     yield (
-        f"point by point up to {pair.window.horizon:.6g} s, the horizon of {file.name}, from which on shorter "
+        f"point by point up to {pair.horizon:.6g} s, the horizon of {file.name}, from which on shorter "
         "steps change its impacts; after it by statistics"
     )
-    found = [(name, what, one) for name, it in pair.channels.items() for what, one in it.statistics.items()]
-    known = [one.equal for _, _, one in found if one.equal is not None]
-    differ = [
-        f"{what} of {name} by {said(one.difference, pair.channels[name].unit)} ± "
-        f"{said(one.half, pair.channels[name].unit)}"
-        for name, what, one in found
-        if one.equal is False
-    ]
-    sure = f"with {100.0 * CONFIDENCE:.3g} % confidence of all together"
-    which = f": {_some(differ)}" if differ else ""
-    yield f"after it {len(differ)} of {len(known)} statistics differ, {sure}{which}"
-
-
-def _times(pair: ComparedPair) -> Iterator[str]:
-    """How many times are interpolated; and which times of the reference the other file lacks."""
-    name, one = next(iter(pair.channels.items()))
-    common, time = one.common, pair.reference.columns[name].time
-    if common.interpolated:
-        yield f"{common.interpolated} of {common.time.size} times lie between records of one file"
-    start, end = max(float(time[0]), pair.window.after), min(float(time[-1]), pair.window.until)
-    gap = max(float(common.time[0]) - start, end - float(common.time[-1]))
-    if gap > CLEARANCE + 1.5 * float(np.diff(common.time).max(initial=0.0)):  # more than a record's distance
-        yield (
-            f"compared are {common.time[0]:.6g} to {common.time[-1]:.6g} s of {start:.6g} to {end:.6g} s of "
-            f"{pair.reference.name}, for {pair.other.name} has no more"
-        )
+    equal, differ = 0, []
+    for name, channel in pair.channels.items():
+        for what, each in channel.statistics.items():
+            equal += each.equal is True
+            if each.equal is False:
+                half = said(each.half, channel.unit)
+                differ.append(f"{what} of {name} by {said(each.difference, channel.unit)} ± {half}")
+    which = f": {first_names(differ)}" if differ else ""
+    yield (
+        f"after it {len(differ)} of {equal + len(differ)} statistics differ, with {100.0 * CONFIDENCE:.3g} % "
+        f"confidence of all together{which}"
+    )
 
 
 # --- for other programs ---
@@ -217,31 +176,32 @@ def as_data(compared: FilesCompared) -> dict[str, Any]:
                 "verdict": pair.verdict,
                 "notes": list(notes(pair)),
                 "shift_s": pair.other.shift,
-                "horizon_s": pair.window.horizon,
+                "horizon_s": pair.horizon,
                 "left_out": dict(pair.left_out),
-                "channels": {name: _channel_data(one) for name, one in pair.channels.items()},
+                "channels": {name: _channel_data(channel) for name, channel in pair.channels.items()},
             }
             for pair in compared.pairs
         },
     }
 
 
-def _channel_data(one: ComparedChannel) -> Mapping[str, Any]:
-    reference, other, mean = (number._asdict() for number in one.means)
-    within = {"within": True, "not within": False}.get(one.beside_errors.verdict)
+def _channel_data(channel: ComparedChannel) -> Mapping[str, Any]:
+    reference, other, mean = (number._asdict() for number in channel.means)
     return {
-        "unit": one.unit,
-        "verdict": one.verdict,
-        "tolerance": None if one.tolerance is None else one.tolerance.text,
-        "allowed": one.allowed,
-        "faults": faults(one),
+        "unit": channel.unit,
+        "verdict": channel.verdict,
+        "tolerance": None if channel.tolerance is None else channel.tolerance.text,
+        "allowed": channel.allowed,
+        "faults": channel.faults,
         "reference": reference,
         "other": other,
         "mean": mean,
-        "largest": one.largest._asdict(),
-        "beside_errors": {"within": within, "times": one.beside_errors.ratio},
-        "measures": one.measures._asdict(),
-        "statistics": {name: {**what._asdict(), "equal": what.equal} for name, what in one.statistics.items()},
+        "largest": channel.largest._asdict(),
+        "over_errors": channel.over_errors,
+        "measures": channel.measures._asdict(),
+        "statistics": {
+            name: {**each._asdict(), "equal": each.equal} for name, each in channel.statistics.items()
+        },
     }
 
 
@@ -252,25 +212,27 @@ def write_junit(compared: FilesCompared, path: Path) -> None:
     compared is skipped. Raises OSError if the file cannot be written.
     """
 
-    def within(parent: ElementTree.Element, tag: str, **attributes: str) -> ElementTree.Element:
-        return ElementTree.SubElement(parent, tag, {name: cleaned(text) for name, text in attributes.items()})
+    def within(parent: ElementTree.Element, tag: str, text: str = "", **attributes: str) -> ElementTree.Element:
+        named = {name: cleaned(value) for name, value in attributes.items()}
+        element = ElementTree.SubElement(parent, tag, named)
+        element.text = cleaned(text) or None
+        return element
 
     whole = ElementTree.Element("testsuites", name=NAME)
     for pair in compared.pairs:
         suite = within(whole, "testsuite", name=f"{pair.other.name} less {pair.reference.name}", errors="0")
-        for name, one in pair.channels.items():
+        for name in (*pair.channels, *pair.left_out):
             case = within(suite, "testcase", classname=pair.other.name, name=name)
-            if lines := faults(one):
-                failure = within(case, "failure", type=one.verdict, message=lines[0])
-                failure.text = cleaned("\n".join(lines))
-        for name, why in pair.left_out.items():
-            case = within(suite, "testcase", classname=pair.other.name, name=name)
-            within(case, "skipped", message=why)
-        if lines := list(notes(pair)):
-            within(suite, "system-out").text = cleaned("\n".join(lines))
+            if name in pair.left_out:
+                within(case, "skipped", message=pair.left_out[name])
+            elif faults := pair.channels[name].faults:
+                verdict = pair.channels[name].verdict
+                within(case, "failure", "\n".join(faults), type=verdict, message=faults[0])
+        if text := "\n".join(notes(pair)):
+            within(suite, "system-out", text)
     for counted in (whole, *whole):
-        for name, found in (("tests", "testcase"), ("failures", "failure"), ("skipped", "skipped")):
-            counted.set(name, str(len(list(counted.iter(found)))))
+        for name, tag in (("tests", "testcase"), ("failures", "failure"), ("skipped", "skipped")):
+            counted.set(name, str(len(list(counted.iter(tag)))))
     ElementTree.indent(whole)
     with whole_file(path) as temporary:
         ElementTree.ElementTree(whole).write(temporary, encoding="UTF-8", xml_declaration=True)

@@ -175,11 +175,11 @@ def draw_panels(
     Returns the panels, and the unit of their time.
     """
     rows: list[Axes] = drawing.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0].tolist()
-    every = [curve.time for _, curves in panels for curve in curves]
+    every = [curve.time for _, curves in panels for curve in curves if curve.time.size]
     first, last = min(time[0] for time in every), max(time[-1] for time in every)
     seconds = readable("s", float(last - first))
     for axes, (unit, curves) in zip(rows, panels, strict=True):
-        shown = readable(unit, max(float(np.abs(curve.values).max()) for curve in curves))
+        shown = readable(unit, max(float(np.nanmax(np.abs(curve.values), initial=0.0)) for curve in curves))
         for curve in curves:
             time, values = seconds.scale * curve.time, shown.scale * curve.values
             look: dict[str, Any] = {"ls": curve.dashes, "lw": 0.9, "rasterized": time.size > 20000}
@@ -187,7 +187,8 @@ def draw_panels(
                 look = {"ls": "", "marker": "o", "ms": 3.5, "mfc": "none", "mew": 1.0, "zorder": 3}
             axes.plot(time, values, color=curve.colour, label=curve.label, **look)
             band = None if curve.errors is None else shown.scale * curve.errors
-            if band is not None and float(band.max()) > VISIBLE * max(float(np.ptp(values)), 1e-300):
+            extent = float(np.nanmax(values, initial=-math.inf) - np.nanmin(values, initial=math.inf))
+            if band is not None and float(band.max(initial=0.0)) > VISIBLE * max(extent, 1e-300):
                 axes.fill_between(time, values - band, values + band, color=curve.colour, alpha=0.25, lw=0.0)
         label_values(axes, units.QUANTITIES.get(unit, "value"), shown.name)
     drawing.align_ylabels(rows)

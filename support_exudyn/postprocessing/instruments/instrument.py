@@ -106,22 +106,6 @@ def samples(instrument: Instrument, name: str, result: Result, seed: int) -> tup
             f"{time[uneven[0]]:g} s; allowed: runs with one record_period"
         )
     time = time[: time.size - uneven.size]
-    _check_fine(instrument, name, period)
-    signals = instrument.signals(result)[: len(time)]
-    if instrument.low_pass is not None:
-        signals = instrument.low_pass.filtered(signals, period)
-    count = int(np.floor((time[-1] - time[0]) * instrument.rate * (1.0 + 1e-12))) + 1
-    when = time[0] + np.arange(count) / instrument.rate
-    values = np.interp(when, time, instrument.reading(signals))
-    if instrument.noise:
-        own = np.random.default_rng([seed, crc32(name.encode())])
-        values = values + instrument.noise * own.standard_normal(values.size)
-    if instrument.resolution:
-        values = instrument.resolution * np.round(values / instrument.resolution) + 0.0  # no -0
-    return when, values
-
-
-def _check_fine(instrument: Instrument, name: str, period: float) -> None:
     low_pass = instrument.low_pass
     if low_pass is not None and period > low_pass.longest_period * (1.0 + CLOSE):
         raise InputError(
@@ -134,3 +118,15 @@ def _check_fine(instrument: Instrument, name: str, period: float) -> None:
             f"{name}: rate = {instrument.rate:g} Hz: the records are {period:g} s apart; allowed: up to "
             f"{1.0 / period:g} Hz, or runs with a shorter record_period"
         )
+    signals = instrument.signals(result)[: len(time)]
+    if low_pass is not None:
+        signals = low_pass.filtered(signals, period)
+    count = int(np.floor((time[-1] - time[0]) * instrument.rate * (1.0 + 1e-12))) + 1
+    when = time[0] + np.arange(count) / instrument.rate
+    values = np.interp(when, time, instrument.reading(signals))
+    if instrument.noise:
+        own = np.random.default_rng([seed, crc32(name.encode())])
+        values = values + instrument.noise * own.standard_normal(values.size)
+    if instrument.resolution:
+        values = instrument.resolution * np.round(values / instrument.resolution) + 0.0  # no -0
+    return when, values

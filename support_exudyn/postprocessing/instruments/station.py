@@ -15,9 +15,13 @@ from support_exudyn.files.toml.text import load_toml
 from support_exudyn.files.whole_file import missing_file, whole_file
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.export.whole_set import check_is_no_run
-from support_exudyn.postprocessing.instruments.column_sensors import ExtensionSensor, PressureGauge
-from support_exudyn.postprocessing.instruments.inclinometer import Inclinometer
 from support_exudyn.postprocessing.instruments.instrument import Instrument, samples
+from support_exudyn.postprocessing.instruments.sensors import (
+    ExtensionSensor,
+    Inclinometer,
+    PressureGauge,
+    machine_of,
+)
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.units import Seconds
@@ -50,15 +54,14 @@ def measure(result: Result, station: MeasuringStation) -> dict[str, NamedSeries]
     Raises InputError that names the instrument if the run has not recorded what it needs, or too coarsely; if
     the machine lacks its column, body or place; or if the bore of a column is not known.
     """
-    found = {}
+    readings = {}
     for name, instrument in station.instruments.items():
         try:
             time, values = samples(instrument, name, result, station.seed)
         except InputError as error:
-            said = str(error)
-            raise InputError(said if said.startswith(name) else f"{name}: {said}") from None
-        found[name] = NamedSeries(name, instrument.UNIT, time + station.clock_offset, values)
-    return found
+            raise InputError(f"{name}: {str(error).removeprefix(f'{name}: ')}") from None
+        readings[name] = NamedSeries(name, instrument.UNIT, time + station.clock_offset, values)
+    return readings
 
 
 def usual_station(scenario: Scenario) -> tuple[MeasuringStation, dict[str, InputError]]:
@@ -72,21 +75,19 @@ def usual_station(scenario: Scenario) -> tuple[MeasuringStation, dict[str, Input
         the station, and what is left out: pressures of columns whose bore the scenario does not say, by name,
         each with the reason.
     """
-    linkage = scenario.linkage
-    bodies = scenario.space.bodies if scenario.dimensions == 3 else linkage.bodies
-    found: dict[str, Instrument] = {}
+    instruments: dict[str, Instrument] = {}
     refused: dict[str, InputError] = {}
-    for column in linkage.actuators:
+    for column in scenario.linkage.actuators:
         gauge = PressureGauge(column=column)
         try:
             gauge.area(scenario)
-            found[f"{column}.pressure"] = gauge
+            instruments[f"{column}.pressure"] = gauge
         except InputError as error:
             refused[f"{column}.pressure"] = error
-        found[f"{column}.extension"] = ExtensionSensor(column=column)
-    found[f"{BASE}.tilt"] = Inclinometer(body=GROUND)
-    found |= {f"{body}.tilt": Inclinometer(body=body) for body in bodies}
-    return MeasuringStation(instruments=found), refused
+        instruments[f"{column}.extension"] = ExtensionSensor(column=column)
+    instruments[f"{BASE}.tilt"] = Inclinometer(body=GROUND)
+    instruments |= {f"{body}.tilt": Inclinometer(body=body) for body in machine_of(scenario).bodies}
+    return MeasuringStation(instruments=instruments), refused
 
 
 def read_station(path: str | Path) -> MeasuringStation:
@@ -121,13 +122,12 @@ def write_measured(measured: Mapping[str, NamedSeries], path: str | Path) -> Pat
     """
     path = Path(path)
     check_is_no_run(path)
-    columns = {"time_s": np.unique(np.concatenate([one.time for one in measured.values()]))}
-    for name, one in measured.items():
-        unit, scale = WRITTEN[one.unit or ""]
-        column = np.full(columns["time_s"].size, math.nan)
-        column[np.searchsorted(columns["time_s"], one.time)] = (
-            np.round(scale * one.values, DECIMALS) + 0.0
-        )  # no -0
+    time = np.unique(np.concatenate([series.time for series in measured.values()]))
+    columns = {"time_s": time}
+    for name, series in measured.items():
+        unit, scale = WRITTEN[series.unit or ""]
+        column = np.full(time.size, math.nan)
+        column[np.searchsorted(time, series.time)] = np.round(scale * series.values, DECIMALS) + 0.0  # no -0
         columns[f"{name}_{unit}"] = column
     with whole_file(path) as temporary, temporary.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")

@@ -12,13 +12,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import InputError
-from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn
-from support_exudyn.postprocessing.comparing.kept_run import (
+from support_exudyn.postprocessing.comparing.baselines import (
     KeptRun,
     changes,
     read_baseline,
     write_baseline,
 )
+from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn
 from support_exudyn.simulation.estimate import Estimate
 
 TIMES, ERRORS = np.array([0.0, 0.1, 0.2]), np.array([1e-9, 1e-9, math.inf])

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import Result, Scenario, simple_scenario, simulate
+from support_exudyn.postprocessing.comparing.baselines import KeptRun, RunChange, changes, kept_run
 from support_exudyn.postprocessing.comparing.compared_channel import ComparedColumn
-from support_exudyn.postprocessing.comparing.kept_run import KeptRun, RunChange, changes, kept_run
 from support_exudyn.postprocessing.pytest_plugin import SimulateCached
 from support_exudyn.simulation.estimate import Estimate
 from tests.postprocessing.baselines.scenes import rocker

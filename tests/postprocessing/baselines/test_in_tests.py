@@ -16,7 +16,6 @@ from support_exudyn import Failure, InputError, Result, SimulationError, simple_
 from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.postprocessing.comparing import in_tests
 from support_exudyn.postprocessing.comparing.in_tests import RunCache, SessionBaselines, closeness
-from support_exudyn.postprocessing.comparing.tables import faults
 from support_exudyn.postprocessing.export.tables import to_hdf5
 from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
 from support_exudyn.simulation.estimate import Estimate
@@ -74,7 +73,7 @@ FINE = np.linspace(0.0, 1.0, 1001)
 def test_what_is_close(now: Any, was: Any, allowed: float | str | None, verdict: str, apart: float) -> None:
     (one,) = closeness(now, was, allowed)
     assert one.verdict == verdict
-    assert bool(faults(one)) == (verdict != "within")
+    assert bool(one.faults) == (verdict != "within")
     assert one.largest.value == pytest.approx(apart, abs=1e-12)
 
 

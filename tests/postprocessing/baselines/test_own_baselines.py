@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from support_exudyn.postprocessing.comparing.kept_run import kept_run
+from support_exudyn.postprocessing.comparing.baselines import kept_run
 from support_exudyn.postprocessing.pytest_plugin import Baseline, SimulateCached
 from tests.postprocessing.baselines.scenes import rise, rocker
 

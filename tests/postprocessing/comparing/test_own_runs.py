@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from support_exudyn import CubicStep, Result, Scenario, machine, simple_scenario, simulate
+from support_exudyn.postprocessing.comparing.compared_file import curve_errors
 from support_exudyn.postprocessing.comparing.measures import compared_statistics
-from support_exudyn.postprocessing.comparing.with_errors import curve_errors
 from tests.cases.run_cases import FORCE, loose_support
 
 FINE = 1e-4  # an accuracy beyond "standard", whose tolerance is that of "draft" where steps are chosen by one
