@@ -68,7 +68,7 @@ def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPa
         from dataclasses import replace
 
         from support_exudyn.files.scenarios.scenario_file import read_scenario_file
-        from support_exudyn.postprocessing.comparing.in_tests import RunCache
+        from support_exudyn.postprocessing.comparing.in_tests import cached_run
         from support_exudyn.scenario.scenario import Scenario
         from user_forces.values.value import InputError, short
 
@@ -77,8 +77,8 @@ def simulate_cached(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPa
             scenario, errors = file.scenario, errors or file.errors
         elif not isinstance(scenario, Scenario):
             raise InputError(f"{short(scenario)}: cannot be run; allowed: a Scenario, or the path of its file")
-        cache = RunCache(_cache_folder(pytestconfig, tmp_path_factory))
-        return cache.run(scenario if accuracy is None else replace(scenario, accuracy=accuracy), errors)
+        scenario = scenario if accuracy is None else replace(scenario, accuracy=accuracy)
+        return cached_run(_cache_folder(pytestconfig, tmp_path_factory), scenario, errors)
 
     return run
 

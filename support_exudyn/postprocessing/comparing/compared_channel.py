@@ -265,7 +265,7 @@ def compared(
         known = common.reference[np.isfinite(common.reference)]
         extent = float(np.ptp(known)) if known.size else 0.0
     else:
-        common = CommonCurves(np.zeros(1), reference.values, other.values, np.zeros(1), 0)
+        common = CommonCurves(np.zeros(1), reference.values, other.values, np.zeros(1))
         extent = abs(float(reference.values[0]))
     if unit == ANGLE and other.time.size:
         common = common._replace(other=common.other - _turns_apart(common))

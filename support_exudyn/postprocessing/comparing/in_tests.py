@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import math
 import re
-import shutil
 import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -16,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from filelock import FileLock
 
 from support_exudyn.files.series.named_series import NamedSeries, SeriesFile
-from support_exudyn.files.whole_file import writing_alone
 from support_exudyn.postprocessing.comparing.baselines import (
     ENDING,
     FOLDER,
@@ -38,60 +35,40 @@ from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.estimate import Estimate
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
-from support_exudyn.sweeps.key import key, program
+from support_exudyn.sweeps.key import key
 from user_forces.values.names import meant
 from user_forces.values.value import InputError, short
 
 Measured = Result | NamedSeries | Estimate | float
 Reference = Measured | SeriesFile | str | PathLike[str] | Mapping[str, NamedSeries | Estimate | float]
 ALONE = "it"  # the name of a number without a name
-WAIT = 0.05  # [s] until it is checked again whether another process is done
-OLD = 86400.0  # [s] since the runs of another program were made: nobody works with it any more
+OLD = 30 * 86400.0  # [s] since a run was made, after which it is made anew
 NO_NAME = re.compile(r"[^\w.-]+")  # is left out of a file's name
 LONGEST = 150  # letters of a file's name
 FEW = 5  # changes in the message of a failure
 
 
-class RunCache:
-    """Runs in a folder, one for each scenario and program.
+def cached_run(folder: Path, scenario: Scenario, errors: bool = False) -> Result:
+    """The run of a scenario in a folder, made if it is not there or damaged; always read from its file.
 
     The key of a run is that of sweeps: all fields of the scenario, versions of packages, a digest of our
-    sources and of modules of one's own. Another program thus never reads a run of this one. Several processes
-    may use the folder: the first makes a run, others that ask for the same wait for it.
+    sources and of modules of one's own. Several processes may use the folder: the first makes a run, others
+    that ask for the same wait for it. A new run removes those that are older than `OLD`.
 
-    folder: where they are kept; made if it is missing. Runs of other programs, a day old, are removed.
+    Arguments:
+        folder: where runs are kept, which is there. errors: whether errors are estimated, see `simulate`.
+
+    Raises InputError and SimulationError as `simulate` does; OSError if the run cannot be kept.
     """
-
-    def __init__(self, folder: Path) -> None:
-        text = json.dumps(program(), sort_keys=True)
-        self.folder = folder / hashlib.sha256(text.encode()).hexdigest()[:16]
-        if not self.folder.is_dir():
-            self.folder.mkdir(parents=True, exist_ok=True)
-            for other in folder.iterdir():
-                with suppress(OSError):  # another process may remove it at the same time
-                    if time.time() - other.stat().st_mtime > OLD:
-                        shutil.rmtree(other, ignore_errors=True)
-
-    def run(self, scenario: Scenario, errors: bool = False) -> Result:
-        """The run of a scenario, made if it is not there or damaged; always as it is read from its file.
-
-        errors: whether it is made with estimated errors, see `simulate`.
-
-        Raises InputError and SimulationError as `simulate` does; OSError if it cannot be kept.
-        """
-        folder = self.folder / key(scenario, errors)
-        path = folder / "run.h5"
-        while True:
-            with suppress(InputError, OSError):  # it is not there, damaged, or removed while it is read
-                return Result.load(path)
-            folder.mkdir(exist_ok=True)
-            try:
-                with writing_alone(folder):
-                    with suppress(InputError, OSError):  # another process may have made it meanwhile
-                        return Result.load(path)
-                    simulate(scenario, errors=errors).save(path)
-            except BlockingIOError:
-                time.sleep(WAIT)
+    path = folder / f"{key(scenario, errors)}.h5"
+    with FileLock(path.with_suffix(".lock")):
+        with suppress(InputError, OSError):  # it is not there, or damaged
+            return Result.load(path)
+        for other in folder.iterdir():
+            with suppress(OSError):  # another process may remove it at the same time
+                if time.time() - other.stat().st_mtime > OLD:
+                    other.unlink()
+        return Result.load(simulate(scenario, errors=errors).save(path))
 
 
 class SessionBaselines:

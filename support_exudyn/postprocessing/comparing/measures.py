@@ -38,14 +38,12 @@ class CommonCurves(NamedTuple):
     time: [s], (n,). reference, other: their values, (n,).
     interpolation_error: by how much interpolation may have changed their difference, (n,), >= 0, in the unit of
         the curves; 0 at times that both have.
-    interpolated: number of times at which one of them was interpolated.
     """
 
     time: Values
     reference: Values
     other: Values
     interpolation_error: Values
-    interpolated: int
 
     @property
     def difference(self) -> Values:
@@ -84,13 +82,13 @@ def on_common_times(
             "allowed: curves that overlap there"
         )
     if its.any() and (not mine.any() or its.sum() < mine.sum()):
-        values, error, count = interpolated(reference_time, reference, other_time[its])
-        return CommonCurves(other_time[its], values, other[its], error, count)
-    values, error, count = interpolated(other_time, other, reference_time[mine])
-    return CommonCurves(reference_time[mine], reference[mine], values, error, count)
+        values, error = interpolated(reference_time, reference, other_time[its])
+        return CommonCurves(other_time[its], values, other[its], error)
+    values, error = interpolated(other_time, other, reference_time[mine])
+    return CommonCurves(reference_time[mine], reference[mine], values, error)
 
 
-def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Values, int]:
+def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Values]:
     """A curve at other times, by straight lines between its own.
 
     Between two times a and b the line differs from the curve f by (t - a) (b - t) f''/2 at most. As f''/2 the
@@ -102,11 +100,11 @@ def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Valu
         at: times [s], (m,), inside those of the curve.
 
     Returns:
-        The values (m,), by how much they may be wrong (m,), and how many are not a record's own. Values next to
-        an unknown value are not known, and so are their errors.
+        The values (m,), and by how much they may be wrong (m,), 0 at a record of the curve. Values next to an
+        unknown value are not known, and so are their errors.
     """
     if time.size < 2:
-        return np.repeat(values, at.size), np.zeros(at.size), 0
+        return np.repeat(values, at.size), np.zeros(at.size)
     same = min(CLEARANCE, SAME * float(np.diff(time).min()))
     right = np.clip(np.searchsorted(time, at), 1, time.size - 1)
     left = right - 1
@@ -119,7 +117,7 @@ def interpolated(time: Values, values: Values, at: Values) -> tuple[Values, Valu
         bent = np.pad(inside, 1, mode="edge")
     error = np.maximum((at - time[left]) * (time[right] - at), 0.0) * np.fmax(bent[left], bent[right])
     error = np.where(np.isfinite(result), error, math.nan)
-    return result, np.where(own, 0.0, error), int(np.count_nonzero(~own))
+    return result, np.where(own, 0.0, error)
 
 
 # --- measures ---

@@ -15,7 +15,7 @@ import pytest
 from support_exudyn import Failure, InputError, Result, SimulationError, simple_scenario, simulate
 from support_exudyn.files.series.named_series import NamedSeries
 from support_exudyn.postprocessing.comparing import in_tests
-from support_exudyn.postprocessing.comparing.in_tests import RunCache, SessionBaselines, closeness
+from support_exudyn.postprocessing.comparing.in_tests import SessionBaselines, cached_run, closeness
 from support_exudyn.postprocessing.export.tables import to_hdf5
 from support_exudyn.postprocessing.pytest_plugin import AssertClose, SimulateCached
 from support_exudyn.simulation.estimate import Estimate
@@ -210,27 +210,17 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[object]:
 
 
 def test_a_run_is_made_once(made: list[object], tmp_path: Path) -> None:
-    first, again = (RunCache(tmp_path).run(SCENE) for _ in range(2))
+    first, again = (cached_run(tmp_path, SCENE) for _ in range(2))
     assert len(made) == 1
     assert all(np.array_equal(first[name], again[name]) for name in first.channels)
     again["crank.moment"][:] = 0.0  # what a test does to its result
-    assert np.abs(RunCache(tmp_path).run(SCENE)["crank.moment"]).max() > 0.0
-    with_errors = RunCache(tmp_path).run(SCENE, errors=True)
+    assert np.abs(cached_run(tmp_path, SCENE)["crank.moment"]).max() > 0.0
+    with_errors = cached_run(tmp_path, SCENE, errors=True)
     assert (len(made), with_errors.coarser is not None, first.coarser) == (2, True, None)
-
-
-def test_another_program_makes_its_own(
-    made: list[object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    first = RunCache(tmp_path)
-    first.run(SCENE)
-    monkeypatch.setattr(in_tests, "program", lambda: {"sources": "others"})
-    RunCache(tmp_path).run(SCENE)
-    assert len(made) == 2
-    os.utime(first.folder, (0.0, 0.0))  # what another program has left is removed once it is old
-    monkeypatch.setattr(in_tests, "program", lambda: {"sources": "third"})
-    RunCache(tmp_path)
-    assert not first.folder.exists()
+    for path in tmp_path.glob("*.h5"):
+        os.utime(path, (0.0, 0.0))
+    cached_run(tmp_path, replace(SCENE, duration=0.005))
+    assert len(list(tmp_path.glob("*.h5"))) == 1  # old runs are removed
 
 
 def test_who_asks_for_the_same_waits_and_a_run_that_fails_is_not_kept(
@@ -239,15 +229,15 @@ def test_who_asks_for_the_same_waits_and_a_run_that_fails_is_not_kept(
     def fails(scenario: object, **more: bool) -> object:
         raise SimulationError(Failure("stuck", "take shorter steps", 0.1))
 
-    cache, found = RunCache(tmp_path), []
+    runs: list[Result] = []
     with monkeypatch.context() as patch:
         patch.setattr(in_tests, "simulate", fails)
         with pytest.raises(SimulationError, match="stuck"):
-            cache.run(SCENE)
-    assert list(tmp_path.rglob("run.h5")) == []  # and nothing is locked
-    threads = [threading.Thread(target=lambda: found.append(cache.run(SCENE))) for _ in range(3)]
+            cached_run(tmp_path, SCENE)
+    assert list(tmp_path.glob("*.h5")) == []  # and nothing is locked
+    threads = [threading.Thread(target=lambda: runs.append(cached_run(tmp_path, SCENE))) for _ in range(3)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert (len(found), len(made)) == (3, 1)
+    assert (len(runs), len(made)) == (3, 1)

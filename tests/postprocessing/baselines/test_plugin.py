@@ -50,7 +50,7 @@ def test_the_example_of_the_page(tmp_path: Path) -> None:
     assert written.returncode == 0, written.stdout + written.stderr
     assert "3 passed" in written.stdout
     assert f"{NAME}.json: written" in written.stdout
-    assert len(list(tmp_path.glob(".pytest_cache/**/run.h5"))) == 2
+    assert len(list(tmp_path.glob(".pytest_cache/**/*.h5"))) == 2
     kept = json.loads((tmp_path / "baseline" / f"{NAME}.json").read_text("utf-8"))
     assert kept["numbers"]
 
