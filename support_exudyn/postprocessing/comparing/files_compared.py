@@ -209,17 +209,13 @@ def _common(
     """
     mine, its = reference.columns, other.columns
     asked = matching(mine, patterns) if patterns else _usual(reference, other)
-    for name in named:
-        if name in mine and name not in its:
-            raise InputError(f"{name}: {other.name} has no such channel; {_way_out(reference, other)}")
-    if its.keys().isdisjoint(asked):
-        raise InputError(
-            f"{reference.path}, {other.path}: have no channel in common; {_way_out(reference, other)}"
-        )
-    units, left_out, unlike = {}, {}, []
+    lacking = [name for name in named if name in mine and name not in its]
+    if lacking or its.keys().isdisjoint(asked):
+        what = f"{lacking[0]}: {other.name} has no such channel" if lacking else "no channel in common"
+        raise InputError(f"{what}; {_way_out(reference, other)}")
+    units, left_out = {}, {name: f"{other.name} has no such channel" for name in asked if name not in its}
     for name in asked:
-        if name not in its:
-            left_out[name] = f"{other.name} has no such channel"
+        if name in left_out:
             continue
         try:
             units[name] = _channel_unit(reference, other, name)
@@ -227,9 +223,8 @@ def _common(
             if name in {*named, *reference.mapped, *other.mapped}:
                 raise
             left_out[name] = str(error)
-            unlike.append(str(error))
     if not units:
-        raise InputError("\n".join(unlike[:SHOWN]))
+        raise InputError("\n".join([reason for name, reason in left_out.items() if name in its][:SHOWN]))
     return units, left_out
 
 
