@@ -26,7 +26,7 @@ Baseline = Callable[..., None]
 OPTION = "--baseline-update"
 MARKS = {  # by the fixture that a test uses
     "simulate_cached": "simulation: simulates a scenario, or takes the run that is kept; set by the plugin",
-    "baseline": "baseline: is compared with a baseline beside its file; set by the plugin",
+    "baseline": "baseline: is compared with a baseline next to its file; set by the plugin",
 }
 WRITTEN = "baseline written"  # property of a test, by which workers report
 CACHE = "support_exudyn"  # folder in pytest's cache
@@ -100,7 +100,7 @@ def assert_close() -> AssertClose:
     """Fail if a result, a curve or a number is farther from a reference than is allowed.
 
     `assert_close(result, reference, tolerance=None, channels=(), after=0, until=inf)`. Without a tolerance the
-    errors of both are allowed. The failure tells the worst number with its time.
+    errors of both are allowed. The failure states the worst number with its time.
     """
 
     def check(
@@ -134,7 +134,7 @@ def baseline(request: pytest.FixtureRequest, _baselines: SessionBaselines) -> Ba
     """Fail if a result or number has changed by more than both errors from its baseline.
 
     `baseline(item, name="")` takes a Result with errors, an Estimate, or Estimates by names. The baseline is
-    `baseline/MODULE.TEST.json` beside the test's file, or `baseline/MODULE.NAME.json`. It is written by
+    `baseline/MODULE.TEST.json` next to the test's file, or `baseline/MODULE.NAME.json`. It is written by
     `pytest --baseline-update MODULE.TEST`, and by nothing else.
     """
 

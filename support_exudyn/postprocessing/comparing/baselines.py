@@ -175,10 +175,10 @@ def _leaves(data: Any, place: str = "") -> Iterator[tuple[str, Any]]:
         yield place, data
 
 
-def lines(found: Sequence[RunChange], most: int = SHOWN) -> list[str]:
+def lines(changes: Sequence[RunChange], most: int = SHOWN) -> list[str]:
     """The first changes as sentences, and how many more there are."""
-    shown = [f"{each.kind} {each.what} {each.name}{': ' * bool(each.values)}{each.values}" for each in found]
-    return shown[:most] + [f"and {len(found) - most} more"] * (len(found) > most)
+    shown = [f"{each.kind} {each.what} {each.name}{': ' * bool(each.values)}{each.values}" for each in changes]
+    return shown[:most] + [f"and {len(changes) - most} more"] * (len(changes) > most)
 
 
 # --- the file ---

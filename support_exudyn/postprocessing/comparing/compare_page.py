@@ -1,4 +1,4 @@
-"""The figure of a comparison, and the page: verdict, notes, tables, and the figure to look into."""
+"""The figure of a comparison, and the page: verdict, notes, tables, and the figure."""
 
 from __future__ import annotations
 

@@ -113,22 +113,22 @@ def read_files(
     files: Sequence[Path | Result], mapping: CompareFile, channels: Sequence[str], progress: Progress
 ) -> list[ComparedFile]:
     """Files, called by their names; with folder or place if another file has the same name."""
-    found: list[ComparedFile] = []
+    read: list[ComparedFile] = []
     for n, source in enumerate(files):
         if isinstance(source, Result):
             name = f"run {n + 1}"
-            found.append(_of_run(source, Path(name), name))
+            read.append(_of_run(source, Path(name), name))
             continue
         alike = {each for each in files if isinstance(each, Path) and each.name == source.name}
         name = source.name if len(alike) == 1 else str(source)
-        name = f"{name} ({n + 1})" if name in [file.name for file in found] else name
+        name = f"{name} ({n + 1})" if name in [file.name for file in read] else name
 
         def piece(share: float, n: int = n) -> None:
             progress((n + share) / len(files))
 
-        found.append(_compared_file(source, mapping.of(source), name, channels, piece))
+        read.append(_compared_file(source, mapping.of(source), name, channels, piece))
     progress(1.0)
-    return found
+    return read
 
 
 def _compared_file(

@@ -82,13 +82,13 @@ class SessionBaselines:
         self._used: set[Path] = set()
 
     def compare(
-        self, item: Result | Estimate | Mapping[str, Estimate], beside: Path, name: str
+        self, item: Result | Estimate | Mapping[str, Estimate], test_file: Path, name: str
     ) -> tuple[str, bool]:
         """Compare with the baseline, or write it if its name is among those.
 
         Arguments:
             item: what is compared: a result with errors, a number, or numbers by their names.
-            beside: the file of the test, next to which the folder of baselines is.
+            test_file: the file of the test, next to which the folder of baselines is.
             name: of the baseline.
 
         Returns:
@@ -98,7 +98,7 @@ class SessionBaselines:
         Raises InputError if it is damaged, or if its name was used before.
         """
         stem = NO_NAME.sub("_", name).strip("_.")[:LONGEST] or ALONE
-        path = beside.parent / FOLDER / f"{stem}{ENDING}"
+        path = test_file.parent / FOLDER / f"{stem}{ENDING}"
         if path in self._used:
             raise InputError(f"{stem}: is compared already; allowed: a name of its own, baseline(it, 'NAME')")
         self._used.add(path)
@@ -112,11 +112,11 @@ class SessionBaselines:
             raise InputError(f"{short(item)}: cannot be a baseline; allowed: {allowed}")
         report = [f"{path}: there is no such baseline"]
         if path.exists():
-            found = changes(read_baseline(path), now)
-            if not found:
+            changed = changes(read_baseline(path), now)
+            if not changed:
                 return "", False
-            head = f"{stem}: {len(found)} changed by more than both errors, new, or gone"
-            report = [head, *lines(found, FEW)]
+            head = f"{stem}: {len(changed)} changed by more than both errors, new, or gone"
+            report = [head, *lines(changed, FEW)]
         if any(fnmatchcase(stem, pattern) for pattern in self.updated):
             write_baseline(now, path)
             return "\n".join([f"{path}: written", *report]), True
