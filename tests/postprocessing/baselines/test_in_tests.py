@@ -83,7 +83,7 @@ def test_what_is_close(now: Any, was: Any, allowed: float | str | None, verdict:
         (Estimate(1.0, 0.1, "N"), Estimate(1.0, 0.1, "m"), None, "cannot be given in"),
         (1.0, 1.0, None, "no numerical error is known"),
         (curve(TIME), curve(TIME, None), 0.1, "gives no unit"),
-        (curve(TIME), 1.0, 0.1, "is a curve beside a number"),
+        (curve(TIME), 1.0, 0.1, "a curve cannot be compared with a number"),
         (1.0, {"a": 1.0}, 0.1, "cannot be compared; allowed:"),
         ("a text", 1.0, 0.1, "allowed:"),
         *((1.0, 1.0, bad, "allowed:") for bad in ("", "2", "-1 %", "2 bananas", -0.1, math.nan, True, [1])),
