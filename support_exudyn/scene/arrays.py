@@ -57,9 +57,12 @@ CONTACT = _record(
     "largest largest_at asked_depth asked_rate asked_slip asked_deflection",
 )
 # a force on point `point` against `origin`, a moment on their bodies, or forces up on both, with the heights
-# of these at the start, `first` and `second`; with the first of its own courses, and how many
+# of these at the start; the first of its own courses, and how many; from which places of out on its action
+# takes their values, `first`, and gives its powers
 FORCE, MOMENT, STRETCH = range(3)
-LOAD = _record("point origin kind constants course courses", "law first second fx fy work loss")
+LOAD = _record(
+    "point origin kind constants course courses first powers", "law point_y origin_y fx fy work loss"
+)
 # friction of an ideal pin (BOLT) or guide (GUIDED; BLOCK with a moment); row: the first of the joint; state: of
 # the friction law in y | direction and speed along a guide, slip, arm of the friction force, the force and its
 # moment, by how much the last round changed it

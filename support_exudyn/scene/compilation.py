@@ -12,8 +12,6 @@ from typing import Any, TypeVar
 
 import numba
 from llvmlite import ir
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler
 from numba.extending import intrinsic
 
 from support_exudyn.model.hydraulics import elements
@@ -38,19 +36,14 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 def compiled(function: Function) -> Function:
     """Decorator: compile a function that is called from compiled functions only.
 
-    It is optimised only with the function that Python calls. Divisions by zero give inf or nan, which the
-    integrator looks for. No fast-math: results are the same bit for bit from run to run.
+    Divisions by zero give inf or nan, which the integrator looks for. No fast-math: results are the same bit
+    for bit from run to run.
     """
-    return _inner(function, **({"pipeline_class": _LinkedCompiler} if CAN_LINK else {}))
-
-
-def often(function: Function) -> Function:
-    """Decorator: compile a function that is evaluated many times, and optimise it by itself, too."""
     return _inner(function)
 
 
 def inlined(function: Function) -> Function:
-    """Decorator: compile a formula as `often` does, and put its code where it is called.
+    """Decorator: compile a formula as `compiled` does, and put its code where it is called.
 
     That makes the right-hand side twice as fast. Of larger functions it would only make compiling slower.
     """
@@ -65,85 +58,20 @@ def once(function: Function) -> Function:
     return numba.njit(error_model="numpy", inline="always", **UNCOUNTED)(function)  # type: ignore[no-any-return]
 
 
-def entry(function: Function) -> Function:
-    """Decorator: compile a function that Python calls, at its first call, or load it from disk.
-
-    Other threads of Python go on meanwhile.
-    """
-    return _kept(function)
-
-
-class _NoMachine:
-    """What makes machine code, for code that has none."""
-
-    def __init__(self, maker: Any) -> None:
-        self._maker = maker
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._maker, name)
-
-    def set_env(self, name: str, environment: Any) -> None:
-        """Keep no environment for a function: only code that handles objects of Python has use for it."""
-
-
-class _Linked(JITCodeLibrary):  # type: ignore[misc]
-    """Code that is optimised, and becomes machine code, only as part of the function that Python calls.
-
-    By itself numba does both for each function, with all that it calls, which takes half of the time.
-    """
-
-    def _optimize_functions(self, module: Any) -> None:
-        module.data_layout = self._codegen._data_layout
-
-    def _optimize_final_module(self) -> None:
-        pass
-
-    def _finalize_final_module(self) -> None:
-        self._finalize_dynamic_globals()
-        self._finalized = True
-
-    def get_pointer_to_function(self, name: str) -> int:
-        """Return the address of a function in machine code: zero, there is none."""
-        return 0
-
-    @property
-    def codegen(self) -> _NoMachine:
-        """What makes machine code."""
-        return _NoMachine(self._codegen)
-
-
-# other versions of numba may name their parts otherwise: functions are then optimised by themselves, too
-CAN_LINK = all(
-    hasattr(JITCodeLibrary, name)
-    for name in (
-        "_optimize_functions",
-        "_optimize_final_module",
-        "_finalize_final_module",
-        "_finalize_dynamic_globals",
-    )
-)
-
-
-class _LinkedCompiler(Compiler):  # type: ignore[misc]
-    """Compiles a function to code that is linked into what calls it."""
-
-    def define_pipelines(self) -> Any:
-        """The passes of numba, with another end."""
-        self.state.library = _Linked(self.state.targetctx.codegen(), self.state.func_id.func_qualname)
-        return super().define_pipelines()
-
-
 def _inner(function: Function, **options: Any) -> Function:
     """Not kept on disk, where those that Python calls hold its code; that would take a tenth of the time.
 
     Without the wrappers for calls from Python and C, which take a third of it.
     """
-    options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    options |= UNCOUNTED
+    options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True} | UNCOUNTED
     return numba.njit(error_model="numpy", **options)(function)  # type: ignore[no-any-return]
 
 
-def _kept(function: Function) -> Function:
+def entry(function: Function) -> Function:
+    """Decorator: compile a function that Python calls, at its first call, or load it from disk.
+
+    Other threads of Python go on meanwhile.
+    """
     options = {"nogil": True, "no_cfunc_wrapper": True} | UNCOUNTED  # nothing in C calls it
     try:
         dispatcher: Any = numba.njit(cache=True, error_model="numpy", **options)(function)
@@ -245,8 +173,8 @@ def _tell(module: str) -> None:
 
 
 NUMBER = numba.types.float64
-FIRST_COURSE = 3  # where the values of a load's courses stand in out
-LAW = NUMBER(*5 * (NUMBER,), *2 * (numba.types.CPointer(NUMBER),))
+NUMBERS = 5  # that a law takes besides constants and out
+LAW = NUMBER(*NUMBERS * (NUMBER,), *2 * (numba.types.CPointer(NUMBER),))
 
 
 def address_of(law: Callable[..., float]) -> int:
@@ -330,63 +258,45 @@ def joint_friction(
 
 
 def load_law(load: ActingLoad) -> tuple[Callable[..., float], tuple[float, ...]]:
-    """The action of a load for `call_law`, and its constants."""
+    """The action of a load for `call_law`, and its constants.
+
+    It takes the first five numbers of the motion, and the others and the values of courses from out.
+    """
     action, own = load.formula
-    return _load_law(action, load.FORCES, len(load.MOTION._fields), len(load.courses), len(own)), own
+    motion = len(load.MOTION._fields)
+    extra = max(0, motion - NUMBERS) + len(load.courses)
+    return action_law(action, min(motion, NUMBERS), extra, len(own), load.FORCES + 2), own
 
 
 @cache
-def _load_law(
-    action: Callable[..., tuple[float, ...]], forces: int, motion: int, courses: int, count: int
+def action_law(
+    action: Callable[..., tuple[float, ...]], arguments: int, extra: int, count: int, results: int
 ) -> Callable[..., float]:
-    """A load as a function that gives the force forward [N], the moment [N m], or F1 of a stretch [N].
-
-    Into out it writes the power of what moves the load and the loss [W], and then the force up or F2 [N].
+    """An action for `call_law`: it gives the first number of the action, and writes those behind it into out.
 
     Arguments:
-        forces: how many of them the action gives.
-        motion: how many numbers it follows besides the values of its courses.
-        courses: how many there are; their values stand in out from FIRST_COURSE on.
-        count: of its parameters.
+        action: of plain numbers.
+        arguments: how many of the five numbers it takes first.
+        extra: how many it takes then, which stand in out.
+        count: of its parameters, which it takes last.
+        results: how many of its numbers are written into out.
     """
+    room = max(extra, results)
 
-    def load(
-        time: float, first: float, second: float, third: float, fourth: float, constants: Any, out: Any
+    def law(
+        first: float, second: float, third: float, fourth: float, fifth: float, constants: Any, out: Any
     ) -> float:
-        results = numba.carray(out, FIRST_COURSE + courses)
+        others = numba.carray(out, room)
         found: tuple[float, ...] = action(
-            *(time, first, second, third, fourth, 0.0, 0.0)[:motion],
-            *numbers(results, FIRST_COURSE, courses),
+            *(first, second, third, fourth, fifth)[:arguments],
+            *numbers(others, 0, extra),
             *numbers(numba.carray(constants, count), 0, count),
         )
-        results[0], results[1], results[2] = found[forces + 1], found[forces + 2], found[1]
+        for i in range(results):
+            others[i] = found[1 + i]
         return found[0]
 
-    return load
-
-
-@cache
-def valve_law(action: Callable[..., tuple[float, ...]], states: int, count: int) -> Callable[..., float]:
-    """The action of a valve of a leg for `call_law`, with so many states and parameters, see `LegValve`.
-
-    It gives the flow [m^3/s]. Of out it reads memory and states, and writes the gap, the rates of the states,
-    and the states at rest.
-    """
-
-    def valve(
-        before: float, after: float, pilot: float, opening: float, travel: float, constants: Any, out: Any
-    ) -> float:
-        results = numba.carray(out, 1 + 2 * states)
-        found: tuple[float, ...] = action(
-            *(before, after, pilot, opening, travel, results[0]),
-            *numbers(results, 1, states),
-            *numbers(numba.carray(constants, count), 0, count),
-        )
-        for i in range(1 + 2 * states):
-            results[i] = found[1 + i]
-        return found[0]
-
-    return valve
+    return law
 
 
 @intrinsic  # type: ignore[untyped-decorator]

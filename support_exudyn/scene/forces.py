@@ -12,10 +12,10 @@ from support_exudyn.scene.arrays import (
     SceneArrays,
     Vector,
 )
-from support_exudyn.scene.compilation import FIRST_COURSE, call_law, compiled, inlined, once
+from support_exudyn.scene.compilation import call_law, compiled, inlined, once
 from support_exudyn.scene.hydraulics.leg import powers_of
 from support_exudyn.scene.hydraulics.records import LegArrays
-from support_exudyn.scene.motion import push, push_point, spin_of
+from support_exudyn.scene.motion import push, push_point, spin_of, turn_of
 from user_forces.contact import SHALLOWEST
 from user_forces.face import point_on_face
 from user_forces.journal import journal_in_bore
@@ -141,29 +141,28 @@ def press_loads(scene: SceneArrays, t: float, y: Vector) -> None:
         one = scene.loads[n]
         point, origin = scene.points[one.point], scene.points[one.origin]
         constants = scene.constants[one.constants :]
+        scene.out[0] = scene.out[1] = 0.0  # in the plane nothing is to the right
         for k in range(one.courses):
-            scene.out[FIRST_COURSE + k] = scene.courses[one.course + k].value
+            scene.out[one.first + k] = scene.courses[one.course + k].value
         if one.kind == MOMENT:
-            turn = (y[3 * point.body + 2] if point.body >= 0 else 0.0) - (
-                y[3 * origin.body + 2] if origin.body >= 0 else 0.0
-            )
+            turn = turn_of(y, point.body) - turn_of(y, origin.body)
             spin = spin_of(scene, y, point.body) - spin_of(scene, y, origin.body)
             one.fx = call_law(one.law, t, turn, spin, 0.0, 0.0, constants, scene.out)
             push(scene, point.body, 0.0, 0.0, one.fx)
             push(scene, origin.body, 0.0, 0.0, -one.fx)
         elif one.kind == STRETCH:
-            first, second = point.y - one.first, origin.y - one.second
+            first, second = point.y - one.point_y, origin.y - one.origin_y
             one.fx = call_law(one.law, t, first, second, point.vy, origin.vy, constants, scene.out)
-            one.fy = scene.out[2]
+            one.fy = scene.out[0]
             push_point(scene, one.point, 0.0, one.fx)
             push_point(scene, one.origin, 0.0, one.fy)
         else:
             x, y_ = point.x - origin.x, point.y - origin.y
             vx, vy = point.vx - origin.vx, point.vy - origin.vy
             one.fx = call_law(one.law, t, x, y_, vx, vy, constants, scene.out)
-            one.fy = scene.out[2]
+            one.fy = scene.out[0]
             push_apart(scene, one.origin, one.point, one.fx, one.fy)
-        one.work, one.loss = scene.out[0], scene.out[1]
+        one.work, one.loss = scene.out[one.powers], scene.out[one.powers + 1]
 
 
 @compiled

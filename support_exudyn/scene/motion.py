@@ -13,7 +13,7 @@ import numpy as np
 
 from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.scene.arrays import ACTUATOR, CRANK, GEAR, PIN, SceneArrays, Vector
-from support_exudyn.scene.compilation import compiled, inlined, often
+from support_exudyn.scene.compilation import compiled, inlined
 
 SETTLED = 1e-13  # share by which moments that depend on accelerations may still change
 # Factors lose as many digits as the lightest body is lighter than the heaviest. So little may be left of that.
@@ -145,7 +145,7 @@ def hold(scene: SceneArrays, y: Vector) -> None:
         row.ox, row.oy, row.ot = -ux, -uy, first.ry * ux - first.rx * uy - carried
 
 
-@often
+@compiled
 def factor(scene: SceneArrays) -> float:
     """Write C M^-1 C^T as its factors L, and 1 / D on the diagonal; the least share that is left of a row."""
     count, square, numbers = np.uint64(scene.rows.size), scene.square, scene.row_numbers
@@ -289,7 +289,7 @@ def rate_of(scene: SceneArrays, row: int, v: Vector, start: int) -> float:
     return float(total)
 
 
-@often
+@compiled
 def respond(scene: SceneArrays, multipliers: Vector, v: Vector, start: int) -> None:
     """Take M^-1 C^T L off the velocities or displacements that stand in `v` from `start` on."""
     for n in range(scene.rows.size):

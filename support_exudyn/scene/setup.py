@@ -21,7 +21,7 @@ from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene import arrays
 from support_exudyn.scene.arrays import LOSSES, Matrix, Records, SceneArrays, Vector, Whole
 from support_exudyn.scene.compilation import (
-    FIRST_COURSE,
+    NUMBERS,
     address_of,
     contact_law,
     joint_friction,
@@ -39,6 +39,7 @@ from support_exudyn.scene.time_grid import record_times
 from user_forces.friction.law import FrictionLaw
 from user_forces.values.value import Vector2
 
+OUT = 5  # numbers that a law writes at most
 # a body that a row is of, and the first of the numbers that the row takes of it
 SIDES = (("body", "x"), ("other", "ox"), ("carrier", "carrier_x"))
 
@@ -141,7 +142,7 @@ def model_of(scenario: Scenario) -> Model:
         loads=loads,
         rubbing=rubbing,
         constants=np.array([*build.constants, 0.0]),
-        out=np.zeros(FIRST_COURSE + int(loads["courses"].max(initial=0))),
+        out=np.zeros(OUT + int(loads["courses"].max(initial=0))),
     )
     return Model(
         scenario=scenario,
@@ -328,7 +329,9 @@ def _loads(scenario: Scenario, build: _Builder, course: int) -> Records:
             kind, point, origin = arrays.FORCE, load.point, load.origin
         elif isinstance(load, StretchLoad):
             kind, against, (point, origin) = arrays.STRETCH, load.body, load.points
-        record["kind"], record["first"], record["second"] = kind, point[1], origin[1]
+        record["kind"], record["powers"] = kind, load.FORCES
+        record["point_y"], record["origin_y"] = point[1], origin[1]
+        record["first"] = max(0, len(load.MOTION._fields) - NUMBERS)
         record["point"], record["origin"] = build.point(load.body, point), build.point(against, origin)
         record["law"], record["constants"] = build.law(*load_law(load))
         record["course"], record["courses"] = course, len(load.courses)

@@ -33,7 +33,7 @@ def test_what_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.Monkey
         return njit(*args, **options)
 
     monkeypatch.setattr(numba, "njit", without_a_place)
-    dispatcher = compilation._kept(twice)
+    dispatcher = compilation.entry(twice)
     assert dispatcher(21.0) == 42.0
     assert asked[:2] == [True, False]  # then numba compiles helpers of its own
 
@@ -41,7 +41,7 @@ def test_what_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.Monkey
 def test_what_an_older_program_has_kept_is_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It may name classes that are no longer there."""
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-    dispatcher = compilation._kept(twice)
+    dispatcher = compilation.entry(twice)
     index = Path(dispatcher._cache._cache_file._index_path)
     index.parent.mkdir(parents=True, exist_ok=True)
     index.write_bytes(pickle.dumps(numba.__version__) + b"\x80\x04cno.module\nNoClass\n.")
@@ -54,7 +54,7 @@ def test_a_function_that_another_process_compiles_is_waited_for(
 ) -> None:
     pytest.importorskip("fcntl")
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
-    dispatcher, other = compilation._kept(twice), compilation._kept(twice)
+    dispatcher, other = compilation.entry(twice), compilation.entry(twice)
     (lock,) = compilation._lock(Path(dispatcher._cache.cache_path), "twice")  # the other process begins
     with ThreadPoolExecutor(1) as pool:
         found = pool.submit(dispatcher, 21.0)

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, TypeVar
 
 from pydantic import model_validator
 
+from user_forces.kernel import kernel
 from user_forces.values.units import (
     CubicMetres,
     CubicMetresPerSecond,
@@ -52,6 +53,14 @@ class Shared:
 # --- oil ---
 
 
+@kernel
+def air_volume(air: float, exponent: float, pressure: float) -> float:
+    """The volume [m^3] at a pressure [Pa] of air that has a volume `air` at the pressure of the atmosphere."""
+    if air == 0.0:
+        return 0.0
+    return float(air * (ATMOSPHERE / (pressure + ATMOSPHERE)) ** (1.0 / exponent))
+
+
 @value
 class TrappedAir(Shared, Value):
     """Air that stays in the chamber of a leg, and makes its oil softer the lower the pressure is.
@@ -77,8 +86,7 @@ class TrappedAir(Shared, Value):
 
     def at(self, pressure: float) -> float:
         """V_air [m^3] at a pressure [Pa], > -p_a."""
-        volume: float = self.volume * (ATMOSPHERE / (pressure + ATMOSPHERE)) ** (1.0 / self.exponent)
-        return volume
+        return air_volume(self.volume, self.exponent, pressure)
 
 
 @value

@@ -13,7 +13,7 @@ from support_exudyn.mechanics.hydraulic_legs import SIDES, PreloadedLeg
 from support_exudyn.model.hydraulics.elements import EndStops, PumpStation, TrappedAir
 from support_exudyn.model.hydraulics.leg import HydraulicCylinder, HydraulicLeg
 from support_exudyn.model.hydraulics.valves import Path, Room
-from support_exudyn.scene.compilation import UncompiledLawError, address_of, valve_law
+from support_exudyn.scene.compilation import NUMBERS, UncompiledLawError, action_law, address_of
 from support_exudyn.scene.hydraulics.records import (
     CHAMBER,
     CONSTANT,
@@ -201,7 +201,8 @@ class _Filling:
         states = len(path.states)
         still = path.formula(before, after, 0.0, 0.0, 0.0, 0.0, *(0.0,) * states)
         try:
-            law = address_of(valve_law(path.formula.function, states, len(path.formula.parameters)))
+            count = len(path.formula.parameters)
+            law = address_of(action_law(path.formula.function, NUMBERS, 1 + states, count, 1 + 2 * states))
         except UncompiledLawError as error:
             raise InputError(
                 f"{where}: {error}; allowed: an action of numbers, with `if` and `math`"

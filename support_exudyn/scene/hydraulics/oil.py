@@ -6,7 +6,7 @@ pressure p:     liquid volume + V_air (p_a/(p + p_a))^(1/n) = V
 
 import math
 
-from support_exudyn.model.hydraulics.elements import ATMOSPHERE
+from support_exudyn.model.hydraulics.elements import ATMOSPHERE, air_volume
 from support_exudyn.scene.compilation import compiled, inlined
 from support_exudyn.scene.hydraulics.records import LOG, Records
 
@@ -28,14 +28,6 @@ def liquid_volume(law: int, oil: float, pressure: float, reference: float, modul
     if law == LOG:
         return oil * math.exp(-pressure / modulus)
     return oil - pressure * reference / modulus
-
-
-@compiled
-def air_volume(air: float, exponent: float, pressure: float) -> float:
-    """The volume [m^3] of trapped air at a pressure [Pa]."""
-    if air == 0.0:
-        return 0.0
-    return float(air * (ATMOSPHERE / (pressure + ATMOSPHERE)) ** (1.0 / exponent))
 
 
 @compiled
