@@ -15,14 +15,13 @@ d turn/dt, and a spring that acts on the turn gives back what it has taken up.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from support_exudyn.mechanics.body_motion import BodyMotion, Motion, PointMotion
+from support_exudyn.mechanics.body_motion import BodyMotion, Motion
 from support_exudyn.mechanics.channels import LOADED, ChannelDefinitions, named, table
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.reactions import push, twist
@@ -30,7 +29,6 @@ from support_exudyn.mechanics.trajectory import LoadSeries, Series
 from support_exudyn.model.loads.load import ActingLoad, Load, MomentLoad, StretchLoad
 from support_exudyn.model.to_space import at
 from user_forces.kernel import compiled_or_plain, numbers
-from user_forces.values.value import Vector2
 
 MANY = 1000  # records from which on a compiled loop is faster, though it may have to be compiled
 # Times at which the largest force is looked for: at least so many, a share of the shortest time apart, at most.
@@ -44,98 +42,86 @@ def turning_axis(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any]:
     return -x * z / square, -y * z / square, 1.0 + 0.0 * z
 
 
-class Turning(NamedTuple):
-    """How a body turns against another: turn [rad] and rate [rad/s] (n,), and the axis (n, 1) or (n, 3)."""
+class PointStrain:
+    """The way of a point against another, of a `Load`, over the motion of all bodies.
 
-    turn: Series
-    rate: Series
-    axis: Series
-
-
-def _point(motion: Motion, body: str, point: Vector2, lateral: float) -> PointMotion:
-    """Motion of a point of the start posture; in the plane both sides are lumped."""
-    return motion.point(body, point if motion.SHIFTS == 2 else at(point, lateral))
-
-
-def _turning(motion: Motion, body: str, other: str) -> Turning:
-    """How a body turns against another."""
-    if isinstance(motion, BodyMotion):
-        turn = motion.turn(body) - motion.turn(other)
-        return Turning(turn, motion.spin(body) - motion.spin(other), np.ones((len(turn), 1)))
-    frame = np.stack([motion.carried(other, np.eye(3)[k]) for k in range(3)], axis=-1)
-    forward = np.einsum("nij,ni->jn", frame, motion.carried(body, np.array([1.0, 0.0, 0.0])))
-    axis = np.einsum("nij,jn->ni", frame, np.array(turning_axis(*forward)))
-    rate = np.einsum("ni,ni->n", axis, motion.spin(body) - motion.spin(other))
-    return Turning(np.unwrap(np.arctan2(forward[1], forward[0])), rate, axis)
-
-
-class Strain(ABC):
-    """A strain kind over the motion of all bodies. numbers: strains and rates (n, m), as `MOTION` has them."""
-
-    numbers: Series
-
-    @abstractmethod
-    def apply(self, total: Series, forces: Series) -> None:
-        """Add forces (n, k) of a load, as its action gives them, to the forces on all bodies."""
-
-
-class _PointStrain(Strain):
-    """The way of a point against another, of a `Load`."""
+    numbers: strains and rates (n, m), as `LoadedPoint` has them.
+    """
 
     def __init__(self, load: Load, name: str, motion: Motion) -> None:
         self.body, self.against, self.motion = load.body, load.against(name), motion
-        self.point = _point(motion, self.body, load.point, load.lateral)
-        self.origin = _point(motion, self.against, load.origin, load.origin_lateral)
+        plane = motion.SHIFTS == 2  # in which both sides are lumped
+        self.point = motion.point(self.body, load.point if plane else at(load.point, load.lateral))
+        self.origin = motion.point(self.against, load.origin if plane else at(load.origin, load.origin_lateral))
         way, velocity = self.point.position - self.origin.position, self.point.velocity - self.origin.velocity
         level = np.zeros((len(way), 3 - way.shape[1]))
         across = np.column_stack([way[:, 2:], level, velocity[:, 2:], level])
         self.numbers = np.column_stack([way[:, :2], velocity[:, :2], across])
 
     def apply(self, total: Series, forces: Series) -> None:
+        """Add forces (n, 3) of the load to the forces on all bodies."""
         known = forces[:, : self.point.position.shape[1]]
         push(total, self.motion, self.body, known, self.point.position)
         push(total, self.motion, self.against, -known, self.origin.position)
 
 
-class _TurnStrain(Strain):
-    """The turn of a body against another, of a `MomentLoad`."""
+class TurnStrain:
+    """The turn of a body against another, of a `MomentLoad`, over the motion of all bodies.
 
-    def __init__(self, load: MomentLoad, name: str, motion: Motion) -> None:
-        del name
+    numbers: turn [rad] and rate [rad/s] (n, 2). axis: of the turn (n, 1) or (n, 3).
+    """
+
+    def __init__(self, load: MomentLoad, motion: Motion) -> None:
         self.load, self.motion = load, motion
-        turn, rate, self.axis = _turning(motion, load.body, load.other)
+        spin = motion.spin(load.body) - motion.spin(load.other)
+        if isinstance(motion, BodyMotion):
+            turn = motion.turn(load.body) - motion.turn(load.other)
+            rate, self.axis = spin, np.ones((len(turn), 1))
+        else:
+            frame = np.stack([motion.carried(load.other, np.eye(3)[k]) for k in range(3)], axis=-1)
+            forward = np.einsum("nij,ni->jn", frame, motion.carried(load.body, np.array([1.0, 0.0, 0.0])))
+            self.axis = np.einsum("nij,jn->ni", frame, np.array(turning_axis(*forward)))
+            rate = np.einsum("ni,ni->n", self.axis, spin)
+            turn = np.unwrap(np.arctan2(forward[1], forward[0]))
         self.numbers = np.column_stack([turn, rate])
 
     def apply(self, total: Series, forces: Series) -> None:
+        """Add moments (n, 1) of the load to the forces on all bodies."""
         twist(total, self.motion, self.load.body, forces * self.axis)
         twist(total, self.motion, self.load.other, -forces * self.axis)
 
 
-class _StretchStrain(Strain):
-    """The ways up of both ends of a stretch, of a `StretchLoad`."""
+class StretchStrain:
+    """The ways up of both ends of a stretch, of a `StretchLoad`, over the motion of all bodies.
 
-    def __init__(self, load: StretchLoad, name: str, motion: Motion) -> None:
-        del name
+    numbers: ways up [m] and their rates [m/s] (n, 4).
+    """
+
+    def __init__(self, load: StretchLoad, motion: Motion) -> None:
         self.load, self.motion = load, motion
-        self.ends = [_point(motion, load.body, point, load.lateral) for point in load.points]
+        plane = motion.SHIFTS == 2
+        self.ends = [
+            motion.point(load.body, point if plane else at(point, load.lateral)) for point in load.points
+        ]
         ways = [end.position[:, 1] - point[1] for end, point in zip(self.ends, load.points, strict=True)]
         self.numbers = np.column_stack([*ways, *(end.velocity[:, 1] for end in self.ends)])
 
     def apply(self, total: Series, forces: Series) -> None:
+        """Add forces up (n, 2) of the load at both ends to the forces on all bodies."""
         for end, size in zip(self.ends, forces.T, strict=True):
             up = np.zeros_like(end.position)
             up[:, 1] = size
             push(total, self.motion, self.load.body, up, end.position)
 
 
-def strain_of(load: ActingLoad, name: str, motion: Motion) -> Strain:
+def strain_of(load: ActingLoad, name: str, motion: Motion) -> PointStrain | TurnStrain | StretchStrain:
     """The strain of a load of this name. Raises TypeError for a load of no strain kind."""
     if isinstance(load, Load):
-        return _PointStrain(load, name, motion)
+        return PointStrain(load, name, motion)
     if isinstance(load, MomentLoad):
-        return _TurnStrain(load, name, motion)
+        return TurnStrain(load, motion)
     if isinstance(load, StretchLoad):
-        return _StretchStrain(load, name, motion)
+        return StretchStrain(load, motion)
     raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
 
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from typing import ClassVar
 
 from pydantic import model_validator
 from typing_extensions import Self
@@ -64,17 +65,14 @@ class _BushingForce(Load):
         stored, loss = 0.5 * (kx * x * x + ky * y * y), cx * vx * vx + cy * vy * vy
         return fx, fy, 0.0, stored, 0.0, loss, math.hypot(fx, fy), fx, fy, math.hypot(x, y), x, y
 
-    @property
-    def channels(self) -> Mapping[str, LoadChannel]:
-        """The channels are force and deflection."""
-        return {
-            "force": LoadChannel("N", "magnitude of the pin force"),
-            "force_x": LoadChannel("N", "force of the first body on the second, forward"),
-            "force_y": LoadChannel("N", "force of the first body on the second, up"),
-            "deflection": LoadChannel("m", "distance of both bodies' points"),
-            "deflection_x": LoadChannel("m", "second body's point from the first's, forward"),
-            "deflection_y": LoadChannel("m", "second body's point from the first's, up"),
-        }
+    channels: ClassVar[Mapping[str, LoadChannel]] = {
+        "force": LoadChannel("N", "magnitude of the pin force"),
+        "force_x": LoadChannel("N", "force of the first body on the second, forward"),
+        "force_y": LoadChannel("N", "force of the first body on the second, up"),
+        "deflection": LoadChannel("m", "distance of both bodies' points"),
+        "deflection_x": LoadChannel("m", "second body's point from the first's, forward"),
+        "deflection_y": LoadChannel("m", "second body's point from the first's, up"),
+    }
 
     @property
     def steepness(self) -> tuple[float, ...]:

@@ -14,13 +14,12 @@ Upper is the side to which a quarter turn counterclockwise leads from the direct
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
+from abc import ABC
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from pydantic import model_validator
 
-from support_exudyn.model.pins import Refusal
 from support_exudyn.model.simple_laws import fields_of, friction_of, law_with
 from user_forces.contact import FaceContact, SlotContact
 from user_forces.friction.law import FrictionLaw
@@ -53,13 +52,10 @@ class GuideContact(NamedTuple):
 class Guide(Value, ABC):
     """What guides a point of a body along a line of another."""
 
-    @property
-    @abstractmethod
-    def holds(self) -> bool:
-        """Whether constraints hold the point on the line; else forces follow from the motion."""
+    holds: ClassVar[bool]  # whether constraints hold the point on the line; else forces follow from the motion
 
-    def refused_in_space(self) -> Refusal | None:
-        """What of the guide is of the plane alone; None: nothing."""
+    def refused_in_space(self) -> tuple[str, str] | None:
+        """What of the guide is of the plane alone, and what is allowed, in words; None: nothing."""
         return None
 
     def misfit(self, turns: bool) -> str:
@@ -93,6 +89,7 @@ class IdealGuide(Guide):
         pin_radius: of a pin in place of a block [m]; with friction only.
     """
 
+    holds: ClassVar[bool] = True
     friction: FrictionLaw | None = None
     block: Metres[tuple[Positive, Positive]] | None = None
     pin_radius: Metres[Positive] | None = None
@@ -105,14 +102,9 @@ class IdealGuide(Guide):
             raise ValueError("friction = None: a block or a pin_radius serves friction only; allowed: a law")
         return self
 
-    @property
-    def holds(self) -> bool:
-        """An ideal guide holds its body."""
-        return True
-
-    def refused_in_space(self) -> Refusal | None:
+    def refused_in_space(self) -> tuple[str, str] | None:
         """Friction is of the plane alone."""
-        return None if self.friction is None else Refusal("", "IdealGuide with friction", "IdealGuide without")
+        return None if self.friction is None else ("IdealGuide with friction", "IdealGuide without")
 
     def misfit(self, turns: bool) -> str:
         """A pin needs a slide that lets turn, a block one that does not."""
@@ -168,6 +160,7 @@ class ClearanceGuide(Guide):
         pin_radius: of a pin in place of a block, about the guide's point [m]; for guides that let turn.
     """
 
+    holds: ClassVar[bool] = False
     gaps: Metres[Gaps]
     normal: NormalLaw
     friction: FrictionLaw = Frictionless()
@@ -243,18 +236,13 @@ class ClearanceGuide(Guide):
         )
 
     @property
-    def holds(self) -> bool:
-        """A guide with clearance leaves its block free."""
-        return False
-
-    @property
     def play(self) -> float:
         """Half of the way between the walls [m], as the clearance of a pin is."""
         return 0.5 * sum(self.gaps)
 
-    def refused_in_space(self) -> Refusal | None:
+    def refused_in_space(self) -> tuple[str, str] | None:
         """Clearance in a guide is of the plane alone."""
-        return Refusal("", type(self).__name__, "IdealGuide")
+        return (type(self).__name__, "IdealGuide")
 
     def misfit(self, turns: bool) -> str:
         """A pin needs a slide that lets turn, a block one that does not."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import Any, Final, Literal, NamedTuple
+from typing import Any, ClassVar, Final, Literal
 
 from pydantic import model_validator
 
@@ -40,29 +40,18 @@ CYLINDERS: Final = "cylinders"
 Stiffness = Literal["cylinders", "paper", "internal"]
 
 
-class Refusal(NamedTuple):
-    """What is not covered and what is: the part of the pin, such as ".contact", and words for both."""
-
-    part: str
-    what: str
-    allowed: str
-
-
 class Pin(Value, ABC):
     """What joins two bodies at a place of the machine."""
 
-    @property
-    @abstractmethod
-    def holds(self) -> bool:
-        """Whether the two bodies share a point, by two constraints; else forces follow from their motion."""
+    holds: ClassVar[bool]  # whether both bodies share a point, by two constraints
 
     @property
     def offset(self) -> Vector2:
         """The second body's point minus that of the first at the start [m]."""
         return (0.0, 0.0)
 
-    def refused_in_space(self) -> Refusal | None:
-        """What of the pin is of the plane alone; None: nothing."""
+    def refused_in_space(self) -> tuple[str, str] | None:
+        """What of the pin is of the plane alone, and what is allowed, in words; None: nothing."""
         return None
 
     def losses(self) -> dict[str, object]:
@@ -81,6 +70,7 @@ class IdealPin(Pin):
         radius: of the pin's surface [m], > 0; given together with friction.
     """
 
+    holds: ClassVar[bool] = True
     friction: FrictionLaw | None = None
     radius: Metres[Positive] | None = None
 
@@ -92,16 +82,11 @@ class IdealPin(Pin):
             )
         return self
 
-    @property
-    def holds(self) -> bool:
-        """An ideal pin holds its two bodies together."""
-        return True
-
-    def refused_in_space(self) -> Refusal | None:
+    def refused_in_space(self) -> tuple[str, str] | None:
         """Friction is of the plane alone."""
         if self.friction is None:
             return None
-        return Refusal("", "IdealPin with friction", "IdealPin without, or ClearancePin")
+        return ("IdealPin with friction", "IdealPin without, or ClearancePin")
 
     def losses(self) -> dict[str, object]:
         """An ideal pin loses energy by friction."""
@@ -121,6 +106,7 @@ class ClearancePin(Pin):
         bore_material, journal_material: by whose yield strength the pressure is judged.
     """
 
+    holds: ClassVar[bool] = False
     contact: JournalContact
     bore: Literal["first", "second"] = "first"
     eccentricity: Metres[Vector2] = (0.0, 0.0)
@@ -208,11 +194,6 @@ class ClearancePin(Pin):
         x, y = self.eccentricity
         return (x, y) if self.bore == "first" else (-x, -y)
 
-    @property
-    def holds(self) -> bool:
-        """A clearance pin leaves its journal free."""
-        return False
-
     def losses(self) -> dict[str, object]:
         """A clearance pin loses energy by the damping and the friction of its contact."""
         return {"damping_loss": self.contact.normal, "friction_loss": self.contact.friction}
@@ -220,6 +201,8 @@ class ClearancePin(Pin):
 
 class CompliantPin(Pin, ABC):
     """A pin without constraints: loads act between its two bodies. A new kind is a class with `loads`."""
+
+    holds: ClassVar[bool] = False
 
     @abstractmethod
     def loads(self, place: PinPlace) -> Mapping[str, ActingLoad]:
@@ -232,14 +215,9 @@ class CompliantPin(Pin, ABC):
         """The loads of a pin of this name, as "pin.NAME.LOAD"."""
         return {f"pin.{name}.{part}": load for part, load in self.loads(place).items()}
 
-    @property
-    def holds(self) -> bool:
-        """A compliant pin gives way."""
-        return False
-
-    def refused_in_space(self) -> Refusal | None:
+    def refused_in_space(self) -> tuple[str, str] | None:
         """Compliant pins are of the plane alone."""
-        return Refusal("", type(self).__name__, "IdealPin, ClearancePin")
+        return (type(self).__name__, "IdealPin, ClearancePin")
 
     def losses(self) -> dict[str, object]:
         """A compliant pin loses energy by damping."""

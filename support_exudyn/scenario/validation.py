@@ -101,8 +101,8 @@ def _check_space(scenario: ScenarioData) -> None:
     joints |= {f"guides.{name}": guide for name, guide in scenario.guides.items()}
     for where, joint in joints.items():
         if refused := joint.refused_in_space():
-            part, what, allowed = refused
-            raise ValueError(f"{where}{part} = {what}: is planar; allowed in space: {allowed}")
+            what, allowed = refused
+            raise ValueError(f"{where} = {what}: is planar; allowed in space: {allowed}")
     for name, bearing in space.bearings.items():
         if scenario.pin(bearing.pin).holds and bearing.misfit:
             raise ValueError(

@@ -127,13 +127,9 @@ def following(
     low, high = lead.span(duration)
     if low == high:
         return CoupledDrive(lead=lead, lowest=low, reach=0.0, coefficients=(0.0,))
-    coefficients, rounding = np.zeros(1), max(ROUNDING, math.ulp(size))
+    rounding = max(ROUNDING, math.ulp(size))
     for degree in DEGREES:
-        places = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
-        values = length(low + 0.5 * (high - low) * (places + 1.0))
-        # those of the polynomial through Chebyshev's points
-        coefficients = 2.0 / (degree + 1) * np.cos(np.outer(np.arange(degree + 1), np.arccos(places))) @ values
-        coefficients[0] /= 2.0
+        coefficients = np.polynomial.Chebyshev.interpolate(length, degree, (low, high)).coef
         if np.abs(coefficients[-TAIL:]).max() <= max(LEFT * np.abs(coefficients[1:]).max(), rounding):
             return CoupledDrive(
                 lead=lead, lowest=low, reach=high - low, coefficients=tuple(coefficients.tolist())

@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, fields
 from functools import cached_property
 from typing import ClassVar
 
@@ -53,19 +53,6 @@ from user_forces.values.units import (
 )
 from user_forces.values.value import InputError, NonNegative, Positive, Real, value
 
-ELEMENTS = (  # fields of a leg that make it more than its oil
-    "yield_valve",
-    "vapour_pressure",
-    "trapped_air",
-    "line",
-    "seal_friction",
-    "end_stops",
-    "second_stage",
-    "setting_pressure",
-    "check_valve",
-    "rod_relief",
-    "valves",
-)
 CHECK_OPEN = "check valve open"
 TAKEN = (
     "piston",
@@ -128,8 +115,9 @@ class HydraulicLeg(Shared, ActuatorModel, ABC):
 
     @property
     def elements(self) -> tuple[str, ...]:
-        """Names of the fields that make it more than its oil."""
-        return tuple(name for name in ELEMENTS if getattr(self, name, None) not in (None, {}))
+        """Names of the fields, left out by default, that make it more than its oil."""
+        optional = [one.name for one in fields(self) if one.default is None or one.name == "valves"]
+        return tuple(name for name in optional if getattr(self, name) not in (None, {}))
 
     @property
     def sources(self) -> dict[str, float]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from functools import cached_property
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
@@ -206,13 +207,10 @@ class AppliedForce(ComingOn, Load):
         along, up = full_force[0] * share, full_force[1] * share
         return along, up, 0.0, 0.0, along * vx + up * vy, 0.0, along, up
 
-    @property
-    def channels(self) -> dict[str, LoadChannel]:
-        """The channels are the force's two components."""
-        return {
-            "force_x": LoadChannel("N", "of the load, forward"),
-            "force_y": LoadChannel("N", "of the load, up"),
-        }
+    channels: ClassVar[Mapping[str, LoadChannel]] = {
+        "force_x": LoadChannel("N", "of the load, forward"),
+        "force_y": LoadChannel("N", "of the load, up"),
+    }
 
 
 @value

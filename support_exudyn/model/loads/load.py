@@ -72,20 +72,6 @@ class LoadChannel(NamedTuple):
     meaning: str
 
 
-class LoadAction(NamedTuple):
-    """What a load does at an instant.
-
-    forces: [N], or the moment [N m], as the action gives them. stored: energy [J]. work, loss: power of what
-    moves the load, and power that is lost in it [W]. channels: values by name.
-    """
-
-    forces: tuple[float, ...]
-    stored: float
-    work: float
-    loss: float
-    channels: Mapping[str, float]
-
-
 @value
 class AnyLoad(Value, ABC):
     """What is put on a machine besides its weight.
@@ -128,6 +114,8 @@ class ActingLoad(AnyLoad, ABC):
     MOTION: ClassVar[Any]  # the tuple of what a load follows
     RATES: ClassVar[tuple[str, ...]]  # those fields of it that are rates of the strain
     FORCES: ClassVar[int]  # how many numbers of the action come before the stored energy
+    # what is recorded of it besides its energies, by name; the action gives the values last
+    channels: ClassVar[Mapping[str, LoadChannel]] = {}
 
     @property
     def courses(self) -> tuple[TimeFunction, ...]:
@@ -148,18 +136,6 @@ class ActingLoad(AnyLoad, ABC):
         """What the action gives for a motion."""
         found: tuple[float, ...] = self.formula(*at, *(course(at.time) for course in self.courses))
         return found
-
-    def acting(self, at: Any) -> LoadAction:
-        """What the load does for a motion, by names."""
-        found, count = self.numbers(at), self.FORCES
-        stored, work, loss = found[count : count + 3]
-        observed = dict(zip(self.channels, found[count + 3 :], strict=True))
-        return LoadAction(found[:count], stored, work, loss, observed)
-
-    @property
-    def channels(self) -> Mapping[str, LoadChannel]:
-        """Channels that are recorded of it besides its energies, by name; the action gives them last."""
-        return {}
 
     @property
     def drives(self) -> tuple[Drive, ...]:
@@ -234,10 +210,9 @@ class MomentLoad(ActingLoad, ABC):
         check_two(self.body, self.other)
         return self
 
-    @property
-    def channels(self) -> Mapping[str, LoadChannel]:
-        """The only channel is the moment by default."""
-        return {"moment": LoadChannel("N m", "on the body, positive anticlockwise")}
+    channels: ClassVar[Mapping[str, LoadChannel]] = {
+        "moment": LoadChannel("N m", "on the body, positive anticlockwise")
+    }
 
     def against(self, name: str) -> str:
         """The opposite moment acts on the other body."""

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 from typing_extensions import Self
@@ -76,13 +76,10 @@ class Roof(Load):
         stored, loss = 0.5 * stiffness * depth * depth, (push - elastic) * rate
         return 0.0, -push, 0.0, stored, push * speed, loss, push, -closed
 
-    @property
-    def channels(self) -> Mapping[str, LoadChannel]:
-        """The channels are the roof's force and its gap."""
-        return {
-            "force": LoadChannel("N", "of the roof, downward"),
-            "gap": LoadChannel("m", "between roof and point; negative: depth"),
-        }
+    channels: ClassVar[Mapping[str, LoadChannel]] = {
+        "force": LoadChannel("N", "of the roof, downward"),
+        "gap": LoadChannel("m", "between roof and point; negative: depth"),
+    }
 
     @property
     def drives(self) -> tuple[Drive, ...]:
@@ -157,13 +154,10 @@ class GroundReaction(Load):
             push += share * (pieces[5 * n + 3] + share * (pieces[5 * n + 4] + share * pieces[5 * n + 5]))
         return 0.0, -push, 0.0, 0.0, -push * vy, 0.0, push, -y
 
-    @property
-    def channels(self) -> Mapping[str, LoadChannel]:
-        """The channels are the roof's force and its convergence."""
-        return {
-            "force": LoadChannel("N", "of the roof, downward"),
-            "convergence": LoadChannel("m", "way down of roof and point since the start posture"),
-        }
+    channels: ClassVar[Mapping[str, LoadChannel]] = {
+        "force": LoadChannel("N", "of the roof, downward"),
+        "convergence": LoadChannel("m", "way down of roof and point since the start posture"),
+    }
 
     @property
     def steepness(self) -> tuple[float, ...]:
@@ -247,16 +241,13 @@ class BeddedRoof(StretchLoad):
         loss = -f1 * one_rate - f2 * two_rate - taken if damping > 0.0 else 0.0
         return f1, f2, stored, force * speed, loss, force, place, pressed, -one, -two
 
-    @property
-    def channels(self) -> Mapping[str, LoadChannel]:
-        """The channels are force, place, pressed length and the gaps at both ends."""
-        return {
-            "force": LoadChannel("N", "of the roof, downward"),
-            "place": LoadChannel("m", "of that force along the stretch, from its first point; 0 apart"),
-            "pressed": LoadChannel("m", "length of the stretch that is pressed"),
-            "gap_first": LoadChannel("m", "between roof and first point; negative: depth"),
-            "gap_second": LoadChannel("m", "between roof and second point; negative: depth"),
-        }
+    channels: ClassVar[Mapping[str, LoadChannel]] = {
+        "force": LoadChannel("N", "of the roof, downward"),
+        "place": LoadChannel("m", "of that force along the stretch, from its first point; 0 apart"),
+        "pressed": LoadChannel("m", "length of the stretch that is pressed"),
+        "gap_first": LoadChannel("m", "between roof and first point; negative: depth"),
+        "gap_second": LoadChannel("m", "between roof and second point; negative: depth"),
+    }
 
     @property
     def drives(self) -> tuple[Drive, ...]:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from typing import ClassVar
 
 from pydantic import model_validator
 from typing_extensions import Self
@@ -101,13 +102,10 @@ class SpringDamper(Load):
         share, stored = push / length, 0.5 * stiffness * stretch * stretch
         return share * x, share * y, share * z, stored, 0.0, damping * rate * rate, push, length
 
-    @property
-    def channels(self) -> Mapping[str, LoadChannel]:
-        """The channels are its force and its length."""
-        return {
-            "force": LoadChannel("N", "pushes its ends apart if positive"),
-            "length": LoadChannel("m", "distance of its ends"),
-        }
+    channels: ClassVar[Mapping[str, LoadChannel]] = {
+        "force": LoadChannel("N", "pushes its ends apart if positive"),
+        "length": LoadChannel("m", "distance of its ends"),
+    }
 
     @property
     def steepness(self) -> tuple[float, ...]:
@@ -150,13 +148,10 @@ class TorsionSpring(MomentLoad):
         moment = -stiffness * twist - damping * spin
         return moment, 0.5 * stiffness * twist * twist, 0.0, damping * spin * spin, moment, turn
 
-    @property
-    def channels(self) -> Mapping[str, LoadChannel]:
-        """The channels are its moment and its angle."""
-        return {
-            "moment": LoadChannel("N m", "on the body, positive anticlockwise"),
-            "angle": LoadChannel("rad", "turn of the body against the other since the start posture"),
-        }
+    channels: ClassVar[Mapping[str, LoadChannel]] = {
+        "moment": LoadChannel("N m", "on the body, positive anticlockwise"),
+        "angle": LoadChannel("rad", "turn of the body against the other since the start posture"),
+    }
 
     @property
     def steepness(self) -> tuple[float, ...]:

@@ -197,7 +197,7 @@ class LinkageDrawing:
             self._word(np.array([start, end]), name)
             return
         complete = LoadedPoint(max(load.breaks, default=0.0), 0.0, 0.0, 0.0, 0.0)
-        force = np.array(load.acting(complete).forces[:2])
+        force = np.array(load.numbers(complete)[:2])
         if np.hypot(*force) > 0.0:
             tail = end - ARROW * self.size * force / np.hypot(*force)
             arrow = {"arrowstyle": "-|>", "color": LOAD, "lw": 1.4, "shrinkA": 0, "shrinkB": 0}
