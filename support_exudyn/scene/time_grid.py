@@ -59,7 +59,6 @@ class StepPlan:
         # one that differs from the end by rounding only is the end
         self.breaks = sorted(t for t in set(breaks) if 0.0 <= t < duration - self._tolerance)
         self._around = (math.inf, math.inf)  # the stops last asked for [s]
-        self._free_of_breaks = (math.inf, math.inf)  # last found: no break is between these [s]
         self._after_breaks = [self._settled(b) - self._tolerance for b in self.breaks]
 
     def next_time(self, t: float, largest: float = math.inf) -> float:
@@ -135,8 +134,6 @@ class StepPlan:
 
     def record_at(self, t: float) -> float | None:
         """The record that t [s] is but for rounding, if it is one: a multiple of the period, or the end [s]."""
-        if self._is_between_stops(t):
-            return None
         if abs(t - self.duration) <= self._tolerance:
             return self.duration
         record = round(t / self.record_period) * self.record_period
@@ -144,21 +141,9 @@ class StepPlan:
 
     def breaks_at(self, t: float) -> list[float]:
         """The breaks that time t [s] is: several may differ by rounding."""
-        first, last = self._free_of_breaks
-        if first < t < last:  # nearly always, and every step asks
-            return []
-        passed, rounded = self._breaks_until(t), 2.0 * self._tolerance
-        if passed == 0 or self.breaks[passed - 1] + rounded < t:
-            first = self.breaks[passed - 1] + rounded if passed else -math.inf
-            last = self.breaks[passed] - rounded if passed < len(self.breaks) else math.inf
-            self._free_of_breaks = first, last
-        near = self.breaks[bisect_left(self.breaks, t - rounded) : passed + 1]
+        first = bisect_left(self.breaks, t - 2.0 * self._tolerance)
+        near = self.breaks[first : self._breaks_until(t) + 1]
         return [b for b in near if abs(t - b) <= self._tolerance]
-
-    def _is_between_stops(self, t: float) -> bool:
-        """Whether t [s] surely is neither record nor break, by the stops last asked for; every step asks."""
-        before, after = self._around
-        return before + 4.0 * self._tolerance < t < after - 4.0 * self._tolerance
 
     def _stops_around(self, t: float) -> tuple[float, float]:
         """The last stop (record or break) not after t, and the first after it [s]."""

@@ -151,11 +151,10 @@ def test_a_rest_is_moved_over_by_the_rates(rest: float) -> None:
     numbers = np.random.default_rng(3)
     at = data.GetODE2Coordinates() + 1e-4 * numbers.standard_normal(data.ODE2Size())
     velocity, acceleration = (numbers.standard_normal(at.size) for _ in range(2))
-    oil = [np.frombuffer(circuit.states()) for circuit in scene.legs.circuits]
-    assert oil[0].size > 0
-    for circuit in scene.legs.circuits:
-        circuit.known[START_RATE] = 1e9 * numbers.standard_normal(oil[0].size)
-    flows = [circuit.known[START_RATE].copy() for circuit in scene.legs.circuits]
+    oil = scene.legs.states().copy()
+    assert oil.size > 0
+    flow = 1e9 * numbers.standard_normal(oil.size)
+    scene.legs.known[START_RATE] = flow
     data.SetODE2Coordinates(at)
     data.SetODE2Coordinates_t(velocity)
     data.SetODE2Coordinates_tt(acceleration)
@@ -165,8 +164,7 @@ def test_a_rest_is_moved_over_by_the_rates(rest: float) -> None:
         data.GetODE2Coordinates(), at + velocity * rest + acceleration * rest**2 / 2.0, rtol=1e-14
     )
     np.testing.assert_allclose(data.GetODE2Coordinates_t(), velocity + acceleration * rest, rtol=1e-14)
-    for circuit, before, flow in zip(scene.legs.circuits, oil, flows, strict=True):
-        np.testing.assert_allclose(np.frombuffer(circuit.states()), before + flow * rest, rtol=1e-14)
+    np.testing.assert_allclose(scene.legs.states(), oil + flow * rest, rtol=1e-14)
     # what the pin remembers is of where it is now
     pin = scene.clearance_joints[PIN]
     motion = pin.item.relative()

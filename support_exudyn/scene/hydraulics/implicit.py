@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from support_exudyn.scene.compilation import compiled, entry
 from support_exudyn.scene.hydraulics.leg import powers_of, press_all, press_leg
-from support_exudyn.scene.hydraulics.records import LegArrays, Matrix
+from support_exudyn.scene.hydraulics.records import LegArrays, Matrix, Vector
 
 Places = npt.NDArray[np.int64]
 NEWTON_ROUNDS, HALVINGS = 60, 12  # of Newton's method; of a step of it that makes nothing better
@@ -63,7 +63,16 @@ def eliminate(rows: Matrix) -> None:
 
 
 @compiled
-def linearise(legs: LegArrays, h: float, known: Matrix, places: Places, rows: Matrix) -> None:
+def press_some(legs: LegArrays, n: int, y: Vector, slope: Vector) -> None:
+    """Evaluate leg n as `press_leg` does, or for n < 0 all legs and their pump as `press_all` does."""
+    if n >= 0:
+        press_leg(legs, n, y, slope)
+    else:
+        press_all(legs, y, slope)
+
+
+@compiled
+def linearise(legs: LegArrays, n: int, h: float, known: Matrix, places: Places, rows: Matrix) -> None:
     """Write 1 - h/2 df/dz into the columns of `rows` but the last, by differences."""
     m, y, slope = rows.shape[0], known[END], known[END_RATE]
     for i in range(m):
@@ -72,7 +81,7 @@ def linearise(legs: LegArrays, h: float, known: Matrix, places: Places, rows: Ma
         kept = y[places[j]]
         y[places[j]] = kept + SHIFT / known[WEIGHT, places[j]]
         shift = y[places[j]] - kept
-        press_all(legs, y, slope)
+        press_some(legs, n, y, slope)
         y[places[j]] = kept
         for i in range(m):
             rate = (slope[places[i]] - rows[i, m]) / shift
@@ -82,22 +91,22 @@ def linearise(legs: LegArrays, h: float, known: Matrix, places: Places, rows: Ma
 
 
 @compiled
-def advance_legs(legs: LegArrays, h: float, known: Matrix, places: Places, rows: Matrix) -> bool:
-    """Solve for the states of all legs, and of their pump, at the end of a step of h [s]; whether it converged.
+def advance_legs(legs: LegArrays, n: int, h: float, known: Matrix, places: Places, rows: Matrix) -> bool:
+    """Solve for the states of legs, and of their pump, at the end of a step of h [s]; whether it converged.
 
     By Newton's method; where a whole step of it makes nothing better, by a part of it. With h = 0 the states
     are those of the start. Records have lengths, rates and inlets of the end, and take what follows.
 
     Arguments:
-        legs: see `press_all`.
+        legs, n: which legs, see `press_some`.
         known: shape (KNOWN, states); the rows END and END_RATE are written.
         places: of the m states that are solved for, then of the integrals.
         rows: room, shape (m, m + 1).
     """
     m, y, slope = rows.shape[0], known[END], known[END_RATE]
-    for i in range(y.size):
-        y[i] = known[START, i]
-    press_all(legs, y, slope)
+    for i in range(places.size):
+        y[places[i]] = known[START, places[i]]
+    press_some(legs, n, y, slope)
     if h == 0.0:
         return True
     left = fill_residual(h, known, places, rows)
@@ -105,7 +114,7 @@ def advance_legs(legs: LegArrays, h: float, known: Matrix, places: Places, rows:
     for _ in range(NEWTON_ROUNDS):
         if converged:
             break
-        linearise(legs, h, known, places, rows)
+        linearise(legs, n, h, known, places, rows)
         fill_residual(h, known, places, rows)
         eliminate(rows)
         change = 0.0
@@ -115,7 +124,7 @@ def advance_legs(legs: LegArrays, h: float, known: Matrix, places: Places, rows:
             if not size <= change:
                 change = size
         converged, share = change <= CONVERGED, 1.0
-        press_all(legs, y, slope)
+        press_some(legs, n, y, slope)
         then = fill_residual(h, known, places, rows)
         for _ in range(HALVINGS):
             if converged or then < left:
@@ -123,10 +132,10 @@ def advance_legs(legs: LegArrays, h: float, known: Matrix, places: Places, rows:
             share *= 0.5
             for i in range(m):
                 y[places[i]] -= share * rows[i, 0]
-            press_all(legs, y, slope)
+            press_some(legs, n, y, slope)
             then = fill_residual(h, known, places, rows)
         left = then
-    for i in range(m, y.size):
+    for i in range(m, places.size):
         k = places[i]
         y[k] = known[START, k] + 0.5 * h * (known[START_RATE, k] + slope[k])
     return converged
@@ -140,16 +149,18 @@ def pull_of_leg(
     places: Places,
     rows: Matrix,
     n: int,
+    together: bool,
     length: float,
     rate: float,
 ) -> float:
     """Force [N] with which leg n pulls its ends together at the end of a step of h [s]; no number if unsolved.
 
     Arguments:
+        together: whether the states of all legs are solved for, as with a pump, or those of leg n alone.
         length, rate: of the leg at the end of the step [m], [m/s]. Others: see `advance_legs`.
     """
     legs.records[n].length, legs.records[n].rate = length, rate
-    if not advance_legs(legs, h, known, places, rows):
+    if not advance_legs(legs, -1 if together else n, h, known, places, rows):
         return math.nan
     return float(-legs.records[n].force)
 
@@ -182,31 +193,6 @@ def passes_gap(legs: LegArrays, h: float, known: Matrix) -> bool:
         turns = gap.side * gap.rate_before < 0.0 and gap.side * gap.rate > 0.0
         passes = passes or (gap.side != 0.0 and (-gap.side * gap.now > gap.near or turns))
     return passes
-
-
-@entry
-def spring_of_leg(legs: LegArrays, inflow: float, length: float, rate: float) -> tuple[float, float, float]:
-    """Stiffness [N/m] and free length [m] of the only leg, whose force is linear in its length, without states.
-
-    Evaluated at the length that the drive has given the leg, and at one longer by all of the oil's length. And
-    the power [W] of the drive.
-
-    Arguments:
-        legs: see `press_all`. inflow: that the drive has let in, as an extension [m].
-        length: of the leg [m]. rate: at which the drive lets oil in, as that of an extension [m/s].
-    """
-    leg, still = legs.records[0], legs.numbers[:0]
-    leg.inflow, leg.inflow_rate = inflow, rate
-    reach = legs.chambers[leg.chamber + leg.chambers - 1].reference / leg.bore + inflow
-    forces = (0.0, 0.0)
-    for longer in (reach, 0.0):
-        leg.length = leg.length0 + inflow + longer
-        press_leg(legs, 0, still, still)
-        forces = (leg.force, forces[0])
-    stiffness = (forces[0] - forces[1]) / reach
-    leg.length = length
-    press_leg(legs, 0, still, still)
-    return float(stiffness), float(leg.length0 + inflow + forces[0] / stiffness), float(leg.work)
 
 
 @entry

@@ -1,50 +1,33 @@
-"""Rigid actuators and cranks in the engine that follow the same drive."""
+"""Rigid actuators and cranks in the engine that follow drives."""
 
 import math
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 from support_exudyn.model.drives.drive import Drive
 from user_forces.lawful import LawError
 
 
-class DrivenItem(NamedTuple):
-    """A joint of the engine that holds a length or an angle: its object, the parameter that it holds, what that
-    is at the start [m], [rad], and its multiplier.
-    """
-
-    object: Any
-    parameter: str
-    start: float
-    multiplier: int
-
-
 @dataclass
-class DrivenParts:
-    """All that one drive moves.
+class DrivenPart:
+    """A joint of the engine that holds a length or an angle, which a drive moves.
 
-    mbs: the engine's system. drive: of all of these. items: rigid actuators and cranks. state: extension that
-    the engine has, and speed, which are those of a time [s].
+    mbs: the engine's system. drive: what moves it. object, parameter: of the engine, and what is set of it.
+    start: length or angle at the start [m], [rad]. multiplier: its place. state: extension that the engine has,
+    and speed, which are those of a time [s].
     """
 
     mbs: Any = field(repr=False)  # which cannot be shown once it is released
     drive: Drive
-    items: list[DrivenItem] = field(default_factory=list)
+    object: Any
+    parameter: str
+    start: float
+    multiplier: int
     state: tuple[float, float] | None = None
     time: float = math.nan
 
-    @property
-    def multipliers(self) -> tuple[int, ...]:
-        """The multipliers of rigid actuators and cranks."""
-        return tuple(item.multiplier for item in self.items)
-
-    def moves(self, duration: float) -> bool:
-        """Whether anything moves within this time [s]."""
-        return self.drive.span(duration) != (0.0, 0.0)
-
     def move_to(self, t: float) -> None:
-        """Let the engine have lengths and angles of time t [s], unless it has them already."""
+        """Let the engine have the length or angle of time t [s], unless it has it already."""
         if t == self.time:
             return
         drive, self.time = self.drive, t
@@ -54,8 +37,7 @@ class DrivenParts:
             self.look(t)
         if state != self.state:
             self.state = state
-            for item in self.items:
-                self.mbs.SetObjectParameter(item.object, item.parameter, item.start + state[0])
+            self.mbs.SetObjectParameter(self.object, self.parameter, self.start + state[0])
 
     def at(self, t: float) -> tuple[float, float]:
         """Extension and speed at t [s]; at a jump the speed before it."""
@@ -71,13 +53,3 @@ class DrivenParts:
                 f"{type(self.drive).__name__} has an extension of {extension:g} and a speed of {speed:g} at "
                 f"{t:.9g} s"
             )
-
-
-def by_drive(mbs: Any, driven: Iterable[tuple[Drive, DrivenItem]]) -> Sequence[DrivenParts]:
-    """All that can be driven, by the drive that it follows."""
-    found: list[DrivenParts] = []
-    for drive, item in driven:
-        if drive not in [parts.drive for parts in found]:
-            found.append(DrivenParts(mbs, drive))
-        next(parts for parts in found if parts.drive == drive).items.append(item)
-    return found

@@ -10,7 +10,7 @@ from typing import Any
 import exudyn
 import numpy as np
 
-from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenParts
+from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenPart
 from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
 from support_exudyn.formulations.exudyn.scene.joint_builder import BodyItem
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
@@ -70,9 +70,8 @@ class EngineScene:
     long as it. mbs: the system. bodies: all that move. rows: constraints that are in the model. held: those
     and the ones that repeat them; clearance joints and actuators on oil are free. size: length [m] by which
     turns count where constraints repeat each other. contacts: what may make contact and part. frictions: of
-    ideal joints, "pins.NAME" and "guides.NAME". loads: what acts by the motion, compliant pins, too. weights:
-    loads of the engine, by body; none without gravity. driven: rigid actuators and cranks, by the drive that
-    they follow. legs: the actuators on oil.
+    ideal joints, "pins.NAME" and "guides.NAME". loads: what acts by the motion, compliant pins, too. driven:
+    rigid actuators and cranks that follow drives. legs: the actuators on oil.
     """
 
     scenario: Scenario
@@ -86,8 +85,7 @@ class EngineScene:
     contacts: dict[str, SceneContact]
     frictions: Mapping[str, JointFriction]
     loads: Mapping[str, LoadItem]
-    weights: Mapping[str, Any]
-    driven: Sequence[DrivenParts]
+    driven: Sequence[DrivenPart]
     legs: EngineLegs
 
     @cached_property
@@ -120,8 +118,8 @@ class EngineScene:
 
     def drive_to(self, t: float) -> None:
         """Set every actuator, crank and valve to where it is at time t [s]."""
-        for parts in self.driven:
-            parts.move_to(t)
+        for part in self.driven:
+            part.move_to(t)
         self.legs.follow(t)
 
     def motion(self, position: Series, velocity: Series) -> Motion:

@@ -32,13 +32,11 @@ from exudyn.itemInterface import (
     ObjectJointGeneric,
     ObjectJointPrismatic2D,
     ObjectJointRevolute2D,
-    ObjectJointRevoluteZ,
-    ObjectJointSpherical,
     ObjectRigidBody,
     ObjectRigidBody2D,
 )
 
-from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenItem
+from support_exudyn.formulations.exudyn.scene.driven_parts import DrivenPart
 from support_exudyn.formulations.exudyn.scene.joint_friction import JointFriction
 from support_exudyn.formulations.exudyn.scene.sections import ends
 from support_exudyn.mechanics.body_motion import COORDINATES, UNTURNED, SpatialMotion, parameter_rates
@@ -54,7 +52,6 @@ from support_exudyn.mechanics.constraints import (
 from support_exudyn.mechanics.joint_friction import FrictionJoint
 from support_exudyn.mechanics.kinetics import Matrix, kinetics_of
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.model.spatial_linkage import Bearing
 from support_exudyn.model.to_space import at
@@ -62,7 +59,6 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
 TURN = np.array([0.0, 0.0, 1.0])  # takes the angle out of a body's coordinates
-TILTS: tuple[Kind, ...] = ("tilt_1", "tilt_2")
 
 
 @dataclass(frozen=True)
@@ -156,11 +152,11 @@ class JointBuilder:
             return self.fixed
         return self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=self.bodies[body].node, coordinate=2))
 
-    def add_weight(self, name: str, body: Any) -> Any:
+    def add_weight(self, name: str, body: Any) -> None:
         """Let gravity act on a body."""
         gx, gy = self.scenario.gravity
         weight = [body.mass * gx, body.mass * gy, 0.0]
-        return self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
+        self.mbs.AddLoad(LoadForceVector(markerNumber=self.marker(name, body.centre), loadVector=weight))
 
     # --- joints ---
 
@@ -236,15 +232,10 @@ class JointBuilder:
         )
 
     def add_bearing(self, bearing: Bearing, held: Collection[Kind]) -> Any:
-        """The joint of space with the fewest constraints that holds these."""
+        """The joint of space that holds these."""
         markers = [self.frame(end.body, end.point, frame_of(end.axis)) for end in ends(bearing, "first")]
-        if all(kind in held for kind in SHIFTS + TILTS):
-            return ObjectJointRevoluteZ(markerNumbers=markers)
-        shifts = [int(kind in held) for kind in SHIFTS]
-        tilts = [int(kind in held) for kind in TILTS]
-        if not any(tilts) and _in_ground_axes(bearing, held):
-            return ObjectJointSpherical(markerNumbers=markers, constrainedAxes=shifts)
-        return ObjectJointGeneric(markerNumbers=markers, constrainedAxes=[*shifts, *tilts, int("turn" in held)])
+        axes = [int(kind in held) for kind in (*SHIFTS, "tilt_1", "tilt_2", "turn")]
+        return ObjectJointGeneric(markerNumbers=markers, constrainedAxes=axes)
 
     def ends(self, actuator: Any) -> list[Any]:
         """The markers of foot and head."""
@@ -253,14 +244,14 @@ class JointBuilder:
             self.marker(actuator.head, actuator.head_point),
         ]
 
-    def driven_items(self) -> Iterator[tuple[Drive, DrivenItem]]:
-        """Rigid actuators and cranks with the drives that they follow, once all is assembled."""
+    def driven_parts(self) -> Iterator[DrivenPart]:
+        """Rigid actuators and cranks that follow drives, once all is assembled."""
         for (part, name), item in self.joints.items():
             if part in ("actuators", "cranks"):
                 start = self.linkage.actuators[name].start_length if part == "actuators" else 0.0
                 parameter = "distance" if part == "actuators" else "offset"
-                held = DrivenItem(item, parameter, start, self.multiplier((part, name)))
-                yield self.scenario.drive_of(name), held
+                drive, multiplier = self.scenario.drive_of(name), self.multiplier((part, name))
+                yield DrivenPart(self.mbs, drive, item, parameter, start, multiplier)
 
     def multiplier(self, owner: tuple[str, str]) -> int:
         """The first multiplier of a joint, once all is assembled."""
@@ -280,14 +271,3 @@ def placed(axes: Matrix, place: Series) -> list[list[float]]:
     found[:3, :3], found[:3, 3] = axes, place
     rows: list[list[float]] = found.tolist()
     return rows
-
-
-def _in_ground_axes(bearing: Bearing, held: Collection[Kind]) -> bool:
-    """Whether its directions may be those of the ground, in which the spherical joint counts.
-
-    They are if the first body is the ground; if it turns, both directions across z span the same plane as long
-    as it turns about z, which a body does whose bearing has nothing to hold along it.
-    """
-    if not np.array_equal(frame_of(bearing.first_axis), np.eye(3)):
-        return False
-    return bearing.first == GROUND or "along" not in held

@@ -1,4 +1,4 @@
-"""What happens in the legs of a circuit within steps: valves open and close, cavities grow, stops are met.
+"""What happens in legs within steps: valves open and close, cavities grow, stops are met.
 
 Each is a gap that passes zero, see `hydraulics.records`. Over a step it is taken as the cubic that fits the gap
 and its rate at both ends. A step that passes zero inside is repeated so that it ends there, as for a contact.
@@ -8,14 +8,17 @@ The force has a kink there; only a valve with hysteresis does something else fro
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
-from support_exudyn.formulations.exudyn.scene.leg_circuit import LegCircuit
-from support_exudyn.mechanics.trajectory import OilEvent
+from support_exudyn.mechanics.trajectory import OilEvent, Series
 from support_exudyn.model.hydraulics.valves import SHUT
+from support_exudyn.scene.hydraulics.fill import Legs
 from support_exudyn.scene.hydraulics.implicit import passes_gap
+from support_exudyn.scene.hydraulics.records import Matrix
 from support_exudyn.scene.hydraulics.rest import begin_sides
+from support_exudyn.scene.hydraulics.series import INPUTS
 from user_forces.contact_events import BEYOND, SHARE
 from user_forces.roots import DepthPath, first_rise
 
@@ -23,23 +26,26 @@ NEAR = 10.0  # times as far beyond zero as where a gap is met may be by rounding
 
 
 class LegEvents:
-    """Where within steps things happen in the legs of a circuit.
+    """Where within steps things happen in legs.
 
     Arguments:
-        circuit: that is run.
+        legs: all of a scene.
+        known: what is known of their states, see `hydraulics.implicit`.
+        evaluate: evaluates legs with the states and inputs at the start of a step.
     """
 
-    def __init__(self, circuit: LegCircuit) -> None:
-        self.circuit = circuit
-        self.found: list[list[OilEvent]] = [[] for _ in circuit.items]
-        self._gaps = circuit.arrays.gaps
+    def __init__(self, legs: Legs, known: Matrix, evaluate: Callable[[], None]) -> None:
+        self.legs, self.known, self._evaluate = legs, known, evaluate
+        self.found: list[list[OilEvent]] = [[] for _ in legs.names]
+        self._gaps, self._valves = legs.arrays.gaps, legs.arrays.valves
+        self._start: dict[str, Series] = {}  # inputs of the legs at the start of a step
         self._gaps["near"] *= NEAR
         self._pending: list[tuple[int, float]] = []  # gap, time: at the end of the tried step
         self.landing, self.wants_cut, self.happens = math.inf, False, False
 
     def start(self) -> None:
         """The run begins: on which side of zero each gap is."""
-        begin_sides(self._gaps, self.circuit.arrays.valves)
+        begin_sides(self._gaps, self._valves)
         self.happens = bool(self._gaps["side"].any())
         self.keep()
 
@@ -51,18 +57,17 @@ class LegEvents:
 
     def _begin_step(self) -> None:
         self._gaps["before"], self._gaps["rate_before"] = self._gaps["now"], self._gaps["rate"]
-        self.circuit.keep_inputs()
+        self._start = {name: self.legs.records[name].copy() for name in INPUTS}
 
     def _passes_any(self, h: float) -> bool:
-        return bool(passes_gap(self.circuit.arrays, h, self.circuit.known))
+        return bool(passes_gap(self.legs.arrays, h, self.known))
 
     def begin_try(self) -> None:
         """Begin to try a step: nothing has happened in it."""
         self._pending, self.wants_cut = [], False
 
-    def judge(self, t: float) -> float | None:
-        """Decide on a solved step that would end at t [s]: None if it may stand, else see `ClearanceJoint`."""
-        h = self.circuit.step
+    def judge(self, t: float, h: float) -> float | None:
+        """Decide on a solved step of h [s] to t [s]: None if it may stand, else see `ClearanceJoint`."""
         if not self.happens or not self._passes_any(h):
             return None
         gaps, again = self._gaps, None
@@ -89,8 +94,10 @@ class LegEvents:
             return None
         if x <= SHARE:  # the step begins where it happens
             self._pass(k, t - h + x * h)
-            if self.circuit.jumps(k):
-                self.circuit.refresh_start()
+            if gap["valve"] >= 0 and self._valves[gap["valve"]]["jumps"]:
+                for name, values in self._start.items():  # begin anew from there
+                    self.legs.records[name] = values
+                self._evaluate()
                 self.keep()
                 return math.inf
             gap["before"] = gap["side"] * gap["near"]
@@ -119,20 +126,18 @@ class LegEvents:
         gap = self._gaps[k]
         gap["side"] = -gap["side"]
         begins = bool(gap["side"] > 0.0)
-        self.circuit.pass_gap(k, begins)
-        self.found[gap["leg"]].append(OilEvent(t, self.circuit.legs.gaps[k], begins))
+        if gap["valve"] >= 0:
+            self._valves[gap["valve"]]["memory"] = float(begins)
+        self.found[gap["leg"]].append(OilEvent(t, self.legs.gaps[k], begins))
 
     def accept(self, t: float) -> bool:
-        """The step to t [s] stands: note what has happened at its end; whether anything has."""
+        """The step to t [s] stands: note what has happened at its end; whether anything has, see `keep`."""
         happened = bool(self._pending)
         for k, at in sorted(self._pending, key=lambda one: one[1]):
             self._pass(k, at)
         self._pending = []
         if happened or not self.landing > t:
             self.landing = math.inf
-        if happened:
-            self.circuit.refresh()
-            self.keep()
-        elif self.happens:
+        if self.happens and not happened:
             self._begin_step()
         return happened

@@ -1,4 +1,4 @@
-"""Loads in the engine, in the plane and in space: a connector for each strain kind, which calls the action.
+"""Loads in the engine, in the plane and in space: connectors whose user functions call the action.
 
 They are connectors and no loads of the engine's, for those have no Jacobian, without which Newton's method does
 not get along with a stiff one. What a connector gives is what pulls its ends together: minus the force.
@@ -38,18 +38,77 @@ class LoadItem:
 
     What the action gave last is what it gives at the end of a step that has been solved: with that Newton's
     method has ended.
+
+    Arguments:
+        load: its data. name: of it.
+        builder: of the scene, which gets the connector.
+
+    Raises TypeError if the load is of no strain kind.
     """
 
     def __init__(self, load: ActingLoad, name: str, builder: JointBuilder) -> None:
-        self.load, self.name, self.mbs = load, name, builder.mbs
+        self.load: Any = load
+        self.name = name
         self.rounding = 0.0  # force by which rounding of positions lets it scatter [N]
+        self._turn = 0.0  # [rad], the last of a moment's, which counts whole turns
         self._at: Any = None  # the motion that the action was given last,
         self._numbers: tuple[float, ...] = ()  # and what it gave
+        connector: Any
+        if isinstance(load, Load):
+            origin = builder.marker(load.against(name), builder.place(load.origin, load.origin_lateral))
+            point = builder.marker(load.body, builder.place(load.point, load.lateral))
+            connector = ObjectConnectorCartesianSpringDamper(
+                markerNumbers=[origin, point], springForceUserFunction=self._pull
+            )
+            farthest = max(map(abs, (*load.point, *load.origin)))
+            self.rounding = ROUNDINGS * sys.float_info.epsilon * math.hypot(*load.steepness) * farthest
+        elif isinstance(load, MomentLoad):
+            connector = ObjectConnectorRigidBodySpringDamper(
+                markerNumbers=[builder.frame(body) for body in (load.other, load.body)],
+                springForceTorqueUserFunction=self._twist,
+            )
+        elif isinstance(load, StretchLoad):
+            first = builder.place(load.points[0], load.lateral)
+            connector = ObjectConnectorRigidBodySpringDamper(
+                markerNumbers=[builder.frame(body, first) for body in (load.against(name), load.body)],
+                springForceTorqueUserFunction=self._press,
+            )
+        else:
+            raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")
+        builder.mbs.AddObject(connector)
 
-    def act(self, at: Any) -> tuple[float, ...]:
+    def _act(self, at: Any) -> tuple[float, ...]:
         """What the action gives for a motion."""
         self._at, self._numbers = at, self.load.numbers(at)
         return self._numbers
+
+    def _pull(self, mbs: Any, t: float, item: int, way: Any, velocity: Any, *others: Any) -> list[float]:
+        """The engine's user function of a force, in the axes of the ground."""
+        (x, y, z), (vx, vy, vz) = way, velocity
+        return [-force for force in self._act(LoadedPoint(t, x, y, vx, vy, z, vz))[:3]]
+
+    def _twist(
+        self, mbs: Any, t: float, item: int, shift: Any, angles: Any, velocity: Any, spin: Any, *others: Any
+    ) -> list[float]:
+        """The engine's user function of a moment; angles, spin: in the other body's axes."""
+        x, y, z = _forward(*map(float, angles)).tolist()
+        axis = turning_axis(x, y, z)
+        self._turn += math.remainder(math.atan2(y, x) - self._turn, 2.0 * math.pi)
+        rate = float(sum(k * w for k, w in zip(axis, spin, strict=True)))
+        moment = self._act(TurnedBody(t, self._turn, rate))[0]
+        return [0.0, 0.0, 0.0, *(-moment * k for k in axis)]
+
+    def _press(
+        self, mbs: Any, t: float, item: int, way: Any, angles: Any, velocity: Any, spin: Any, *others: Any
+    ) -> list[float]:
+        """The engine's user function of forces over a stretch: as force and moment at its first point."""
+        (x, y), (u, v) = self.load.points
+        a, b, c = map(float, angles)
+        arm = (u - x) * _forward(a, b, c) + (v - y) * _upward(a, b, c)
+        rate = velocity[1] + spin[2] * arm[0] - spin[0] * arm[2]
+        at = LoadedStretch(t, way[1], way[1] + arm[1] - (v - y), velocity[1], rate)
+        first, second = self._act(at)[:2]
+        return [0.0, -first - second, 0.0, arm[2] * second, 0.0, -arm[0] * second]
 
     def powers(self) -> tuple[float, float]:
         """Power of what moves the load, and power that is lost in it, at the end of the last step [W]."""
@@ -75,80 +134,6 @@ class LoadItem:
             raise LawError(f"{self.name}: {type(self.load).__name__} loses {loss:.6g} W; allowed: >= 0")
 
 
-class ForceItem(LoadItem):
-    """A force on a point: a connector in the axes of the ground."""
-
-    def __init__(self, load: Load, name: str, builder: JointBuilder) -> None:
-        super().__init__(load, name, builder)
-        origin = builder.marker(load.against(name), builder.place(load.origin, load.origin_lateral))
-        point = builder.marker(load.body, builder.place(load.point, load.lateral))
-        self.mbs.AddObject(
-            ObjectConnectorCartesianSpringDamper(
-                markerNumbers=[origin, point], springForceUserFunction=self.pull
-            )
-        )
-        farthest = max(map(abs, (*load.point, *load.origin)))
-        self.rounding = ROUNDINGS * sys.float_info.epsilon * math.hypot(*load.steepness) * farthest
-
-    def pull(self, mbs: Any, t: float, item: int, way: Any, velocity: Any, *others: Any) -> list[float]:
-        """The engine's user function."""
-        (x, y, z), (vx, vy, vz) = way, velocity
-        return [-force for force in self.act(LoadedPoint(t, x, y, vx, vy, z, vz))[:3]]
-
-
-class MomentItem(LoadItem):
-    """A moment on a body: a connector that knows all turns, in the other body's axes; it counts whole turns."""
-
-    def __init__(self, load: MomentLoad, name: str, builder: JointBuilder) -> None:
-        super().__init__(load, name, builder)
-        self._turn = 0.0  # [rad], the last
-        self.mbs.AddObject(
-            ObjectConnectorRigidBodySpringDamper(
-                markerNumbers=[builder.frame(body) for body in (load.other, load.body)],
-                springForceTorqueUserFunction=self.pull,
-            )
-        )
-
-    def pull(
-        self, mbs: Any, t: float, item: int, shift: Any, angles: Any, velocity: Any, spin: Any, *others: Any
-    ) -> list[float]:
-        """The engine's user function; angles, spin: in the other body's axes."""
-        x, y, z = _forward(*map(float, angles)).tolist()
-        axis = turning_axis(x, y, z)
-        self._turn += math.remainder(math.atan2(y, x) - self._turn, 2.0 * math.pi)
-        rate = float(sum(k * w for k, w in zip(axis, spin, strict=True)))
-        moment = self.act(TurnedBody(t, self._turn, rate))[0]
-        return [0.0, 0.0, 0.0, *(-moment * k for k in axis)]
-
-
-class StretchItem(LoadItem):
-    """Forces over a stretch: a connector from the ground to its first point, with force and moment there."""
-
-    load: StretchLoad
-
-    def __init__(self, load: StretchLoad, name: str, builder: JointBuilder) -> None:
-        super().__init__(load, name, builder)
-        first = builder.place(load.points[0], load.lateral)
-        self.mbs.AddObject(
-            ObjectConnectorRigidBodySpringDamper(
-                markerNumbers=[builder.frame(body, first) for body in (load.against(name), load.body)],
-                springForceTorqueUserFunction=self.pull,
-            )
-        )
-
-    def pull(
-        self, mbs: Any, t: float, item: int, way: Any, angles: Any, velocity: Any, spin: Any, *others: Any
-    ) -> list[float]:
-        """The engine's user function."""
-        (x, y), (u, v) = self.load.points
-        a, b, c = map(float, angles)
-        arm = (u - x) * _forward(a, b, c) + (v - y) * _upward(a, b, c)
-        rate = velocity[1] + spin[2] * arm[0] - spin[0] * arm[2]
-        at = LoadedStretch(t, way[1], way[1] + arm[1] - (v - y), velocity[1], rate)
-        first, second = self.act(at)[:2]
-        return [0.0, -first - second, 0.0, arm[2] * second, 0.0, -arm[0] * second]
-
-
 def _forward(a: float, b: float, c: float) -> Series:
     """A body's forward direction in the other's axes, by the engine's angles: R = R_x(a) R_y(b) R_z(c)."""
     sa, ca, sb, cb, sc, cc = math.sin(a), math.cos(a), math.sin(b), math.cos(b), math.sin(c), math.cos(c)
@@ -159,14 +144,3 @@ def _upward(a: float, b: float, c: float) -> Series:
     """A body's upward direction in the other's axes, see `_forward`."""
     sa, ca, sb, cb, sc, cc = math.sin(a), math.cos(a), math.sin(b), math.cos(b), math.sin(c), math.cos(c)
     return np.array([-cb * sc, ca * cc - sa * sb * sc, sa * cc + ca * sb * sc])
-
-
-def add_load(load: ActingLoad, name: str, builder: JointBuilder) -> LoadItem:
-    """Add what stands in the engine for a load of this name. Raises TypeError for one of no strain kind."""
-    if isinstance(load, Load):
-        return ForceItem(load, name, builder)
-    if isinstance(load, MomentLoad):
-        return MomentItem(load, name, builder)
-    if isinstance(load, StretchLoad):
-        return StretchItem(load, name, builder)
-    raise TypeError(f"loads.{name} = {type(load).__name__}: is no Load, MomentLoad or StretchLoad")

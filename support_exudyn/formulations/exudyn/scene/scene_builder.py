@@ -10,12 +10,10 @@ from typing import Any
 import numpy as np
 from exudyn.itemInterface import ObjectConnectorSpringDamper
 
-from support_exudyn.formulations.exudyn.scene.driven_parts import by_drive
-from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs
+from support_exudyn.formulations.exudyn.scene.engine_legs import EngineLegs, LegItem
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene, SceneContact
 from support_exudyn.formulations.exudyn.scene.joint_builder import JointBuilder, placed
-from support_exudyn.formulations.exudyn.scene.leg_circuit import LegItem
-from support_exudyn.formulations.exudyn.scene.load_item import add_load
+from support_exudyn.formulations.exudyn.scene.load_item import LoadItem
 from support_exudyn.formulations.exudyn.scene.section_pin import SectionJournal, SectionPin
 from support_exudyn.formulations.exudyn.scene.sections import SectionPlace, section_places
 from support_exudyn.mechanics.constraints import frame_of
@@ -124,9 +122,9 @@ class SceneBuilder(JointBuilder):
         legs = [self.add_leg(leg) for leg in self.legs()]
         places = self.contact_places()
         connectors = {name: [self.add_contact(part) for part in parts[1:]] for name, parts in places.items()}
-        loads = {name: add_load(load, name, self) for name, load in scenario.elements.items()}
-        heavy = linkage.bodies if any(scenario.gravity) else {}
-        weights = {name: self.add_weight(name, body) for name, body in heavy.items()}
+        loads = {name: LoadItem(load, name, self) for name, load in scenario.elements.items()}
+        for name, body in linkage.bodies.items() if any(scenario.gravity) else ():
+            self.add_weight(name, body)
         mbs.Assemble()
         for friction in frictions.values():
             friction.assembled(self.multiplier(friction.joint.owner), self.bodies)
@@ -143,8 +141,7 @@ class SceneBuilder(JointBuilder):
             contacts={},
             frictions=frictions,
             loads=loads,
-            weights=weights,
-            driven=by_drive(mbs, self.driven_items()),
+            driven=[*self.driven_parts()],
             legs=self.join_legs(legs),
         )
         for name, items in connectors.items():

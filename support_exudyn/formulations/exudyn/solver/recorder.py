@@ -18,6 +18,7 @@ from user_forces.contact_state import PinMemory
 
 # of a StepEnd after its time
 STATE = (DataNeeds.POSITION, DataNeeds.VELOCITY, DataNeeds.CONTACTS)
+Numbers = Sequence[float] | Series
 AT_ONCE = 250  # ends of steps: then they become statistics
 
 
@@ -46,34 +47,31 @@ class _StateRows:
     """States one behind the other: with an object for each part of a row they take three times as much."""
 
     def __init__(self) -> None:
-        self.time = array("d")
-        self.states = tuple(array("d") for _ in STATE)
-        self.totals, self.legs, self.deflections = (array("d") for _ in range(3))
+        self._numbers = array("d")
+        self._widths: tuple[int, ...] = ()
+        self._count = 0
+
+    def keep(self, *parts: Numbers) -> None:
+        """Add a row: time, and what a `History` has."""
+        for part in parts:
+            self._numbers.extend(part)
+        self._widths = tuple(map(len, parts))
+        self._count += 1
 
     def history(self) -> History:
         """What has been kept so far."""
-        time = np.array(self.time)
-        position, velocity, memory = (
-            np.array(rows).reshape(time.size, len(rows) // max(1, time.size)) for rows in self.states
-        )
-        pins = memory.shape[1] // len(PinMemory._fields)
-        return History(
-            time,
-            position,
-            velocity,
-            memory.reshape(time.size, pins, len(PinMemory._fields)),
-            np.array(self.legs).reshape(time.size, -1 if self.legs else 0),
-            np.array(self.deflections).reshape(time.size, -1 if self.deflections else 0),
-            *np.array(self.totals).reshape(time.size, 3).T,
-        )
+        table = np.array(self._numbers).reshape(self._count, -1)
+        edges = np.cumsum(self._widths)[:-1]
+        time, *parts, totals = (np.ascontiguousarray(part) for part in np.split(table, edges, axis=1))
+        position, velocity, memory, legs, deflection = parts
+        memory = memory.reshape(self._count, -1, len(PinMemory._fields))
+        return History(time[:, 0], position, velocity, memory, legs, deflection, *totals.T)
 
     def keep_ends(self) -> None:
         """Forget all but the first and the last row."""
-        count = len(self.time)
-        for rows in (self.time, *self.states, self.totals, self.legs, self.deflections):
-            width = len(rows) // count
-            if width:
-                rows[:] = rows[:width] + rows[-width:]
+        width = sum(self._widths)
+        self._numbers[:] = self._numbers[:width] + self._numbers[-width:]
+        self._count = 2
 
 
 class Recorder:
@@ -93,7 +91,7 @@ class Recorder:
     ) -> None:
         duration = scene.scenario.duration
         # rigid actuators that are held and ideal pins neither work nor lose anything
-        works = any(parts.multipliers and parts.moves(duration) for parts in scene.driven)
+        works = any(part.drive.span(duration) != (0.0, 0.0) for part in scene.driven)
         self.integrates = DataNeeds.INTEGRALS in needs and bool(
             works or scene.clearance_joints or scene.frictions or scene.loads or scene.legs.names
         )
@@ -102,7 +100,7 @@ class Recorder:
         self._data = scene.mbs.systemData
         self._pins = tuple(scene.clearance_joints.items())
         self._looks = scene.scenario.solver.result_checks  # whether what is lost is
-        self._driven = tuple((parts, parts.multipliers) for parts in scene.driven)
+        self._driven = tuple(scene.driven)
         self._frictions = tuple(scene.frictions.items())
         self._loads = tuple(scene.loads.values())
         self._legs = scene.legs
@@ -154,7 +152,7 @@ class Recorder:
         state = between(self._start, self._state(end), t)
         # in contact or not, with which impact: as over all of the step
         state.memory[:, :2] = self._start.memory[:, :2]
-        kept = (state.position, state.velocity, state.memory)
+        kept = (state.position, state.velocity, state.memory.ravel())
         self._keep(self._records, t, kept, state.totals.tolist())
         if self.follows:
             self._keep(self._ends, t, kept, state.totals.tolist())
@@ -213,31 +211,24 @@ class Recorder:
 
     def _keep_now(self, rows: _StateRows, t: float, remembered: Sequence[PinMemory] | None) -> None:
         data = self._data
-        position, velocity, memory = self._kept
         pins = [pin.kept for _, pin in self._pins] if remembered is None else remembered
-        self._keep(
-            rows,
-            t,
-            (
-                data.GetODE2Coordinates() if position else None,
-                data.GetODE2Coordinates_t() if velocity else None,
-                _memories(pins) if memory else None,
-            ),
-            self.energies.totals,
+        position, velocity, memory = self._kept
+        state = (
+            data.GetODE2Coordinates() if position else (),
+            data.GetODE2Coordinates_t() if velocity else (),
+            _memories(pins).ravel() if memory else (),
         )
-        if self._keeps_legs:
-            rows.legs.frombytes(self._legs.states())
+        self._keep(rows, t, state, self.energies.totals)
 
-    def _keep(
-        self, rows: _StateRows, t: float, state: Sequence[Series | None], totals: Sequence[float]
-    ) -> None:
-        """Add a row; parts of the state that are not to be kept may be None."""
-        rows.time.append(t)
-        for numbers, part, keep in zip(rows.states, state, self._kept, strict=True):
-            if keep and part is not None:
-                numbers.frombytes(part.tobytes())
-        rows.totals.extend(totals)
-        rows.deflections.extend(friction.deflection for _, friction in self._frictions)
+    def _keep(self, rows: _StateRows, t: float, state: Sequence[Numbers], totals: Sequence[float]) -> None:
+        """Add a row; parts of the state that are not to be kept are left out."""
+        rows.keep(
+            (t,),
+            *(part if keep else () for part, keep in zip(state, self._kept, strict=True)),
+            self._legs.states() if self._keeps_legs else (),
+            [friction.deflection for _, friction in self._frictions],
+            totals,
+        )
 
     def history(self) -> History:
         """What has been recorded so far."""
@@ -253,12 +244,11 @@ class Recorder:
     def _powers(self, t: float) -> tuple[float, float, float]:
         """Power [W] of the drive, of damping and of friction at the end of a step."""
         driving = damping = friction = 0.0
-        for parts, struts in self._driven:
-            _, speed = parts.at(t)
-            if speed != 0.0 and struts:
-                multipliers = self._data.GetAECoordinates()
+        for part in self._driven:
+            _, speed = part.at(t)
+            if speed != 0.0:
                 # the multiplier of a distance is the tension, that of a crank's angle the moment against it
-                driving -= speed * sum(float(multipliers[n]) for n in struts)
+                driving -= speed * float(self._data.GetAECoordinates()[part.multiplier])
         for load in self._loads:
             work, loss = load.powers()
             if self._looks and not loss >= 0.0:

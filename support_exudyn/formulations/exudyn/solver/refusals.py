@@ -74,8 +74,8 @@ def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
         return empty, EMPTY
     try:
         scene.legs.follow(ahead)
-        for parts in scene.driven:
-            parts.look(ahead)
+        for part in scene.driven:
+            part.look(ahead)
         motion = scene.instant(()).motion
         for load in scene.loads.values():
             load.probe(ahead, motion)

@@ -80,7 +80,7 @@ class SolverRun:
         self.impact_steps = scenario.solver.impact_steps
         # what a load does need not show in accelerations, and long steps would pass over where it begins
         # and states of legs and friction are not interpolated at records that a step passes over
-        states = scene.legs.circuits or any(one.law.has_state for one in self.frictions)
+        states = scene.legs.solves or any(one.law.has_state for one in self.frictions)
         grows = scenario.solver.growth > 1.0 and not (scenario.acting_loads or states)
         self.smooth = step_growth(scene) if grows else None
         self.time = 0.0  # end of the last accepted step
@@ -130,7 +130,7 @@ class SolverRun:
         """Have the engine call what has to see every step."""
         mbs = self.scene.mbs
         mbs.SetPreStepUserFunction(self._before_try)
-        if self.pins or self.legs.circuits:
+        if self.pins or self.legs.solves:
             mbs.SetPostNewtonUserFunction(self._after_newton)
         mbs.SetPostStepUserFunction(self._after_step)
 
@@ -141,7 +141,7 @@ class SolverRun:
         again = self.trying
         if again:
             self.repeated = True
-            if self.legs.wants_cut or any(pin.wants_cut for pin in self.pins):
+            if self.legs.happenings.wants_cut or any(pin.wants_cut for pin in self.pins):
                 self.cut_steps += 1
             else:
                 self._keep_calm()
@@ -264,7 +264,7 @@ class SolverRun:
 
         It will if a clearance pin begins or ends a contact in it.
         """
-        if not (self.pins or self.legs.circuits):
+        if not (self.pins or self.legs.solves):
             return False
         if following < taken / MUCH_SHORTER:
             return True
@@ -320,7 +320,7 @@ class SolverRun:
         for b in breaks:
             self.legs.switch(b)
         self.legs.refresh()
-        if self.legs.circuits and not jumps:
+        if self.legs.solves and not jumps:
             self.recorder.switch(t)
 
     def _longest_step(self, t: float) -> float:
@@ -340,7 +340,7 @@ class SolverRun:
             goal = self.plan.far_time(t, self.smooth.size)
         else:
             goal = self.plan.next_time(t, max(largest, SMALLEST_IMPACT_STEP))
-        for landing in (*(pin.landing for pin in self.pins), self.legs.landing):
+        for landing in (*(pin.landing for pin in self.pins), self.legs.happenings.landing):
             if landing < goal and t + SHARE * (goal - t) < landing:
                 goal = landing
         return goal
