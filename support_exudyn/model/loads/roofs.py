@@ -1,6 +1,7 @@
 """Roofs: a face of rock over a point or a stretch of a machine, and a roof that follows its reaction curve."""
 
 import math
+from abc import ABC
 from collections.abc import Mapping
 from functools import cached_property
 from typing import Annotated, ClassVar, Literal
@@ -13,7 +14,7 @@ from support_exudyn.model.drives.table_drive import TableDrive
 from support_exudyn.model.loads.load import Load, LoadChannel, StretchLoad, TimeFunction
 from user_forces.kernel import kernel, limited
 from user_forces.values.units import Metres, Newtons, NewtonsPerMetre, Pascals, SecondsPerMetre
-from user_forces.values.value import NonNegative, Positive, Vector2, value
+from user_forces.values.value import NonNegative, Positive, Value, Vector2, value
 
 SMALLEST = 1e-300  # only so that nothing is divided by zero
 GAUSS = 0.5 / math.sqrt(3.0)  # of the length of an interval, from its middle: two points are exact up to cubics
@@ -21,7 +22,28 @@ MOST = 50  # points of a curve, each of which an evaluation of the force goes th
 
 
 @value
-class Roof(Load):
+class Descending(Value, ABC):
+    """What comes down.
+
+    Arguments:
+        descent: how far the face has come down [m] over time.
+    """
+
+    descent: Drive
+
+    @property
+    def courses(self) -> tuple[TimeFunction, ...]:
+        """Way down [m] and speed [m/s] of the face."""
+        return self.descent.extension, self.descent.speed
+
+    @property
+    def drives(self) -> tuple[Drive, ...]:
+        """The only drive is the descent."""
+        return (self.descent,)
+
+
+@value
+class Roof(Descending, Load):
     """A rigid, level face of rock above a point of a body, cushioned by what lies between both.
 
         depth = way down + way up of the point - gap,   where it is > 0
@@ -41,15 +63,9 @@ class Roof(Load):
         damping: b [s/m], >= 0; a closing speed of 1/b doubles the force.
     """
 
-    descent: Drive
     stiffness: NewtonsPerMetre[Positive]
     gap: Metres[NonNegative] = 0.0
     damping: SecondsPerMetre[NonNegative] = 0.0
-
-    @property
-    def courses(self) -> tuple[TimeFunction, ...]:
-        """Way down [m] and speed [m/s] of the face."""
-        return self.descent.extension, self.descent.speed
 
     @staticmethod
     @kernel
@@ -80,11 +96,6 @@ class Roof(Load):
         "force": LoadChannel("N", "of the roof, downward"),
         "gap": LoadChannel("m", "between roof and point; negative: depth"),
     }
-
-    @property
-    def drives(self) -> tuple[Drive, ...]:
-        """The only drive is the descent."""
-        return (self.descent,)
 
     @property
     def steepness(self) -> tuple[float, ...]:
@@ -172,7 +183,7 @@ class GroundReaction(Load):
 
 
 @value
-class BeddedRoof(StretchLoad):
+class BeddedRoof(Descending, StretchLoad):
     """A rigid face of rock over a stretch of a body, cushioned all along by what lies between both.
 
         depth(s) = way down of the face + way up of the body at s - gap(s),   where it is > 0
@@ -194,15 +205,9 @@ class BeddedRoof(StretchLoad):
         damping: b [s/m], >= 0; a closing speed of 1/b doubles the force.
     """
 
-    descent: Drive
     bedding: Pascals[Positive]
     gaps: Metres[tuple[NonNegative, NonNegative]] = (0.0, 0.0)
     damping: SecondsPerMetre[NonNegative] = 0.0
-
-    @property
-    def courses(self) -> tuple[TimeFunction, ...]:
-        """Way down [m] and speed [m/s] of the face."""
-        return self.descent.extension, self.descent.speed
 
     @staticmethod
     @kernel
@@ -248,11 +253,6 @@ class BeddedRoof(StretchLoad):
         "gap_first": LoadChannel("m", "between roof and first point; negative: depth"),
         "gap_second": LoadChannel("m", "between roof and second point; negative: depth"),
     }
-
-    @property
-    def drives(self) -> tuple[Drive, ...]:
-        """The only drive is the descent."""
-        return (self.descent,)
 
     @property
     def steepness(self) -> tuple[float, ...]:

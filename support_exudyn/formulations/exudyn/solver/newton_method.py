@@ -23,7 +23,7 @@ CRAWL, MOST_CRAWLED = 1e-4, 10_000
 
 
 class NewtonMethod:
-    """The method in a run.
+    """The method in a run, and how long steps may be for it.
 
     Arguments:
         solver: the engine's, of which only what is asked for in the next step is changed.
@@ -43,7 +43,17 @@ class NewtonMethod:
         self._size = max(math.hypot(*body.centre) for body in scenario.linkage.bodies.values())  # [m]
         self._straightened = False  # whether a line has ever stood for friction
         self._scatters = False  # whether steep friction does, see `ContactConnector.rounding`
-        self.failures = NewtonFailures(scenario.step)
+        self._longest = scenario.step  # length of step [s] from which on nothing is limited
+        self.length = math.inf  # that has been found to converge where a longer one did not [s]
+        self.failures = 0  # in the step that is being tried
+        self.more = 0  # failures than steps without any, from 0 on
+        self._crawled = 0  # steps of next to no length
+        self._solved = 0  # steps of that length in a row
+
+    @property
+    def too_many(self) -> bool:
+        """Whether steps fail so often that the run is to be given up."""
+        return self.more > MOST_MORE or self._crawled > MOST_CRAWLED
 
     def begin(self, step: float) -> None:
         """Begin to try a step of this length [s]: steep friction comes no closer than rounding lets it."""
@@ -57,68 +67,34 @@ class NewtonMethod:
 
     def failed(self) -> None:
         """Take note of a failure: lines stand for friction from now on, or else steps become shorter."""
-        straightened = [pin.straighten() for pin in self._pins]
+        straightened = [pin.straighten() for pin in self._pins]  # all of them
         if any(straightened):
             self._straightened = True
         else:
-            self.failures.failed()
-        if self.failures.wants_new_jacobians:
+            self.failures += 1
+            self.more += 1
+        if self.failures >= FAILURES_OF_A_STEP:
             self._solver.newton.useModifiedNewton = False
 
     def solved(self, taken: float) -> None:
-        """Take note of a solved step of this length [s]."""
-        if self.failures.wants_new_jacobians:
-            self._solver.newton.useModifiedNewton = self._settings.useModifiedNewton
-        jumps = self.failures.of_step > 0 and any(pin.impact_steps.begins_with_a_jump for pin in self._pins)
-        self.failures.solved(taken, jumps)
+        """Take note of a solved step of this length [s].
 
-
-class NewtonFailures:
-    """How long steps may be for Newton's method.
-
-    Arguments:
-        longest: length of step [s] from which on nothing is limited.
-    """
-
-    def __init__(self, longest: float) -> None:
-        self.longest = longest
-        self.length = math.inf  # that has been found to converge where a longer one did not [s]
-        self.of_step = 0  # failures in the step that is being tried
-        self.more = 0  # failures than steps without any, from 0 on
-        self.crawled = 0  # steps of next to no length
-        self._solved = 0  # steps of that length in a row
-
-    @property
-    def wants_new_jacobians(self) -> bool:
-        """Whether the step that is being tried is to have a new Jacobian in every iteration."""
-        return self.of_step >= FAILURES_OF_A_STEP
-
-    @property
-    def too_many(self) -> bool:
-        """Whether steps fail so often that the run is to be given up."""
-        return self.more > MOST_MORE or self.crawled > MOST_CRAWLED
-
-    def failed(self) -> None:
-        """Take note that the step being tried has not converged."""
-        self.of_step += 1
-        self.more += 1
-
-    def solved(self, taken: float, jumps: bool) -> None:
-        """Take note of a solved step of this length [s]; jumps: a force has jumped just now.
-
-        Steps are tiny then already, and shorter ones meet rounding: nothing is learned from them.
+        Where a force has jumped just now, steps are tiny already, and shorter ones meet rounding: nothing is
+        learned from them.
         """
-        if self.of_step:
-            self.of_step = 0
-            if not jumps:
+        if self.failures:
+            if self.failures >= FAILURES_OF_A_STEP:
+                self._solver.newton.useModifiedNewton = self._settings.useModifiedNewton
+            if not any(pin.impact_steps.begins_with_a_jump for pin in self._pins):
                 self.length, self._solved = taken, 0
+            self.failures = 0
             return
         if self.more:
             self.more -= 1
         if self.length < math.inf:
-            self.crawled += self.length < CRAWL * self.longest
+            self._crawled += self.length < CRAWL * self._longest
             self._solved += 1
             if self._solved >= STEPS_TO_GROW:
                 self.length, self._solved = 2.0 * self.length, 0
-            if self.length > self.longest:
+            if self.length > self._longest:
                 self.length = math.inf

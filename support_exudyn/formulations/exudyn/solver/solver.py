@@ -111,7 +111,7 @@ class SolverRun:
         except exudyn.ExudynError as error:
             raise SimulationError(self._failure(*why(error, self.scene, self._ahead, self.calm))) from error
         if not finished or self.time < self.plan.duration * (1.0 - 1e-9):
-            advice = f"{ADVICE} {STEEP}" if self.newton.failures.of_step and self._has_friction() else ADVICE
+            advice = f"{ADVICE} {STEEP}" if self.newton.failures and self._has_friction() else ADVICE
             scene, ahead = self.scene, self._ahead
             told = unlawful(scene, ahead) or singular(scene, self.calm) or ("the solver gave up", advice)
             raise SimulationError(self._failure(*told))
@@ -254,7 +254,7 @@ class SolverRun:
         """
         start = exudyn.ConfigurationType.StartOfStep
         speed = float(np.abs(self.data.GetODE2Coordinates_t(start)).max())
-        if not self.newton.failures.more:
+        if not self.newton.more:
             self.calm_speed = CALM * speed
         if speed <= self.calm_speed:
             self.calm = self.data.GetODE2Coordinates(start)
@@ -284,7 +284,7 @@ class SolverRun:
         """Raise SimulationError if a journal is too deep, or there were too many steps, or too many failed."""
         if self.steps + self.cut_steps + self.failed_newton > self.most_steps:
             raise SimulationError(self._failure(f"more than {self.most_steps} steps", FEWER_STEPS))
-        if self.newton.failures.too_many:
+        if self.newton.too_many:
             reason = f"Newton's method has failed {self.failed_newton} times, and needs next to no step"
             raise SimulationError(self._failure(reason, STEEP))
         for name, pin, deepest in self.limits if self.looks else ():
@@ -325,7 +325,7 @@ class SolverRun:
 
     def _longest_step(self, t: float) -> float:
         """How long a step from t [s] on may be [s]; infinite: as the plan says."""
-        largest = self.newton.failures.length
+        largest = self.newton.length
         for pin in self.pins:
             if (longest := pin.longest_step) < largest:
                 largest = longest
