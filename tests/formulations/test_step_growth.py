@@ -92,12 +92,9 @@ def state(t: float, position: Polynomial, integral: Polynomial) -> StepEnd:
 def test_quintics_cubics_and_lines_are_met(t: float) -> None:
     cubic, quintic = Polynomial([1.0, -2.0, 0.5, 0.3]), Polynomial([1.0, -2.0, 0.5, 0.3, -0.7, 0.2])
     # rounding of numbers up to 3
-    found = between(state(0.5, quintic, cubic), state(1.5, quintic, cubic), t)
-    assert found.time == t
-    assert found.position == pytest.approx(state(t, quintic, cubic).position, abs=1e-14)
-    assert found.totals == pytest.approx(state(t, quintic, cubic).totals, abs=1e-14)
-    assert found.memory == pytest.approx([3.0 - 2.0 * t], abs=1e-14)
-    found = between(state(0.5, cubic, cubic), state(1.5, cubic, cubic), t)
-    exact = state(t, cubic, cubic)
-    assert found.velocity == pytest.approx(exact.velocity, abs=1e-14)
-    assert found.acceleration == pytest.approx(exact.acceleration, abs=1e-14)
+    position, _, memory, totals = between(state(0.5, quintic, cubic), state(1.5, quintic, cubic), t)
+    assert position == pytest.approx(state(t, quintic, cubic).position, abs=1e-14)
+    assert totals == pytest.approx(state(t, quintic, cubic).totals, abs=1e-14)
+    assert memory == pytest.approx([3.0 - 2.0 * t], abs=1e-14)
+    _, velocity, _, _ = between(state(0.5, cubic, cubic), state(1.5, cubic, cubic), t)
+    assert velocity == pytest.approx(state(t, cubic, cubic).velocity, abs=1e-14)

@@ -149,13 +149,13 @@ class Recorder:
         """Keep the state at time t [s] inside the step that has just ended at another [s]."""
         if self._start is None:
             raise RuntimeError("begin_step: was not called before the step")
-        state = between(self._start, self._state(end), t)
+        position, velocity, memory, totals = between(self._start, self._state(end), t)
         # in contact or not, with which impact: as over all of the step
-        state.memory[:, :2] = self._start.memory[:, :2]
-        kept = (state.position, state.velocity, state.memory.ravel())
-        self._keep(self._records, t, kept, state.totals.tolist())
+        memory[:, :2] = self._start.memory[:, :2]
+        kept = (position, velocity, memory.ravel())
+        self._keep(self._records, t, kept, totals.tolist())
         if self.follows:
-            self._keep(self._ends, t, kept, state.totals.tolist())
+            self._keep(self._ends, t, kept, totals.tolist())
             self._begins.append(False)
 
     def _state(self, t: float) -> StepEnd:

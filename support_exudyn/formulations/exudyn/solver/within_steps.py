@@ -1,7 +1,10 @@
 """Between the ends of steps: integrals over time of powers, and states for records inside a step."""
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
+
+import numpy as np
 
 from support_exudyn.mechanics.trajectory import Series
 
@@ -68,42 +71,28 @@ class StepEnd(NamedTuple):
     powers: Series
 
 
-def between(start: StepEnd, end: StepEnd, t: float) -> StepEnd:
-    """The state at a time t [s] inside a step.
+def between(start: StepEnd, end: StepEnd, t: float) -> tuple[Series, Series, Series, Series]:
+    """Position, velocity, memory and totals at a time t [s] inside a step.
 
     Positions are the quintic that fits positions, velocities and accelerations at both ends; velocities and
-    integrals the cubics that fit them and their rates; all else is a straight line.
+    totals the cubics that fit them and their rates; memory is a straight line.
     """
     h = end.time - start.time
     x = (t - start.time) / h
-    return StepEnd(
-        t,
-        _quintic(x, h, start, end),
-        _cubic(x, h, (start.velocity, start.acceleration), (end.velocity, end.acceleration)),
-        _line(x, start.acceleration, end.acceleration),
-        _line(x, start.memory, end.memory),
-        _cubic(x, h, (start.totals, start.powers), (end.totals, end.powers)),
-        _line(x, start.powers, end.powers),
+    first, second = (one[1:4] for one in (start, end))
+    return (
+        hermite(x, h, first, second),
+        hermite(x, h, first[1:], second[1:]),
+        hermite(x, h, (start.memory,), (end.memory,)),
+        hermite(x, h, (start.totals, start.powers), (end.totals, end.powers)),
     )
 
 
-def _line(x: float, first: Series, second: Series) -> Series:
-    """Between the values at x = 0 and x = 1."""
-    return (1.0 - x) * first + x * second
-
-
-def _cubic(x: float, h: float, first: tuple[Series, Series], second: tuple[Series, Series]) -> Series:
-    """The cubic through values and rates at both ends of a step h [s], at the fraction x of it."""
-    y = 1.0 - x
-    values = y * y * (1.0 + 2.0 * x) * first[0] + x * x * (3.0 - 2.0 * x) * second[0]
-    return values + h * x * y * (y * first[1] - x * second[1])
-
-
-def _quintic(x: float, h: float, first: StepEnd, second: StepEnd) -> Series:
-    """The quintic through positions, velocities and accelerations at both ends."""
-    y = 1.0 - x
-    positions = y**3 * (1.0 + 3.0 * x + 6.0 * x * x) * first.position
-    positions += x**3 * (1.0 + 3.0 * y + 6.0 * y * y) * second.position
-    velocities = y**3 * x * (1.0 + 3.0 * x) * first.velocity - x**3 * y * (1.0 + 3.0 * y) * second.velocity
-    accelerations = y**3 * x * x * first.acceleration + x**3 * y * y * second.acceleration
-    return positions + h * velocities + 0.5 * h * h * accelerations
+def hermite(x: float, h: float, first: Sequence[Series], second: Sequence[Series]) -> Series:
+    """The polynomial through values and as many derivatives at both ends of a step h [s], at its fraction x."""
+    count, total = len(first), np.zeros_like(first[0])
+    for u, ends, step in ((x, first, h), (1.0 - x, second, -h)):
+        for k, derivative in enumerate(ends):
+            series = sum(math.comb(count - 1 + i, i) * u**i for i in range(count - k))
+            total += (1.0 - u) ** count * series * (step * u) ** k / math.factorial(k) * derivative
+    return total
