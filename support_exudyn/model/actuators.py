@@ -6,7 +6,7 @@ import math
 from abc import ABC
 from dataclasses import field, replace
 
-from support_exudyn.model.actuator_model import ActuatorModel as ActuatorModel
+from support_exudyn.model.hydraulics.leg import ActuatorModel as ActuatorModel
 from support_exudyn.model.hydraulics.leg import OilColumn as OilColumn
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, Slide, pinned
 from support_exudyn.model.plane_geometry import direction

@@ -19,7 +19,7 @@ from support_exudyn import (
     reference_support,
     simulate,
 )
-from support_exudyn.model.actuator_model import ActuatorModel
+from support_exudyn.model.actuators import ActuatorModel
 from tests.cases.machine_cases import support
 from tests.formulations.hydraulics.leg_cases import COLUMN, CYLINDER, STAGE, Uprights
 from user_forces import InputError

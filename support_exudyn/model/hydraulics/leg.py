@@ -20,7 +20,6 @@ from dataclasses import field, fields
 from functools import cached_property
 from typing import ClassVar
 
-from support_exudyn.model.actuator_model import ActuatorModel
 from support_exudyn.model.hydraulics.elements import (
     ATMOSPHERE,
     EndStops,
@@ -51,7 +50,7 @@ from user_forces.values.units import (
     Pascals,
     SquareMetres,
 )
-from user_forces.values.value import InputError, NonNegative, Positive, Real, value
+from user_forces.values.value import InputError, NonNegative, Positive, Real, Value, value
 
 CHECK_OPEN = "check valve open"
 TAKEN = (
@@ -67,6 +66,27 @@ TAKEN = (
     "rod_relief",
     "foot",
 )
+
+
+class ActuatorModel(Value, ABC):
+    """How a driven actuator holds its length."""
+
+    def check_extension(self, lowest: float, name: str) -> None:
+        """Raise InputError if the actuator cannot be drawn in so far [m]; by default any can."""
+        del lowest, name
+
+    def check_elements(self, where: str) -> None:
+        """Raise InputError if what it consists of does not go together; by default it does.
+
+        Arguments:
+            where: its path in the scenario, `actuators.front_column`.
+        """
+        del where
+
+    @property
+    def hydraulic(self) -> ActuatorModel | None:
+        """What holds its length by oil; None if nothing gives."""
+        return None
 
 
 @value

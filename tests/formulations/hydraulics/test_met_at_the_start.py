@@ -18,7 +18,7 @@ from support_exudyn import (
     YieldValve,
     simulate,
 )
-from support_exudyn.model.actuator_model import ActuatorModel
+from support_exudyn.model.actuators import ActuatorModel
 from tests.formulations.hydraulics.leg_cases import Uprights
 
 FORMULATIONS = ("compiled", "exudyn")
