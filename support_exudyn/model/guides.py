@@ -217,19 +217,14 @@ class ClearanceGuide(Guide):
                 f"stiffness = {short(stiffness)}, corner_radius = {short(corner_radius)} m: "
                 "allowed: one of them"
             )
-        if stiffness is None:
+        if stiffness is None and "stiffness" in fields_of(law):
             radius = corner_radius or pin_radius or (ROUNDING * block[1] if block else None)
             if radius is None:
                 raise InputError("block: missing; allowed: length and height [m], or pin_radius")
             stiffness = plane_contact_stiffness(radius, wall_material, block_material)
-        elif "stiffness" not in fields_of(law):
-            raise InputError(
-                f"stiffness = {short(stiffness)}: {law.__name__} has none; allowed: to leave it out"
-            )
-        given = {"stiffness": stiffness} if "stiffness" in fields_of(law) else {}
         return cls(
             gaps=both,
-            normal=law_with(law, given, restitution, rest_velocity),
+            normal=law_with(law, stiffness=stiffness, restitution=restitution, rest_velocity=rest_velocity),
             friction=friction_of(friction),
             block=block,
             pin_radius=pin_radius,

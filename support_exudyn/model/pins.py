@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import Any, ClassVar, Final, Literal
+from typing import ClassVar, Final, Literal
 
 from pydantic import model_validator
 
@@ -274,19 +274,16 @@ def _of_power(
     materials: tuple[Material, Material],
 ) -> NormalLaw:
     """A law of a stiffness and a restitution at most."""
-    has, given = fields_of(law), dict[str, Any]()
-    if "stiffness" in has:
-        given["stiffness"] = stiffness = "paper" if stiffness is None else stiffness
-    elif stiffness is not None:
-        raise InputError(f"stiffness = {short(stiffness)}: {law.__name__} has none; allowed: to leave it out")
-    named = isinstance(stiffness, str)
-    if isinstance(stiffness, str):
+    if stiffness is None and "stiffness" in fields_of(law):
+        stiffness = "paper"
+    named, number = isinstance(stiffness, str), stiffness
+    if isinstance(stiffness, str) and "stiffness" in fields_of(law):
         if stiffness not in HERTZ:
             allowed = ", ".join(map(repr, (CYLINDERS, *HERTZ)))
             hint = "; what was 'external' is called 'paper'" if stiffness == "external" else ""
             raise InputError(f"stiffness = {short(stiffness)}: allowed: {allowed} or a number, > 0{hint}")
-        given["stiffness"] = HERTZ[stiffness](bearing, *materials)
-    normal = law_with(law, given, restitution, rest_velocity)
+        number = HERTZ[stiffness](bearing, *materials)
+    normal = law_with(law, stiffness=number, restitution=restitution, rest_velocity=rest_velocity)
     if named and getattr(normal, "exponent", HERTZ_EXPONENT) != HERTZ_EXPONENT:
         raise InputError(
             f"stiffness = {stiffness!r}: is of K depth^{HERTZ_EXPONENT}, and {law.__name__} is not; "

@@ -19,22 +19,16 @@ def friction_of(friction: float | FrictionLaw) -> FrictionLaw:
     return Ambrosio(sliding_coefficient=friction) if friction != 0.0 else Frictionless()
 
 
-def law_with(
-    law: type[NormalLaw],
-    given: dict[str, Any],
-    restitution: float | None,
-    rest_velocity: float | None,
-) -> NormalLaw:
-    """A law with some fields, and with restitution and rest velocity if it has them.
+def law_with(law: type[NormalLaw], **asked: Any) -> NormalLaw:
+    """A law with a stiffness, a restitution and a rest velocity, as far as they are asked for and not None.
 
     Raises InputError if one is asked for that it has not.
     """
     has = fields_of(law)
-    for name, asked in (("restitution", restitution), ("rest_velocity", rest_velocity)):
-        if asked is not None and name not in has:
-            raise InputError(f"{name} = {short(asked)}: {law.__name__} has none; allowed: None with this law")
-        if asked is not None:
-            given[name] = asked
+    given = {name: number for name, number in asked.items() if number is not None}
+    for name, number in given.items():
+        if name not in has:
+            raise InputError(f"{name} = {short(number)}: {law.__name__} has none; allowed: to leave it out")
     if "restitution" in has:
         given.setdefault("restitution", USUAL_RESTITUTION)
     return law(**given)
