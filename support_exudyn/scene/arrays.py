@@ -13,35 +13,29 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from support_exudyn.scene.hydraulics.records import LegArrays
+from support_exudyn.scene.hydraulics.records import LegArrays, record_of
 
 Vector = npt.NDArray[np.float64]
 Matrix = npt.NDArray[np.float64]
 Whole = npt.NDArray[np.int64]
 Records = npt.NDArray[np.void]
 
-F, N = np.float64, np.int64
-
-
-def _record(whole: str, numbers: str) -> np.dtype[np.void]:
-    return np.dtype([(name, N) for name in whole.split()] + [(name, F) for name in numbers.split()])
-
 
 # lightness: one over mass and inertia; of the latter that which stands in for a point mass's, 0 else; weight;
 # centre of mass at the start | direction, force, moment, acceleration, moment that gives back what stands in
-BODY = _record("", "light light_turn stand_in weight_x weight_y x0 y0 c s fx fy m ax ay a given")
+BODY = record_of("", "light light_turn stand_in weight_x weight_y x0 y0 c s fx fy m ax ay a given")
 # arm: from the centre of mass at the start, of the ground the place itself | arm now, place, velocity
-POINT = _record("body", "arm_x arm_y rx ry x y vx vy")
+POINT = record_of("body", "arm_x arm_y rx ry x y vx vy")
 # a time course: its pieces in the segment; still: for a record before it begins, at a break at 0 s | its jump
 # of the rate then; its value, and both derivatives
-COURSE = _record("low high still", "jump value rate bend")
-PIECE = _record("", "begin half")
+COURSE = record_of("low high still", "jump value rate bend")
+PIECE = record_of("", "begin half")
 # kinds: see PIN and so on. ratio: of a gear. length, angle: at the start
-JOINT = _record("kind row first second course conditions", "length angle ratio")
+JOINT = record_of("kind row first second course conditions", "length angle ratio")
 PIN, ACTUATOR, CRANK, SLIDE, GEAR = range(5)
 # two bodies, the carrier of a gear, and what its rate takes of their rates; first: of the row in the factors |
 # what C a has to be, multiplier, what is left of the position, and the rate that it has to have
-ROW = _record("body other carrier first", "x y t ox oy ot carrier_x carrier_y carrier_t wanted held off rate")
+ROW = record_of("body other carrier first", "x y t ox oy ot carrier_x carrier_y carrier_t wanted held off rate")
 # rows that share a body, i >= j, and the places in `row_numbers` of what each takes of it. Indices without a
 # sign: numba asks of all others whether they are negative
 PAIR = np.dtype([(name, np.uint64) for name in ("i", "j", "body", "one", "two")])
@@ -50,7 +44,7 @@ PAIR = np.dtype([(name, np.uint64) for name in ("i", "j", "body", "one", "two")]
 # radius: of the bore, or of a pin in a slot. angle: of a slot at the start. | closed, impact velocity: what it
 # remembers. Then the contact now, the largest force and its time, where the law last gave no possible force.
 ONE_SIDED = 2
-CONTACT = _record(
+CONTACT = record_of(
     "first second slot constants state",
     "law clearance radius angle arm closed impact_velocity "
     "depth rate slip normal friction damping push x y vx vy nx ny fx fy "
@@ -60,14 +54,14 @@ CONTACT = _record(
 # of these at the start; the first of its own courses, and how many; from which places of out on its action
 # takes their values, `first`, and gives its powers
 FORCE, MOMENT, STRETCH = range(3)
-LOAD = _record(
+LOAD = record_of(
     "point origin kind constants course courses first powers", "law point_y origin_y fx fy work loss"
 )
 # friction of an ideal pin (BOLT) or guide (GUIDED; BLOCK with a moment); row: the first of the joint; state: of
 # the friction law in y | direction and speed along a guide, slip, arm of the friction force, the force and its
 # moment, by how much the last round changed it
 BOLT, GUIDED, BLOCK = range(3)
-RUBBING = _record(
+RUBBING = record_of(
     "kind row body other first second constants state",
     "law radius half_length half_height angle ax ay speed slip lever force moment left",
 )

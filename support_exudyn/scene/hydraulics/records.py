@@ -22,7 +22,8 @@ Matrix = npt.NDArray[np.float64]
 LOG, LINEAR, CONSTANT = range(3)  # laws of the oil; CONSTANT: of a source
 
 
-def _record(whole: str, numbers: str, pairs: str = "") -> np.dtype[np.void]:
+def record_of(whole: str, numbers: str, pairs: str = "") -> np.dtype[np.void]:
+    """A record of whole numbers, numbers, and pairs of numbers, by names with spaces between them."""
     fields = [(name, N) for name in whole.split()] + [(name, F) for name in numbers.split()]
     return np.dtype([*fields, *((name, F, (2,)) for name in pairs.split())])
 
@@ -32,7 +33,7 @@ def _record(whole: str, numbers: str, pairs: str = "") -> np.dtype[np.void]:
 # Known before the run | the actuator's length, extension let in by a drive, their rates, the opening of the
 # inlet | what follows: travel of the outer stage and its rate; pilot: the pressure that the inlet has for the
 # rod side; direction from foot to head | stops of both stages
-LEG = _record(
+LEG = record_of(
     "foot head course driven chamber chambers valve valves first states stage supply tank "
     "viscous_loss seal_loss stop_loss stage_loss",
     "bore length0 damping coulomb static stribeck transition tube_mass tube_damping "
@@ -43,7 +44,7 @@ LEG = _record(
 # law: of the oil. room: its volume at the start, that grows by travel of the outer stage and length of the leg.
 # reference: V_ref of a linear law. fed, grown: growth of oil and of V_ref by what a drive lets in. weight,
 # enthalpy: see `fill_chamber`; 1 and 0 of sources
-CHAMBER = _record(
+CHAMBER = record_of(
     "law state source",
     "modulus vapour air air_exponent oil0 scale room by_travel by_length reference fed grown "
     "oil volume span pressure cavity weight enthalpy",
@@ -51,14 +52,14 @@ CHAMBER = _record(
 # chambers before it, the same while the opening of the inlet is negative, and behind it; its states; integrals
 # of the oil that has passed and of losses; law: address of its action, with parameters from `constants` on.
 # jumps: its flow depends on its memory. joins: both chambers have the same pressure at rest
-VALVE = _record("before back after state states passed loss constants jumps joins", "law memory flow")
+VALVE = record_of("before back after state states passed loss constants jumps joins", "law memory flow")
 # the pump; its line is a chamber. given: place of what it has given
-PUMP = _record("chamber given", "flow pressure range now work")
+PUMP = record_of("chamber given", "flow pressure range now work")
 # what passes zero where something happens: of all chambers, of all valves, then four of the stops of each leg.
 # valve: -1 of others. near: how near to zero it is met. rest: the side on which it is then at the start of a
 # run. now, and before, at the start of the step; side: of zero on which it is, 0 for a gap that is not there;
 # beyond: how far it has been on the other side within the step
-GAP = _record("leg valve", "near rest now before side beyond rate rate_before")
+GAP = record_of("leg valve", "near rest now before side beyond rate rate_before")
 STOPS = 4
 # first of all numbers is the room of the actions of valves: memory, then gap; states, then their rates; rest
 MEMORY, STATES = 0, 1
