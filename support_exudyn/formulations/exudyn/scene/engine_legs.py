@@ -47,6 +47,7 @@ CURRENT, INITIAL = exudyn.ConfigurationType.Current, exudyn.ConfigurationType.In
 OUTPUT = exudyn.OutputVariableType
 FORCE = "springForceUserFunction"  # the engine's name, of its springs
 ENERGY, PLAY = 1e3, 1e-3  # [J], [m] that states are weighed by
+NO_STATES = np.zeros(0, np.int64), np.empty((0, 1))
 LENGTHS = 4  # that are rounded, each by up to half a unit in its last place, until there is a force
 
 
@@ -130,6 +131,7 @@ class EngineLegs:
 
     def __init__(self, items: Sequence[LegItem], pump: PumpStation | None, weight: float) -> None:
         self.items = tuple(items)
+        self._mbs: Any = items[0].mbs if items else None
         self.names = tuple(item.preloaded.name for item in items)
         self.legs = legs = fill_legs([item.preloaded for item in items], pump, 0)
         self.arrays, self.records = legs.arrays, legs.records
@@ -188,21 +190,19 @@ class EngineLegs:
         together = self._together
         return float(pull_of_leg(self.arrays, self.step, self.known, places, rows, n, together, length, rate))
 
-    def _press_spring(self, n: int, length: float, rate: float) -> float:
-        """Force of leg n, which has no states, that pulls its ends together [N]."""
-        none, room = np.zeros(0, np.int64), np.empty((0, 1))
-        return float(pull_of_leg(self.arrays, 0.0, self.known, none, room, n, False, length, rate))
+    def _press_spring(self, n: int, length: float) -> float:
+        """Force of leg n, which has no states, that pulls its ends together [N], at a length [m]."""
+        return float(pull_of_leg(self.arrays, 0.0, self.known, *NO_STATES, n, False, length, 0.0))
 
-    def _let_into_spring(self, n: int) -> None:
+    def _let_into_spring(self, n: int, inflow: float) -> None:
         """Give the engine's spring of leg n the stiffness [N/m] and the free length [m] of its oil."""
-        record, item = self.records[n], self.items[n]
-        length = float(record["length0"] + record["inflow"])
-        oil = self.arrays.chambers[record["chamber"] + record["chambers"] - 1]
-        reach = float(oil["reference"] / record["bore"] + record["inflow"])
-        far, near = (self._press_spring(n, length + longer, 0.0) for longer in (reach, 0.0))
+        item = self.items[n]
+        leg, length = item.preloaded.model, item.preloaded.actuator.start_length + inflow
+        reach = leg.oil_length + inflow
+        near, far = self._press_spring(n, length), self._press_spring(n, length + reach)
         stiffness = (far - near) / reach
-        item.mbs.SetObjectParameter(item.object, "stiffness", stiffness)
-        item.mbs.SetObjectParameter(item.object, "referenceLength", length - near / stiffness)
+        self._mbs.SetObjectParameter(item.object, "stiffness", stiffness)
+        self._mbs.SetObjectParameter(item.object, "referenceLength", length - near / stiffness)
 
     def _tell(self, state: Any = CURRENT) -> None:
         """Write lengths [m] and rates [m/s] of all legs into their records."""
@@ -235,7 +235,7 @@ class EngineLegs:
                     moved = record["inflow"] != supply.inflow
                     record["inflow"], record["inflow_rate"], record["opening"] = supply
                     if moved and n in self._springs:
-                        self._let_into_spring(n)
+                        self._let_into_spring(n, supply.inflow)
 
     def switch(self, t: float) -> None:
         """Let drives and inlets be as they are just after a break t [s]."""
@@ -292,13 +292,14 @@ class EngineLegs:
 
     def powers(self) -> tuple[float, float, float]:
         """Powers [W] of what gives oil, of flows and dampers, and of seals, now."""
+        of_springs = 0.0
         for n in self._springs:
             if self.records[n]["inflow_rate"] != 0.0:
-                self._press_spring(n, *self.items[n].motion())
-            else:
-                self.records[n]["work"] = 0.0
-        work, loss, friction = powers_of_legs(self.arrays)
-        return work, loss, friction
+                self._press_spring(n, self._mbs.GetObjectOutput(self.items[n].object, OUTPUT.Distance))
+                of_springs += float(self.records[n]["work"])
+            self.records[n]["work"] = 0.0
+        work, loss, friction = powers_of_legs(self.arrays) if self.solves else (0.0, 0.0, 0.0)
+        return work + of_springs, loss, friction
 
     @property
     def states_count(self) -> int:
@@ -325,7 +326,7 @@ class EngineLegs:
     def empty(self) -> str:
         """Which leg has no room or no oil left, in words; empty if none."""
         for n in self._springs:
-            self._press_spring(n, *self.items[n].motion())
+            self._press_spring(n, self._mbs.GetObjectOutput(self.items[n].object, OUTPUT.Distance))
         return empty_legs(self.legs, self.arrays)
 
     @property

@@ -54,7 +54,10 @@ class _StateRows:
     def keep(self, *parts: Numbers) -> None:
         """Add a row: time, and what a `History` has."""
         for part in parts:
-            self._numbers.extend(part)
+            if isinstance(part, np.ndarray):
+                self._numbers.frombytes(part.tobytes())
+            else:
+                self._numbers.extend(part)
         self._widths = tuple(map(len, parts))
         self._count += 1
 
