@@ -5,10 +5,8 @@ from __future__ import annotations
 import inspect
 import os
 import pickle
-import sys
 from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
-from typing import Any
 
 import numba
 import pytest
@@ -20,22 +18,6 @@ from support_exudyn.scene.hydraulics.leg import evaluate_legs
 
 def twice(value: float) -> float:
     return 2.0 * value
-
-
-def test_what_cannot_be_kept_is_compiled_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[bool] = []
-    njit = numba.njit
-
-    def without_a_place(*args: Any, cache: bool = False, **options: Any) -> Any:
-        asked.append(cache)
-        if cache:  # as numba says it beside a read-only program of a user without a home
-            raise RuntimeError("cannot cache function 'twice': no locator available for file 'a.py'")
-        return njit(*args, **options)
-
-    monkeypatch.setattr(numba, "njit", without_a_place)
-    dispatcher = compilation._kept(twice)
-    assert dispatcher(21.0) == 42.0
-    assert asked[:2] == [True, False]  # then numba compiles helpers of its own
 
 
 def test_what_an_older_program_has_kept_is_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -63,19 +45,6 @@ def test_a_function_that_another_process_compiles_is_waited_for(
         assert found.result() == 42.0
     assert other(21.0) == 42.0
     assert (dispatcher.stats.cache_hits, other.stats.cache_hits) == ({}, {(numba.types.float64,): 1})
-
-
-@pytest.mark.parametrize("at_terminal", [True, False])
-def test_the_compiling_is_told_at_a_terminal_and_elsewhere(
-    at_terminal: bool,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: at_terminal)
-    compilation._tell.__wrapped__("support_exudyn.formulations.compiled.integrate")
-    assert capsys.readouterr().err.startswith("compiling (compiled), once on this machine: about ")
-    compilation._tell.__wrapped__("__main__")
-    assert capsys.readouterr().err == ""
 
 
 def test_every_compiled_function_is_in_the_stamp() -> None:

@@ -41,7 +41,6 @@ from tests.metamorphic.same import run, scenes, told
 from user_forces import (
     Ambrosio,
     Exact,
-    Flores,
     Frictionless,
     HuntCrossley,
     InputError,
@@ -91,8 +90,8 @@ def end(result: Result) -> np.ndarray:
 def test_a_slider_between_walls_moves_as_by_scipy(sliding: float, formulation: str) -> None:
     friction = Ambrosio(sliding_coefficient=sliding) if sliding else Frictionless()
     other = slider_crank_by_scipy(1e9, friction if isinstance(friction, Ambrosio) else None)
-    state = other.run((0.0, 0.0, 0.0), (150.0, -75.0, 0.0), 0.01)
-    scene = slider_crank(1e9, 0.01, friction, step=2e-6, impact_steps=512)
+    state = other.run((0.0, 0.0, 0.0), (150.0, -75.0, 0.0), 0.007)
+    scene = slider_crank(1e9, 0.007, friction, step=2e-6, impact_steps=512)
     # the block's tilt hangs on how corners hit one after the other
     solver = replace(scene.solver, tolerance=1e-11)
     result = simulate(replace(scene, formulation=formulation, solver=solver))
@@ -205,9 +204,7 @@ class Block(Machine):
     "law",
     [
         Exact(stiffness=1e10, restitution=0.4),
-        Exact(stiffness=1e10, restitution=0.9),
         LankaraniNikravesh(stiffness=1e10, restitution=0.8),
-        Flores(stiffness=1e10, restitution=0.5),
         HuntCrossley(stiffness=1e10, restitution=0.7, rest_velocity=1e-3),
     ],
     ids=lambda law: type(law).__name__,
