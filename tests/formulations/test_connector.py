@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, simulate
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
 from tests.cases.run_cases import PIN, Pair, loose_support
-from tests.formulations.test_momentum import ONE, TWO, momenta
+from tests.formulations.test_momentum import ONE, TWO
 from tests.often import often
 from user_forces import (
     Ambrosio,
@@ -124,19 +124,6 @@ def fly(law: JournalContact, bore: Bore) -> Result:
         solver=SolverSettings(newton_tolerance=1e-10),
     )
     return simulate(scenario)
-
-
-@pytest.mark.parametrize("bore", ["first", "second"])
-@pytest.mark.parametrize("friction", [Frictionless(), BRISTLES])
-def test_momentum_is_kept_on_both_centres_and_in_the_middle(friction: FrictionLaw, bore: Bore) -> None:
-    result = fly(contact(friction), bore)
-    assert len(result.onsets["pin"]) >= 3  # else the test says nothing
-    assert result["one.angular_velocity"].std() > 0.1
-    linear, angular = momenta(result, ONE, TWO)
-    # rounding of some thousand steps
-    np.testing.assert_allclose(linear, np.broadcast_to(linear[0], linear.shape), atol=1e-12)
-    # what is left is the integrator's, and falls with the square of its steps
-    np.testing.assert_allclose(angular, angular[0], rtol=1e-6 if friction == Frictionless() else 1e-5)
 
 
 @pytest.mark.parametrize("bore", ["first", "second"])
