@@ -257,3 +257,15 @@ def test_a_point_mass_whose_turn_nothing_holds_is_refused(loose: bool) -> None:
         InputError, match=r"bodies\.bob: its inertia is 0, .*; allowed: an inertia > 0, or such"
     ):
         Scenario(machine=PlanarLinkage(drawing=linkage), pins=pins, duration=1.0)
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_point_masses_swing_one_on_the_other(formulation: str) -> None:
+    bodies = [Body(mass=m, inertia=0.0, centre=(x, 0.0)) for m, x in ((10.0, 0.5), (3.0, 0.9))]
+    result = run(double_pendulum(bodies), formulation, 0.8)
+    found = [result.channels[f"{name}.angle"].values[-1] for name in ("one", "two")]
+    assert found == pytest.approx(two_angles((10.0, 3.0), 0.4, 0.0, 0.8), abs=1e-4)
+    # released from the horizontal each falls freely
+    assert [result.channels[f"pin.{pin}.force"].values[0] for pin in "OP"] == pytest.approx(
+        [0.0, 0.0], abs=1e-9
+    )

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 
 from support_exudyn import ClearancePin, Scenario, SolverSettings, simulate
@@ -25,6 +25,7 @@ from tests.cases.spatial_cases import (
     vectors,
 )
 
+RECORDS = 5e-6  # [s], far shorter than an impact
 Bore = Literal["first", "second"]
 few = settings(
     max_examples=6,
@@ -143,3 +144,21 @@ def test_an_impact_after_a_tilted_separation_is_seen() -> None:
     # by 80 steps an impact
     assert [impact.time for impact in impacts] == pytest.approx([3.1562e-4, 1.94384e-3, 3.50604e-3], rel=2e-4)
     assert [impact.speed for impact in impacts] == pytest.approx([1.16599, 0.53749, 1.11403], rel=2e-4)
+
+
+@few
+@given(space=placements(), bore=bores, friction=st.sampled_from([0.0, 0.3]))
+def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
+    space: SpatialLinkage, bore: Bore, friction: float
+) -> None:
+    scene = scenario(space, bore, friction, by_depth=False)
+    context, _ = observed(replace(scene, duration=6e-3, record_period=RECORDS))
+    force = context.pins["pin"]
+    largest = np.abs(force).max()
+    assume(largest > 0.0)
+    # Newton's law: the impulse of the first on the second so far
+    velocity = context.motion.centre("two")[1]
+    gained = space.bodies["two"].mass * (velocity - velocity[0])
+    impulse = np.concatenate([np.zeros((1, 3)), np.cumsum(force[1:] + force[:-1], axis=0) * 0.5 * RECORDS])
+    # the error of the trapezoidal rule over records 5 us apart
+    np.testing.assert_allclose(impulse, gained, atol=1e-3 * np.abs(gained).max())

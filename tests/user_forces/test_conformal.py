@@ -21,7 +21,7 @@ from user_forces import (
     internal_contact_stiffness,
     line_contact,
 )
-from user_forces.conformal import relative_depth, relative_load, relative_pressure
+from user_forces.conformal import LINE_CONTACT, relative_depth, relative_load, relative_pressure
 
 STEEL_206 = Material(name="steel", elastic_modulus=2.06e11, poisson_ratio=0.3, density=7850.0)
 MODULUS = effective_modulus(STEEL_206, STEEL_206)
@@ -121,3 +121,14 @@ def test_no_force_presses_nothing_and_too_much_is_refused() -> None:
     assert line_contact(PIN, LENGTH, MODULUS, 1e-12).depth == 0.0
     with pytest.raises(InputError, match="force = 1e"):
         line_contact(PIN, LENGTH, MODULUS, 1e11)
+
+
+def test_the_rule_is_where_the_loads_of_hertz_and_persson_part_by_2_percent() -> None:
+    hertz = math.pi * LINE_CONTACT**2 / 8.0
+    assert float(relative_load(np.array(LINE_CONTACT))) / hertz == pytest.approx(1.0, abs=0.02)
+    assert float(relative_load(np.array(1.1 * LINE_CONTACT))) / hertz / 1.21 > 1.0199
+    near, far = (
+        line_contact(PIN, LENGTH, MODULUS, 2.0 * MODULUS * PIN.clearance * LENGTH * float(relative_load(a)))
+        for a in (np.array(0.999 * LINE_CONTACT), np.array(1.001 * LINE_CONTACT))
+    )
+    assert (near.conformal, far.conformal) == (False, True)

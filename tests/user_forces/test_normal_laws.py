@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_ivp
 
 from tests.analytic import adams_step
 from tests.analytic import delivered_restitution as closed_form
@@ -362,3 +362,30 @@ def test_the_impact_function_is_that_of_adams(depth: float, rate: float, speed: 
 )
 def test_restitution_of_the_common_set_of_adams(mass: float, speed: float, e: float) -> None:
     assert law_rebound(COMMON, mass, speed) == pytest.approx(e, abs=5.1e-4)  # half of the last printed digit
+
+
+@settings(max_examples=often(10), deadline=None)
+@given(depth=st.floats(1e-6, 1e-3), n=st.floats(1.0, 3.0), mass=st.floats(0.5, 5e3), ratio=st.floats(0.02, 0.3))
+def test_small_vibrations_of_a_loaded_contact_decay_as_the_docstring_has_it(
+    depth: float, n: float, mass: float, ratio: float
+) -> None:
+    """Two following largest depths have the ratio exp(2 pi zeta / sqrt(1 - zeta^2)), by scipy."""
+    law = power_law(Exact, exponent=n)
+    load = law.elastic_force(depth)
+    frequency = math.sqrt(n * load / depth / mass)
+    rest = law.damping_factor * frequency * depth / (2.0 * n * ratio)
+    law, amplitude = power_law(Exact, exponent=n, rest_velocity=rest), 1e-5 * depth
+
+    def motion(_: float, y: np.ndarray) -> list[float]:
+        force = law(depth + amplitude * y[0], amplitude * y[1] * frequency, 0.0)
+        return [y[1], (load - force) / (mass * amplitude * frequency**2)]
+
+    def turning(_: float, y: np.ndarray) -> float:
+        return float(y[1])
+
+    turning.direction = -1.0  # type: ignore[attr-defined]
+    found = solve_ivp(motion, (0.0, 20.0), [0.0, 1.0], "DOP853", events=turning, rtol=1e-9, atol=1e-11)
+    first, second = (float(y[0]) for y in found.y_events[0][:2])
+    decrement = math.log(first / second)
+    # swings of 1e-5 of the depth are unequal by about as much, against a logarithm of 0.1 or more
+    assert decrement / math.hypot(2.0 * math.pi, decrement) == pytest.approx(ratio, rel=1e-3)

@@ -143,3 +143,13 @@ def test_a_piston_at_the_end_of_its_cylinder_stops_the_run() -> None:
     cylinder = opened(SuddenOpening(start=0.0, end=0.4), rod_side_length=0.05)
     with pytest.raises(SimulationError, match=r"leg0 is extended by 0\.05.*allowed: -0\.5 to 0\.05 m"):
         lift(cylinder, duration=0.5)
+
+
+@pytest.mark.parametrize(
+    ("bore", "length", "published"), [(0.4, 3.0, 16.8), (0.5, 3.0, 26.2), (0.5, 3.55, 22.2), (0.6, 4.5, 25.1)]
+)
+def test_the_published_stiffness_of_four_shields_follows_from_one_bulk_modulus(
+    bore: float, length: float, published: float
+) -> None:
+    legs = OilColumn(bore_area=bore_area(bore, number=2), oil_length=length, bulk_modulus=1.96e9)
+    assert legs.stiffness(0.0) / (1e3 * 9.81 / 1e-3) == pytest.approx(published, rel=5e-3)  # t/mm
