@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from scipy.special import gamma, lambertw
+from scipy.special import lambertw
 
 
 def adams_step(x: float, x0: float, h0: float, x1: float, h1: float) -> float:
@@ -35,28 +35,6 @@ def delivered_restitution(damping: float) -> float:
         return 1.0
     argument = -(1.0 + damping) * math.exp(-(1.0 + damping))
     return (1.0 + float(lambertw(argument).real)) / damping
-
-
-def reduced_mass(one: float, two: float) -> float:
-    """Mass that moves as the distance of two free bodies does."""
-    return one * two / (one + two)
-
-
-def greatest_depth(stiffness: float, exponent: float, mass: float, speed: float) -> float:
-    """Greatest depth of an elastic impact: m v^2 / 2 = K depth^(n+1) / (n+1).
-
-    Source: Johnson, Contact Mechanics (1985), section 11.4, for n = 1.5.
-    """
-    return ((exponent + 1.0) * mass * speed**2 / (2.0 * stiffness)) ** (1.0 / (exponent + 1.0))
-
-
-def contact_time(depth: float, exponent: float, speed: float) -> float:
-    """Duration of an elastic impact of this greatest depth; 2.94 depth/speed for n = 1.5.
-
-    Source: Johnson, Contact Mechanics (1985), section 11.4: twice the integral of d(depth)/rate, for any n.
-    """
-    part = 1.0 / (exponent + 1.0)
-    return float(2.0 * depth / speed * math.sqrt(math.pi) * gamma(1.0 + part) / gamma(0.5 + part))
 
 
 def sphere_stiffness(

@@ -87,24 +87,7 @@ def tried(name: str) -> Callable[[Any], Any]:
 # --- extreme data ---
 
 EXTREMES: tuple[float, ...] = (
-    *(
-        0.0,
-        -0.0,
-        5e-324,
-        -5e-324,
-        2.2e-308,
-        1e-300,
-        1e-30,
-        1e-17,
-        1e-9,
-        1.0,
-        -1.0,
-        1e9,
-        1e17,
-        1e30,
-        1e31,
-        1e154,
-    ),
+    *(0.0, -0.0, 5e-324, -5e-324, 2.2e-308, 1e-300, 1e-30, 1e-9, 1.0, -1.0, 1e9, 1e17, 1e30, 1e154),
     *(1e300, -1e300, 1.7976931348623157e308, math.nan, math.inf, -math.inf),
 )
 # plain data, as a file may hold
@@ -112,17 +95,7 @@ SCRAPS: tuple[Any, ...] = (
     *EXTREMES,
     *(0, 1, -1, 2, 3, 10**20, 10**400, -(10**400), True, False, None),
     *("", "0.1", "nan", "type", "x" * 10000, "\x00", "\ud800", "ground", "self", "*", "[", "draft", "\n\n"),
-    *(
-        [],
-        {},
-        [0.0],
-        [1.0, 2.0],
-        [1.0, 2.0, 3.0],
-        [[]],
-        {"type": "Held"},
-        {"type": "Drive"},
-        {"a": {"type": 3}},
-    ),
+    *([], {}, [1.0, 2.0], [1.0, 2.0, 3.0], [[]], {"type": "Held"}, {"type": "Drive"}, {"a": {"type": 3}}),
     *({"type": "Steady", "rate": 1e300}, {"type": "NormalLaw"}, {"type": "Stroke"}, {"type": "PowerLaw"}),
     *({"type": "ActuatorModel"}, {"type": ""}, {"type": None}, {"type": []}, {"type": "Scenario"}),
 )
@@ -228,19 +201,7 @@ def examples_of(kind: type) -> tuple[Value, ...]:
     return tuple(found)
 
 
-NAMES = (
-    "ground",
-    "rear_base",
-    "pin",
-    "slider_pin",
-    "front_column",
-    "canopy",
-    "crank",
-    "tail_beam",
-    "a",
-    "type",
-    "",
-)
+NAMES = ("ground", "rear_base", "pin", "slider_pin", "front_column", "canopy", "crank", "a", "type", "")
 names = st.sampled_from(NAMES) | st.text(max_size=4)
 
 
@@ -438,15 +399,6 @@ def mangled(draw: st.DrawFn, texts: st.SearchStrategy[str]) -> str:
 def data_of(seed: Value) -> Any:
     """Plain data, as they come out of a file."""
     return json.loads(json.dumps(seed.to_data()))
-
-
-@cache
-def seed_data() -> tuple[Any, ...]:
-    """Data of all `seeds`."""
-    return tuple(data_of(seed) for seed in seeds())
-
-
-seed_trees = st.deferred(lambda: one_of(seed_data()))
 
 
 @cache

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import shutil
 from pathlib import Path
 
 import h5py
@@ -127,8 +126,3 @@ def matlab_files() -> dict[str, bytes]:
     return {
         "v4.mat": matlab("4"), "v5.mat": matlab("5"), "v7.mat": matlab("5", True), "v73.mat": matlab_73(),
     }  # fmt: skip
-
-
-def copied(name: str, folder: Path) -> Path:
-    """A copy of a file of the data in a folder."""
-    return Path(shutil.copy(DATA / name, folder / name))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from studies.common.paper_machine import oil_columns
-from support_exudyn import ClearancePin, Held, IdealPin, Scenario, reference_support, simulate
+from support_exudyn import ClearancePin, Held, Scenario, reference_support, simulate
 from tests.cases.run_cases import FORCE, PIN, paper_contact, support
 
 CLEARANCE = 1.5e-3  # [m]
@@ -75,26 +75,9 @@ def test_the_compiled_formulation_and_space_start_and_go_on_alike(bore: str, ove
             assert other[name][0] == pytest.approx(flat[name][0], abs=1e-11)
 
 
-@BORES
-def test_a_journal_that_touches_without_speed_has_no_impact(bore: str) -> None:
-    resting = simulate(eccentric(0.0, sense(bore) * CLEARANCE, bore, duration=0.01))
-    assert resting.onsets[PIN] == ()
-    # it sinks in under the weight, at most twice as deep as at rest; a fall through the clearance is 8 times
-    fallen = simulate(eccentric(0.0, 0.0, bore, duration=0.03))
-    assert resting.largest_force[PIN] < 0.4 * fallen.largest_force[PIN]
-    assert resting[FORCE].max() > 0.0
-
-
 # --- any pin ---
 
 PINS = tuple(reference_support().linkage().pins)
-
-
-def test_an_ideal_pin_is_the_default() -> None:
-    said = simulate(support(duration=0.05, drive=Held(), pins=dict.fromkeys(PINS, IdealPin())))
-    unsaid = simulate(support(duration=0.05, drive=Held()))
-    for name in PINS:
-        np.testing.assert_array_equal(said[f"pin.{name}.force"], unsaid[f"pin.{name}.force"])
 
 
 @pytest.mark.parametrize("name", PINS)

@@ -102,7 +102,7 @@ def with_lugre() -> dict[str, Any]:
 def loose_everywhere() -> Scenario:
     """The slider-crank with clearance in the guide and in two pins."""
     pin = ClearancePin.simple(clearance=2e-4, bore_radius=0.01, stiffness=1e8, restitution=0.6, friction=0.1)
-    scene = slider_crank(1e8, 0.006, Ambrosio(sliding_coefficient=0.2, dynamic_speed=0.05))
+    scene = slider_crank(1e8, 0.004, Ambrosio(sliding_coefficient=0.2, dynamic_speed=0.05))
     return replace(scene, pins={"slider_pin": pin, "crank_pin": pin})
 
 

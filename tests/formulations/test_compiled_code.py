@@ -5,7 +5,6 @@ from __future__ import annotations
 import inspect
 import os
 import pickle
-import sys
 from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any
@@ -63,19 +62,6 @@ def test_a_function_that_another_process_compiles_is_waited_for(
         assert found.result() == 42.0
     assert other(21.0) == 42.0
     assert (dispatcher.stats.cache_hits, other.stats.cache_hits) == ({}, {(numba.types.float64,): 1})
-
-
-@pytest.mark.parametrize("at_terminal", [True, False])
-def test_the_compiling_is_told_at_a_terminal_and_elsewhere(
-    at_terminal: bool,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    monkeypatch.setattr(sys.stderr, "isatty", lambda: at_terminal)
-    compilation._tell.__wrapped__("support_exudyn.formulations.compiled.integrate")
-    assert capsys.readouterr().err.startswith("compiling (compiled), once on this machine: about ")
-    compilation._tell.__wrapped__("__main__")
-    assert capsys.readouterr().err == ""
 
 
 def test_every_compiled_function_is_in_the_stamp() -> None:

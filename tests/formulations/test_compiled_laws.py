@@ -67,10 +67,10 @@ def test_normal_laws(law: NormalLaw) -> None:
     check(drop(normal=law))
 
 
-@pytest.mark.parametrize("bore", ["first", "second"])
 @pytest.mark.parametrize("law", STATELESS_FRICTION, ids=kind_of)
-def test_friction_laws(law: FrictionLaw, bore: str) -> None:
-    check(drop(bore, friction=law))
+def test_friction_laws(law: FrictionLaw) -> None:
+    # every other of them with the bore in the link
+    check(drop("second" if STATELESS_FRICTION.index(law) % 2 else "first", friction=law))
 
 
 def test_a_cut_of_tension_is_met_once() -> None:

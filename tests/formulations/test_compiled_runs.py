@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import multiprocessing
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
@@ -28,8 +27,6 @@ from user_forces import (
     Hertz,
     JournalBearing,
     JournalContact,
-    LankaraniNikravesh,
-    NormalLaw,
     value,
 )
 
@@ -45,30 +42,6 @@ def scene(pin: ClearancePin | None = None, **changes: Any) -> Scenario:
 def hertz(stiffness: float) -> ClearancePin:
     bearing = JournalBearing(bore_radius=0.0655, clearance=0.0015)
     return ClearancePin(contact=JournalContact(bearing=bearing, normal=Hertz(stiffness=stiffness)))
-
-
-@value
-class Softened(LankaraniNikravesh):
-    """A law whose force is no longer that of its family."""
-
-    @staticmethod
-    def elastic(depth: float, stiffness: float, exponent: float) -> float:
-        return 0.5 * stiffness * depth**exponent
-
-    @staticmethod
-    def energy(depth: float, stiffness: float, exponent: float) -> float:
-        return 0.5 * stiffness / (exponent + 1.0) * depth ** (exponent + 1.0)
-
-
-def pin_with(law: NormalLaw) -> ClearancePin:
-    return ClearancePin(contact=replace(contact(), normal=law))
-
-
-def test_a_changed_law_is_not_taken_for_one_of_its_family() -> None:
-    softened = simulate_compiled(scene(pin_with(Softened(stiffness=1e10, restitution=0.5))))
-    original = simulate_compiled(scene(pin_with(LankaraniNikravesh(stiffness=1e10, restitution=0.5))))
-    assert softened.counts.user_function_calls == original.counts.user_function_calls == 0
-    assert softened.largest_force[PIN] < 0.9 * original.largest_force[PIN]
 
 
 # --- failures ---
@@ -105,19 +78,6 @@ def test_a_support_that_falls_through_its_pin_is_refused() -> None:
     failure = caught.value.failure
     assert "deep in a bore of 65.5 mm radius" in failure.reason
     assert 0.5 < failure.time < 2.0  # a fall of metres
-
-
-def test_a_run_with_too_many_steps_is_given_up() -> None:
-    with pytest.raises(SimulationError, match="more than 10 steps") as caught:
-        simulate_compiled(scene(), most_steps=10)
-    assert 0.0 < caught.value.failure.time < 0.05
-
-
-def test_a_run_with_too_many_touches_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    module = importlib.import_module("support_exudyn.formulations.compiled.run")
-    monkeypatch.setattr(module, "MOST_IMPACTS", 1)
-    with pytest.raises(SimulationError, match="more than 1 impacts"):
-        simulate_compiled(scene(hertz(1e10), duration=0.3))
 
 
 @pytest.mark.parametrize(

@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import cache
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from support_exudyn import ClearancePin, Held, Result, Scenario, SolverSettings, simulate
+from support_exudyn import ClearancePin, Result, Scenario, SolverSettings, simulate
 from support_exudyn.formulations.exudyn.scene.scene_builder import build
-from tests.cases.run_cases import PIN, Pair, loose_support, paper_contact
-from tests.formulations.test_momentum import ONE, TWO, momenta
+from tests.cases.run_cases import PIN, Pair, loose_support
+from tests.formulations.test_momentum import ONE, TWO
 from tests.often import often
 from user_forces import (
     Ambrosio,
@@ -30,8 +30,6 @@ from user_forces import (
     SlotContact,
 )
 from user_forces.connector.attachment import SHARE, Attachment, attachment, compiled_kernel, connector_kernel
-from user_forces.connector.contact_connector import ContactConnector
-from user_forces.connector.user_function import ConnectorForce
 from user_forces.contact import Contact
 
 Bore = Literal["first", "second"]
@@ -129,19 +127,6 @@ def fly(law: JournalContact, bore: Bore) -> Result:
 
 
 @pytest.mark.parametrize("bore", ["first", "second"])
-@pytest.mark.parametrize("friction", [Frictionless(), BRISTLES])
-def test_momentum_is_kept_on_both_centres_and_in_the_middle(friction: FrictionLaw, bore: Bore) -> None:
-    result = fly(contact(friction), bore)
-    assert len(result.onsets["pin"]) >= 3  # else the test says nothing
-    assert result["one.angular_velocity"].std() > 0.1
-    linear, angular = momenta(result, ONE, TWO)
-    # rounding of some thousand steps
-    np.testing.assert_allclose(linear, np.broadcast_to(linear[0], linear.shape), atol=1e-12)
-    # what is left is the integrator's, and falls with the square of its steps
-    np.testing.assert_allclose(angular, angular[0], rtol=1e-6 if friction == Frictionless() else 1e-5)
-
-
-@pytest.mark.parametrize("bore", ["first", "second"])
 def test_two_free_bodies_move_alike_on_every_connector(bore: Bore) -> None:
     lean, full = (fly(contact(friction), bore) for friction in (Frictionless(), NEARLY))
     one, two = lean.onsets["pin"], full.onsets["pin"]
@@ -151,22 +136,6 @@ def test_two_free_bodies_move_alike_on_every_connector(bore: Bore) -> None:
     assert [impact.speed for impact in one] == pytest.approx([impact.speed for impact in two], rel=1e-6)
     for name in ("one.x", "two.angle", "one.angular_velocity"):
         np.testing.assert_allclose(lean[name], full[name], rtol=1e-7, atol=1e-9)
-
-
-@pytest.mark.parametrize("bore", ["first", "second"])
-def test_the_support_moves_alike_on_every_connector(bore: Bore) -> None:
-    def impacts(friction: FrictionLaw) -> list[tuple[float, float]]:
-        law = replace(paper_contact(1.5, 0.0), friction=friction)
-        pins = {PIN: ClearancePin(contact=law, bore=bore)}
-        result = simulate(
-            replace(loose_support(duration=0.08, solver=SolverSettings(impact_steps=64)), pins=pins)
-        )
-        return [tuple(impact) for impact in result.onsets[PIN]]
-
-    expected = impacts(Frictionless())
-    assert len(expected) == 3
-    # Newton's tolerance of 1e-8, magnified tenfold by each impact
-    np.testing.assert_allclose(impacts(NEARLY), expected, rtol=1e-5)
 
 
 def test_memory_is_that_of_the_last_step_that_stands() -> None:
@@ -182,51 +151,3 @@ def test_memory_is_that_of_the_last_step_that_stands() -> None:
     assert pin.memory == kept
     assert not pin.wants_cut
     assert pin.landing < 1e-3
-
-
-SUPPORT = loose_support(1.5, 0.25, drive=Held(), duration=0.04, solver=SolverSettings(impact_steps=64))
-FLIGHT = Scenario(
-    machine=Pair(one=ONE, two=TWO, one_point=(0.2, 0.25), two_point=(0.2, 0.25)),
-    pins={"pin": ClearancePin(contact=contact(BRISTLES))},
-    duration=0.01,
-    step=1e-4,
-    gravity=(0.0, 0.0),
-)
-
-
-@pytest.mark.parametrize(
-    ("scenario", "choice"),
-    [
-        (SUPPORT, {}),
-        (SUPPORT, {"newton": "full"}),
-        (SUPPORT, {"newton_tolerance": 1e-4}),
-        (replace(SUPPORT, pins={PIN: ClearancePin(contact=paper_contact(1.5, 0.25), bore="second")}), {}),
-        (FLIGHT, {}),
-    ],
-    ids=str,
-)
-def test_the_motion_handed_over_last_is_that_of_the_markers_at_the_end_of_the_step(
-    scenario: Scenario, choice: dict[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    call, after_newton = ConnectorForce.__call__, ContactConnector.after_newton
-    handed: dict[int, tuple[Any, ...]] = {}
-    wrong: list[float] = []
-
-    def called(self: ConnectorForce, mbs: Any, t: float, item: int, *motion: Any) -> list[float]:
-        handed[id(self)] = motion
-        return call(self, mbs, t, item, *motion)
-
-    def checked(self: ContactConnector, t: float) -> float | None:
-        d, rotation, v, spin, *_ = handed[id(self.user_function)]
-        found = self.item.relative()
-        wrong.append(float(np.abs(np.subtract(d, found.displacement)).max()))
-        wrong.append(float(np.abs(np.subtract(v, found.velocity)).max()))
-        wrong.extend((abs(rotation[2] - found.turn), abs(spin[2] - found.turning)))
-        return after_newton(self, t)
-
-    monkeypatch.setattr(ConnectorForce, "__call__", called)
-    monkeypatch.setattr(ContactConnector, "after_newton", checked)
-    simulate(replace(scenario, solver=replace(scenario.solver, **choice)))
-    assert len(wrong) > 300
-    # rounding of positions and speeds of some metres
-    assert max(wrong) < 1e-12

@@ -224,15 +224,6 @@ def test_a_cut_and_a_parting_in_one_step_are_told_apart_by_shorter_ones() -> Non
 # --- at the ends of steps ---
 
 
-@pytest.mark.parametrize("middle", [0.04, 0.06, 0.09])
-def test_what_is_over_within_a_step_is_seen(middle: float) -> None:
-    # a parabola that passes zero 0.03 s on either side of its middle, in a step of an eighth of a second
-    out = 10.0 * DEPTH * Polynomial([middle**2 - 9e-4, -2.0 * middle, 1.0])
-    when = pytest.approx(middle - 0.03, abs=1e-12)
-    assert find(Course(out, closed=True), 0.0, 0.125) == (SEPARATION, when)
-    assert find(Course(-out, closed=False), 0.0, 0.125) == (IMPACT, when)
-
-
 @pytest.mark.parametrize(
     ("closed", "size", "bend"),
     [(True, 1.0, 0.03), (True, 1.0, -0.03), (False, -0.1, 0.02), (False, -0.1, -0.02)],
@@ -278,15 +269,3 @@ def test_what_has_just_been_met_is_not_met_again() -> None:
     assert find(Course(Polynomial([-rounding, 1e-3, -1e-3]), closed=True), 0.0, 0.1)[0] == NOTHING
     # just separated, a little after it, on the way out
     assert find(Course(Polynomial([rounding, -1e-3, 1e-4]), closed=False), 0.0, 0.1)[0] == NOTHING
-
-
-@pytest.mark.parametrize("happens", [True, False])
-def test_what_nearly_happens_is_told_from_what_does(happens: bool) -> None:
-    t = Polynomial([-0.47, 1.0])
-    # a flight whose top passes the wall by a ten-thousandth of its height, or stays below by as much
-    for width in (0.25, 0.4):
-        top = (1e-4 if happens else -1e-4) - (t / width) ** 2 - 0.05 * (t / width) ** 4
-        assert driven(Course(DEPTH * top, closed=False))[0][0] == (IMPACT if happens else NOTHING)
-    # a contact that parts by a thousandth of its depth, or nearly
-    bottom = (-1e-3 if happens else 1e-3) + (t / 0.3) ** 2 + 0.3 * (t / 0.3) ** 3
-    assert driven(Course(DEPTH * bottom, closed=True))[0][0] == (SEPARATION if happens else NOTHING)

@@ -25,11 +25,7 @@ FORMULATIONS = ("exudyn", "compiled")
 EXACT = SolverSettings(tolerance=1e-9)  # of the compiled formulation
 # support on oil: what the paper's machine has, and a soft rock
 ON_OIL = paper_machine.oil_columns()
-PLACES = {
-    "tip": reference_support().start().tip,
-    "middle": OVER_THE_COLUMNS,
-    "rear": reference_support().start().hinge,
-}
+TIP = reference_support().start().tip
 
 
 def block(**changes: object) -> FallingBlock:
@@ -54,8 +50,10 @@ def weightless(rock: FallingBlock, **changes: object) -> Scenario:
 # --- on what stands still ---
 
 
-@pytest.mark.parametrize(("exponent", "stiffness"), [(1.0, 1e8), (1.5, 1e9), (2.2, 3e10)])
-@pytest.mark.parametrize("restitution", [0.1, 0.5, 1.0])
+@pytest.mark.parametrize(
+    ("exponent", "stiffness", "restitution"),
+    [(1.0, 1e8, 0.5), (1.5, 1e9, 0.1), (1.5, 1e9, 1.0), (2.2, 3e10, 0.5)],
+)
 @pytest.mark.parametrize(("formulation", "share"), [("exudyn", 2e-5), ("compiled", 1e-9)])
 def test_a_blow_gives_back_what_was_asked(
     formulation: str, share: float, restitution: float, exponent: float, stiffness: float
@@ -169,10 +167,9 @@ def test_momentum_and_energy_balance_where_two_move(formulation: str) -> None:
     assert result.energy_error < 1e-4 * lost
 
 
-@pytest.mark.parametrize("place", PLACES)
-def test_on_the_support_energies_add_up_and_half_the_steps_give_the_same(place: str) -> None:
+def test_on_the_support_energies_add_up_and_half_the_steps_give_the_same() -> None:
     solver = SolverSettings(impact_steps=128)
-    scene = on_the_held(block(point=PLACES[place]), actuators=ON_OIL, duration=0.4, solver=solver)
+    scene = on_the_held(block(point=TIP), actuators=ON_OIL, duration=0.4, solver=solver)
     coarse, fine = simulate(scene), simulate(scene.refined())
     assert fine.energy_error < 2e-3 * MASS * G * HEIGHT  # second order
     for channel in ("rock.force", "front_column.force", "pin.rear_base.force"):

@@ -13,8 +13,6 @@ from hypothesis import strategies as st
 
 from support_exudyn import (
     Body,
-    Crank,
-    Held,
     Linkage,
     Machine,
     Result,
@@ -23,9 +21,7 @@ from support_exudyn import (
     SolverSettings,
     simulate,
 )
-from support_exudyn.model.guides import ClearanceGuide, IdealGuide
-from support_exudyn.model.linkage import GROUND, pinned
-from support_exudyn.scenario.timescales import loaded_contacts
+from support_exudyn.model.guides import ClearanceGuide
 from tests.cases.guide_cases import (
     BLOCK,
     GAP,
@@ -41,7 +37,6 @@ from tests.metamorphic.same import run, scenes, told
 from user_forces import (
     Ambrosio,
     Exact,
-    Flores,
     Frictionless,
     HuntCrossley,
     InputError,
@@ -91,8 +86,8 @@ def end(result: Result) -> np.ndarray:
 def test_a_slider_between_walls_moves_as_by_scipy(sliding: float, formulation: str) -> None:
     friction = Ambrosio(sliding_coefficient=sliding) if sliding else Frictionless()
     other = slider_crank_by_scipy(1e9, friction if isinstance(friction, Ambrosio) else None)
-    state = other.run((0.0, 0.0, 0.0), (150.0, -75.0, 0.0), 0.01)
-    scene = slider_crank(1e9, 0.01, friction, step=2e-6, impact_steps=512)
+    state = other.run((0.0, 0.0, 0.0), (150.0, -75.0, 0.0), 0.007)
+    scene = slider_crank(1e9, 0.007, friction, step=2e-6, impact_steps=512)
     # the block's tilt hangs on how corners hit one after the other
     solver = replace(scene.solver, tolerance=1e-11)
     result = simulate(replace(scene, formulation=formulation, solver=solver))
@@ -205,9 +200,7 @@ class Block(Machine):
     "law",
     [
         Exact(stiffness=1e10, restitution=0.4),
-        Exact(stiffness=1e10, restitution=0.9),
         LankaraniNikravesh(stiffness=1e10, restitution=0.8),
-        Flores(stiffness=1e10, restitution=0.5),
         HuntCrossley(stiffness=1e10, restitution=0.7, rest_velocity=1e-3),
     ],
     ids=lambda law: type(law).__name__,
@@ -344,44 +337,6 @@ def test_channels_are_those_of_the_corners() -> None:
 
 
 # --- at rest, and what is refused ---
-
-
-@value
-class HeldSlider(Machine):
-    """A rod on a crank that is held, whose other end is a heavy block in a level guide."""
-
-    def linkage(self) -> Linkage:
-        return Linkage(
-            bodies={
-                "crank": Body(mass=1.0, inertia=0.01, centre=(0.0, 0.05), angle=0.5 * math.pi),
-                "rod": Body(mass=1.0, inertia=0.01, centre=(0.2, 0.05), angle=-0.25),
-                "block": Body(mass=5.0, inertia=0.02, centre=(0.42, 0.0)),
-            },
-            pins={
-                "main": pinned(GROUND, "crank", (0.0, 0.0)),
-                "crank_pin": pinned("crank", "rod", (0.0, 0.1)),
-                "slider_pin": pinned("rod", "block", (0.4, 0.0)),
-            },
-            cranks={"crank": Crank(body="crank")},
-            slides={"guide": Slide(body="block", point=(0.42, 0.0))},
-        )
-
-
-def test_a_settled_block_lies_on_its_wall() -> None:
-    guide = ClearanceGuide.simple(gaps=5e-4, block=(0.12, 0.06), stiffness=1e9)
-    scene = Scenario(
-        machine=HeldSlider(), guides={"guide": guide}, drive=Held(), start="settled", duration=0.01, step=1e-4,
-        record_period=1e-3,
-    )  # fmt: skip
-    result = simulate(scene)
-    ideal = simulate(replace(scene, guides={"guide": IdealGuide()}))
-    # the weight of the block and half of that of the rod, with which the rod's end also moves a little aside
-    assert result["guide.guide.force"] == pytest.approx(ideal["guide.force"][0] * np.ones(11), rel=1e-2)
-    assert np.abs(result["block.velocity_y"]).max() < 1e-6
-    assert result["guide.guide.gap_upper"] == pytest.approx(1e-3 * np.ones(11), abs=2e-5)
-    assert (result["guide.guide.gap_lower"] < 0.0).all()
-    loads = {one.pin: one.load for one in loaded_contacts(scene)}
-    assert sum(loads.values()) >= 2.0 * ideal["guide.force"][0] * 0.999
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.2])

@@ -84,7 +84,7 @@ def lost_power(t: float, pin: float, guide: float) -> float:
 
 
 @both
-@pytest.mark.parametrize(("pin", "guide"), [(MU, 0.0), (0.0, MU), (MU, MU)])
+@pytest.mark.parametrize(("pin", "guide"), [(MU, 0.0), (MU, MU)])
 def test_a_slider_crank_loses_what_its_joint_forces_say(way: str, pin: float, guide: float) -> None:
     pins = {"B": IdealPin(friction=Ambrosio(sliding_coefficient=pin), radius=RADIUS)} if pin else {}
     guides: dict[str, Guide] = {"g": IdealGuide(friction=DRY)} if guide else {}
@@ -120,7 +120,7 @@ def test_a_block_that_is_pulled_beside_its_guide_is_braked_by_the_moment(way: st
     scene = Scenario(
         machine=Sled(),
         gravity=(0.0, -weight),
-        duration=0.2,
+        duration=0.1,
         record_period=0.01,
         guides={"g": IdealGuide(friction=DRY, block=BLOCK)},
         loads={"pull": AppliedForce(body="sled", point=(0.0, high), full_force=(force, 0.0))},
@@ -177,16 +177,6 @@ def test_a_pin_in_a_slot_rubs_and_rolls_alike_in_both_formulations() -> None:
     assert fast["energy.friction_loss"][-1] == pytest.approx(slow["energy.friction_loss"][-1], rel=1e-5)
     np.testing.assert_allclose(fast["slot.friction_force"], slow["slot.friction_force"], atol=1e-3)
     assert fast.energy_error < 1e-6 * fast["energy.friction_loss"][-1]
-
-
-@pytest.mark.parametrize("law", [DRY, STICKING])
-def test_a_block_with_a_rubbing_pin_is_alike_in_both_formulations(law: FrictionLaw) -> None:
-    guides: dict[str, Guide] = {"g": IdealGuide(friction=law, block=(0.06, 0.06))}
-    pins = {"B": IdealPin(friction=law, radius=0.02)}
-    scene = Scenario(machine=Crankshaft(), drive=Steady(rate=OMEGA), duration=0.1, pins=pins, guides=guides)
-    fast, slow = (way(scene) for way in WAYS.values())
-    # at dead centres the slip passes the ramp within a step of the Exudyn formulation
-    assert fast["energy.friction_loss"][-1] == pytest.approx(slow["energy.friction_loss"][-1], rel=2e-4)
 
 
 def test_a_guide_that_jams_is_refused_with_its_name() -> None:

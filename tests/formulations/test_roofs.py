@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -20,12 +19,10 @@ from support_exudyn import (
     Scenario,
     SolverSettings,
     SpringDamper,
-    reference_support,
     simulate,
 )
 from support_exudyn.model.linkage import pinned
-from support_exudyn.model.loads.load import ActingLoad
-from tests.roof_cases import DAMPED, MASS, OVER_THE_COLUMNS, TOP, Ram
+from tests.roof_cases import MASS, OVER_THE_COLUMNS, TOP, Ram
 from user_forces import value
 
 EXACT = SolverSettings(tolerance=1e-9)
@@ -85,35 +82,6 @@ def test_a_bedding_is_the_integral_over_its_stretch(formulation: str, share: flo
     assert result.energy_error < 1e-4 * turned
     if damping > 0.0:
         assert result["energy.damping_loss"][-1] > 1e-3 * turned
-
-
-def over_the_canopy(load: ActingLoad | dict[str, ActingLoad], **changes: object) -> Scenario:
-    fields: dict[str, object] = {
-        "machine": reference_support(), "loads": load if isinstance(load, dict) else {"roof": load},
-        "duration": 0.15, "actuators": DAMPED, "start": "settled",
-        "step": 2.5e-4, "record_period": 1e-3,
-    }  # fmt: skip
-    return Scenario(**fields | changes)
-
-
-def on_the_canopy(**changes: object) -> BeddedRoof:
-    x, y = OVER_THE_COLUMNS
-    fields: dict[str, object] = {
-        "body": "canopy", "points": ((x - 0.6, y), (x + 1.4, y)), "bedding": 5e8, "gaps": (0.001, 0.003),
-        "descent": CubicStep(stroke=0.006, start=0.0, end=0.1),
-    }  # fmt: skip
-    return BeddedRoof(**fields | changes)
-
-
-@pytest.mark.parametrize("load", ["bedding", "linear", "smooth"])
-def test_kinks_of_the_force_cost_no_accuracy(load: str) -> None:
-    # by where the point is, so that nothing tells when: two tolerances of the method with error control
-    roof = on_the_canopy(damping=1.0) if load == "bedding" else reaction(body="canopy", between=load)
-    scene = over_the_canopy(roof, formulation="compiled")
-    rough, fine = (
-        simulate(replace(scene, solver=SolverSettings(tolerance=t)))["front_column.force"] for t in (1e-6, 1e-9)
-    )
-    np.testing.assert_allclose(rough / fine.max(), fine / fine.max(), atol=1e-5)
 
 
 # --- a reaction curve ---

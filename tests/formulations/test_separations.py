@@ -17,14 +17,12 @@ from support_exudyn import (
     simulate,
 )
 from support_exudyn.model.spatial_linkage import Bearing, SpatialBody, SpatialLinkage
-from tests.analytic import delivered_restitution
 from tests.cases.run_cases import PIN, loose_support
 from tests.cases.spatial_cases import LENGTH, InSpace, contact
 from tests.user_forces.test_restitution import scenario
 from user_forces import LankaraniNikravesh
 
 LAW = LankaraniNikravesh(stiffness=1e8, restitution=0.7)
-DELIVERED = delivered_restitution(LAW.damping_factor)
 SPEED = 0.2  # [m/s], of the approach
 
 
@@ -50,15 +48,6 @@ def test_the_time_of_a_parting_is_that_of_the_records() -> None:
     assert only(result).separation_time == pytest.approx(
         seen_parting(result, "pin.pin.depth"), abs=1e-4 * length
     )
-
-
-def test_a_contact_that_has_not_parted_has_no_end() -> None:
-    tried = replace(scenario(LAW), step=scenario(LAW).duration / 2000)
-    ended = only(simulate(tried))
-    middle = 0.5 * (ended.time + ended.separation_time)
-    onset = only(simulate(replace(tried, duration=middle, record_period=middle)))
-    assert onset[:2] == pytest.approx(ended[:2], rel=1e-6)  # the last step is of another length
-    assert (onset.separation_time, onset.separation_velocity) == (math.inf, 0.0)
 
 
 # --- formulations ---

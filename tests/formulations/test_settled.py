@@ -81,15 +81,6 @@ def test_what_presses_later_has_no_part_in_the_start(kind: str) -> None:
         np.testing.assert_allclose(pressed[name], still[name], rtol=1e-6, err_msg=name)
 
 
-def test_what_presses_from_the_start_on_is_settled_under() -> None:
-    at = reference_support().linkage().points["tip"]
-    push = AppliedForce(body=at.body, point=at.point, full_force=(0.0, -1e4))
-    result = simulate(settled(actuators=oil_columns(), duration=0.02, loads={"push": push}))
-    assert np.abs(result["canopy.angular_velocity"]).max() < 1e-8
-    light = simulate(settled(actuators=oil_columns(), duration=0.02))
-    assert result["front_column.force"][0] > light["front_column.force"][0] + 1e4  # it is a lever
-
-
 # --- pins as stiff as steel ---
 
 WEIGHT_ON_PIN = 58.98e3  # of the reference support in its start posture [N]

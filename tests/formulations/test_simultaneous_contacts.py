@@ -26,7 +26,6 @@ from user_forces import Exact, HuGuo, JournalBearing, JournalContact, NormalLaw
 
 BEARING = JournalBearing(bore_radius=0.0655, clearance=3e-4)
 OF_WALLS = [law for law in NORMAL_LAWS if not hasattr(law, "bearing")]
-EVERY_LAW = pytest.mark.parametrize("law", NORMAL_LAWS, ids=kind_of)
 
 
 def table(links: int, law: NormalLaw, duration: float = 0.03) -> Scenario:
@@ -59,9 +58,10 @@ def guided(law: NormalLaw, duration: float = 0.02) -> Scenario:
     )
 
 
-@pytest.mark.parametrize(("links", "mirror"), [(2, False), (3, True)])
-@EVERY_LAW
-def test_a_table_on_equal_links_does_not_turn(law: NormalLaw, links: int, mirror: bool) -> None:
+@pytest.mark.parametrize("law", NORMAL_LAWS, ids=kind_of)
+def test_a_table_on_equal_links_does_not_turn(law: NormalLaw) -> None:
+    mirror = NORMAL_LAWS.index(law) % 2 == 1  # every other law of three links, in a mirror
+    links = 3 if mirror else 2
     scenario = table(links, law)
     result = simulate_compiled(moved(scenario, MIRROR) if mirror else scenario, 1e-9)
     assert all(result.onsets[name] for name in scenario.pins)
@@ -73,9 +73,9 @@ def test_a_table_on_equal_links_does_not_turn(law: NormalLaw, links: int, mirror
         assert np.ptp(forces, axis=0).max() < 1e-2 * result.largest_force[f"{kind}0"]
 
 
-@pytest.mark.parametrize("mirror", [False, True])
 @pytest.mark.parametrize("law", OF_WALLS, ids=kind_of)
-def test_a_block_that_nothing_turns_keeps_its_angle(law: NormalLaw, mirror: bool) -> None:
+def test_a_block_that_nothing_turns_keeps_its_angle(law: NormalLaw) -> None:
+    mirror = OF_WALLS.index(law) % 2 == 1
     scenario = guided(law)
     result = simulate_compiled(moved(scenario, MIRROR) if mirror else scenario, 1e-10)
     sides = ("upper", "lower")
@@ -100,8 +100,8 @@ def measured(run: Result) -> np.ndarray:
 
 def test_a_block_has_one_limit_and_the_engines() -> None:
     scenario = guided(HuGuo(stiffness=1e9, restitution=0.3), 0.05)
-    *coarse, finest = limits(scenario, (1e-7, 1e-8, 1e-9, 1e-11))
-    for found, close in zip(coarse, (1e-5, 1e-6, 1e-7), strict=True):
+    *coarse, finest = limits(scenario, (1e-7, 1e-9, 1e-11))
+    for found, close in zip(coarse, (1e-5, 1e-7), strict=True):
         np.testing.assert_allclose(found, finest, rtol=0.0, atol=close * finest.max())
     solver = SolverSettings(impact_steps=256)
     theirs = simulate(replace(scenario, formulation="exudyn", step=2e-5, solver=solver))
@@ -110,9 +110,8 @@ def test_a_block_has_one_limit_and_the_engines() -> None:
     np.testing.assert_allclose(measured(theirs), finest, rtol=0.0, atol=1e-4 * finest.max())
 
 
-@pytest.mark.parametrize("links", [2, 3])
-def test_tables_have_one_limit_and_the_engines(links: int) -> None:
-    scenario = table(links, Exact(stiffness=1e9, restitution=0.6), 0.1)
+def test_a_table_has_one_limit_and_the_engines() -> None:
+    scenario = table(3, Exact(stiffness=1e9, restitution=0.6), 0.06)
     *coarse, finest = limits(scenario, (1e-6, 1e-8, 1e-10))
     for found, close in zip(coarse, (1e-4, 1e-6), strict=True):
         np.testing.assert_allclose(found, finest, rtol=0.0, atol=close * finest.max())

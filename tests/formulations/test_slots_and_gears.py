@@ -255,8 +255,7 @@ class Block(Machine):
         )
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.7])
-@pytest.mark.parametrize("direction", [0.0, 0.4, -1.2, 2.5])
+@pytest.mark.parametrize(("direction", "angle"), [(0.0, 0.0), (0.4, 0.7), (-1.2, 0.0), (2.5, 0.7)])
 def test_a_block_slides_down_an_incline_that_carries_it(direction: float, angle: float) -> None:
     slid = simulate(Scenario(machine=Block(direction=direction, angle=angle), duration=0.2))
     path = -0.5 * G * math.sin(direction) * slid.time**2

@@ -87,24 +87,6 @@ def test_a_body_on_the_ground_loses_what_the_audit_says(space: SpatialLinkage, b
     assert np.abs(context.balance).max() < 2e-3 * (context.kinetic[0] + context.stored[0]) + 1e-12
 
 
-@few
-@given(space=placements(), bore=bores, friction=st.sampled_from([0.0, 0.3]))
-def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
-    space: SpatialLinkage, bore: Bore, friction: float
-) -> None:
-    scene = scenario(space, bore, friction, by_depth=False)
-    context, _ = observed(replace(scene, duration=6e-3, record_period=RECORDS))
-    force = context.pins["pin"]
-    largest = np.abs(force).max()
-    assume(largest > 0.0)
-    # Newton's law: the impulse of the first on the second so far
-    velocity = context.motion.centre("two")[1]
-    gained = space.bodies["two"].mass * (velocity - velocity[0])
-    impulse = np.concatenate([np.zeros((1, 3)), np.cumsum(force[1:] + force[:-1], axis=0) * 0.5 * RECORDS])
-    # the error of the trapezoidal rule over records 5 us apart
-    np.testing.assert_allclose(impulse, gained, atol=1e-3 * np.abs(gained).max())
-
-
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_a_shift_along_the_bore_does_not_press_the_journal(friction: float) -> None:
     # a journal that slides along its bore by five clearances, in the middle of it
@@ -162,3 +144,21 @@ def test_an_impact_after_a_tilted_separation_is_seen() -> None:
     # by 80 steps an impact
     assert [impact.time for impact in impacts] == pytest.approx([3.1562e-4, 1.94384e-3, 3.50604e-3], rel=2e-4)
     assert [impact.speed for impact in impacts] == pytest.approx([1.16599, 0.53749, 1.11403], rel=2e-4)
+
+
+@few
+@given(space=placements(), bore=bores, friction=st.sampled_from([0.0, 0.3]))
+def test_the_force_in_a_loose_bearing_is_what_accelerates_a_free_body(
+    space: SpatialLinkage, bore: Bore, friction: float
+) -> None:
+    scene = scenario(space, bore, friction, by_depth=False)
+    context, _ = observed(replace(scene, duration=6e-3, record_period=RECORDS))
+    force = context.pins["pin"]
+    largest = np.abs(force).max()
+    assume(largest > 0.0)
+    # Newton's law: the impulse of the first on the second so far
+    velocity = context.motion.centre("two")[1]
+    gained = space.bodies["two"].mass * (velocity - velocity[0])
+    impulse = np.concatenate([np.zeros((1, 3)), np.cumsum(force[1:] + force[:-1], axis=0) * 0.5 * RECORDS])
+    # the error of the trapezoidal rule over records 5 us apart
+    np.testing.assert_allclose(impulse, gained, atol=1e-3 * np.abs(gained).max())

@@ -18,12 +18,10 @@ from support_exudyn import (
     OwnBody,
     Result,
     Scenario,
-    SolverSettings,
     UniformSpeed,
-    cylinders_and_rods,
     simulate,
 )
-from tests.cases.run_cases import PIN, loose_support, paper_contact, support
+from tests.cases.run_cases import loose_support, paper_contact, support
 
 RISE = CubicStep(start=0.02, end=0.2, stroke=0.03)
 PLACES = (".z", ".roll", ".yaw")
@@ -39,20 +37,12 @@ CASES: dict[str, Scenario] = {
     "friction": loose_support(1.5, 0.25, drive=Held(), duration=0.1),
     "oil": loose_support(drive=RISE, duration=0.1, actuators=oil_columns()),
     "tail": support(drive=RISE, duration=0.1, actuators=oil_columns(), parts={"tail_beam": OwnBody(jack=JACK)}),
-    "bodies on oil": support(
-        drive=RISE, duration=0.1, actuators=cylinders_and_rods(oil_columns()["front_column"])
-    ),
     "uniform": support(drive=UniformSpeed(start=0.02, end=0.1, stroke=0.01), duration=0.15),
     "uniform, loose": loose_support(drive=UniformSpeed(start=0.02, end=0.1, stroke=0.01), duration=0.05),
     "settled": loose_support(drive=RISE, duration=0.05, start="settled"),
-    "bore in the link": support(
-        drive=Held(), duration=0.05, pins={PIN: ClearancePin(contact=paper_contact(1.5, 0.25), bore="second")}
-    ),
-    "several": support(drive=Held(), duration=0.04, pins=with_clearance(0.0, rear_base=1.0, rear_shield=1.5)),
     "both of a pair": support(
         drive=Held(), duration=0.03, pins=with_clearance(0.1, front_base=1.0, front_shield=1.5)
     ),
-    "three sections": loose_support(drive=Held(), duration=0.05, solver=SolverSettings(sections=3)),
 }
 
 

@@ -140,30 +140,6 @@ def test_energy_adds_up_while_a_body_tumbles(load: Load | MomentLoad) -> None:
     assert fine < 0.25 * coarse + 1e-9 * size  # second order of the step, no share that stays
 
 
-def test_a_spring_across_pulls_sideways() -> None:
-    # 0.3 m forward, 0.4 m to the left: k (l - l0) along it
-    spring = SpringDamper(
-        body="a", point=(0.0, 0.0), other_point=(0.3, 0.0), other_lateral=-0.4, stiffness=100.0
-    )
-    t = 1e-3
-    result = simulate(flight(spring, duration=t, step=1e-4, record_period=t))
-    assert result["load.length"][0] == pytest.approx(0.5)
-    assert result["load.force"][0] == pytest.approx(-50.0)
-    got = [result[f"a.velocity_{axis}"][-1] for axis in "xyz"]
-    np.testing.assert_allclose(got, [30.0 / MASS * t, 0.0, -40.0 / MASS * t], rtol=1e-4, atol=1e-12)
-
-
-def test_turns_beyond_half_a_turn_are_counted() -> None:
-    # J a'' = -k a: thrown round by more than a turn
-    spring = TorsionSpring(body="a", stiffness=1e-3)
-    result = simulate(flight(spring, free((0.0, 0.0, 60.0)), duration=0.2, step=1e-3))
-    w = math.sqrt(1e-3 / INERTIA[2])
-    # second order: (spin step)^2 = 4e-3, over 12
-    np.testing.assert_allclose(result["load.angle"], 60.0 / w * np.sin(w * result.time), rtol=3e-4)
-    assert result["load.angle"][-1] > 3.0 * math.pi
-    assert np.abs(result["energy.balance"]).max() < 3e-4 * 0.5 * INERTIA[2] * 3600.0
-
-
 # --- a bed of rock over a stretch of a body ---
 
 BED_COMES_DOWN = CubicStep(stroke=0.05, start=0.0, end=0.1)
@@ -286,13 +262,13 @@ def test_a_load_in_the_middle_acts_as_in_the_plane(name: str) -> None:
 
 def beside(**loads: Load) -> Result:
     """The support with a loose pin under loads, which rolls as far as the slack lets it."""
-    return simulate(loose_support(drive=Held(), duration=0.05, actuators=ON_OIL, loads=loads, dimensions=3))
+    return simulate(loose_support(drive=Held(), duration=0.03, actuators=ON_OIL, loads=loads, dimensions=3))
 
 
 WHOLE = AppliedForce(body="canopy", point=TIP, full_force=(0.0, -4e5), start=0.0, end=0.02)
 
 
-@pytest.mark.parametrize("load", [WHOLE, LOADS["bed"], BLOCK], ids=["force", "bed", "block"])
+@pytest.mark.parametrize("load", [WHOLE, BLOCK], ids=["force", "block"])
 def test_left_mirrors_right(load: Load) -> None:
     right, left = (beside(load=replace(load, lateral=z)) for z in (0.5, -0.5))
     roll = np.abs(right["canopy.roll"]).max()
@@ -303,13 +279,6 @@ def test_left_mirrors_right(load: Load) -> None:
     for one, other in (("left", "right"), ("right", "left")):
         wanted = right[f"front_column_{other}.force"]
         np.testing.assert_allclose(left[f"front_column_{one}.force"], wanted, atol=1e-4 * np.abs(wanted).max())
-
-
-def test_two_halves_are_one() -> None:
-    half = replace(WHOLE, full_force=(0.0, -2e5))
-    both, one = beside(l=replace(half, lateral=-0.5), r=replace(half, lateral=0.5)), beside(load=WHOLE)
-    np.testing.assert_allclose(both["canopy.y"], one["canopy.y"], atol=1e-9)
-    assert np.abs(both["canopy.roll"]).max() < 1e-8
 
 
 def test_the_support_settles_under_a_load_beside_its_middle() -> None:

@@ -173,26 +173,6 @@ def test_courses_give_their_impulse() -> None:
     assert timescales(scene).drive == pytest.approx(0.4 / (2.0 * math.pi), rel=1e-12)
 
 
-def test_a_settled_start_is_in_the_springs() -> None:
-    spring = SpringDamper(body="one", point=(1.2, 0.0), other_point=(1.2, 0.5), stiffness=5e3, free_length=0.5)
-    coil = TorsionSpring(body="one", stiffness=50.0)
-    scene = free(
-        Loose(pinned=True),
-        loads={"spring": spring, "coil": coil, "m": AppliedTorque(body="one", full_torque=10.0)},
-        gravity=(0.0, -9.81),
-        start="settled",
-        duration=0.02,
-    )
-    result = simulate(scene)
-    angle = result["one.angle"][0]
-    x, y = 0.2 * math.cos(angle), 0.2 * math.sin(angle)
-    length = math.hypot(0.2 - x, 0.5 - y)
-    pull = 5e3 * (length - 0.5) / length
-    assert x * pull * (0.5 - y) - y * pull * (0.2 - x) - 50.0 * angle + 10.0 == pytest.approx(0.0, abs=1e-7)
-    assert abs(angle) > 0.02
-    assert result["one.angle"] == pytest.approx(angle, abs=1e-9)
-
-
 def test_a_support_settles_with_a_spring_between_two_bodies() -> None:
     shield = reference_support().linkage().bodies["shield"].centre
     tip = reference_support().linkage().points["tip"].point

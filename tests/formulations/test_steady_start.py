@@ -27,7 +27,7 @@ from tests.cases.run_cases import CRANK_SPEED, SLIDER_PIN, paper_contact, slider
 from tests.cases.run_cases import support as support_scenario
 from user_forces import value
 
-ANGLES = (0.0, 0.7, 2.0, -1.3)
+ANGLES = (0.7, -1.3)
 WITH_CLEARANCE = {SLIDER_PIN: ClearancePin(contact=slider_crank_contact())}
 
 

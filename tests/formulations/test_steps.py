@@ -86,20 +86,6 @@ def test_steps_between_two_stops_are_equal_and_as_few_as_possible(
             assert b - a == pytest.approx((after - before) / parts, abs=1e-14)
 
 
-@given(planned=plans(), place=st.floats(0.0, 1.0, exclude_max=True), share=shares)
-def test_from_any_time_on_the_grid_is_the_same(
-    planned: tuple[StepPlan, Times], place: float, share: float
-) -> None:
-    plan, _ = planned
-    largest = share * plan.step
-    grid = walk(plan, largest)
-    t = place * plan.duration
-    tolerance = 1e-9 * min(plan.step, plan.record_period)
-    following = next((g for g in grid if g > t + tolerance), plan.duration)
-    # rounding of times up to 15 s
-    assert plan.next_time(t, largest) == pytest.approx(following, abs=1e-14)
-
-
 @given(planned=plans())
 def test_every_record_is_recorded_once_and_nothing_else(planned: tuple[StepPlan, Times]) -> None:
     plan, _ = planned
@@ -114,26 +100,11 @@ def test_steps_by_hand() -> None:
     assert walk(plan) == pytest.approx([0.0, 0.1, 0.2, 0.25, 0.325, 0.4, 0.5], abs=1e-15)
 
 
-def test_shorter_steps_by_hand() -> None:
-    plan = StepPlan(duration=0.5, record_period=0.2, step=0.1, breaks=[0.25])
-    # at most 0.06: 0.2 in four of 0.05, 0.05 in one, 0.15 in three of 0.05, 0.1 in two; rounding
-    assert walk(plan, 0.06) == pytest.approx([0.05 * n for n in range(11)], abs=1e-15)
-    # in mid step, on the finer grid: 0.2 in four
-    assert plan.next_time(0.07, 0.06) == pytest.approx(0.1, abs=1e-15)
-
-
 def test_a_break_within_rounding_of_a_record_takes_no_step_of_its_own() -> None:
     assert 3 * 0.1 != 0.3
     sizes = [b - a for a, b in pairwise(walk(StepPlan(1.0, 0.1, 0.05, [0.3, 0.6, 0.7])))]
     # rounding
     assert sizes == pytest.approx([0.05] * 20, abs=1e-15)
-
-
-def test_only_the_step_after_a_break_follows_it() -> None:
-    plan = StepPlan(1.0, 0.1, 0.05, [0.32])
-    # from 0.32 to the record at 0.4 there are two steps of 0.04
-    following = [t for t in (0.25, 0.3, 0.31, 0.32, 0.33, 0.3599, 0.36, 0.4) if plan.follows_break(t)]
-    assert following == [0.32, 0.33, 0.3599]
 
 
 def test_the_last_record_is_the_end_and_comes_once() -> None:
@@ -164,40 +135,6 @@ def test_far_times_lie_on_records_and_breaks_or_the_grid_and_within_the_step(
     found = sorted(passed + [t for t in times if plan.record_at(t) is not None])
     # every record once; rounding of times up to 15 s
     assert found == pytest.approx(expected_stops(plan.duration, plan.record_period, []), abs=4e-15)
-
-
-def test_far_times_by_hand() -> None:
-    plan = StepPlan(duration=1.0, record_period=0.1, step=0.05, breaks=[0.57])
-    assert plan.far_time(0.1, 0.35) == pytest.approx(0.4)
-    assert plan.far_time(0.4, 0.35) == 0.57
-    # none is reached: to 0.6 in two steps of 0.015
-    assert plan.far_time(0.57, 0.02) == pytest.approx(0.585)
-    assert plan.far_time(0.57, 0.2) == pytest.approx(0.7)
-    assert plan.records_between(0.1, 0.4) == pytest.approx([0.2, 0.3])
-    assert plan.records_between(0.1, 0.2) == []
-
-
-# --- late in a long run ---
-
-
-@pytest.mark.parametrize("largest", [math.inf, 1e-5, 1e-7])
-def test_steps_late_in_a_long_run_are_as_equal_as_early(largest: float) -> None:
-    plan = StepPlan(1000.0, 1e-3, 2.5e-4, [999.0004])
-    t, times = 998.999, [998.999]
-    while t < 999.001 - 1e-9:
-        t = plan.next_time(t, largest)
-        times.append(t)
-    sizes = np.diff(times)
-    # times near 1000 s are rounded by half of 1.1e-13 s, both ends of a step
-    stops = [998.999, 999.0, 999.0004, 999.001]
-    for begin, end in pairwise(stops):
-        inside = sizes[[begin - 1e-9 < a < end - 1e-9 for a in times[:-1]]]
-        assert np.ptp(inside) < 3e-13
-        assert inside.max() <= min(largest, 2.5e-4) * (1.0 + 2e-9) + 2e-13
-        # as many as it takes and no more
-        assert len(inside) == math.ceil((end - begin) / min(largest, 2.5e-4) - 1e-4)
-    assert [t for t in times if plan.record_at(t) is not None] == [n * 1e-3 for n in (998999, 999000, 999001)]
-    assert plan.breaks_at(999.0004) == [999.0004]
 
 
 # --- rests that are not worth a step ---
@@ -255,11 +192,3 @@ def test_a_record_is_told_as_it_was_asked_for() -> None:
     assert plan.record_at(0.3) == 3 * 0.1 != 0.3
     assert plan.record_at(0.301) is None
     assert plan.record_at(math.nextafter(1.0, 0.0)) == 1.0
-
-
-def test_a_step_that_ends_at_a_record_passes_none() -> None:
-    plan = StepPlan(1.0, 0.1, 0.01, [0.25])
-    assert not plan.passes_record(0.05, 0.1)
-    assert plan.passes_record(0.05, 0.11)
-    assert plan.passes_record(0.1, 0.3)
-    assert plan.passes_record(0.22, 0.27)  # beyond a break

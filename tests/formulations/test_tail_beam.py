@@ -13,7 +13,6 @@ from support_exudyn import (
     ClearancePin,
     CubicStep,
     Held,
-    Lumped,
     OwnBody,
     Result,
     SolverSettings,
@@ -35,10 +34,6 @@ SOFT = {"tail_beam": OwnBody(jack=JACK)}
 @pytest.fixture(scope="module")
 def lumped(simulate_cached: SimulateCached) -> Result:
     return simulate_cached(support(drive=RISE, duration=0.5))
-
-
-def test_a_lumped_part_is_what_is_there_by_default() -> None:
-    assert support(parts={"tail_beam": Lumped()}).linkage == support().linkage
 
 
 def test_a_rigid_jack_holds_the_tail_beam_as_if_it_were_fixed(

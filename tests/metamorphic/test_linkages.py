@@ -72,7 +72,7 @@ def compare(scene: Scenario, other: Result, finer: float) -> None:
 
 
 @given(scene=drawn_linkages.opened())
-@scenes(60)  # 20 of them by hand
+@scenes(24)  # 8 of them by hand
 def test_both_formulations_move_a_linkage_alike(scene: Scenario) -> None:
     assert mobility(scene.linkage).free == 1
     other = told(scene)

@@ -88,19 +88,6 @@ def test_cubic_step_is_the_step_function(stroke: float, start: float, length: fl
     assert chosen.extension(t) == pytest.approx(adams_step(t, start, 0.0, start + length, stroke), abs=2e-15)
 
 
-@pytest.mark.parametrize("t", [0.0, 2.9, 3.0, 3.2, 4.0, 4.7, 5.0, 9.0])
-def test_default_is_the_sum_of_steps_that_the_paper_writes(t: float) -> None:
-    # STEP(TIME,0,0,3,0)+STEP(TIME,3,0,5,500) [mm]
-    paper = adams_step(t, 0.0, 0.0, 3.0, 0.0) + adams_step(t, 3.0, 0.0, 5.0, 500.0)
-    # rounding of 0.5 m
-    assert CubicStep().extension(t) == pytest.approx(paper / 1e3, abs=2e-16)
-
-
-def test_uniform_speed_at_its_jumps_is_the_speed_before() -> None:
-    assert UniformSpeed().speed(3.0) == 0.0
-    assert UniformSpeed().speed(5.0) == 0.25
-
-
 @pytest.mark.parametrize("kind", [CubicStep, UniformSpeed])
 @pytest.mark.parametrize("end", [3.0, 2.0])
 def test_end_before_the_start_is_refused(kind: type[Stroke], end: float) -> None:
@@ -125,12 +112,3 @@ def test_reciprocating_by_hand() -> None:
 def test_a_period_that_makes_no_sense_is_refused(period: float) -> None:
     with pytest.raises(InputError, match=rf"Reciprocating\.period = {period}: "):
         Reciprocating(period=period)
-
-
-@given(periods=st.integers(1, 10**6), t=st.integers(0, 4096))
-def test_a_reciprocating_drive_is_where_it_was_periods_ago(periods: int, t: int) -> None:
-    drive = Reciprocating(stroke=0.1, period=4.0)
-    early, late = t / 1024.0, t / 1024.0 + 4.0 * periods
-    # times are exact, and whole periods are left out without rounding: to the last bit
-    assert drive.extension(late) == drive.extension(early)
-    assert drive.speed(late) == drive.speed(early)

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from support_exudyn import FallingBlock, Scenario, reference_support
-from support_exudyn.postprocessing.look import looks
-from support_exudyn.postprocessing.look.plain import blocks, look
-from support_exudyn.postprocessing.look.solid import Role
+from support_exudyn import FallingBlock, Scenario
+from support_exudyn.postprocessing.look.plain import look
 from tests.roof_cases import TOP, Ram
 from user_forces import InputError
 
@@ -48,17 +45,6 @@ def test_a_block_and_its_guide_join_the_machine() -> None:
     assert look(scene).solids  # a machine that says no more of it
 
 
-def test_pictures_have_a_cube_of_its_mass() -> None:
-    tip = reference_support().start().tip
-    rock = FallingBlock(body="canopy", point=tip, mass=2600.0, height=0.5, stiffness=1e9, restitution=0.5)
-    scene = Scenario(machine=reference_support(), loads={"rock": rock}, duration=0.1)
-    (cube,) = blocks(scene)
-    assert (cube.role, cube.body) == (Role.ROCK, "rock")
-    assert cube.mesh.volume == pytest.approx(1.0)
-    assert cube.mesh.bounds[0][1] == pytest.approx(tip[1] + 0.5)
-    assert cube.name in {solid.name for solid in looks.look(scene).solids}
-
-
 @pytest.mark.parametrize(
     ("field", "number"),
     [
@@ -73,11 +59,3 @@ def test_pictures_have_a_cube_of_its_mass() -> None:
 def test_what_no_block_can_have_is_refused(field: str, number: float) -> None:
     with pytest.raises(InputError, match=rf"FallingBlock\.{field} = {number}"):
         replace(ROCK, **{field: number})
-
-
-def test_a_block_is_a_cube_and_its_guide_stands_upright() -> None:
-    scene = Scenario(machine=Ram(), loads={"rock": ROCK}, duration=0.1)
-    body = scene.linkage.bodies["rock"]
-    assert ROCK.side**3 * 2600.0 == pytest.approx(400.0)  # of broken rock, if nothing else is said
-    assert body.inertia == pytest.approx(400.0 * ROCK.side**2 / 6.0)  # of a cube about its centre
-    assert scene.linkage.slides["rock_guide"].direction == pytest.approx(0.5 * math.pi)

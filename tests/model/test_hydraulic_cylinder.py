@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from itertools import pairwise
-
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from support_exudyn import (
     ClosedInlet,
-    Held,
     HydraulicCylinder,
     Inlet,
     RampedOpening,
-    Scenario,
     SuddenOpening,
 )
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
 from support_exudyn.model.linkage import GROUND, LinearActuator
-from support_exudyn.scenario.timescales import timescales
-from tests.cases.machine_cases import support
 from user_forces import InputError
 
 CYLINDER = HydraulicCylinder(
@@ -78,30 +69,3 @@ def test_the_start_carries_the_load_with_one_chamber_at_tank_pressure(load: floa
     pushes = CYLINDER.bore_area * start["piston"] - CYLINDER.rod_side_area * start["rod"]
     assert pushes == pytest.approx(load, abs=1e-9)
     assert min(start.values()) == 0.5e6
-
-
-@given(
-    start=st.integers(0, 100),
-    open_for=st.integers(20, 200),
-    share=st.integers(5, 45),
-    extent=st.integers(-10, 10),
-)
-def test_between_its_breaks_an_inlet_is_straight(start: int, open_for: int, share: int, extent: int) -> None:
-    begins, ends = start / 100, (start + open_for) / 100
-    inlet = RampedOpening(start=begins, end=ends, ramp=share / 100 * (ends - begins), extent=extent / 10)
-    assert len(inlet.breaks) == 4
-    for begin, end in pairwise((begins - 0.1, *inlet.breaks, ends + 0.1)):
-        here, middle, there = (inlet.opening(t) for t in (begin, 0.5 * (begin + end), end))
-        assert middle == pytest.approx(0.5 * (here + there), abs=1e-12)  # rounding of a share
-
-
-def test_steps_have_to_follow_the_valve() -> None:
-    assert SuddenOpening(start=0.2, end=0.5).shortest_time == pytest.approx(0.3)
-    assert RampedOpening(start=0.2, end=0.9, ramp=0.15).shortest_time == 0.15
-    assert ClosedInlet().shortest_time == float("inf")
-    quick = replace(CYLINDER, inlet=RampedOpening(start=0.2, end=0.9, ramp=0.15))
-    slow = replace(CYLINDER, inlet=SuddenOpening(start=0.2, end=0.9))
-    scenario = Scenario(
-        machine=support(), duration=1.0, drive=Held(), actuators={"front_column": slow, "rear_column": quick}
-    )
-    assert timescales(scenario).drive == pytest.approx(0.15)

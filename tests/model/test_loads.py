@@ -36,7 +36,6 @@ from support_exudyn import (
     TorsionSpring,
     UniformSpeed,
     ravn_slider_crank,
-    reference_support,
     simulate,
 )
 from support_exudyn.files.scenarios.scenario_file import scenario_of
@@ -46,12 +45,9 @@ from support_exudyn.mechanics.body_motion import UNTURNED, BodyMotion, Motion, S
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.model.loads.load import ActingLoad, Load, LoadChannel, MomentLoad, StretchLoad
 from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
-from support_exudyn.postprocessing.look import looks
-from support_exudyn.postprocessing.summary import what_is_run
 from support_exudyn.scenario.timescales import timescales
 from tests.linkage_cases import CrankRocker
 from tests.roof_cases import (
-    MASS,
     STIFFNESS,
     TOP,
     DeadLoad,
@@ -59,7 +55,6 @@ from tests.roof_cases import (
     over_the_canopy,
     over_the_ram,
     pressed_support,
-    thrown,
 )
 from user_forces import InputError, Value, value
 from user_forces.kernel import kernel
@@ -322,21 +317,11 @@ def test_place_and_pressed_length_of_a_bedding_on_what_stands_still() -> None:
     assert (apart["force"], apart["place"], apart["pressed"]) == (0.0, 0.0, 0.0)
 
 
-def test_a_spring_whose_ends_meet_has_no_force() -> None:
-    assert all(map(math.isnan, acting(SPRING, LoadedPoint(0.0, 0.0, 0.0, 1.0, 0.0)).forces))
-
-
 def test_a_table_is_constant_outside_and_meets_its_points() -> None:
     assert [TABLE.share(t) for t in (0.0, 0.1, 0.2, 0.4, 1.0)] == [2.0, 2.0, 1.0, -0.5, -0.5]
     assert 1.0 < TABLE.share(0.15) < 2.0
     assert TABLE.breaks == FORCE.breaks == (0.1, 0.2, 0.4)
     assert replace(TABLE, between="linear").share(0.3) == pytest.approx(0.25, rel=1e-12)
-
-
-def test_a_sine_swings_about_its_mean() -> None:
-    assert SINE.share(0.0) == pytest.approx(0.5 + math.sin(0.2), rel=1e-12)
-    assert SINE.share(100.0 * 0.25 + 0.1) == pytest.approx(SINE.share(0.1), rel=1e-9)
-    assert TORQUE.shortest_time == pytest.approx(0.25 / (2.0 * math.pi))
 
 
 def test_a_force_comes_on_between_its_times() -> None:
@@ -365,13 +350,6 @@ def test_the_largest_force_of_a_run(load: ActingLoad, duration: float, largest: 
 
 
 # --- what a scenario takes ---
-
-
-def test_breaks_of_the_descent_are_breaks_of_the_run() -> None:
-    lowered = over_the_canopy(0.1, start=0.03, end=0.07)
-    drive = CubicStep(stroke=0.01, start=0.05, end=0.1)
-    assert pressed_support(lowered, drive=drive).breaks == (0.03, 0.05, 0.07, 0.1)
-    assert pressed_support(lowered, drive=drive, loads={}).breaks == (0.05, 0.1)
 
 
 def test_a_load_has_its_channels_and_its_energies() -> None:
@@ -423,11 +401,6 @@ def test_a_loaded_scenario_comes_back_from_json(load: Roof | DeadLoad) -> None:
 
 
 # --- the times that steps have to follow ---
-
-
-def test_a_ram_on_its_roof_vibrates_with_its_mass() -> None:
-    # rounding
-    assert timescales(thrown(0.01, 1e-3)).resting == pytest.approx(math.sqrt(MASS / STIFFNESS), rel=1e-12)
 
 
 def test_steps_follow_the_descent() -> None:
@@ -488,25 +461,3 @@ course = { type = "TableCourse", times_s = [0, 0.1], shares = [0, 1] }
     )  # fmt: skip
     assert loads["coil"] == TorsionSpring(body="canopy", stiffness=200.0, free_turn=math.radians(10.0))
     assert loads["pulse"].breaks == (0.0, 0.1)
-
-
-def test_springs_of_a_machine_are_told_and_drawn() -> None:
-    dashpot = replace(SPRING, other="crank", other_point=(0.05, 0.0), stiffness=0.0)
-    machine = CrankRocker(springs={"spring": SPRING, "coil": COIL})
-    scene = Scenario(machine=machine, loads={"pot": dashpot}, duration=0.1)
-    assert tuple(scene.acting_loads) == ("spring", "coil", "pot")
-    assert {"spring.force", "spring.length", "coil.angle", "coil.moment"} <= set(scene.channel_definitions)
-    assert {"spring", "coil", "pot"} <= {name for name, _ in what_is_run(scene)}
-    struts = {strut.name: strut for strut in looks.look(scene).struts}
-    assert set(struts) == {"spring", "pot"}
-    drawn = struts["spring"]
-    assert (drawn.foot, drawn.head, drawn.foot_point[:2]) == ("ground", "rocker", (0.0, 0.0))
-    # zigzag and rod meet at the start
-    reached = drawn.cylinder.bounds[1, 0] - (SPRING.start_length + drawn.rod.bounds[0, 0])
-    assert 0.0 <= reached < 0.05 * SPRING.start_length
-    on_support = Scenario(
-        machine=reference_support(),
-        loads={"spring": replace(SPRING, body="canopy", point=(2.0, 1.8))},
-        duration=0.1,
-    )
-    assert "spring" in {strut.name for strut in looks.look(on_support).struts}

@@ -38,18 +38,6 @@ def test_a_bar_cut_in_two_is_the_same_lump(
     assert halves.inertia == pytest.approx(whole.inertia, abs=1e-12 * mass)
 
 
-@given(items=st.lists(parts, min_size=1, max_size=5), about=points)
-def test_inertia_about_any_point_is_the_sum_over_the_parts(
-    items: list[Part], about: tuple[float, float]
-) -> None:
-    def inertia(part: Part) -> float:
-        x, y = part.centre
-        return part.inertia + part.mass * ((x - about[0]) ** 2 + (y - about[1]) ** 2)
-
-    # rounding of sums of positive numbers
-    assert inertia(lumped(items)) == pytest.approx(sum(map(inertia, items)), rel=1e-12)
-
-
 ORIGIN = (0.0, 0.0)
 ENDS = {"foot_point": ORIGIN, "head_point": (1.0, 0.0)}
 
@@ -78,10 +66,3 @@ def test_elements_of_bodies_that_cannot_be_are_refused(elements: dict[str, Any],
 def test_masses_that_cannot_be_are_refused(kind: type[Body | Part], mass: float) -> None:
     with pytest.raises(InputError, match=rf"{kind.__name__}\.mass = {mass}: .*allowed: > 0"):
         kind(mass=mass, inertia=1.0, centre=ORIGIN)
-
-
-def test_actuators_that_are_not_driven_are_no_driven_parts() -> None:
-    ends = {"foot": "ground", "head": "a", "foot_point": (0.0, 0.0), "head_point": (1.0, 0.0)}
-    actuators = {"jack": LinearActuator(**ends), "strut": LinearActuator(**ends, driven=False)}
-    linkage = Linkage(bodies={"a": BODY}, actuators=actuators, cranks={"c": Crank(body="a")})
-    assert linkage.driven == ("jack", "c")

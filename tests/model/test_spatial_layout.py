@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,11 +13,9 @@ from hypothesis import strategies as st
 from support_exudyn import (
     Body,
     Crank,
-    Held,
     LinearActuator,
     Linkage,
     OilColumn,
-    OwnBody,
     Part,
     Scenario,
     Slide,
@@ -28,7 +25,6 @@ from support_exudyn import (
     ravn_slider_crank,
     reference_support,
 )
-from support_exudyn.mechanics.constraints import frame_of
 from support_exudyn.mechanics.kinetics import tensor
 from support_exudyn.model.drives.drive import CubicStep
 from support_exudyn.model.linkage import bar, check_moments, lumped, pinned, turned_moments
@@ -95,19 +91,6 @@ def test_a_plate_has_the_inertia_of_a_plate() -> None:
     body = lift(linkage, Width(spreads={"a": b / math.sqrt(12.0)})).bodies["a"]
     # m b^2/12 about x, m (a^2 + b^2)/12 about y, m a^2/12 about z
     assert body.inertia[:3] == pytest.approx((m * b**2 / 12, m * (a**2 + b**2) / 12, m * a**2 / 12), rel=1e-14)
-
-
-@pytest.mark.parametrize("degrees", [20.0, 75.0, 140.0])
-def test_a_slanted_bar_resists_turning_about_its_own_line_by_its_width_alone(degrees: float) -> None:
-    angle, m, spread = math.radians(degrees), 6.0, 0.2
-    along = np.array([math.cos(angle), math.sin(angle), 0.0])
-    slanted = bar(m, (0.0, 0.0), (0.7 * along[0], 0.7 * along[1]))
-    linkage = Linkage(
-        bodies={"a": Body(mass=m, inertia=slanted.inertia, centre=slanted.centre, moments=slanted.moments)}
-    )
-    found = tensor(lift(linkage, Width(spreads={"a": spread})).bodies["a"]) @ along
-    # its line is a principal axis, whichever way it slants: rounding
-    np.testing.assert_allclose(found, m * spread**2 * along, atol=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -181,39 +164,7 @@ def test_impossible_second_moments_are_refused(moments: tuple[float, float, floa
         Body(mass=1.0, centre=(0.0, 0.0), inertia=inertia, moments=moments)
 
 
-def test_the_smallest_inertia_has_second_moments() -> None:
-    assert lumped([Part(mass=1.0, centre=(0.0, 0.0), inertia=5e-324)]).inertia == 5e-324
-
-
-def test_the_tail_beam_keeps_its_second_moments() -> None:
-    # lumped or a body of its own: the same mass is spread over the same places
-    def moments(bodies: dict[str, Body]) -> np.ndarray:
-        found = np.zeros(3)
-        for name in ("shield", "tail_beam"):
-            if name in bodies:
-                body = bodies[name]
-                x, y = body.centre
-                assert body.moments is not None
-                found += np.array(body.moments) + body.mass * np.array([x * x, y * y, x * y])
-        return found
-
-    own = REFERENCE.detailed((), ("tail_beam",))
-    # Steiner's theorem; rounding
-    np.testing.assert_allclose(moments(dict(own.bodies)), moments(dict(LINKAGE.bodies)), rtol=1e-12)
-
-
 # --- values ---
-
-
-@given(v=st.tuples(*[st.floats(-1.0, 1.0)] * 3))
-def test_axes_of_a_bearing_are_orthonormal(v: tuple[float, float, float]) -> None:
-    size = math.hypot(*v)
-    assume(size > 1e-3)
-    frame = frame_of(tuple((np.array(v) / size).tolist()))
-    np.testing.assert_allclose(frame.T @ frame, np.eye(3), atol=1e-14)  # rounding
-    assert np.linalg.det(frame) == pytest.approx(1.0)
-    np.testing.assert_allclose(frame[:, 2], np.array(v) / size)
-    np.testing.assert_array_equal(frame_of((0.0, 0.0, 1.0)), np.eye(3))
 
 
 def test_impossible_bodies_and_bearings_are_refused() -> None:
@@ -280,13 +231,6 @@ def scenario(**changes: object) -> Scenario:
 def test_what_is_not_covered_in_space_is_said(changes: dict[str, object], said: str) -> None:
     with pytest.raises(InputError, match=said):
         scenario(**changes)
-
-
-def test_a_jack_keeps_its_length_in_space() -> None:
-    own = scenario(parts={"tail_beam": OwnBody()})
-    assert own.drive_of("tail_jack") == Held()
-    assert "tail_beam" in own.space.bodies
-    assert replace(own, parts={}).space == scenario().space
 
 
 def test_ideal_bearings_have_to_fit_at_the_start() -> None:

@@ -12,7 +12,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.interpolate import PchipInterpolator
 
-from support_exudyn import CubicStep, TableDrive
+from support_exudyn import TableDrive
 from user_forces import InputError
 
 lengths = st.lists(st.floats(1e-3, 3.0), min_size=1, max_size=8)
@@ -34,13 +34,6 @@ smooth = st.builds(table, starts, lengths, heights)
 @given(drive=tables)
 def test_it_goes_through_its_points(drive: TableDrive) -> None:
     assert [drive.extension(t) for t in drive.times] == list(drive.extensions)
-
-
-@given(drive=tables, away=st.floats(0.0, 5.0))
-def test_it_rests_before_and_after(drive: TableDrive, away: float) -> None:
-    before, after = drive.times[0] - away, drive.times[-1] + away + 1e-9
-    assert (drive.extension(before), drive.speed(before)) == (0.0, 0.0)
-    assert (drive.extension(after), drive.speed(after)) == (drive.extensions[-1], 0.0)
 
 
 @given(drive=smooth)
@@ -71,19 +64,6 @@ def test_speed_is_the_derivative(drive: TableDrive, share: float) -> None:
     assert drive.speed(t) == pytest.approx(slope, abs=8.0 * steepest * h * h + 1e-9, rel=1e-9)
 
 
-@given(drive=smooth)
-def test_smooth_speed_does_not_jump(drive: TableDrive) -> None:
-    for t in drive.times:
-        assert drive.speed_jump(t) == 0.0
-        h = 1e-10
-        steepest = max(
-            abs(b - a) / (d - c) ** 2
-            for (a, b), (c, d) in zip(pairwise(drive.extensions), pairwise(drive.times), strict=True)
-        )
-        # its acceleration, at most 12 times rise over length squared, over 2 h; rounding as above
-        assert abs(drive.speed(t + h) - drive.speed(t - h)) <= 24.0 * h * steepest + 1e-9
-
-
 @given(drive=st.builds(table, starts, lengths, heights, st.just("linear")))
 def test_linear_speed_jumps_as_told(drive: TableDrive) -> None:
     assert set(drive.breaks) <= set(drive.times)
@@ -103,20 +83,6 @@ def test_the_span_is_what_it_reaches(drive: TableDrive, duration: float) -> None
     assert low - 1e-15 <= min(reached)
     assert max(reached) <= high + 1e-15
     assert {low, high} <= set(reached)
-
-
-def test_two_smooth_points_are_a_cubic_step() -> None:
-    one, other = TableDrive(times=(3.0, 5.0), extensions=(0.0, 0.5)), CubicStep()
-    for t in np.linspace(0.0, 6.0, 601).tolist():
-        assert (one.extension(t), one.speed(t)) == (other.extension(t), other.speed(t))
-
-
-@given(drive=tables, t=st.floats(0.0, 20.0))
-def test_its_cubics_are_what_it_does(drive: TableDrive, t: float) -> None:
-    one = drive.cubic(t)
-    x = (t - one.begin) / one.length
-    # rounding of a polynomial whose terms are up to 3 rises of 4 m and slopes of 3 of them
-    assert one.a0 + x * (one.a1 + x * (one.a2 + x * one.a3)) == pytest.approx(drive.extension(t), abs=1e-14)
 
 
 @pytest.mark.parametrize(

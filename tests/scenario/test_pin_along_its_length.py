@@ -8,7 +8,6 @@ from dataclasses import replace
 import pytest
 
 from support_exudyn import ClearancePin, Scenario, ravn_slider_crank, reference_support, simple_scenario
-from support_exudyn.model.pin_surroundings import contact_length, links_stiffness
 from support_exudyn.scenario.pin_pressure import FIRST_YIELD, pressed_pin, statically_pressed
 from user_forces import (
     STEEL,
@@ -96,16 +95,6 @@ def test_a_length_that_nobody_knows_is_asked_for() -> None:
         simple_scenario("slider_crank", duration_s=0.1, drive={"type": "Steady", "rate_rpm": 10}, pins=pins)
     with pytest.raises(InputError, match=r"length: missing"):
         ClearancePin.simple(clearance=0.0015, bore_radius=0.0655, stiffness="cylinders")
-
-
-def test_pins_of_a_pair_add_up_and_unknown_ones_are_unknown() -> None:
-    support = reference_support()
-    assert contact_length(support, "rear_base") == 0.7
-    assert contact_length(support, "front_base") == 0.24  # 120 mm of each of two front links
-    assert contact_length(support, "nothing") is None
-    assert contact_length(ravn_slider_crank(), "slider_pin") is None
-    assert links_stiffness(support, "rear_base", STEEL) == pytest.approx(LINK_STIFFNESS)
-    assert links_stiffness(support, "shield_canopy", STEEL) == math.inf  # no link on either side
 
 
 # --- pressure ---

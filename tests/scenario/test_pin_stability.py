@@ -8,16 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from studies.common.paper_machine import clearance_rise, hydraulic_cylinders, oil_columns
+from studies.common.paper_machine import clearance_rise
 from support_exudyn import (
     AppliedForce,
     AppliedTorque,
     ClearancePin,
-    Held,
     Scenario,
     SpringDamper,
     Steady,
-    SuddenOpening,
     ravn_slider_crank,
     reference_support,
     simulate,
@@ -26,7 +24,6 @@ from support_exudyn.mechanics.pin_stability import painleve_friction
 from support_exudyn.model.loads.load import ActingLoad
 from support_exudyn.scenario.pin_stability import PinOutlook, pin_outlooks
 from tests.metamorphic.moving import MIRROR, Move, moved, turn
-from tests.metamorphic.scaling import Scale
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
@@ -67,13 +64,6 @@ def check_alike(one: Sequence[PinOutlook], other: Sequence[PinOutlook], factor: 
 def test_a_machine_that_is_elsewhere_shakes_alike(move: Move) -> None:
     scene = rise()
     check_alike(pin_outlooks(scene, TIMES), pin_outlooks(moved(scene, move), TIMES))
-
-
-def test_a_machine_in_other_units_shakes_alike() -> None:
-    scene = rise()
-    scale = Scale(length=3.0, mass=0.2, time=5.0)
-    found = pin_outlooks(scale.scene(scene), [scale.time * t for t in TIMES])
-    check_alike(pin_outlooks(scene, TIMES), found, scale.time)
 
 
 def test_front_pins_are_stable_and_rear_pins_shake() -> None:
@@ -170,15 +160,6 @@ def test_a_slider_crank_over_one_turn() -> None:
     )
     loads = np.array([one.load for one in found["slider_pin"].journals])
     assert np.abs(loads - force).max() < 0.02 * np.abs(force).max()
-
-
-def test_nothing_is_told_of_what_is_not_known_beforehand() -> None:
-    scene = rise()
-    assert pin_outlooks(replace(scene, pins={})) == []
-    assert pin_outlooks(replace(scene, drive=Held())) == []
-    cylinders = hydraulic_cylinders(SuddenOpening(extent=0.5))
-    assert pin_outlooks(replace(scene, drive=Held(), actuators=cylinders)) == []
-    assert len(pin_outlooks(replace(scene, actuators=oil_columns()), [4.0])) == len(scene.linkage.pins)
 
 
 def test_which_body_has_the_bore_is_no_matter_of_the_load() -> None:

@@ -3,7 +3,6 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Collection
 
 import pytest
 
@@ -11,7 +10,6 @@ from support_exudyn import (
     ClearancePin,
     CubicStep,
     Held,
-    HydraulicSupport,
     IdealPin,
     Linkage,
     Machine,
@@ -75,13 +73,6 @@ def scenario(**changes: object) -> Scenario:
 def test_scenarios_that_cannot_be_are_refused(changes: dict[str, object], said: str) -> None:
     with pytest.raises(InputError, match=said):
         scenario(**changes)
-
-
-def test_a_missing_duration_and_a_wrong_copy_are_refused() -> None:
-    with pytest.raises(InputError, match=r"Scenario\.duration: missing"):
-        Scenario(machine=SUPPORT)
-    with pytest.raises(InputError, match=r"record_period = 6\.0 s"):
-        dataclasses.replace(scenario(), record_period=6.0)
 
 
 def test_bores_and_their_sides_are_checked() -> None:
@@ -158,34 +149,6 @@ def test_a_step_that_records_cut_short_is_refined_from_what_it_really_is() -> No
     assert scenario(step=5e-3, record_period=1e-3).refined().step == 5e-4
 
 
-def test_nothing_else_of_a_refined_run_differs() -> None:
-    one = scenario(
-        drive=CubicStep(stroke=-0.2),
-        pins={"rear_base": ClearancePin(contact=contact(), bore="second")},
-        start="settled",
-        gravity=(0.1, -9.7),
-        record_period=2e-3,
-        solver=SolverSettings(spectral_radius=0.9, newton_tolerance=1e-9),
-    )
-    finer = one.refined()
-    back = dataclasses.replace(finer.solver, impact_steps=one.solver.impact_steps)
-    assert finer != one
-    assert dataclasses.replace(finer, step=one.step, solver=back) == one
-
-
-def test_refined_twice_is_refined_by_four() -> None:
-    # halves of a binary fraction: exact
-    assert scenario(step=2.0**-10).refined().refined() == scenario(step=2.0**-10).refined(4)
-
-
-def test_a_run_too_fine_to_be_refined_is_refused() -> None:
-    finest = scenario(solver=SolverSettings(impact_steps=6000))
-    with pytest.raises(
-        InputError, match=r"SolverSettings\.impact_steps = 12000: .*allowed: >= 16 and <= 10000"
-    ):
-        finest.refined()
-
-
 def test_an_ideal_pin_must_be_closed_at_the_start() -> None:
     one = Body(mass=1.0, inertia=1.0, centre=(0.0, 0.0))
     apart = PinPlace(first="ground", second="one", first_point=(0.0, 0.0), second_point=(0.001, 0.0))
@@ -201,16 +164,6 @@ def test_an_ideal_pin_must_be_closed_at_the_start() -> None:
 
 
 # --- drives of single parts ---
-
-
-def test_every_part_follows_the_drive_unless_said_otherwise() -> None:
-    front, rear = CubicStep(stroke=0.1), CubicStep(stroke=0.2, start=1.0)
-    plain = scenario(drive=front)
-    assert plain.drives == {}
-    assert plain.breaks == front.breaks
-    apart = scenario(drive=front, drives={"rear_column": rear})
-    assert (apart.drive_of("front_column"), apart.drive_of("rear_column")) == (front, rear)
-    assert apart.breaks == (1.0, 3.0, 5.0)
 
 
 def test_oil_is_checked_against_the_drive_of_its_own_actuator() -> None:
@@ -249,14 +202,6 @@ def test_a_jack_on_oil_is_held() -> None:
     assert one.drive_of("tail_jack") == Held()
 
 
-def test_oil_in_an_actuator_of_two_bodies_is_oil() -> None:
-    oil = OilColumn(bore_area=0.1, oil_length=0.1, bulk_modulus=1e9)
-    actuators = cylinders_and_rods(oil)
-    assert scenario(actuators=actuators).legs == {"front_column": oil, "rear_column": oil}
-    with pytest.raises(InputError, match=r"actuators\.front_column\.drive\.oil_length = 0\.1 m"):
-        scenario(actuators=actuators, drive=CubicStep(stroke=-0.2))
-
-
 @pytest.mark.parametrize("name", ["jack", "tail_jack"])
 def test_only_driven_actuators_are_actuators_of_the_scenario(name: str) -> None:
     said = rf"actuators\.{name}: the machine has no such actuator; allowed: front_column, rear_column"
@@ -278,17 +223,3 @@ def test_a_jack_follows_no_drive() -> None:
             drives={"tail_jack": Held()},
             duration=1.0,
         )
-
-
-def test_a_name_that_is_taken_is_refused() -> None:
-    @value
-    class Taken(HydraulicSupport):
-        def detailed(self, actuators: Collection[str], parts: Collection[str]) -> Linkage:
-            linkage = super().detailed(actuators, parts)
-            return dataclasses.replace(
-                linkage, bodies={**linkage.bodies, "rear_column_rod": linkage.bodies["shield"]}
-            )
-
-    fields = {f.name: getattr(SUPPORT, f.name) for f in dataclasses.fields(SUPPORT)}
-    with pytest.raises(InputError, match=r"actuators\.rear_column: rear_column_rod is a name of the machine"):
-        scenario(machine=Taken(**fields), actuators=HEAVY)

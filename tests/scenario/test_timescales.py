@@ -22,7 +22,7 @@ from support_exudyn import (
     UniformSpeed,
     machine,
 )
-from support_exudyn.scenario.timescales import SLOWEST_FALL, timescales
+from support_exudyn.scenario.timescales import timescales
 from tests.cases.run_cases import (
     CRANK_SPEED,
     PIN,
@@ -37,7 +37,6 @@ from user_forces import (
     Ambrosio,
     Anagnostopoulos,
     Hertz,
-    JournalBearing,
     JournalContact,
     KelvinVoigt,
     LoadError,
@@ -88,16 +87,6 @@ def test_in_a_running_machine_the_fastest_body_pulls(start_angle: float, gravity
     rod = math.hypot(slider / CRANK_SPEED + 0.5 * turn * height, 0.5 * turn * bend) * CRANK_SPEED
     pull = CRANK_SPEED * max(slider, rod, 0.5 * RADIUS * CRANK_SPEED) + gravity
     assert found == pytest.approx(math.sqrt(2.0 * 5e-4 / pull), rel=1e-9)
-
-
-def test_where_nothing_pulls_a_flight_takes_long_but_has_an_end() -> None:
-    found = timescales(loose_support(drive=Held(), gravity=(0.0, 0.0)))
-    assert found.flight == pytest.approx(math.sqrt(2.0 * CLEARANCE / SLOWEST_FALL), rel=1e-12)
-    assert found.resting == math.inf
-    assert found.drive == math.inf
-
-
-# --- weight ---
 
 
 # --- resting ---
@@ -218,20 +207,6 @@ def test_what_friction_holds_swings_on_its_bristles() -> None:
 
 
 # --- masses of laws that need one ---
-
-
-@pytest.mark.parametrize("bore", ["first", "second"])
-def test_a_law_without_its_mass_has_that_of_the_joint_in_the_start_posture(bore: str) -> None:
-    law = Anagnostopoulos(stiffness=1e8, restitution=0.5)
-    stand = ImpactStand(bore_mass=3.0, journal_mass=2.0, speed=0.1)
-    contact = JournalContact(bearing=JournalBearing(bore_radius=0.02, clearance=1e-3), normal=law)
-    scene = Scenario(machine=stand, pins={"pin": ClearancePin(contact=contact, bore=bore)}, duration=0.01)
-    # two free bodies: 3 times 2 over 5 kg in every direction
-    assert scene.contact_places["pin"].contact.normal.mass == pytest.approx(1.2, rel=1e-12)  # type: ignore[attr-defined]
-    assert scene.pins["pin"].contact.normal.mass is None  # type: ignore[attr-defined]
-    given = replace(contact, normal=replace(law, mass=7.0))
-    found = replace(scene, pins={"pin": ClearancePin(contact=given, bore=bore)})
-    assert found.clearance_pins["pin"].contact == given
 
 
 def test_the_mass_of_a_guide_is_that_along_the_normals_of_its_corners() -> None:

@@ -22,13 +22,7 @@ os.kill(os.getpid(), signal.SIGINT)
 import {name}
 """
 SHOWING = ["-m", "support_exudyn", "show", "--help"]  # which needs libraries; --version does not
-STARTS = [
-    ["-m", "support_exudyn", "--version"],
-    ["-m", "studies", "--help"],
-    ["-m", "studies", "benchmark", "--help"],
-    ["-m", "studies.report", "--help"],
-    ["support-exudyn", "--version"],
-]
+STARTS = [["-m", "support_exudyn", "--version"], ["-m", "studies", "--help"]]
 
 
 def started(words: list[str], folder: Path, more: dict[str, str]) -> subprocess.CompletedProcess[str]:
@@ -45,13 +39,9 @@ def started(words: list[str], folder: Path, more: dict[str, str]) -> subprocess.
 
 
 @posix_only
-@pytest.mark.parametrize("name", ["numpy", "h5py"])
-@pytest.mark.parametrize(
-    "words", [SHOWING, STARTS[1], STARTS[3], ["support-exudyn", *SHOWING[2:]]], ids=lambda words: words[1]
-)
-def test_an_interruption_while_libraries_are_imported_is_a_line(
-    tmp_path: Path, words: list[str], name: str
-) -> None:
+@pytest.mark.parametrize("words", [SHOWING, ["support-exudyn", *SHOWING[2:]]], ids=lambda words: words[1])
+def test_an_interruption_while_libraries_are_imported_is_a_line(tmp_path: Path, words: list[str]) -> None:
+    name = "numpy"
     (tmp_path / f"{name}.py").write_text(INTERRUPTING.format(folder=str(tmp_path), name=name), "utf-8")
     done = started(words, tmp_path, {"PYTHONPATH": str(tmp_path)})
     assert (done.returncode, done.stderr) == (130, "interrupted; nothing half-written is left\n")
@@ -84,9 +74,7 @@ def test_letters_that_a_console_has_not_are_written_in_others(
     assert console.buffer.getvalue().decode(encoding) == shown  # type: ignore[attr-defined]
 
 
-@pytest.mark.parametrize(
-    "words", [*STARTS[:2], pytest.param(STARTS[3], marks=pytest.mark.slow)], ids=lambda words: words[1]
-)
+@pytest.mark.parametrize("words", STARTS, ids=lambda words: words[1])
 def test_commands_speak_on_the_poorest_console(tmp_path: Path, words: list[str]) -> None:
     done = started(words, tmp_path, {"PYTHONIOENCODING": "ascii"})
     assert (done.returncode, done.stderr) == (0, "")

@@ -26,7 +26,7 @@ from support_exudyn.simulation.automatic_settings import (
 )
 from tests.cases.run_cases import loose_slider_crank, loose_support
 from tests.formulations.test_formulations import COVERED, SCENES
-from user_forces import Ambrosio, InputError
+from user_forces import Ambrosio
 
 goals = st.floats(math.log10(SMALLEST_GOAL), math.log10(LARGEST_GOAL)).map(
     lambda x: min(max(10.0**x, SMALLEST_GOAL), LARGEST_GOAL)
@@ -41,17 +41,6 @@ DROP = loose_support(drive=Held(), duration=0.02)
 def test_the_cheapest_that_covers_a_scene_is_taken(scene: str) -> None:
     expected = next(name for name in ("compiled", "exudyn") if scene in COVERED[name])
     assert settings_for(SCENES[scene], 1e-3).formulation == expected
-
-
-@pytest.mark.parametrize(("name", "scene"), [(n, s) for n in COVERED for s in SCENES if s in COVERED[n]])
-def test_one_that_is_asked_for_is_kept(name: str, scene: str) -> None:
-    assert settings_for(replace(SCENES[scene], formulation=name), 1e-3).formulation == name
-
-
-def test_one_that_does_not_cover_the_scene_is_refused() -> None:
-    scene = replace(SCENES["a law that numba cannot compile"], formulation="compiled")
-    with pytest.raises(InputError, match=r"pins\.rear_base\.contact = a law"):
-        settings_for(scene, 1e-3)
 
 
 def rubbing(scene: Scenario, ramp: float) -> Scenario:
@@ -99,14 +88,6 @@ def test_settings_are_allowed_ones_and_nothing_else_is_changed(goal: float, name
     assert replace(chosen.solver, **kept) == scene.solver  # type: ignore[arg-type]
     back = replace(chosen, accuracy=goal, step=scene.step, solver=scene.solver, formulation=scene.formulation)
     assert back == scene
-
-
-@given(pair=st.tuples(goals, goals), name=st.sampled_from(sorted(SCENES)))
-def test_a_smaller_goal_is_never_coarser(pair: tuple[float, float], name: str) -> None:
-    fine, coarse = (settings_for(SCENES[name], goal) for goal in sorted(pair))
-    assert fine.step <= coarse.step
-    assert fine.solver.impact_steps >= coarse.solver.impact_steps
-    assert fine.solver.tolerance <= coarse.solver.tolerance
 
 
 def test_steps_are_shares_of_the_scenes_times() -> None:

@@ -12,14 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from support_exudyn import (
-    ClearancePin,
     Held,
     Onset,
     Result,
-    Scenario,
-    SolverSettings,
-    ravn_slider_crank,
-    simulate,
 )
 from support_exudyn.formulations.registry import FORMULATIONS
 from support_exudyn.simulation.estimate import (
@@ -31,12 +26,11 @@ from support_exudyn.simulation.estimate import (
     SAFETY_OF_WORST,
     SLOWEST,
     SLOWEST_OWN,
-    disagreement,
 )
 from support_exudyn.simulation.reported_numbers import ONSETS, ROUNDING, measures
 from tests.cases.run_cases import FORCE, PIN, loose_support
 from tests.compiled_runs import simulate_compiled
-from user_forces import Exact, InputError, JournalBearing, JournalContact
+from user_forces import InputError
 
 SAFETY = FORMULATIONS["compiled"].safety  # which is what runs here
 CLEARANCE = 1.5e-3  # [m], of the clearance pin
@@ -105,12 +99,6 @@ def whatever_the_steps(run: Result, name: str) -> float:
 
 
 # --- numbers that fall as they should ---
-
-
-@given(share=shares, sign=signs, r=rates)
-def test_the_fall_is_that_of_the_numbers(share: float, sign: float, r: float) -> None:
-    # two distances, each with the rounding of numbers that are so many times larger
-    assert falling(sign * share, r).fall == pytest.approx(r, rel=20.0 * ROUND_OFF / (share * r) + 1e-12)
 
 
 @given(share=shares, sign=signs, r=rates)
@@ -204,22 +192,6 @@ def test_two_runs_that_agree_by_chance_are_not_taken_as_exact() -> None:
     assert run.numbers()[f"{FORCE}.mean"].error == pytest.approx(expected, rel=1e-5)
 
 
-def test_a_number_on_which_all_runs_agree_by_chance_is_as_wrong_as_its_family_is_mostly() -> None:
-    r, share = 0.25, 1e-2
-    last = falling(share, r)
-    runs = [with_force(scaled(1.0 + share * r**n), 1.0 / (1.0 + share * r**n)) for n in range(3)]
-    run, name = three(*runs), f"{FORCE}.mean"
-    assert run.numbers()[name].value == pytest.approx(exact().window(FORCE).mean, rel=1e-12)
-    distance = ALIKE * share * r * (1.0 - r) * exact().window(FORCE).mean
-    # shares are of a run's own forces, off by up to 1e-3; rounding is added
-    assert run.numbers()[name].error == pytest.approx(SAFETY * distance * r / (1.0 - r), rel=2e-3)
-    # a number of one's own has no family
-    assert run.estimate(measures(run, 0.0, math.inf)[name].measure).error < 1e-8 * run.numbers()[name].value
-    # and those of the others are what they were
-    other = "front_column.force.mean"
-    assert run.numbers()[other].error == pytest.approx(last.numbers()[other].error, rel=1e-9)
-
-
 @pytest.mark.parametrize("own", [0.05, 0.4, 0.9])
 def test_a_number_that_falls_slower_than_others_has_a_larger_error(own: float) -> None:
     r, share = 0.25, 1e-3
@@ -293,22 +265,6 @@ def test_the_worst_error_is_that_of_forces_and_paths(r: float) -> None:
 # --- which numbers there are ---
 
 
-@pytest.mark.parametrize(("after", "until"), [(0.0, math.inf), (0.02, math.inf), (0.0, 0.05), (0.02, 0.05)])
-def test_without_statistics_numbers_are_those_of_the_records_over_time(after: float, until: float) -> None:
-    run = falling(1e-3, 0.25)
-    # records at both ends count, whatever their rounding
-    inside = [after - 1e-12 <= round(t / 1e-3) * 1e-3 <= until + 1e-12 for t in run.time]
-    time, force = run.time[inside], run[FORCE][inside]
-    duration, slopes, numbers = time[-1] - time[0], np.diff(force), run.numbers(after, until)
-    mean = np.trapezoid(force, time) / duration
-    squares = (
-        np.trapezoid((force - mean) ** 2, time) - (np.diff(time) * slopes**2).sum() / 6.0
-    )  # of straight lines
-    expected = {"mean": mean, "std": math.sqrt(squares / duration), "largest": force.max()}
-    for word, value in expected.items():
-        assert numbers[f"{FORCE}.{word}"].value == pytest.approx(value, rel=1e-12)
-
-
 @pytest.mark.parametrize("window", [(1.0, math.inf), (0.05, 0.02), (math.nan, math.inf)])
 def test_times_beside_the_run_are_refused(window: tuple[float, float]) -> None:
     with pytest.raises(InputError, match=r"after = .* s, until = .* s: .*allowed: .* from 0 to 0\.08 s"):
@@ -336,12 +292,6 @@ def with_channel(run: Result, name: str, values: np.ndarray) -> Result:
     return replace(run, channels={**run.channels, name: replace(run.channels[name], values=values)})
 
 
-def test_a_force_that_hardly_varies_has_no_spread_to_be_wrong() -> None:
-    noise = np.random.default_rng(1).normal(size=(3, exact().time.size))
-    runs = [with_channel(exact(), FORCE, 5e4 + 1e-6 * row) for row in noise]
-    assert three(*runs).worst_error < 1e-5
-
-
 def test_a_force_that_is_rounding_of_others_is_not_told_from_zero() -> None:
     noise = 1e-13 * exact()[FORCE].max() * np.random.default_rng(2).normal(size=exact().time.size)
     run = with_channel(exact(), "front_column.force", noise)
@@ -349,29 +299,3 @@ def test_a_force_that_is_rounding_of_others_is_not_told_from_zero() -> None:
     for word in ("mean", "std", "largest", "min", "max"):
         number = found[f"front_column.force.{word}"]
         assert abs(number.value) <= number.error <= 2e-12 * exact()[FORCE].max()
-
-
-def test_what_newton_leaves_of_a_force_is_more_of_its_spread_where_it_hardly_varies() -> None:
-    # the pins of a rod that falls for 5 ms carry the same force within 0.2 %. Newton's method leaves a share of
-    # it, which is far more of the spread, and runs with steps halved do not tell
-    contact = JournalContact(
-        bearing=JournalBearing(bore_radius=0.01, clearance=4.5e-4), normal=Exact(restitution=0.9, stiffness=2e8)
-    )
-    scene = Scenario(
-        machine=replace(ravn_slider_crank(), start_angle=5.130105552753518),
-        pins={"slider_pin": ClearancePin(contact=contact, bore="second", eccentricity=(1.8e-4, 0.0))},
-        drive=Held(),
-        duration=0.005,
-        step=5e-5,
-        record_period=1e-4,
-        formulation="exudyn",
-    )
-    result = simulate(scene, errors=True)
-    fine = replace(scene, formulation="compiled", solver=SolverSettings(tolerance=1e-11))
-    right = simulate(fine)
-    known = measures(right, 0.0, math.inf)
-    for pin in ("main", "crank_pin"):
-        name = f"pin.{pin}.force.std"
-        found = result.numbers()[name]
-        assert abs(found.value - known[name].measure(right)) < found.error < 1e-5 * found.value
-    assert disagreement(result, right) < result.worst_error < 1e-5

@@ -16,7 +16,7 @@ from tests.cases.run_cases import loose_support
 from tests.hostile import DISKS, little_room
 from user_forces import InputError
 
-FLIPS, CUTS = 400, 100
+FLIPS, CUTS = 60, 30
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,6 @@ import pytest
 from support_exudyn import Estimate, Recommendation, Scenario, recommend, reference_support
 from support_exudyn.simulation.evidence.table import EvidenceTable, Tried, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, STROKE, answers_alike
-from user_forces import InputError
 
 PLAIN = Scenario(machine=reference_support(), duration=0.1)
 
@@ -44,18 +43,6 @@ def test_what_the_errors_may_hide_is_not_let_pass() -> None:
     assert recommend("mean force", table(FULL, unsure)).scene == "fullest"
     sure = tried("sure", 2.0, 1005.0, error=4.0)
     assert recommend("mean force", table(FULL, unsure, sure)).scene == "sure"
-
-
-def test_other_questions_are_refused() -> None:
-    with pytest.raises(InputError, match="question = 'wear': allowed: 'posture', 'mean force', 'peak force'"):
-        recommend("wear", table(FULL))
-
-
-def test_what_a_table_lacks_is_said() -> None:
-    with pytest.raises(InputError, match="family = 'unequal columns': allowed: stroke"):
-        recommend("unequal columns", table(FULL))
-    with pytest.raises(InputError, match="'fullest': has no mean_tip_x"):
-        recommend("posture", table(FULL))
 
 
 @pytest.mark.parametrize("question", QUESTIONS)

@@ -194,14 +194,3 @@ def test_a_file_of_another_version_says_so(result: Result, tmp_path: Path) -> No
     path.write_bytes(image)  # versions before had no digest
     with pytest.raises(InputError, match=r"an HDF5 file without a digest, as no version from '.* result 6' on"):
         Result.load(path)
-
-
-def test_cranks_slides_and_states_of_friction_have_channels(crank: Result) -> None:
-    units = {name: channel.unit for name, channel in crank.channels.items()}
-    new = {"crank.moment": "N m", "guide.force": "N", "guide.moment": "N m"}
-    new[f"pin.{SLIDER_PIN}.deflection"] = "m"
-    assert new.items() <= units.items()
-    (impulse,) = crank.impulses
-    assert set(impulse.cranks) == {"crank"}
-    assert len(crank.onsets[SLIDER_PIN]) >= 1
-    assert np.abs(crank[f"pin.{SLIDER_PIN}.deflection"]).max() > 0.0

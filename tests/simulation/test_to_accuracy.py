@@ -88,12 +88,6 @@ def test_it_goes_on_while_it_helps_and_keeps_the_best(
     assert found.coarser.coarser.coarser is None
 
 
-def test_there_is_a_most_number_of_runs(monkeypatch: pytest.MonkeyPatch) -> None:
-    found, made = run(monkeypatch, [0.1 * 0.69**n for n in range(20)])
-    assert made == to_accuracy.MOST_RUNS
-    assert found.number == made - 1
-
-
 @pytest.mark.parametrize(
     ("same", "chosen", "runs"),
     [

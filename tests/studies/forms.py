@@ -9,6 +9,7 @@ there are some. Tests of a study of the paper are made on the rough form by defa
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
@@ -16,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from filelock import FileLock
 
 from studies.catalogue import STUDIES
 from studies.common import runs
@@ -52,7 +54,12 @@ def _once(cases: Mapping[str, Scenario], chosen: Options, coarser: float) -> dic
 
 
 def written(
-    study: str, form: str, folder: Path, machines: int | None = None, subject: Subject | None = None
+    study: str,
+    form: str,
+    folder: Path,
+    machines: int | None = None,
+    subject: Subject | None = None,
+    kept: Path | None = None,
 ) -> Path:
     """The folder into which a study has written its results, in one of the forms."""
     with pytest.MonkeyPatch.context() as patch:
@@ -61,9 +68,25 @@ def written(
         if form == ROUGH:
             patch.setattr(runs, "run_cases", partial(_once, coarser=COARSER.get(study, 1.0)))
             patch.setitem(style.STYLE, "savefig.dpi", 60)
-        chosen = Options(folder, at_once(), machines=machines)
+        chosen = Options(folder, at_once(), kept, machines=machines)
         STUDIES[study](replace(chosen, subject=subject) if subject else chosen)
     return folder
+
+
+def results(study: str, form: str, folders: pytest.TempPathFactory) -> Path:
+    """The folder of a study of the paper in a form, written once in a session by whichever worker comes first.
+
+    Studies share the runs that they have in common, as those of one command do.
+    """
+    root = folders.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        root = root.parent  # of all workers
+    out = root / "studies" / f"{study}-{form}"
+    out.mkdir(parents=True, exist_ok=True)
+    with FileLock(out.with_suffix(".lock")):
+        if not (out / "summary.json").exists():
+            written(study, form, out, kept=out.with_name("kept"))
+    return out
 
 
 def numbers_of(out: Path) -> Numbers:

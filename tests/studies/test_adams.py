@@ -65,32 +65,6 @@ def test_parts_are_the_bodies_of_the_scenario() -> None:
     assert [float(one.arguments["MASS"]) for one in light] == [1e-4] * 4
 
 
-@pytest.mark.parametrize("scenario", [RISE, ideal_rise(1e-3)], ids=["loose", "ideal"])
-def test_the_markers_of_every_joint_coincide(scenario: Scenario) -> None:
-    data = data_of(scenario)
-    model, start = PlanarModel(data), PlanarModel(data).start()
-    joints = [*data.of("JOINT").values(), *data.of("JPRIM").values(), *data.of("GFORCE").values()]
-    places = []
-    for joint in joints:
-        other = joint.id("J") if "J" in joint.arguments else None
-        if other is None:  # a floating marker has no place of its own
-            continue
-        first, second = model.at(joint.id("I"), start), model.at(other, start)
-        np.testing.assert_allclose(first, second, rtol=0.0, atol=1e-15)
-        assert model.part_of(joint.id("I")) != model.part_of(other)
-        places.append(second)
-        if "TRANSLATIONAL" in joint.arguments:
-            np.testing.assert_array_equal(
-                data["MARKER", joint.id("I")].numbers("REULER"), data["MARKER", other].numbers("REULER")
-            )
-    for name in scenario.held_pins:
-        point = scenario.linkage.pins[name].first_point
-        assert min(np.hypot(*(place - point)) for place in places) < 1e-15
-    for actuator in scenario.linkage.actuators.values():
-        for point in (actuator.foot_point, actuator.head_point):
-            assert min(np.hypot(*(place - point)) for place in places) < 1e-15
-
-
 def taken(data: Dataset) -> int:
     joints = [*data.of("JOINT").values(), *data.of("JPRIM").values()]
     return sum(FREEDOMS[next(iter(one.arguments))] for one in joints) + len(data.of("MOTION"))
@@ -266,19 +240,6 @@ def test_solved_by_another_solver_it_falls_and_hits_as_our_run() -> None:
     assert max(forces) == pytest.approx(held[f"pin.{PIN}.normal_force"].max(), rel=1e-3)
 
 
-def test_every_result_has_its_unit_and_is_a_channel_of_ours() -> None:
-    dataset = adams_dataset(RISE, "model")
-    entities = {one.arguments["RESULTS_NAME"]: one for one in READ.of("REQUEST").values()}
-    units = {"m": "length", "N": "force", "rad": "angle"}
-    for channel, column in dataset.columns.items():
-        entity, component = column.split(".")
-        place = entities[entity].words("CNAMES").index(component)
-        assert f"F{place + 1}" in entities[entity].arguments
-        assert entities[entity].words("CUNITS")[place] == units[RISE.channel_definitions[channel].unit]
-    asked = sum(len([one for one in entity.arguments if one[1:].isdigit()]) for entity in entities.values())
-    assert asked == len(dataset.columns)
-
-
 def res_of(run: Result, columns: dict[str, str], data: Dataset, factor: float) -> str:
     """A run as ADAMS writes it, by the names and kinds of unit that the requests give, in mm and kN.
 
@@ -341,7 +302,6 @@ def test_the_command_writes_files_that_both_programs_take(tmp_path: Path) -> Non
 
 
 LOAD = AppliedForce(body="canopy", point=(1.0, 2.0), full_force=(0.0, -1e3))
-LOOSE = RISE.pins[PIN]
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,10 @@ import re
 import pytest
 
 from studies.claims import claim_list
-from studies.claims.claim_list import CLAIMS, Claim, Varied
+from studies.claims.claim_list import CLAIMS, Claim
 from studies.claims.evidence import Evidence, Measured
 from studies.claims.plausible import REFERENCE
-from studies.claims.plausible_runs import MODE_1, evidence, measures
+from studies.claims.plausible_runs import evidence, measures
 from studies.common import paper_machine, rise
 from tests.cases.evidence_cases import blurred, right, wrong
 
@@ -42,13 +42,6 @@ def test_every_judge_leaves_open_what_the_numerical_error_leaves_open(claim: Cla
     assert claim.judge(blurred(known)) is None
 
 
-@pytest.mark.parametrize("claim", numbered(ON_MACHINES))
-def test_small_errors_change_no_judgement(claim: Claim) -> None:
-    assert claim.judge is not None
-    # the closest calls are of speeds and correlations that differ by thousandths: here are millionths
-    assert claim.judge(blurred(right(), 1e-6)) is True
-
-
 @pytest.mark.slow  # all cases of a machine
 @pytest.mark.parametrize("claim", numbered([c for c in CLAIMS if c.judge is not None]))
 def test_every_judge_finds_what_it_asks_for_in_real_measures(claim: Claim, reference: Evidence) -> None:
@@ -57,23 +50,6 @@ def test_every_judge_finds_what_it_asks_for_in_real_measures(claim: Claim, refer
     said = claim.tell(reference)
     assert re.search(r"\d", said)
     assert "nan" not in said
-
-
-@pytest.mark.parametrize("claim", [claim for claim in CLAIMS if claim.follows_from], ids=lambda c: c.name)
-def test_a_contained_statement_fails_only_together_with_the_one_that_contains_it(claim: Claim) -> None:
-    (whole,) = (other for other in CLAIMS if other.name == claim.follows_from)
-    assert not whole.follows_from
-    if claim.closed_form:
-        return
-    assert claim.judge is not None
-    assert whole.judge is not None
-    bad = wrong().measures
-    for case, row in right().measures.items():  # one measure of one case is wrong
-        for name in row:
-            changed = {key: dict(values) for key, values in right().measures.items()}
-            changed[case][name] = bad[case][name]
-            if claim.judge(Evidence(changed)) is False:
-                assert whole.judge(Evidence(changed)) is False or "lean" in name
 
 
 def test_closed_forms_are_judged_to_all_digits_printed(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -160,36 +136,3 @@ def spoilt(*names: str) -> Evidence:
 def test_each_part_of_a_claim_counts(start: str, part: str) -> None:
     assert judged(start, spoilt()) is True
     assert judged(start, spoilt(part)) is False
-
-
-def test_a_jump_of_fluctuation_between_1_and_1p5_mm_concerns_all_four() -> None:
-    start = "The fluctuations of the angular acceleration at 2.0 and 1.5 mm"
-    assert judged(start, with_row("rms_acceleration", 10.0, 11.0, 17.0, 18.0)) is True
-    assert judged(start, with_row("rms_acceleration", 10.0, 12.0, 17.0, 19.0)) is False
-    assert judged(start, with_row("rms_acceleration", 12.0, 10.0, 17.0, 19.0)) is False
-    assert judged(start, with_row("rms_acceleration", 10.0, 11.0, 19.0, 16.0)) is False
-
-
-def test_growth_asks_for_every_step() -> None:
-    start = "The mean pin force grows"
-    assert judged(start, with_row("mean_force", 1.0, 2.0, 4.0, 3.0)) is False
-    assert judged(start, with_row("mean_force", 1.0, 2.0, 3.0, 4.0, error=0.6)) is None
-
-
-VARIED = [claim for claim in ON_MACHINES if isinstance(claim.judge, Varied)]
-
-
-@pytest.mark.parametrize("claim", numbered(VARIED))
-def test_a_threshold_is_told_with_one_below_and_one_above(claim: Claim) -> None:
-    assert isinstance(claim.judge, Varied)
-    low, used, high = claim.judge.shown
-    assert used == claim.judge.used
-    assert low < used < high
-    for known, verdict in ((right(), True), (wrong(), False)):
-        assert claim.judge(known) is claim.judge.at(used)(known) is verdict
-
-
-def test_no_impulse_is_no_impact() -> None:
-    known = right().measures
-    still = Evidence(dict(known) | {MODE_1: dict(known[MODE_1]) | {"impulse": Measured(0.0)}})
-    assert judged("Mode 1 starts the columns with an impact", still) is False

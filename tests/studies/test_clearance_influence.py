@@ -11,12 +11,12 @@ import pytest
 from studies.clearance_influence import run as study
 from studies.common.paper_machine import ideal_of
 from studies.common.words import Chapter
-from tests.studies.forms import FORMS, Numbers, written
+from tests.studies.forms import FORMS, Numbers, results
 
 
 @pytest.fixture(scope="module", params=FORMS)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return written("clearance_influence", request.param, tmp_path_factory.mktemp("results"))
+    return results("clearance_influence", request.param, tmp_path_factory)
 
 
 @pytest.fixture(scope="module")

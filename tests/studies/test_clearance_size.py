@@ -14,7 +14,7 @@ from studies.common.paper_machine import SLIDING_COEFFICIENT, ideal_name
 from studies.common.runs import file_name
 from studies.common.subject import paper_subject
 from support_exudyn import Result
-from tests.studies.forms import FORMS, Numbers, numbers_of, written
+from tests.studies.forms import FORMS, Numbers, numbers_of, results
 
 DRY = [study.case_name(size, SLIDING_COEFFICIENT) for size in study.SIZES_MM]
 IDEAL = ideal_name(SLIDING_COEFFICIENT)
@@ -23,7 +23,7 @@ SMOOTH = [study.case_name(size, 0.0) for size in study.SIZES_MM]
 
 @pytest.fixture(scope="module", params=FORMS)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return written("clearance_size", request.param, tmp_path_factory.mktemp("results"))
+    return results("clearance_size", request.param, tmp_path_factory)
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from studies.drive_mode import assumed
 from studies.drive_mode.cases import COLUMNS, MODES, PINS, ModePlan, case_name
 from support_exudyn import ClearancePin, OilColumn
 from support_exudyn.model.drives.coupled_drive import CoupledDrive
-from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, written
+from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, results, written
 from user_forces import Ambrosio
 
 IDEAL, WITH_CLEARANCE = PINS
@@ -21,7 +21,7 @@ IDEAL, WITH_CLEARANCE = PINS
 
 @pytest.fixture(scope="module", params=ONLY_WHOLE)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return written("drive_mode", request.param, tmp_path_factory.mktemp("results"))
+    return results("drive_mode", request.param, tmp_path_factory)
 
 
 @pytest.fixture(scope="module")

@@ -25,24 +25,21 @@ from studies.extremes.judge import (
     REFUSED,
     SILENT,
     Judgement,
-    independent,
     judge,
     run_with_its_error,
 )
 from studies.extremes.legs import oil_open
-from studies.extremes.ranges import LARGEST_SPEED, SPANS, Point, drawn
+from studies.extremes.ranges import Point
 from studies.extremes.scenes import MAPS, Case, mapped
 from support_exudyn import Failure, Result, Scenario, SimulationError, simulate
 from support_exudyn.mechanics.time_statistics import TimeStatistics
 from support_exudyn.scene.limits import DEEPEST
-from support_exudyn.simulation.contact_ringing import ringing_step
 from support_exudyn.simulation.reported_numbers import measured
 from support_exudyn.simulation.result_checks import turned_over
 from tests.at_once import at_once
 from tests.hostile import posix_only
 from user_forces import InputError
 
-Run = Callable[[Scenario], Result]
 PIN = scenes.PIN
 POWERS = np.array([1, 2, 1, 1, 1, 0, 1, 0])  # of a factor, in the columns of statistics
 
@@ -75,32 +72,12 @@ def made_of(case: Case) -> Scenario | str:
         return str(error)
 
 
-def test_cases_are_the_same_every_time_and_more_have_fewer_among_them(full: list[Case]) -> None:
-    by_name = {case.name: case for case in full}
-    for case in cases(100):
-        assert case.group in MAPS or made_of(by_name[case.name]) == made_of(case)
-
-
 def test_every_case_makes_a_scenario_or_says_why_not(full: list[Case]) -> None:
     made = [made_of(case) for case in full[::7]]
     said = [one for one in made if isinstance(one, str)]
     assert all("allowed" in one for one in said)
     # v_s = v_d, and heights that the linkage does not reach
     assert 0 < len(said) < 0.1 * len(made)
-
-
-@pytest.mark.parametrize("box", [False, True])
-def test_random_points_keep_to_their_ranges(box: bool) -> None:
-    for n in range(500):
-        point = drawn(np.random.default_rng(n), box)
-        for name, span in SPANS.items():
-            value = getattr(point, name, None)
-            if value is None or (name in ("static_speed_m_s", "mu") and value == 0.0):
-                continue  # without static friction, or any
-            low, high = span.sensible if box else (span.low, span.high)
-            # the rounding of powers
-            assert low * (1.0 - 1e-12) <= value <= high * (1.0 + 1e-12), (n, name)
-        assert point.dynamic_speed_m_s <= LARGEST_SPEED
 
 
 # --- the judge ---
@@ -277,29 +254,6 @@ def test_inputs_that_are_refused_are_refused_and_errors_of_other_kinds_are_silen
         assert "test_extremes.py" in found.reason  # where it was
 
 
-@pytest.mark.parametrize("seconds", [0.2, 2.7, 20.0, 120.0])
-@pytest.mark.parametrize("clearance", [1e-6, 1e-3])
-def test_a_check_by_steps_does_not_damp_out_what_the_loaded_contact_still_does(
-    monkeypatch: pytest.MonkeyPatch, seconds: float, clearance: float
-) -> None:
-    made: list[Scenario] = []
-
-    def simulate_none(scenario: Scenario, errors: bool) -> Result:
-        made.append(scenario)
-        raise SimulationError(Failure("not run", "", 0.0))
-
-    monkeypatch.setattr("studies.extremes.judge.simulate", simulate_none)
-    scene = scenes.fallen(Point(clearance_m=clearance, restitution=0.9))
-    scene = replace(scene, duration=seconds, record_period=seconds / 50.0, formulation="compiled")
-    assert independent(scene) is None
-    for other in made:
-        # three runs, the last of which has a quarter of the steps: they agreed on what all of them had lost
-        assert other.formulation == "exudyn"
-        assert other.step <= ringing_step(other)
-    # what would take too many steps is not checked; all else is
-    assert len(made) == (0 if seconds >= 20.0 else 1)
-
-
 # --- hangs and crashes ---
 
 
@@ -312,18 +266,13 @@ def sleep() -> Scenario:
     return fall()
 
 
-def loop() -> Scenario:
-    while True:
-        pass
-
-
 def crawl() -> Scenario:
     """A step at a time; so short that the engine would take hours."""
     return replace(fall(), step=1e-7, duration=100.0, record_period=1.0)
 
 
 @posix_only
-@pytest.mark.parametrize("make", [sleep, loop, crawl])
+@pytest.mark.parametrize("make", [sleep, crawl])
 def test_a_run_that_hangs_is_a_silent_failure(
     make: Callable[[], Scenario], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -335,27 +284,6 @@ def test_a_run_that_hangs_is_a_silent_failure(
     # nothing rings later
     assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)
     assert signal.getsignal(signal.SIGALRM) == before
-
-
-# --- shares of what was drawn ---
-
-
-@pytest.mark.parametrize(("held", "number"), [(0, 347), (3, 347), (104, 104), (1, 1)])
-def test_the_interval_of_a_share_is_that_of_counting(held: int, number: int) -> None:
-    from scipy.stats import binom
-
-    found = extremes.CountedShare(held, number)
-    low, high = found.interval
-    tail = 0.5 * (1.0 - extremes.SURE)
-    if held:
-        assert binom.sf(held - 1, number, low) == pytest.approx(tail)
-    else:
-        assert low == 0.0
-    if held < number:
-        assert binom.cdf(held, number, high) == pytest.approx(tail)
-    else:
-        assert high == 1.0
-    assert max(found.value - low, high - found.value) == pytest.approx(found.error)
 
 
 # --- the whole study ---

@@ -2,13 +2,7 @@
 
 from __future__ import annotations
 
-import json
-import os
-import signal
-import subprocess
-import sys
-import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,73 +15,7 @@ from studies.common.options import Options
 from studies.common.study import work_in_folder
 from studies.common.words import Chapter
 from tests.hostile import posix_only
-from tests.processes import ROOT, environment, linux_only, session_of, wait_until
-from tests.studies import hostile_main
 from user_forces.values.value import InputError
-
-# --- interrupted, and started twice ---
-
-
-@dataclass(frozen=True)
-class Story:
-    """Of a study that another was started next to, and that was then interrupted as by the console."""
-
-    out: Path
-    second: subprocess.CompletedProcess[str]
-    pid: int
-    code: int
-    said: str
-    seconds: float
-    left_over: set[int]
-
-
-@pytest.fixture(scope="module")
-def story(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Story]:
-    out = tmp_path_factory.mktemp("results") / "out"
-    command = [sys.executable, "-m", hostile_main.__name__, "--workers", "2", "--out", str(out)]
-    given = {"cwd": ROOT, "env": environment(), "text": True}
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with subprocess.Popen(command, start_new_session=True, **given, **pipes) as process:  # type: ignore[call-overload]
-        try:
-            # itself, two workers, and the tracker of what they share
-            assert wait_until(lambda: len(session_of(process.pid)) >= 4, 60.0)
-            second = subprocess.run(command, capture_output=True, timeout=60, **given)  # type: ignore[call-overload]
-            os.killpg(process.pid, signal.SIGINT)
-            sent = time.perf_counter()
-            _, said = process.communicate(timeout=60)
-            seconds = time.perf_counter() - sent
-            wait_until(lambda: not session_of(process.pid), 10.0)
-            left_over = session_of(process.pid)
-            yield Story(out, second, process.pid, process.returncode, said, seconds, left_over)
-        finally:
-            for pid in session_of(process.pid):
-                os.kill(pid, signal.SIGKILL)
-
-
-@pytest.mark.slow  # four processes, two of them at work
-@linux_only
-class TestInterrupted:
-    """By the console: all its processes at once."""
-
-    def test_it_says_so_in_a_line(self, story: Story) -> None:
-        assert story.code == 130
-        assert story.said.splitlines()[-1] == "interrupted; nothing half-written is left"
-        assert "Traceback" not in story.said
-        assert "KeyboardInterrupt" not in story.said
-
-    def test_it_ends_soon_with_all_its_processes(self, story: Story) -> None:
-        assert story.seconds < 40.0  # a second or two on an idle machine; the runs would take minutes
-        assert story.left_over == set()
-
-    def test_what_was_finished_stays_and_nothing_else(self, story: Story) -> None:
-        assert [path.name for path in story.out.iterdir()] == ["summary.json"]
-        assert json.loads((story.out / "summary.json").read_text(encoding="utf-8"))["study"] == "hostile"
-
-    def test_a_second_one_into_its_folder_is_told_to_wait(self, story: Story) -> None:
-        assert story.second.returncode == 1
-        (line,) = story.second.stderr.splitlines()
-        assert line.startswith(f"error: --out {story.out}: another process is writing there; wait")
-
 
 # --- folders ---
 

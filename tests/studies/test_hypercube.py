@@ -6,7 +6,6 @@ import json
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -64,13 +63,6 @@ def scales(rows: list[hypercube.MachineRow]) -> list[float]:
 
 def place(out: Path, sample: Mapping[str, Choice]) -> Path:
     return out / hypercube.FOLDER / f"{hypercube.key(sample)}.json"
-
-
-def test_rows_are_in_the_order_of_the_samples(tmp_path: Path, ran: list[float]) -> None:
-    assert scales(run(GOOD, tmp_path)) == [0.7, 0.8, 0.9]
-    assert ran == [0.7, 0.8, 0.9]
-    assert scales(run(GOOD[::-1], tmp_path)) == [0.9, 0.8, 0.7]
-    assert len(ran) == 3
 
 
 def test_only_what_is_missing_is_run(tmp_path: Path, ran: list[float]) -> None:
@@ -131,15 +123,6 @@ def test_the_key_changes_with_every_datum(factor: Any) -> None:
     other = factor.choices[-1] if factor.choices else float(REFERENCE[factor.name]) * (1 + 1e-15) + 1e-300
     assert other != REFERENCE[factor.name]
     assert hypercube.key(REFERENCE | {factor.name: other}) != hypercube.key(REFERENCE)
-
-
-def test_the_key_changes_with_the_sources_of_studies(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(hypercube, "studies", SimpleNamespace(__path__=[str(tmp_path)]))
-    found = set()
-    for name, text in (("law.py", "x = 1"), ("law.py", "x = 2"), ("support.toml", "x = 1"), ("notes.txt", "x")):
-        (tmp_path / name).write_text(text, encoding="utf-8")
-        found.add(hypercube._own_sources.__wrapped__())
-    assert len(found) == 3  # notes make no numbers
 
 
 def test_a_changed_program_runs_all_anew(

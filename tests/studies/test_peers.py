@@ -90,11 +90,6 @@ def test_our_connector_moves_the_support_as_the_built_in_contact_does(contact: E
     assert np.abs(ours - built_in).max() < 1e-6
 
 
-def test_the_engines_own_contact_has_no_friction() -> None:
-    with pytest.raises(InputError, match="friction"):
-        run_connector(loose_support(1.5, 0.25, drive=Held(), duration=0.01), 1e-5, "built_in")
-
-
 def test_the_program_in_c_integrates_the_same_machine() -> None:
     scenario = loose_support(1.5, 0.25)
     try:

@@ -19,7 +19,6 @@ from studies.common.words import REFERENCE, TEMPLATE, Chapter, JudgedClaim, Pict
 from support_exudyn.postprocessing.page.live import LiveCurve, LiveFigure, LivePanel
 from support_exudyn.postprocessing.page.pieces import Sheet
 from support_exudyn.simulation.provenance import versions
-from user_forces.values.value import InputError
 
 HOSTILE = "<script>alert(1)</script> | \"quoted\" & '<img src=http://x.example/>'\n- new line"
 VERDICTS = ("holds", "in part", "fails", "not measurable", "needs more machines")
@@ -138,13 +137,6 @@ def appendix(made: Path) -> Page:
     return Page((made / "appendix.html").read_text(encoding="utf-8"))
 
 
-@pytest.fixture
-def out(tmp_path: Path) -> Path:
-    put(tmp_path, chapter("claims"))
-    assert report.main(["--out", str(tmp_path)]) == 0
-    return tmp_path
-
-
 def test_every_link_leads_somewhere(made: Path, page: Page, appendix: Page) -> None:
     places = {
         file: {attributes["id"] for _, attributes in one.tags if "id" in attributes}
@@ -198,14 +190,3 @@ def test_hostile_text_stays_text(page: Page, appendix: Page) -> None:
         assert not [a for tag, a in one.tags if tag == "img" and "x.example" in a.get("src", "")]
         shown = [text for _, text in one.texts if "<script>alert(1)</script>" in text]
         assert len(shown) >= 6
-
-
-def test_nothing_is_written_if_a_picture_vanishes(out: Path) -> None:
-    before = {path: path.read_bytes() for path in out.glob("*.html")}
-    found = report.sections(out, [])
-    (out / "claims" / "force one.png").unlink()
-    with pytest.raises(OSError, match="force one"):
-        report.write_report(out, found)
-    assert {path: path.read_bytes() for path in out.glob("*.html")} == before
-    with pytest.raises(InputError, match=r"force one\.png: no such file"):
-        report.sections(out, [])

@@ -8,8 +8,6 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from studies.common import rise
 
@@ -45,20 +43,6 @@ def rms(values: Series) -> float:
     return float(np.sqrt((squares.sum() - 0.5 * (squares[0] + squares[-1])) / (values.size - 1)))
 
 
-# --- masks ---
-
-
-@pytest.mark.parametrize("period", PERIODS)
-def test_masks_take_in_both_ends(period: float) -> None:
-    run = Record(period)
-    inside = run.time[rise.between(run, 3.1, 3.6)]
-    assert inside[[0, -1]] == pytest.approx([3.1, 3.6], abs=1e-12)  # rounding of the times
-    assert inside.size == round(0.5 / period) + 1
-    whole = run.time[rise.in_rise(run)]
-    assert (whole[0], whole[-1]) == (3.0, 5.0)
-    assert whole.size == round(2.0 / period) + 1
-
-
 # --- trend and RMS fluctuation ---
 
 
@@ -74,23 +58,6 @@ def test_the_ripple_of_a_sine_on_a_slope_is_known(period: float, frequency: floa
     assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(left, abs=1e-11)
 
 
-@pytest.mark.parametrize("period", PERIODS)
-def test_the_ripple_hardly_depends_on_how_often_is_recorded(period: float) -> None:
-    run = Record(period, {"x": lambda time: np.sin(2 * np.pi * 20.0 * time)})
-    # at 20 Hz the window holds two whole periods: the whole sine is RMS fluctuation, but for rounding
-    assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(np.sqrt(0.5), rel=1e-9)
-
-
-@pytest.mark.parametrize("period", PERIODS)
-def test_a_bend_leaves_a_known_rest(period: float) -> None:
-    run = Record(period, {"x": lambda time: 3.0 * (time - 4.0) ** 2})
-    rest = 3.0 * (
-        0.1**2 / 12 + period**2 / 6
-    )  # mean of the squares of a window's times, by the trapezoidal rule
-    # rounding of the moving sum over values of 3
-    assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(rest, abs=1e-12)
-
-
 def test_only_what_is_between_the_times_counts() -> None:
     run = Record(courses={"x": lambda t: np.where((t > 3.7) & (t < 4.3), np.sin(2 * np.pi * 20.0 * t), 0.0)})
     shaking = rise.rms_fluctuation(run, run["x"], *rise.STAGES["middle"])
@@ -101,23 +68,6 @@ def test_only_what_is_between_the_times_counts() -> None:
     )  # of what the moving sum has passed
     # six of 18 tenths of a second shake, ten records of 600 more or less where the trend sees the borders
     assert rise.rms_fluctuation(run, run["x"]) == pytest.approx(np.sqrt(0.5 / 3.0), rel=0.05)
-
-
-def test_a_blow_at_the_start_counts_only_if_it_is_asked_for() -> None:
-    run = Record(courses={"x": lambda t: np.where((t >= 3.0) & (t < 3.02), 1.0, 0.0)})
-    assert rise.rms_fluctuation(run, run["x"]) <= 1e-13  # rounding of the moving sum
-    assert rise.rms_fluctuation(run, run["x"], rise.START) > 0.05
-
-
-@pytest.mark.parametrize("period", PERIODS)
-def test_the_trend_follows_a_slope_and_flattens_a_sine(period: float) -> None:
-    run = Record(period)
-    inner = slice(60, -60)  # no window fits at the ends
-    slope = 2.0 + 3.0 * run.time
-    np.testing.assert_allclose(rise.trend(run, slope)[inner], slope[inner], rtol=1e-12)  # rounding
-    sine = np.sin(2 * np.pi * 20.0 * run.time)
-    # one record in the window is more than two periods: 1 % or, every 2 ms, 2 %
-    assert np.abs(rise.trend(run, sine)[inner]).max() < 11.0 * period
 
 
 # --- likeness ---
@@ -132,14 +82,6 @@ def test_the_same_course_is_alike_whatever_its_size_and_shaking() -> None:
     # of the shaking the trend keeps 1 %, 0.003, of a course whose standard deviation is 0.66
     assert rise.likeness(plain, shaken, "x") == pytest.approx(1.0, abs=1e-4)
     assert rise.likeness(shaken, plain, "x") == pytest.approx(rise.likeness(plain, shaken, "x"), abs=1e-12)
-
-
-def test_courses_at_right_angles_are_not_alike() -> None:
-    # over the 1.8 s that count these are one whole period
-    one = Record(courses={"x": lambda t: np.sin(2 * np.pi * (t - BEGIN) / 1.8)})
-    other = Record(courses={"x": lambda t: np.cos(2 * np.pi * (t - BEGIN) / 1.8)})
-    # one record more than a period: 1 of 1801
-    assert rise.likeness(one, other, "x") == pytest.approx(0.0, abs=2e-3)
 
 
 # --- means, departures, angles ---
@@ -174,16 +116,3 @@ def test_angles_are_those_of_figure_12() -> None:
     assert rise.rearward_angle(run, "rear_column") == pytest.approx(0.5 * np.pi - 0.2, rel=1e-15)
     assert rise.lean(run, "front_column") == pytest.approx(0.2, rel=1e-14)
     assert rise.lean(run, "rear_column") == pytest.approx(0.2, rel=1e-14)
-
-
-@given(angle=st.floats(0.0, np.pi), tilt=st.floats(1e-3, 0.1))
-def test_tilting_to_the_rear_makes_both_angles_smaller(angle: float, tilt: float) -> None:
-    before = Record(courses={"front_column.angle": lambda t: np.full_like(t, angle)})
-    after = Record(courses={"front_column.angle": lambda t: np.full_like(t, angle + tilt)})
-    change = rise.rearward_angle(after, "front_column") - rise.rearward_angle(before, "front_column")
-    assert change == pytest.approx(-tilt, rel=1e-10)  # rounding of angles about 3
-    nearer = rise.lean(after, "front_column") < rise.lean(before, "front_column")
-    if angle + tilt <= 0.5 * np.pi:
-        assert nearer.all()
-    elif angle >= 0.5 * np.pi:
-        assert not nearer.any()

@@ -24,12 +24,12 @@ from studies.scene_detail.scenes import (
 from support_exudyn import Estimate, recommend
 from support_exudyn.simulation.evidence.table import EvidenceTable, committed, fields_of
 from support_exudyn.simulation.recommend import QUESTIONS, comparisons
-from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, written
+from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, results
 
 
 @pytest.fixture(scope="module", params=ONLY_WHOLE)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return written("scene_detail", request.param, tmp_path_factory.mktemp("results"))
+    return results("scene_detail", request.param, tmp_path_factory)
 
 
 @pytest.fixture(scope="module")

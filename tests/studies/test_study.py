@@ -66,21 +66,6 @@ def test_a_number_is_rounded_to_the_digits_that_its_error_leaves(value: float, e
     assert rounded(value, error) == text
 
 
-@given(value=values, share=shares)
-@example(value=99999.99999, share=1e-9)
-@example(value=51503.8323, share=1.7e-7)
-@example(value=666760717.0, share=10.0**-6.125)
-def test_all_digits_of_a_rounded_number_are_right(value: float, share: float) -> None:
-    error = share * abs(value)
-    number, _, its_error = rounded(value, error).partition(" ± ")
-    if its_error:  # of two digits, or of fewer where the number has its six
-        assert abs(float(its_error) - error) <= max(0.051 * error, 0.501e-5 * max(abs(value), error))
-        assert abs(float(number) - value) <= max(0.051 * error, 0.501e-5 * abs(value))
-    else:  # the error is below the sixth digit
-        assert abs(float(number) - value) <= 0.501e-5 * abs(value)
-        assert error <= 0.501e-5 * abs(value)
-
-
 @given(share=st.floats(1e-8, 3.0), change=st.floats(-0.9, 5.0))
 @example(share=0.5, change=0.0625)
 def test_a_change_in_per_cent_is_told_to_its_error(share: float, change: float) -> None:
@@ -122,18 +107,6 @@ def read(*words: str) -> Options:
     parser = Parser()
     add_options(parser, Path("results"))
     return read_options(parser.parse_args(words))
-
-
-def test_options_have_defaults() -> None:
-    plain = read()
-    assert plain.out.parts == ("results",)
-    assert plain.kept == plain.out / "kept"
-    assert (plain.machines, plain.runs) == (None, None)
-    assert plain.subject.is_paper
-    assert isinstance(plain.workers, int)
-    assert plain.workers >= 1
-    given = read("--workers", "3", "--machines", "9", "--runs", "5", "--out", "x")
-    assert (given.workers, given.machines, given.runs, given.out.parts) == (3, 9, 5, ("x",))
 
 
 # --- one's own machine ---

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -47,11 +46,3 @@ def test_the_script_makes_it_again(tmp_path: Path) -> None:
         digits = apart / STATION.instruments[name].resolution
         assert digits.max() < 1.5
         assert (digits > 0.5).mean() <= 0.05  # where rounding decides otherwise
-
-
-def test_the_run_is_the_one_that_the_text_tells() -> None:
-    scenario = measured_scenario()
-    assert (scenario.start, scenario.accuracy) == ("settled", "reference")
-    assert list(scenario.legs) == ["front_column", "rear_column"]
-    assert scenario.clearance_pins["rear_base"].contact.bearing.clearance == 1.5e-3
-    assert replace(scenario, start="concentric").drive.breaks == (0.5, 2.5)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import random
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -98,37 +97,11 @@ def test_the_interval_decides(holds: int, fails: int, undecided: int, kind: str)
     )
 
 
-@pytest.mark.parametrize(
-    ("share", "kind"), [(0.99, "holds"), (0.5, "in part"), (0.1, "in part"), (0.01, "fails")]
-)
-def test_drawn_machines_give_the_right_verdict_or_ask_for_more(share: float, kind: str) -> None:
-    chance = random.Random(f"{share}")
-    found = []
-    for number in (8, 80, 400, 2000):
-        for _ in range(20):
-            holds = sum(chance.random() < share for _ in range(number))
-            found.append((number, Count(holds, number - holds)))
-    # a verdict is wrong by chance once in forty drawings
-    assert sum(count.kind not in (kind, "needs more machines") for _, count in found) <= 4
-    assert all(count.kind == kind for number, count in found if number == 2000)
-    assert sum(count.interval[0] <= share <= count.interval[1] for _, count in found) >= 0.9 * len(found)
-
-
 def test_a_closed_form_asks_no_machine() -> None:
     alone = replace(CLAIM, closed_form=True)
     found = ruling([False] * 100, claim=alone)
     assert (found.kind, found.first, found.ours) == ("holds", Count(), "ours")
     assert ruling([True] * 100, False, alone).kind == "fails"
-
-
-def test_both_hypercubes_are_judged_and_compared() -> None:
-    first, second = (
-        [(MACHINES[0], evidence(v)) for v in verdicts] for verdicts in ([True] * 100, [False] * 100)
-    )
-    found = rule(CLAIM, evidence(True), first, second)
-    assert (found.kind, found.verdict(found.second), found.differs) == ("holds", "fails", True)
-    assert not rule(CLAIM, evidence(True), first, first).differs
-    assert not rule(CLAIM, evidence(True), first).differs  # there is no second one
 
 
 @pytest.mark.parametrize(("known", "kind", "number"), [(right(), "holds", 34), (wrong(), "fails", 34)])
@@ -142,13 +115,6 @@ def test_statements_that_are_contained_in_others_are_counted_once(
     assert "angles fall with size" in names
     assert not {"columns tilt", "front nearer to the vertical", "rear away from the vertical"} & names
     assert len(names) == number
-
-
-def test_a_contained_statement_with_another_verdict_is_counted() -> None:
-    whole = Ruling(replace(CLAIM, name="whole"), first=Count(0, 100))
-    part = Ruling(replace(CLAIM, name="part", follows_from="whole"), first=Count(100, 0))
-    assert independent([part, whole]) == [part, whole]
-    assert independent([replace(part, first=Count(0, 100)), whole]) == [whole]
 
 
 @pytest.mark.parametrize(
@@ -167,19 +133,6 @@ def test_a_contained_statement_with_another_verdict_is_counted() -> None:
 )
 def test_the_datum_on_which_a_verdict_depends_is_named(judged: Callable[[Sample], bool], text: str) -> None:
     assert re.fullmatch(text, ruling([judged(machine) for machine in MACHINES]).depends)
-
-
-def test_the_error_is_the_largest_of_the_numbers_told() -> None:
-    evidence = Evidence(
-        {"ideal": {"a": Measured(100.0, 1.0), "b": Measured(1.0, 0.02), "c": Measured(1.0, 0.5)}}
-    )
-    claim = replace(
-        CLAIM, judge=lambda e: True, tell=lambda e: f"{e['ideal', 'a'].value} {e['ideal', 'b'].value}"
-    )
-    # c is not told
-    assert rule(claim, evidence, []).error == pytest.approx(0.02)
-    closed = replace(claim, tell=lambda e: "exact")
-    assert rule(closed, evidence, []).error is None
 
 
 # --- thresholds ---

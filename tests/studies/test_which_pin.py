@@ -15,9 +15,9 @@ from studies.which_pin import closed_form as clearance
 from studies.which_pin.closed_form import loads, mean_shift
 from studies.which_pin.measures import measures
 from studies.which_pin.run import in_order, rankings
-from support_exudyn import ClearancePin, CubicStep, Result, SolverSettings, reference_support, simulate
+from support_exudyn import ClearancePin, Result, SolverSettings, reference_support, simulate
 from support_exudyn.mechanics.postures import eccentric
-from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, written
+from tests.studies.forms import ONLY_WHOLE, Numbers, numbers_of, results
 from user_forces import Ambrosio, Exact, Hertz, JournalBearing, JournalContact, KelvinVoigt, Threlfall
 from user_forces.values.value import InputError
 
@@ -28,7 +28,7 @@ SUPPORT = reference_support()
 
 @pytest.fixture(scope="module", params=ONLY_WHOLE)
 def out(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return written("which_pin", request.param, tmp_path_factory.mktemp("results"))
+    return results("which_pin", request.param, tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
@@ -95,31 +95,6 @@ def test_influence_is_that_of_the_linkage_laid_out_anew() -> None:
             np.testing.assert_allclose(clearance.influence(stand, name)[:2, axis], way / 1e-5, atol=1e-4)
 
 
-def test_shift_is_the_work_of_a_unit_force_at_the_tip() -> None:
-    stand = clearance.standing(SUPPORT)
-    pins = dict.fromkeys(PINS, paper_subject().clearance_pin(1.5, 0.0))
-    tip = SUPPORT.linkage().points["tip"].point
-    weight = clearance.forces(stand, {})
-    for axis, unit in ((clearance.TIP_X, (1.0, 0.0)), (clearance.TIP_Y, (0.0, 1.0))):
-        of_unit = clearance.forces(stand, {}, [clearance.Press("canopy", tip, unit)]) - weight
-        for n, (name, opening) in enumerate(clearance.openings(stand, pins).items()):
-            # virtual work; rounding of forces of 5e4 N
-            work = of_unit[2 * n : 2 * n + 2] @ opening
-            assert clearance.shifts(stand, pins)[name][axis] == pytest.approx(work, rel=1e-8, abs=1e-12)
-
-
-def test_journals_lie_along_their_load_by_clearance_and_depth() -> None:
-    stand = clearance.standing(SUPPORT)
-    pin = paper_subject().clearance_pin(1.5, 0.0)
-    for name, opening in clearance.openings(stand, dict.fromkeys(PINS, pin)).items():
-        first = 2 * PINS.index(name)
-        load = clearance.forces(stand, {})[first : first + 2]
-        size = float(np.hypot(*load))
-        depth = float(np.hypot(*opening)) - pin.contact.bearing.clearance
-        assert pin.contact.normal.elastic_force(depth) == pytest.approx(size, rel=1e-9)  # of a root
-        assert opening @ load == pytest.approx(float(np.hypot(*opening)) * size, rel=1e-12)  # rounding
-
-
 def test_a_roof_turns_the_shift_around() -> None:
     under = loads(paper_subject().clearance_pin(1.5, 0.0))
     whole = {name: sum(one.mean(pin) for pin in PINS) for name, one in under.items()}
@@ -156,32 +131,6 @@ def test_every_pin_may_have_its_own_law_and_clearance(out: Path) -> None:
     # as `test_virtual_work_tells_where_the_worn_support_stands`
     assert shift == pytest.approx(mean_shift(own)[clearance.TIP_X], rel=0.01)
     assert shift < -8e-3
-
-
-def test_the_closed_form_knows_inertia() -> None:
-    middle, early = clearance.stands(SUPPORT, CubicStep(), [4.0, 3.1])
-    held = clearance.standing(SUPPORT)
-    # 0.75 m/s^2 upward at the start, none in the middle of the stroke
-    assert early.acceleration[10] > 0.5
-    assert abs(middle.acceleration[10]) < 0.1
-    assert not held.acceleration.any()
-
-
-# --- what is written ---
-
-
-def test_the_peak_over_ideal_has_the_error_of_the_peaks_that_it_is_made_of(numbers: Numbers) -> None:
-    cases = {case for name, case in numbers if name == "largest_peak_over_ideal"}
-    plan = which_pin_cases.PinPlan(paper_subject())
-    for case in cases & plan.loose.keys():
-        shares = []  # of each force: its peak over the ideal one, and what the errors of both make of it
-        for force in plan.forces.values():
-            peak, ideal = (numbers[f"largest_force_{force}", one] for one in (case, plan.ideal_of(case)))
-            shares.append((peak["value"] / ideal["value"], peak["numerical_error"] / ideal["value"]))
-        ratio = numbers["largest_peak_over_ideal", case]
-        largest, error = max(shares)
-        assert ratio["value"] == pytest.approx(largest)
-        assert ratio["numerical_error"] >= 0.99 * error
 
 
 # --- machines of one's own ---

@@ -20,7 +20,7 @@ from studies.common.witness import Witness, is_within, run_on_exudyn, with_error
 from studies.common.words import Chapter
 from support_exudyn import CubicStep, Result, Scenario
 from tests.at_once import at_once
-from tests.studies.forms import WHOLE, written
+from tests.studies.forms import WHOLE, results
 
 SHORT = CubicStep(stroke=0.002, start=0.1, end=0.2)
 MEASURES = {
@@ -84,9 +84,9 @@ def test_errors_have_floors() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("study", [study for study in DEFAULT if study != "claims"])  # its machines are drawn
 def test_a_study_of_the_paper_runs_on_exudyn_and_names_what_the_witness_does_not_confirm(
-    study: str, tmp_path: Path
+    study: str, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
-    out = written(study, WHOLE, tmp_path)
+    out = results(study, WHOLE, tmp_path_factory)
     runs = [Result.load(path).scenario.formulation for path in out.rglob("*.h5")]
     assert set(runs) == {"exudyn"}
     numbers: list[dict[str, Any]] = json.loads((out / "summary.json").read_text("utf-8"))["numbers"]

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import pytest
 
-from support_exudyn.sweeps import workers
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, worker_pool
 from tests import processes
 from tests.hostile import posix_only
@@ -22,14 +21,6 @@ from tests.processes import ROOT, environment, linux_only, session_of, wait_unti
 pytestmark = posix_only
 
 # --- jobs; processes of their own import them from here ---
-
-
-class Deadly:
-    """Ends the process that sends it."""
-
-    def __reduce__(self) -> str:
-        os.kill(os.getpid(), signal.SIGKILL)
-        return ""
 
 
 def end(place: int, way: str, folder: Path) -> int:
@@ -42,16 +33,10 @@ def end(place: int, way: str, folder: Path) -> int:
     elif way == "crashed":
         faulthandler.disable()  # what it writes is not looked at
         os.abort()
-    elif way.startswith("left"):
-        os._exit(int(way[4:] or 3))
-    elif way == "killed in mid-sentence":
-        return Deadly()  # type: ignore[return-value]
-    elif way == "killed once" and not again:
-        os.kill(os.getpid(), signal.SIGKILL)
+    elif way == "left":
+        os._exit(3)
     elif way == "at work" and not again:
         time.sleep(30.0)  # ends with the process that is killed beside it
-    elif way == "refused":
-        raise LookupError("a bug")
     return place
 
 
@@ -95,40 +80,6 @@ def test_the_job_whose_process_ends_is_told_and_all_others_are_done(pool: Worker
     begun = times_begun(tmp_path)
     assert begun[0] == begun[1] == 2
     assert {begun[n] for n in (2, 3, 4, 5, 8)} <= {1, 2}  # again if they stood beside one that ended
-
-
-def test_a_job_whose_process_ends_once_is_done_after_all(pool: Workers, tmp_path: Path) -> None:
-    found = pool.run([("killed once", tmp_path), ("good", tmp_path)], end, silent)
-    assert found == [0, 1]
-
-
-def meet(place: int, folder: Path) -> bool:
-    (folder / f"here {place}").touch()
-    return wait_until((folder / f"here {1 - place}").exists, 30.0)
-
-
-# --- streams ---
-
-
-def test_a_stream_tells_of_every_job_once_whatever_ends(pool: Workers, tmp_path: Path) -> None:
-    ways = ["at work", "killed", *["good"] * 12, "crashed", "killed once", *["good"] * 6]
-    taken: list[int] = []
-
-    def jobs() -> Iterator[tuple[str, Path]]:
-        for number, way in enumerate(ways):
-            taken.append(number)
-            folder = tmp_path / str(number)  # places are used again
-            folder.mkdir()
-            yield way, folder
-
-    found: dict[int, object] = {}
-    for number, one in pool.stream(jobs(), end):
-        assert number not in found
-        assert len(taken) - len(found) <= workers.AHEAD * 2  # no more than that many ahead
-        found[number] = one
-    assert set(found) == set(range(len(ways)))
-    lost = {number: one for number, one in found.items() if isinstance(one, ProcessEndedError)}
-    assert {number: one.place for number, one in lost.items()} == {1: 1, 14: 14}
 
 
 # --- interruptions ---

@@ -57,19 +57,6 @@ def test_each_sample_is_the_machine_with_these_numbers_in_it(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize(
-    ("vary", "drawn"),
-    [
-        ('"machine.masses_kg.*" = "stated range"', DRAWN[1:]),
-        ('machine.masses_kg.canopy = "stated range"', DRAWN[2:]),
-        ('"machine.*canopy" = "stated range"\n"machine.masses_kg.*" = "stated range"', DRAWN[1:]),
-        ('"machine.*" = "stated range"\nduration_s = [0.5, 1]', (*DRAWN, "duration_s")),
-    ],
-)
-def test_named_ones_alone_are_drawn(vary: str, drawn: tuple[str, ...], tmp_path: Path) -> None:
-    assert set(read_sweep(write(tmp_path, vary)).names) == set(drawn)
-
-
-@pytest.mark.parametrize(
     ("vary", "head", "said"),
     [
         ('"machine.*" = "stated range"', "", r"allowed with method = 'latin_hypercube'"),

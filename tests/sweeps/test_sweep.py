@@ -95,15 +95,6 @@ def test_a_number_that_no_run_can_have_is_refused_before_any_is_made(tmp_path: P
     assert not ran
 
 
-def test_the_same_run_twice_in_a_plan_is_made_once(tmp_path: Path, ran: list[Task]) -> None:
-    path = write_sweep(tmp_path, '"machine.speed_m_per_s" = [0.1, 0.2, 0.1, 0.10]')
-    outcome = do(path)
-    assert (outcome.done, len(ran)) == (4, 2)
-    table = columns(path.parent / "store")
-    assert table["key"][0] == table["key"][2] == table["key"][3]
-    assert table["pin.pin.force.mean_N"][0] == table["pin.pin.force.mean_N"][2]
-
-
 def test_what_ends_after_an_interruption_stands_in_the_table(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -158,14 +149,6 @@ def test_other_numbers_are_noted_of_runs_that_are_kept(tmp_path: Path, ran: list
     assert columns(tmp_path / "anew" / "store") == noted
 
 
-def test_runs_that_are_not_kept_are_made_again_for_other_numbers(tmp_path: Path, ran: list[Task]) -> None:
-    record = 'keep_runs = false\nnumbers = ["{}"]'
-    do(write_sweep(tmp_path, speeds(2), record=record.format("pin.pin.force.largest")))
-    assert not list((tmp_path / "store" / "runs").iterdir())
-    do(write_sweep(tmp_path, speeds(2), record=record.format("journal.x.max")))
-    assert [task.again for task in ran] == [False] * 4
-
-
 DAMAGE: dict[str, Callable[[bytes], bytes]] = {
     "cut": lambda whole: whole[: len(whole) // 2],
     "changed": lambda whole: whole[:-9] + bytes([whole[-9] ^ 1]) + whole[-8:],
@@ -214,11 +197,6 @@ def test_refused_and_failed_runs_are_rows_with_their_reason(
     monkeypatch.setattr(work, "simulate", real)
     assert do(path, retry_failed=True).done == 2
     assert len(ran) == 3
-
-
-def test_if_all_are_refused_the_sweep_is(tmp_path: Path, ran: list[Task]) -> None:
-    with pytest.raises(InputError, match=r"speed_m_per_s = -0.5: allowed: >= 0"):
-        do(write_sweep(tmp_path, '"machine.speed_m_per_s" = [-0.5, -0.6]'))
 
 
 # --- the command ---

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from support_exudyn.sweeps.distributions import MeasuredNumbers, NormalNumbers, distribution_of
+from support_exudyn.sweeps.distributions import NormalNumbers, distribution_of
 from support_exudyn.sweeps.statistics import percentiles, ranking
 from user_forces.values.value import InputError
 
@@ -30,16 +29,6 @@ def test_a_truncated_one_stays_between_its_bounds_with_the_same_shape() -> None:
     assert max(drawn) <= 0.9
     # half of the half is below the first quartile of the whole
     assert float(truncated.at(0.5)) == pytest.approx(0.9 - 0.05 * 0.6744897501960817, abs=1e-11)
-
-
-def test_measured_numbers_are_all_equally_likely(tmp_path: Path) -> None:
-    (tmp_path / "e.csv").write_text("run, restitution\n1, 0.9\n2, 0.7\n3, 0.8\n", encoding="utf-8")
-    given = {"distribution": "file", "file": "e.csv", "column": "restitution"}
-    found = distribution_of(given, "vary.e", tmp_path)
-    assert found == MeasuredNumbers((0.7, 0.8, 0.9))
-    assert [found.at(share) for share in (0.0, 0.5, 0.75, 1.0)] == list(
-        map(Decimal, ("0.7", "0.8", "0.85", "0.9"))
-    )
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -12,13 +11,10 @@ import pytest
 
 from support_exudyn import reference_support
 from support_exudyn.files import read_scenario
-from support_exudyn.files.hdf5 import with_checksum
 from support_exudyn.model.drives.drive import CubicStep
 from support_exudyn.scenario.scenario import Scenario
-from support_exudyn.simulation.result import FORMAT
 from support_exudyn.sweeps import key as keys
 from support_exudyn.sweeps import own_sources
-from support_exudyn.sweeps.store import Store, StoredNumber, StoredRun
 
 STAND = """
 duration_s = 0.02
@@ -111,32 +107,3 @@ def test_a_key_depends_on_what_a_law_of_ones_own_imports(
         (tmp_path / file).write_text(text, encoding="utf-8")
     assert found() == whole
     own_sources._source.cache_clear()
-
-
-# --- the store ---
-
-
-def row(name: str, **more: Any) -> StoredRun:
-    return StoredRun(name, "done", numbers={"force.mean": StoredNumber(1.0, 0.5, "N")}, **more)
-
-
-def kept(store: Store, name: str) -> StoredRun:
-    store.runs.mkdir(parents=True, exist_ok=True)
-    store.rows.mkdir(parents=True, exist_ok=True)
-    store.run_file(name).write_bytes(with_checksum(b"a run", FORMAT))
-    return store.put(row(name))
-
-
-def test_a_run_is_read_again_if_its_file_is_older_or_newer_than_its_row(tmp_path: Path) -> None:
-    store = Store(tmp_path)
-    known = kept(store, "a")
-    file = store.run_file("a")
-    assert (known.size, known.modified) == (file.stat().st_size, file.stat().st_mtime_ns)
-    assert known == store.row("a")
-    os.utime(file, ns=(0, 0))
-    assert store.has_run(known)  # copied elsewhere, say
-    file.write_bytes(file.read_bytes()[:-1] + b"?")
-    os.utime(file, ns=(0, 0))
-    assert not store.has_run(known)
-    file.unlink()
-    assert not store.has_run(known)

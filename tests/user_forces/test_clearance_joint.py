@@ -162,7 +162,9 @@ def test_a_pendulum_hits_as_its_own_integration(planar: bool) -> None:
 def test_a_pin_rebounds_between_the_walls_of_a_guide(planar: bool, angle: float) -> None:
     c, s = math.cos(angle), math.sin(angle)
     mbs, ground = model()
-    pin = rigid(mbs, 1.0, 0.01, [0, 0, 0], planar, initialVelocity=[c - 0.4 * s, s + 0.4 * c, 0])
+    # a smooth pin may spin as it likes: it has turned by half a radian at the second wall
+    pin = rigid(mbs, 1.0, 0.01, [0, 0, 0], planar, initialVelocity=[c - 0.4 * s, s + 0.4 * c, 0],
+                initialAngularVelocity=[0, 0, 40.0])  # fmt: skip
     joint = ClearanceGuide(
         mbs, slot=(ground, ORIGIN), pin=(pin, ORIGIN), direction=[c, s, 0], clearance=1e-3, pin_radius=0.01,
         normal=Exact(stiffness=1e10, restitution=0.5), impact_steps=256,
@@ -289,18 +291,6 @@ def sensor(kind: str, **given: Any) -> Any:
 
 
 # --- pictures and messages ---
-
-
-def test_bore_and_journal_are_shown_and_change_nothing() -> None:
-    runs = []
-    for show in (True, False):
-        mbs, joint = falling(show=show)
-        shapes = [len(mbs.GetObjectParameter(body, "VgraphicsData")) for body in range(2)]
-        mbs.SolveDynamic(settings(0.02, 1e-4))
-        runs.append((shapes, joint.impacts, joint.largest_force))
-    (shown, *with_pictures), (hidden, *without) = runs
-    assert with_pictures == without
-    assert [more - fewer for more, fewer in zip(shown, hidden, strict=True)] == [1, 1]
 
 
 def test_a_ground_that_is_turned_keeps_the_axis() -> None:

@@ -79,17 +79,6 @@ def test_small_angles_are_hertz_and_johnson(force: float, clearance: float, leng
     assert found.depth == pytest.approx(law.resting_depth(force), rel=5e-3)
 
 
-def test_the_rule_is_where_the_loads_of_hertz_and_persson_part_by_2_percent() -> None:
-    hertz = math.pi * LINE_CONTACT**2 / 8.0
-    assert float(relative_load(np.array(LINE_CONTACT))) / hertz == pytest.approx(1.0, abs=0.02)
-    assert float(relative_load(np.array(1.1 * LINE_CONTACT))) / hertz / 1.21 > 1.0199
-    near, far = (
-        line_contact(PIN, LENGTH, MODULUS, 2.0 * MODULUS * PIN.clearance * LENGTH * float(relative_load(a)))
-        for a in (np.array(0.999 * LINE_CONTACT), np.array(1.001 * LINE_CONTACT))
-    )
-    assert (near.conformal, far.conformal) == (False, True)
-
-
 @pytest.mark.parametrize(
     "degrees", [5.0, *(pytest.param(at, marks=pytest.mark.slow) for at in (20.0, 45.0)), 70.0]
 )
@@ -127,27 +116,19 @@ def test_the_pressure_carries_the_load_and_gives_the_depth(degrees: float) -> No
     assert float(relative_depth(np.array([angle]))[0]) == pytest.approx(summed + constant, abs=2e-3)
 
 
-@given(one=st.floats(1e2, 1e7), more=st.floats(1.01, 3.0), clearance=st.floats(1e-5, 3e-3))
-def test_more_force_presses_deeper_and_wider(one: float, more: float, clearance: float) -> None:
-    bearing = JournalBearing(bore_radius=0.0655, clearance=clearance)
-    light, heavy = (line_contact(bearing, LENGTH, MODULUS, force) for force in (one, more * one))
-    assert light.depth < heavy.depth
-    assert light.half_angle < heavy.half_angle
-    assert light.peak_pressure < heavy.peak_pressure
-    assert (heavy.depth - light.depth) * light.stiffness < (more - 1.0) * one * (1.0 + 1e-6)  # it stiffens
-
-
-@given(size=st.floats(0.1, 10.0))
-def test_a_machine_of_another_size_has_the_same_pressure(size: float) -> None:
-    scaled = JournalBearing(bore_radius=size * PIN.bore_radius, clearance=size * PIN.clearance)
-    here = line_contact(PIN, LENGTH, MODULUS, 1e5)
-    there = line_contact(scaled, size * LENGTH, MODULUS, size**2 * 1e5)
-    assert there.peak_pressure == pytest.approx(here.peak_pressure, rel=1e-9)
-    assert there.depth == pytest.approx(size * here.depth, rel=1e-9)
-
-
 def test_no_force_presses_nothing_and_too_much_is_refused() -> None:
     assert line_contact(PIN, LENGTH, MODULUS, 0.0).depth == 0.0
     assert line_contact(PIN, LENGTH, MODULUS, 1e-12).depth == 0.0
     with pytest.raises(InputError, match="force = 1e"):
         line_contact(PIN, LENGTH, MODULUS, 1e11)
+
+
+def test_the_rule_is_where_the_loads_of_hertz_and_persson_part_by_2_percent() -> None:
+    hertz = math.pi * LINE_CONTACT**2 / 8.0
+    assert float(relative_load(np.array(LINE_CONTACT))) / hertz == pytest.approx(1.0, abs=0.02)
+    assert float(relative_load(np.array(1.1 * LINE_CONTACT))) / hertz / 1.21 > 1.0199
+    near, far = (
+        line_contact(PIN, LENGTH, MODULUS, 2.0 * MODULUS * PIN.clearance * LENGTH * float(relative_load(a)))
+        for a in (np.array(0.999 * LINE_CONTACT), np.array(1.001 * LINE_CONTACT))
+    )
+    assert (near.conformal, far.conformal) == (False, True)

@@ -22,13 +22,11 @@ from user_forces import (
     Johnson,
     JournalBearing,
     JournalContact,
-    LankaraniNikravesh,
     LuGre,
     SlipHistory,
     Slot,
     SlotContact,
 )
-from user_forces.contact import Contact
 
 CONTACT = contact()
 CLEARANCE = CONTACT.bearing.clearance
@@ -245,22 +243,3 @@ def test_bristles_hold_a_journal_that_does_not_slip_and_are_straight_elsewhere()
     assert got.friction_force == pytest.approx(-0.1 * got.normal_force, rel=1e-14)
     assert pushed(depth=-1e-6, law=BRISTLES, history=history).deflection == 0.0
     assert pushed(impact=None, law=BRISTLES, history=history).deflection == 0.0
-
-
-def test_a_contact_with_another_clearance_keeps_its_laws() -> None:
-    assert CONTACT.with_clearance(2e-3) == replace(CONTACT, bearing=replace(BEARING, clearance=2e-3))
-    wider: Any = JournalContact(bearing=BEARING, normal=cylinder_law(Johnson)).with_clearance(2e-3)
-    assert wider.bearing == wider.normal.bearing == replace(BEARING, clearance=2e-3)
-
-
-def test_contacts_of_other_parameters_share_their_kernel() -> None:
-    other: list[Contact] = [
-        replace(CONTACT, normal=replace(LAW, restitution=0.5)),
-        replace(CONTACT, friction=Ambrosio(sliding_coefficient=0.1)),
-        CONTACT.with_clearance(1e-3),
-    ]
-    for one in other:
-        assert one.force_kernel is CONTACT.force_kernel
-        assert one.constants != CONTACT.constants
-    assert isinstance(LAW, LankaraniNikravesh)
-    assert BRISTLES.force_kernel is not CONTACT.force_kernel

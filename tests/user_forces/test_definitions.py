@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import pickle
-from abc import ABC, abstractmethod
 from typing import ClassVar
 
 import pytest
@@ -12,7 +11,7 @@ import pytest
 import support_exudyn
 import support_exudyn.sweeps
 from support_exudyn import CubicStep, Drive, InputError, Machine, NormalLaw, machine, value
-from user_forces import Hertz, Hysteresis, Value
+from user_forces import Hertz, Value
 from user_forces.values.names import Named, UnknownNameError
 
 
@@ -71,21 +70,6 @@ def test_a_field_without_value_is_not_left_out_silently() -> None:
     assert Named2(stiffness=1e9).stiffness == 1e9
 
 
-def test_classes_that_others_derive_from_may_lack_methods() -> None:
-    @value
-    class Group(NormalLaw, ABC):
-        share: float
-
-    @value
-    class Further(NormalLaw):
-        @abstractmethod
-        def rest(self) -> float: ...
-
-    for kind in (Group, Further, Hysteresis):
-        with pytest.raises(InputError, match=r"is a kind of values; allowed"):
-            kind(share=1.0)  # type: ignore[abstract, call-arg]
-
-
 def test_a_wrong_field_and_a_wrong_name_are_told_with_those_that_look_like_them() -> None:
     with pytest.raises(InputError, match=r"strok = 1: unknown field; did you mean stroke\? the fields are"):
         CubicStep(strok=1)  # type: ignore[call-arg]
@@ -106,13 +90,3 @@ def test_a_named_table_is_a_dictionary() -> None:
         table["xyz"]
     with pytest.raises(KeyError, match="there are none"):
         Named()["x"]
-
-
-@pytest.mark.parametrize("module", [support_exudyn, support_exudyn.sweeps])
-def test_dir_shows_names_that_are_imported_later(module: object) -> None:
-    names = module.__all__  # type: ignore[attr-defined]
-    assert set(names) <= set(dir(module))
-    for name in names:
-        assert getattr(module, name) is not None
-    with pytest.raises(AttributeError, match=rf"did you mean '{names[-1]}'"):
-        getattr(module, names[-1] + "e")

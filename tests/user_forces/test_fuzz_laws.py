@@ -13,13 +13,12 @@ from hypothesis import strategies as st
 from support_exudyn import Drive, Machine
 from tests import strategies as some
 from tests.sound import sound_drive, sound_machine
-from user_forces import FrictionLaw, JournalContact, LoadError, NormalLaw
+from user_forces import JournalContact, LoadError, NormalLaw
 from user_forces.normal.part import PartOf
 
 depths = st.floats(1e-18, 1e-2)
 rates = st.floats(-100.0, 100.0)
 speeds = st.sampled_from((0.0, 1e-12, 1e-6, 1e-3, 1.0, 100.0)) | st.floats(0.0, 100.0)
-masses = st.sampled_from((1e-6, 1.0, 1e9)) | st.floats(1e-6, 1e9)
 
 
 def complete(law: Any) -> Any:
@@ -47,30 +46,6 @@ def test_a_normal_law_gives_numbers_within_its_range(
     assert law.elastic_force(deeper) >= law.elastic_force(inside) * (1.0 - 1e-10)
     with suppress(LoadError):
         assert math.isfinite(law(depth, rate, impact))
-
-
-@given(law=normal_laws, load=st.floats(0.0, 1e9), speed=speeds, mass=masses)
-@some.tried("normal laws")
-def test_a_normal_law_says_how_deep_a_load_and_an_impact_go(
-    law: NormalLaw, load: float, speed: float, mass: float
-) -> None:
-    with suppress(LoadError):
-        assert 0.0 <= law.resting_depth(load) <= law.largest_depth
-    assert 0.0 <= law.turning_depth(load) <= law.largest_depth
-    assert 0.0 <= law.initial_force(speed, mass) < math.inf
-    time = law.impact_time(speed, mass)
-    assert time == math.inf if speed == 0.0 else 0.0 <= time < math.inf
-
-
-@given(law=some.values(FrictionLaw), slip=rates, load=st.floats(0.0, 1e9), step=st.floats(1e-7, 0.1))
-@some.tried("friction laws")
-def test_a_friction_law_gives_numbers(law: FrictionLaw, slip: float, load: float, step: float) -> None:
-    deflection = law.next_deflection(0.0, slip, step)
-    assert math.isfinite(deflection)
-    force = law(slip, load, deflection)
-    assert math.isfinite(force)
-    if not law.has_state:
-        assert force * slip <= 0.0
 
 
 places = st.floats(-1.0, 1.0)

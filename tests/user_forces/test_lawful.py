@@ -16,11 +16,9 @@ from support_exudyn.mechanics.law_masses import lacks_mass
 from tests.often import often
 from user_forces import (
     Ambrosio,
-    Frictionless,
     JournalBearing,
     JournalContact,
     LoadError,
-    LuGre,
     friction_law,
     normal_law,
 )
@@ -112,15 +110,6 @@ def test_what_is_right_but_for_rounding_passes() -> None:
         look(CONTACT, **STATE | {"normal": 1e4 * (1.0 - 1e-3)})
 
 
-def test_a_bristle_may_give_back_what_it_has_stored() -> None:
-    bristles = JournalContact(
-        bearing=BEARING, normal=spring(), friction=LuGre(static_coefficient=0.3, sliding_coefficient=0.2)
-    )
-    look(bristles, **STATE | {"friction": 1e3})
-    with pytest.raises(LawError, match="pushes along the slip"):
-        look(CONTACT, **STATE | {"friction": 1e3})
-
-
 @pytest.mark.parametrize("sign", [-1.0, math.nan])
 def test_an_elastic_part_that_pulls_is_told_before_a_run(sign: float) -> None:
     def force(depth: float, rate: float, impact_velocity: float) -> float:
@@ -170,10 +159,3 @@ def test_limits_keep_what_is_no_number(ends: tuple[float, float, float]) -> None
     x, low, high = ends
     found = limited(x, low, high)
     assert math.isnan(found) if math.isnan(x) else found == min(max(x, low), high)
-
-
-def test_frictionless_is_a_friction_law_that_passes() -> None:
-    smooth = JournalContact(bearing=BEARING, normal=spring(), friction=Frictionless())
-    look(smooth, **STATE | {"friction": 0.0})
-    with pytest.raises(LawError, match="Frictionless pushes along the slip"):
-        look(smooth, **STATE | {"friction": 1.0})

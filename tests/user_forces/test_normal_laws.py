@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-import pickle
 import re
 from typing import Any
 
@@ -14,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 
-from tests.analytic import adams_step, contact_time, greatest_depth
+from tests.analytic import adams_step
 from tests.analytic import delivered_restitution as closed_form
 from tests.cases.law_cases import (
     BEARING,
@@ -146,14 +144,6 @@ def test_compiled_laws_give_the_same_to_the_bit(law: NormalLaw) -> None:
 
 
 @every_law
-def test_a_law_survives_pickle_and_plain_data(law: NormalLaw) -> None:
-    force = law(1e-5, 0.1, 0.2)  # it may have computed something to keep
-    for copy in (pickle.loads(pickle.dumps(law)), Value.from_data(json.loads(json.dumps(law.to_data())))):
-        assert copy == law
-        assert copy(1e-5, 0.1, 0.2) == force
-
-
-@every_law
 def test_ends_of_the_range(law: NormalLaw) -> None:
     assert law.resting_depth(0.0) == law.turning_depth(0.0) == 0.0
     assert law.impact_time(0.0, 5.0) == math.inf
@@ -221,14 +211,6 @@ def test_delivered_restitution_is_the_closed_form(chi: float) -> None:
         left = quad(lambda u: u / (1.0 + chi * u), -e, 1.0, epsabs=1e-13, epsrel=0.0)[0]
         assert left * (1.0 - chi * e) / e == pytest.approx(0.0, abs=1e-12 + 1e-15 / chi)
     assert delivered_restitution(1.01 * chi) < e
-
-
-@given(e=st.floats(1e-6, 1.0))
-def test_the_exact_factor_delivers_what_is_asked_for(e: float) -> None:
-    # both ways cancellation near e = 1 costs most: 1e-16/(1 - e) where the series end, at 1e-6 and 1e-5
-    assert delivered_restitution(exact_damping_factor(e)) == pytest.approx(e, abs=4e-10)
-    if 0.03 < e < 1.0 - 1e-5:
-        assert 1.5 * (1.0 - e) - 1e-10 < exact_damping_factor(e) < 1.0 / e + 1e-12
 
 
 @pytest.mark.parametrize(
@@ -299,15 +281,6 @@ def test_a_free_impact_delivers_what_the_law_states(name: str, speed: float) -> 
     assert law_rebound(law, 40.0, speed) == pytest.approx(stated, abs=2e-7)
 
 
-@pytest.mark.parametrize(("n", "within"), [(1.0, 0.07), (1.5, 2e-3), (2.0, 0.123), (3.0, 0.123)])
-def test_impact_time_is_about_that_of_an_elastic_impact(n: float, within: float) -> None:
-    law = Hertz(stiffness=2.7e10, exponent=n)
-    depth = greatest_depth(2.7e10, n, 5.0, 0.3)
-    assert law.turning_depth(0.5 * 5.0 * 0.3**2) == pytest.approx(depth, rel=1e-12)
-    # Johnson prints 2.94 for n = 1.5; for n = 1 the factor is pi, for n = 3 it is 2.62
-    assert law.impact_time(0.3, 5.0) == pytest.approx(contact_time(depth, n, 0.3), rel=within)
-
-
 # --- the rest velocity ---
 
 
@@ -319,33 +292,6 @@ def test_a_soft_impact_is_damped_as_at_the_rest_velocity(speed: float) -> None:
     # damping is inverse to the impact velocity; rounding of the difference
     slow, fast = (law(1e-4, 0.1, v) - law.elastic_force(1e-4) for v in (0.2, 0.4))
     assert slow == pytest.approx(2.0 * fast, rel=1e-12)
-
-
-@settings(max_examples=often(10), deadline=None)
-@given(depth=st.floats(1e-6, 1e-3), n=st.floats(1.0, 3.0), mass=st.floats(0.5, 5e3), ratio=st.floats(0.02, 0.3))
-def test_small_vibrations_of_a_loaded_contact_decay_as_the_docstring_has_it(
-    depth: float, n: float, mass: float, ratio: float
-) -> None:
-    """Two following largest depths have the ratio exp(2 pi zeta / sqrt(1 - zeta^2)), by scipy."""
-    law = power_law(Exact, exponent=n)
-    load = law.elastic_force(depth)
-    frequency = math.sqrt(n * load / depth / mass)
-    rest = law.damping_factor * frequency * depth / (2.0 * n * ratio)
-    law, amplitude = power_law(Exact, exponent=n, rest_velocity=rest), 1e-5 * depth
-
-    def motion(_: float, y: np.ndarray) -> list[float]:
-        force = law(depth + amplitude * y[0], amplitude * y[1] * frequency, 0.0)
-        return [y[1], (load - force) / (mass * amplitude * frequency**2)]
-
-    def turning(_: float, y: np.ndarray) -> float:
-        return float(y[1])
-
-    turning.direction = -1.0  # type: ignore[attr-defined]
-    found = solve_ivp(motion, (0.0, 20.0), [0.0, 1.0], "DOP853", events=turning, rtol=1e-9, atol=1e-11)
-    first, second = (float(y[0]) for y in found.y_events[0][:2])
-    decrement = math.log(first / second)
-    # swings of 1e-5 of the depth are unequal by about as much, against a logarithm of 0.1 or more
-    assert decrement / math.hypot(2.0 * math.pi, decrement) == pytest.approx(ratio, rel=1e-3)
 
 
 def test_laws_of_earlier_versions_are_read() -> None:
@@ -416,3 +362,30 @@ def test_the_impact_function_is_that_of_adams(depth: float, rate: float, speed: 
 )
 def test_restitution_of_the_common_set_of_adams(mass: float, speed: float, e: float) -> None:
     assert law_rebound(COMMON, mass, speed) == pytest.approx(e, abs=5.1e-4)  # half of the last printed digit
+
+
+@settings(max_examples=often(10), deadline=None)
+@given(depth=st.floats(1e-6, 1e-3), n=st.floats(1.0, 3.0), mass=st.floats(0.5, 5e3), ratio=st.floats(0.02, 0.3))
+def test_small_vibrations_of_a_loaded_contact_decay_as_the_docstring_has_it(
+    depth: float, n: float, mass: float, ratio: float
+) -> None:
+    """Two following largest depths have the ratio exp(2 pi zeta / sqrt(1 - zeta^2)), by scipy."""
+    law = power_law(Exact, exponent=n)
+    load = law.elastic_force(depth)
+    frequency = math.sqrt(n * load / depth / mass)
+    rest = law.damping_factor * frequency * depth / (2.0 * n * ratio)
+    law, amplitude = power_law(Exact, exponent=n, rest_velocity=rest), 1e-5 * depth
+
+    def motion(_: float, y: np.ndarray) -> list[float]:
+        force = law(depth + amplitude * y[0], amplitude * y[1] * frequency, 0.0)
+        return [y[1], (load - force) / (mass * amplitude * frequency**2)]
+
+    def turning(_: float, y: np.ndarray) -> float:
+        return float(y[1])
+
+    turning.direction = -1.0  # type: ignore[attr-defined]
+    found = solve_ivp(motion, (0.0, 20.0), [0.0, 1.0], "DOP853", events=turning, rtol=1e-9, atol=1e-11)
+    first, second = (float(y[0]) for y in found.y_events[0][:2])
+    decrement = math.log(first / second)
+    # swings of 1e-5 of the depth are unequal by about as much, against a logarithm of 0.1 or more
+    assert decrement / math.hypot(2.0 * math.pi, decrement) == pytest.approx(ratio, rel=1e-3)

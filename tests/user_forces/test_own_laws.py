@@ -5,17 +5,15 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numba
 import numpy as np
 import pytest
 
 from support_exudyn import ClearancePin, ImpactStand, Result, Scenario, SolverSettings, simulate
 from support_exudyn.__main__ import main
-from support_exudyn.scene.compilation import UncompiledLawError, address_of, contact_law
+from support_exudyn.scene.compilation import address_of, contact_law
 from tests.cases.law_cases import BEARING
 from user_forces import (
     Ambrosio,
@@ -28,7 +26,7 @@ from user_forces import (
     friction_law,
     normal_law,
 )
-from user_forces.kernel import compiled_or_plain, kernel, name_of, prepare
+from user_forces.kernel import kernel, name_of
 from user_forces.values.value import Fraction, Positive
 
 UNITS = {"N": 1.0}
@@ -248,38 +246,3 @@ def test_the_name_of_machine_code_follows_from_all_code_that_is_reached() -> Non
     # of the whole contact, as the compiled formulation calls it
     assert name_of(kernel_of("1e9 * depth")) != name_of(kernel_of("2e9 * depth"))
     assert address_of(kernel_of("1e9 * depth")) != address_of(kernel_of("2e9 * depth"))
-
-
-@pytest.mark.parametrize("law", [uncompiled(stiffness=1e9), normal_law(law_of("float(f'{depth}')"))()])
-def test_what_numba_cannot_compile_is_told_with_the_reason(law: NormalLaw) -> None:
-    contact = JournalContact(bearing=BEARING, normal=law)
-    with pytest.raises(UncompiledLawError, match=r"numba cannot compile it: [^\n]*(UNITS|could not convert)"):
-        address_of(contact_law(contact.law_kernel, len(contact.law_constants)))
-    plain = law_of("table['k'] * depth", table={"k": 1.0})
-    with pytest.warns(UserWarning, match="computed in Python"):
-        assert compiled_or_plain(plain, (1.0, 1.0, 1.0)) is plain
-    assert compiled_or_plain(made(2.0), (1.0,))(3.0) == 12.0
-
-
-def test_what_cannot_be_kept_on_disk_is_compiled_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    prepare()
-    asked: list[bool] = []
-    originals = {name: getattr(numba, name) for name in ("njit", "cfunc")}
-
-    def without_a_place(name: str) -> Callable[..., Any]:
-        def compiling(*args: Any, cache: bool = False, **options: Any) -> Any:
-            asked.append(cache)
-            if cache:  # as numba says it beside a read-only program of a user without a home
-                raise RuntimeError("cannot cache function 'a': no locator available for file 'a.py'")
-            return originals[name](*args, **options)
-
-        return compiling
-
-    for name in originals:
-        monkeypatch.setattr(numba, name, without_a_place(name))
-    assert compiled_or_plain(made(5.0), (1.0,))(3.0) == 30.0
-    law = replace(BEARING, clearance=1e-3), textbook(stiffness=3e9)
-    contact = JournalContact(bearing=law[0], normal=law[1], friction=rounded(speed=2e-2))
-    assert address_of(contact_law(contact.law_kernel, 40 + len(contact.law_constants))) > 0
-    assert asked[0] is True
-    assert asked.count(False) >= 2

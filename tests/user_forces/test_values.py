@@ -75,17 +75,6 @@ def test_every_wrong_field_gets_a_line() -> None:
     assert sorted(named) == ["Ball.colour", "Ball.radius", "Ball.size"]
 
 
-def test_a_long_input_is_shortened_in_the_message() -> None:
-    with pytest.raises(InputError) as caught:
-        Ball(radius="x" * 1000)
-    assert len(str(caught.value)) < 300
-
-
-def test_fields_are_given_by_name_only() -> None:
-    with pytest.raises(InputError):
-        Ball(1.0)
-
-
 def test_fields_cannot_be_changed() -> None:
     ball = Ball(radius=1.0)
     with pytest.raises(dataclasses.FrozenInstanceError):
@@ -97,28 +86,9 @@ def test_a_changed_copy_is_checked_too() -> None:
         dataclasses.replace(Ball(radius=1.0), radius=-2.0)
 
 
-def test_values_with_equal_fields_are_equal() -> None:
-    assert Ball(radius=1) == Ball(radius=1.0)
-    assert Ball(radius=1.0) != Ball(radius=2.0)
-
-
 @given(box=boxes)
 def test_json_brings_nested_values_back(box: Box) -> None:
     assert Value.from_data(json.loads(json.dumps(box.to_data()))) == box
-
-
-@given(box=boxes)
-def test_data_written_is_plain_and_names_its_type(box: Box) -> None:
-    def plain(item: object) -> bool:
-        if isinstance(item, dict):
-            return all(type(k) is str and plain(v) for k, v in item.items())
-        if isinstance(item, list):
-            return all(plain(v) for v in item)
-        return item is None or type(item) in (str, int, float, bool)
-
-    data = box.to_data()
-    assert plain(data)
-    assert (data["type"], data["lid"]["type"]) == ("Box", "Ball")
 
 
 def test_a_law_inside_a_contact_comes_back_as_what_it_was() -> None:

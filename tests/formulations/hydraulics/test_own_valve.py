@@ -185,10 +185,6 @@ def test_its_channels_and_keys_are_on_the_pages_and_in_files(tmp_path: Path) -> 
     assert read_scenario(save_scenario(scenario, tmp_path / "own.toml")) == scenario
 
 
-def test_half_of_a_leg_has_half_of_its_limit() -> None:
-    assert SCENE.actuators["leg0"].share(0.5).valves["limiter"].limit == 0.5 * LIMITER.limit
-
-
 @value
 class Listed(FlowLimiter):
     """A valve whose flow no compiler understands."""
