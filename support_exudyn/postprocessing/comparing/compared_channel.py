@@ -177,7 +177,8 @@ class ComparedChannel:
         if self.tolerance is None:
             return ()
         if self.gaps:
-            return (("not decided", f"no value at {self.gaps} times at which the reference is known"),)
+            text = f"not decided: no value at {self.gaps} times at which the reference has a value"
+            return (("not decided", text),)
         if np.array_equal(self.common.reference, self.common.other, equal_nan=True):
             return (("within", ""),)
         judged = []

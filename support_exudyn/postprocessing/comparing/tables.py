@@ -153,6 +153,9 @@ def _horizon(pair: ComparedPair) -> Iterator[str]:
             if each.equal is False:
                 half = said(each.half, channel.unit)
                 differ.append(f"{what} of {name} by {said(each.difference, channel.unit)} ± {half}")
+    if not equal and not differ:
+        yield "after it there are too few common times for confidence intervals"
+        return
     which = f": {first_names(differ)}" if differ else ""
     yield (
         f"after it {len(differ)} of {equal + len(differ)} statistics differ, with {100.0 * CONFIDENCE:.3g} % "

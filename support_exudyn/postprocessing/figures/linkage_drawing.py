@@ -21,6 +21,7 @@ from support_exudyn.model.loads.load import ActingLoad, Load, LoadedPoint
 from support_exudyn.model.loads.springs import SpringDamper
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.style import CURVES, Dashes
+from support_exudyn.postprocessing.look.poses import named_ends
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import InputError, Vector2, short
 
@@ -314,14 +315,9 @@ class _Posture:
 def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
     """The points of each body, and of the ground, at which something is joined or traced, start posture [m]."""
     joints: dict[str, list[Vector2]] = {name: [] for name in (GROUND, *linkage.bodies)}
-    ends: list[tuple[str, Vector2]] = [
-        *(end for p in linkage.pins.values() for end in ((p.first, p.first_point), (p.second, p.second_point))),
-        *(end for a in linkage.actuators.values() for end in ((a.foot, a.foot_point), (a.head, a.head_point))),
-        *((slide.body, slide.point) for slide in linkage.slides.values()),
-        *((traced.body, traced.point) for traced in linkage.points.values()),
-    ]
-    for name, point in ends:
-        joints[name].append(point)
+    slides = [(slide.body, slide.point) for slide in linkage.slides.values()]
+    for name, (x, y) in (*((body, point) for _, body, point in named_ends(linkage)), *slides):
+        joints[name].append((x, y))
     for name, body in linkage.bodies.items():
         if len(set(joints[name])) < 2 and not any(one.body == name for one in linkage.slides.values()):
             joints[name].append(body.centre)

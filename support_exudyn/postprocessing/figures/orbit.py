@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from support_exudyn.postprocessing.figures import style, units
-from support_exudyn.postprocessing.figures.journal import JournalPath, journal, shortest_impact
+from support_exudyn.postprocessing.figures.journal import JournalPath, Series, journal, shortest_impact
 from support_exudyn.postprocessing.figures.selection import said
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import DisplayUnit, readable
@@ -61,18 +61,25 @@ def orbit(result: Result, pin: str | None = None, after: float = 0.0, until: flo
     return drawing
 
 
-def draw_circle(axes: Axes, radius: float) -> None:
-    """The clearance circle, a line so that the legend shows one; radius: in the unit of the axes."""
-    angle = np.linspace(0.0, 2.0 * np.pi, CORNERS)
-    x, y = radius * np.cos(angle), radius * np.sin(angle)
-    axes.plot(x, y, color=style.IDEAL, ls=(0, (4, 2)), zorder=2, label="clearance circle")
+def bore_axes(axes: Axes, clearance: float, x: Series, y: Series, unit: DisplayUnit) -> None:
+    """Axes, true to scale, of a journal's centre in its bore: the clearance circle, and room for places.
+
+    Arguments:
+        clearance: radial [m]. x, y: places of the centre (n,) [m]. unit: of both axes.
+    """
+    angle, radius = np.linspace(0.0, 2.0 * np.pi, CORNERS), unit.scale * clearance
+    circle = radius * np.cos(angle), radius * np.sin(angle)
+    axes.plot(*circle, color=style.IDEAL, ls=(0, (4, 2)), zorder=2, label="clearance circle")
+    reach = MARGIN * unit.scale * max(clearance, float(np.hypot(x, y).max()))
+    axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
+    axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
 
 
 def draw_path(axes: Axes, shown: JournalPath, unit: DisplayUnit) -> None:
     """The path in the colours of contact and flight, within the clearance circle, on equal axes."""
     x, y, contact = shown.path()
     radius = unit.scale * shown.clearance
-    draw_circle(axes, radius)
+    bore_axes(axes, shown.clearance, shown.x, shown.y, unit)
     more: dict[str, Any] = {"rasterized": x.size > MANY, "zorder": 3}
     style.draw_pieces(axes, unit.scale * x, unit.scale * y, contact, WIDTHS, **more)
     if shown.impacts:
@@ -83,9 +90,6 @@ def draw_path(axes: Axes, shown: JournalPath, unit: DisplayUnit) -> None:
             unit.scale * shown.x[n], unit.scale * shown.y[n], mark, ms=5, color=style.IDEAL, label=name,
             zorder=5, mfc="white" if n == 0 else style.IDEAL,
         )  # fmt: skip
-    reach = MARGIN * unit.scale * max(shown.clearance, float(np.hypot(shown.x, shown.y).max()))
-    axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
-    axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
 
 
 def _draw_depth(axes: Axes, shown: JournalPath, over_time: DisplayUnit) -> None:

@@ -13,7 +13,7 @@ from support_exudyn.model.drives.drive import Held, Reciprocating, Steady
 from support_exudyn.model.linkage import GROUND
 from support_exudyn.postprocessing.figures import style, units
 from support_exudyn.postprocessing.figures.journal import JournalPath, Series, clearance_joints, journal
-from support_exudyn.postprocessing.figures.orbit import draw_circle
+from support_exudyn.postprocessing.figures.orbit import bore_axes
 from support_exudyn.postprocessing.figures.selection import CLEARANCE, inside, said, spacing
 from support_exudyn.postprocessing.figures.style import caption
 from support_exudyn.postprocessing.figures.units import DEGREES, DisplayUnit, readable
@@ -190,13 +190,9 @@ def _draw_places(
     x, y, depth = (f"pin.{shown.pin}.{what}" for what in ("eccentricity_x", "eccentricity_y", "depth"))
     section = stroboscopic(result, x, y, window.phase, window.after, window.until)
     closed: npt.NDArray[np.bool_] = np.interp(section.time, result.time, result[depth]) > 0.0
-    reach = max(shown.clearance, float(np.hypot(section.first, section.second).max()))
-    unit = readable("m", reach)
-    draw_circle(axes, unit.scale * shown.clearance)
+    unit = readable("m", max(shown.clearance, float(np.hypot(section.first, section.second).max())))
+    bore_axes(axes, shown.clearance, section.first, section.second, unit)
     _marked(axes, unit.scale * section.first, unit.scale * section.second, closed)
-    reach *= 1.12 * unit.scale
-    axes.set(aspect="equal", xlim=(-reach, reach), ylim=(-reach, reach))
-    axes.set(xlabel=f"eccentricity x [{unit.name}]", ylabel=f"eccentricity y [{unit.name}]")
     axes.legend(ncols=3, **BELOW)
     return closed
 

@@ -26,7 +26,7 @@ from support_exudyn.model.hydraulics.leg import HydraulicCylinder
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.spatial_linkage import SpatialLinkage
 from support_exudyn.postprocessing.instruments.instrument import Instrument
-from support_exudyn.postprocessing.look.poses import Poses
+from support_exudyn.postprocessing.look.poses import Poses, named_ends
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.simulation.result import Result
 from user_forces.values.names import meant
@@ -199,13 +199,7 @@ def _place_on(linkage: Linkage | SpatialLinkage, body: str, at: str | None) -> t
     """
     if at is None:
         return None
-    joints = linkage.bearings if isinstance(linkage, SpatialLinkage) else linkage.pins
-    ends = [(name, actuator.head, actuator.head_point) for name, actuator in linkage.actuators.items()]
-    ends += [(name, actuator.foot, actuator.foot_point) for name, actuator in linkage.actuators.items()]
-    ends += [(name, joint.second, joint.second_point) for name, joint in joints.items()]
-    ends += [(name, joint.first, joint.first_point) for name, joint in joints.items()]
-    ends += [(name, point.body, point.point) for name, point in linkage.points.items()]
-    places: dict[str, tuple[float, ...]] = {name: point for name, on, point in ends if on == body}
+    places = {name: point for name, on, point in named_ends(linkage) if on == body}
     if at not in places:
         raise InputError(f"at = {at!r}: no such place on {body}; {meant(at, places)}")
     return places[at]

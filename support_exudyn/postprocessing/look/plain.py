@@ -1,7 +1,6 @@
 """What a machine looks like that says no more of it: plates around the points at which bodies are joined."""
 
 import math
-from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
@@ -11,7 +10,7 @@ from shapely.ops import unary_union
 from support_exudyn.model.linkage import GROUND, LinearActuator, Linkage, Slide
 from support_exudyn.model.loads.springs import SpringDamper
 from support_exudyn.model.to_space import at, copies
-from support_exudyn.postprocessing.look.poses import planar_pins
+from support_exudyn.postprocessing.look.poses import named_ends, planar_pins
 from support_exudyn.postprocessing.look.shapes import bar, bored, hull, plate, together, tube
 from support_exudyn.postprocessing.look.slots import sliding_block, slot_walls
 from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role, Solid
@@ -128,17 +127,11 @@ def _pins(scenario: Scenario, layers: Mapping[str, float], thickness: float, mar
 
 def joined_points(linkage: Linkage) -> dict[str, list[Vector2]]:
     """The points of every body, and of the ground, at which something is joined or traced, start posture."""
-    known = [
-        *((name, body.centre) for name, body in linkage.bodies.items()),
-        *(end for p in linkage.pins.values() for end in ((p.first, p.first_point), (p.second, p.second_point))),
-        *(end for c in linkage.actuators.values() for end in ((c.foot, c.foot_point), (c.head, c.head_point))),
-        *((point.body, point.point) for point in linkage.points.values()),
-        *((slide.against, slide.point) for slide in linkage.slides.values()),
-    ]
-    found: dict[str, list[Vector2]] = defaultdict(list)
-    for name, place in known:
-        found[name].append(place)
-    return dict(found)
+    joined: dict[str, list[Vector2]] = {name: [body.centre] for name, body in linkage.bodies.items()}
+    slides = [(slide.against, slide.point) for slide in linkage.slides.values()]
+    for body, (x, y) in (*((body, point) for _, body, point in named_ends(linkage)), *slides):
+        joined.setdefault(body, []).append((x, y))
+    return joined
 
 
 def extent(linkage: Linkage) -> float:

@@ -11,9 +11,9 @@ import numpy as np
 from trimesh import Trimesh
 
 from support_exudyn.mechanics.trajectory import Series
-from support_exudyn.model.linkage import GROUND, Body
+from support_exudyn.model.linkage import GROUND, Body, Linkage
 from support_exudyn.model.pins import ClearancePin
-from support_exudyn.model.spatial_linkage import SpatialBody
+from support_exudyn.model.spatial_linkage import SpatialBody, SpatialLinkage
 from support_exudyn.model.to_space import at
 from support_exudyn.postprocessing.look.solid import DrawnActuator, Look, Role
 from support_exudyn.scenario.scenario import Scenario
@@ -235,7 +235,18 @@ def _across(vector: Series, unit: Series) -> Series:
     return part
 
 
-# --- pins ---
+# --- ends of joints, and pins ---
+
+
+def named_ends(linkage: Linkage | SpatialLinkage) -> list[tuple[str, str, tuple[float, ...]]]:
+    """Ends of pins and actuators, and traced points: name, body, and point of it in the start posture [m]."""
+    joints = linkage.bearings if isinstance(linkage, SpatialLinkage) else linkage.pins
+    ends: list[tuple[str, str, tuple[float, ...]]] = []
+    for name, pin in joints.items():
+        ends += [(name, pin.first, pin.first_point), (name, pin.second, pin.second_point)]
+    for name, actuator in linkage.actuators.items():
+        ends += [(name, actuator.foot, actuator.foot_point), (name, actuator.head, actuator.head_point)]
+    return [*ends, *((name, traced.body, traced.point) for name, traced in linkage.points.items())]
 
 
 @dataclass(frozen=True)

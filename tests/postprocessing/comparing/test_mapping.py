@@ -159,24 +159,23 @@ def test_a_column_that_is_missing_or_without_unit(
 # --- tolerances ---
 
 
-def test_a_list_of_a_command_line_is_read() -> None:
-    found = read_tolerances("pin.*.force=2%, tip.* = 0.1 mm,a=b=3e-2 m/s")
-    assert [(one.pattern, one.amount, one.unit) for one in found] == [
-        ("pin.*.force", 2.0, "%"), ("tip.*", 0.1, "mm"), ("a=b", 0.03, "m/s"),
-    ]  # fmt: skip
-
-
 @pytest.mark.parametrize(
-    ("text", "unit", "extent", "allowed"),
+    ("text", "channel", "unit", "extent", "allowed"),
     [
-        ("2%", "N", 5e3, 100.0),
-        ("0.1mm", "m", 0.0, 1e-4),
-        ("1deg", "rad", 0.0, math.pi / 180.0),
-        ("2%", "N", 0.0, 0.0),  # a share of a reference that is constant: only what is equal is within
+        ("2%", "a.force", "N", 5e3, 100.0),
+        ("0.1mm", "a", "m", 0.0, 1e-4),
+        ("1deg", "a", "rad", 0.0, math.pi / 180.0),
+        ("3e-2 m/s", "a=b", "m/s", 1.0, 0.03),
+        ("2%", "a", "N", 0.0, 0.0),  # a share of a reference that is constant: only what is equal is within
     ],
 )
-def test_what_is_allowed_is_in_si(text: str, unit: str, extent: float, allowed: float) -> None:
-    assert tolerance("a", text).in_si("a", unit, extent) == pytest.approx(allowed, rel=1e-15)
+def test_what_is_allowed_is_in_si(text: str, channel: str, unit: str, extent: float, allowed: float) -> None:
+    # the first pattern that matches counts
+    several = read_tolerances(f"b.*=1N, {channel} = {text},{channel}=7 s")
+    rule = of_channel(several, channel)
+    assert rule == several[1]
+    assert rule.in_si(channel, unit, extent) == pytest.approx(allowed, rel=1e-15)
+    assert of_channel(several, "c") is None
 
 
 @pytest.mark.parametrize(
@@ -186,11 +185,6 @@ def test_what_is_allowed_is_in_si(text: str, unit: str, extent: float, allowed: 
 def test_what_is_no_tolerance_is_refused(text: str) -> None:
     with pytest.raises(InputError, match="allowed: "):
         read_tolerances(text)
-
-
-def test_the_first_pattern_that_fits_counts() -> None:
-    several = read_tolerances("pin.A.*=1N,pin.*=5N")
-    assert [of_channel(several, name) for name in ("pin.A.force", "pin.B.force", "tip.x")] == [*several, None]
     with pytest.raises(InputError, match=r"tolerance of tip\.x.*mm.*N"):
         tolerance("tip.*", "1 mm").in_si("tip.x", "N", 1.0)
 
