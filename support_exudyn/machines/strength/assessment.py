@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.strength.off_middle import beside_the_middle
 from support_exudyn.machines.strength.parts import (
@@ -31,10 +30,9 @@ from user_forces.values.value import InputError
 
 __all__ = ["FACTORS", "FRICTION", "StandReport", "stand"]
 
-FINE = 101  # postures over the used height
+POSTURES = 21  # over the used height
 FACTORS = (1.0, 1.2)  # on the yield forces; the second of EN 1804-1, 4.3.2
 FRICTION = 0.2  # of the roof on the canopy, assumed
-EVERY = 5  # of the FINE postures: those in which forces are told
 PLACES = 81  # on the canopy, for the curve of the force over it
 
 
@@ -44,19 +42,18 @@ def stand(data: MachineData) -> StandReport:
     Raises InputError where these are missing, or its forces cannot be told by statics in the plane.
     """
     strength = checked(data)
-    fine = used_postures(data, FINE)
-    if fine[0].linkage is not fine[-1].linkage and _height(fine[-1], strength) < _height(fine[0], strength):
-        fine = fine[::-1]
-    told = fine[::EVERY]
-    statics = {mu: _statics(told, strength, mu) for mu in (0.0, -FRICTION, FRICTION)}
+    told = used_postures(data, POSTURES)
+    statics = {
+        mu: [RoofStatics(one.linkage, strength.canopy, mu) for one in told] for mu in (0.0, -FRICTION, FRICTION)
+    }
+    if statics[0.0][-1].contact.height < statics[0.0][0].contact.height:
+        told, statics = told[::-1], {mu: every[::-1] for mu, every in statics.items()}
     linkage = data.machine.linkage()
     legs = legs_of(linkage)
     for every in statics.values():
         _check_held(every, limits(strength.cylinders, legs))
     buckling, unbuckled = _buckling(told, strength.cylinders)
     rated = strength.rated_force
-    tips = [one.linkage.points["tip"].point[0] for one in fine if "tip" in one.linkage.points]
-    four_bar = isinstance(data.machine, FourBarShield) and tips
     return StandReport(
         name=data.name,
         kind=data.kind,
@@ -84,7 +81,6 @@ def stand(data: MachineData) -> StandReport:
         tipping=None
         if strength.base is None
         else [tipping_of(one.linkage, strength.base, cylinder_masses(data, one.linkage)) for one in told],
-        wander=max(tips) - min(tips) if four_bar else None,
         assumed=list(_assumed(data, strength)),
         sources=list(_sources(data)),
     )
@@ -110,10 +106,10 @@ def checked(data: MachineData) -> StrengthData:
     missing = [name for name in linkage.actuators if name not in strength.cylinders]
     if missing:
         raise InputError(f"strength.cylinders.{missing[0]}: missing; allowed: bore_mm and yield_pressure_MPa")
-    if linkage.cranks or len(linkage.actuators) > 2:
+    if linkage.cranks or len(linkage.actuators) != 2:
         raise InputError(
             f"machine: {len(linkage.actuators)} actuators and {len(linkage.cranks)} cranks hold it; allowed: "
-            "one or two actuators and no crank, which a roof force and its place determine"
+            "two actuators and no crank, which a roof force and its place determine"
         )
     if data.machine.loads:
         raise InputError(
@@ -143,14 +139,6 @@ def _check_held(statics: Sequence[RoofStatics], within: Mapping[str, Limits]) ->
                 f"roof {one.contact.height:.4g} m high and friction {one.friction:g}; allowed: pushes that do; "
                 f"without a roof the weight asks for {weight}"
             )
-
-
-def _height(posture: UsedPosture, strength: StrengthData) -> float:
-    return RoofStatics(posture.linkage, strength.canopy).contact.height
-
-
-def _statics(told: Sequence[UsedPosture], strength: StrengthData, friction: float) -> list[RoofStatics]:
-    return [RoofStatics(one.linkage, strength.canopy, friction) for one in told]
 
 
 def pushes(
@@ -186,32 +174,22 @@ def _support_force(
         name: (one.setting_pressure or 0.0) * one.area * (name in legs) for name, one in cylinders.items()
     }
     rams = len(legs) < len(cylinders)
-    contact, unfelt = smooth.contact, smooth.unfelt_at
-    span = smooth.span(at_yield)
+    contact = smooth.contact
     known = all(cylinders[name].setting_pressure is not None for name in legs)
     return SupportForce(
         stroke=stroke,
         contact=contact,
-        setting=_held(smooth, setting) if known else None,
-        yielding=_held(smooth, at_yield),
-        least=span[0] if span else None,
-        rubbed={mu: _held(one, at_yield) for mu, one in statics.items() if mu != 0.0},
+        setting=smooth.balancing(setting) if known else None,
+        yielding=smooth.balancing(at_yield),
+        rubbed={mu: one.balancing(at_yield) for mu, one in statics.items() if mu != 0.0},
         pull=smooth.balancing(pushes(cylinders, legs, rams=-1.0)) if rams else None,
         push=smooth.balancing(pushes(cylinders, legs, rams=1.0)) if rams else None,
         over=[
             RoofForce(smooth.largest_at(x, within), x)
             for x in np.linspace(contact.rear, contact.front, PLACES).tolist()
         ],
-        largest=max(smooth.corners(within), key=lambda roof: roof.force, default=RoofForce(0.0, contact.rear))
-        if unfelt is None
-        else RoofForce(math.inf, unfelt),
+        largest=max(smooth.corners(within), key=lambda roof: roof.force),
     )
-
-
-def _held(statics: RoofStatics, at: Mapping[str, float]) -> RoofForce | None:
-    """What two actuators hold with their pushes; of a single one the largest of all places on the canopy."""
-    span = statics.span(at)
-    return span[1] if span else statics.balancing(at)
 
 
 def _pin_load(
@@ -221,8 +199,6 @@ def _pin_load(
     cylinders = data.strength.cylinders
 
     def worst(frictions: Sequence[float], factor: float) -> float:
-        if any(one.unbounded(pin) for mu in frictions for one in statics[mu]):
-            return math.inf
         within = limits(cylinders, legs, factor)
         return max(
             float(np.hypot(*one.pins(corner)[pin]))
@@ -233,16 +209,8 @@ def _pin_load(
 
     def nominal(factor: float) -> float:
         at_yield = pushes(cylinders, legs, factor)
-        found = [
-            (one, roof)
-            for one in statics[0.0]
-            for roof in (one.span(at_yield) or [one.balancing(at_yield)])
-            if roof is not None
-        ]
-        if any(math.isinf(roof.force) and one.unbounded(pin) for one, roof in found):
-            return math.inf
-        forces = [np.hypot(*one.pins(roof)[pin]) for one, roof in found if math.isfinite(roof.force)]
-        return max(map(float, forces), default=math.nan)
+        held = [(one, roof) for one in statics[0.0] if (roof := one.balancing(at_yield)) is not None]
+        return max((float(np.hypot(*one.pins(roof)[pin])) for one, roof in held), default=math.nan)
 
     known = pin_data(data, pin)
     smooth = {factor: worst([0.0], factor) for factor in FACTORS}
@@ -251,20 +219,14 @@ def _pin_load(
     if known is not None:
         eyes, diameter, _ = known
         told = stresses(eyes, diameter, smooth[FACTORS[1]]), stresses(eyes, diameter, rubbed[FACTORS[1]])
-    alike = {factor: nominal(factor) for factor in FACTORS}
     return PinLoad(
-        _bounded(alike),
-        _bounded(smooth),
-        _bounded(rubbed),
+        nominal={factor: nominal(factor) for factor in FACTORS},
+        worst=smooth,
+        rubbed=rubbed,
         stresses=told,
         yields=known and known[0].yields,
         assumed=known is not None and known[2],
     )
-
-
-def _bounded(loads: Mapping[float, float]) -> dict[float, float]:
-    """Forces, NaN for those without bound."""
-    return {factor: force if math.isfinite(force) else math.nan for factor, force in loads.items()}
 
 
 def _buckling(

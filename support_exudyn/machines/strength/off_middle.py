@@ -174,8 +174,6 @@ def beside_the_middle(
 def untold(data: MachineData, strength: StrengthData) -> str:
     """Why a roof force beside the middle cannot be told, by keys of the machine's file; empty if it can."""
     linkage, width = data.machine.linkage(), data.machine.widths()
-    if len(linkage.actuators) == 1:
-        return "a single leg leaves open where along the canopy the roof force is"
     if width is None or not (width.spreads or width.pairs or width.actuators):
         return "no lateral dimensions of its bodies are known"
     several = [name for name, one in strength.cylinders.items() if one.count > 1]

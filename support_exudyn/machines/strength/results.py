@@ -12,7 +12,7 @@ from support_exudyn.machines.strength.strength_data import CylinderStrength
 
 UNITS = {  # of fields of results: plain data have them in the keys
     "N": "force rated nominal worst rubbed euler johnson legs_alone pins centred",
-    "m": "stroke x rear front height length aside wander centre",
+    "m": "stroke x rear front height length aside centre",
     "N_m": "moment tilts",
     "Pa": "bearing shear bending yields",
     "kg": "mass",
@@ -25,14 +25,10 @@ UNIT_OF = {name: unit for unit, names in UNITS.items() for name in names.split()
 class SupportForce:
     """Support force in one posture, all legs at a pressure and rams without force; None where none balances.
 
-    A single leg leaves the place of the roof force open. All are then the largest over the places of the
-    canopy, infinite where the leg does not feel the roof.
-
     Arguments:
         stroke: of the legs from the start on [m].
         contact: where the roof lies.
         setting: at the setting pressure, None without one. yielding: at the yield pressure.
-        least: at the yield pressure of a single leg, where it holds the least; None of two.
         rubbed: at the yield pressure with the roof's friction, by its coefficient.
         pull, push: at the yield pressure with rams at their largest pull and push; None without rams.
         over: at places on the canopy, the largest force there that opens no valve and lifts no leg.
@@ -43,7 +39,6 @@ class SupportForce:
     contact: RoofContact
     setting: RoofForce | None
     yielding: RoofForce | None
-    least: RoofForce | None
     rubbed: Mapping[float, RoofForce | None]
     pull: RoofForce | None
     push: RoofForce | None
@@ -58,8 +53,7 @@ class PinLoad:
     Arguments:
         nominal: largest with all legs at yield, rams without force, a roof that does not rub; by the factor on
             the yield force.
-        worst: largest under any roof force on the canopy that the cylinders hold, likewise by factor; NaN if
-            it has no bound, as a roof force loads the pin that no cylinder feels.
+        worst: largest under any roof force on the canopy that the cylinders hold, likewise by factor.
         rubbed: the same with a roof that rubs either way.
         stresses: of `worst` and `rubbed` at 1.2 times yield; None where too little is known of the pin.
         yields: yield stresses of pin and eyes [Pa] against which it is judged; None where too little is known.
@@ -133,7 +127,6 @@ class StandReport:
         unbuckled: actuators whose buckling is not told, with the reason.
         off_middle: in the lowest, middle and highest posture, or in words why not.
         tipping: by posture of `forces`; None without a base.
-        wander: of the tip over the used height [m]; None of machines that are no four-bar support.
         assumed: what was assumed, in sentences. sources: of the numbers, in sentences.
     """
 
@@ -150,7 +143,6 @@ class StandReport:
     unbuckled: Mapping[str, str]
     off_middle: Sequence[OffMiddle] | str
     tipping: Sequence[Tipping] | None
-    wander: float | None
     assumed: Sequence[str]
     sources: Sequence[str]
 

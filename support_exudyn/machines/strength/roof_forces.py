@@ -26,7 +26,6 @@ from user_forces.values.value import InputError, Vector2
 
 SINGULAR = 1e-9  # of the largest singular value of C: below, forces have no bound
 SLACK = 1e-9  # of the largest force: by so much a corner may miss a limit by rounding
-FEW = 2  # actuators: what two equations determine
 
 
 class Limits(NamedTuple):
@@ -138,76 +137,21 @@ class RoofStatics:
         return {name: float(found[self._first + n]) for n, name in enumerate(self.linkage.actuators)}
 
     def balancing(self, pushes: Mapping[str, float]) -> RoofForce | None:
-        """The roof force that two actuators hold with these pushes [N]; None if none does.
-
-        A single actuator leaves its place open: None, see `span`.
-        """
-        parts = self.actuators
-        if len(parts) == 1:
-            return None
-        matrix = np.array([part[1:] for part in parts.values()])
-        right = np.array([pushes[name] - part[0] for name, part in parts.items()])
+        """The roof force that two actuators hold with these pushes [N]; None if none does."""
+        matrix = np.array([part[1:] for part in self.actuators.values()])
+        right = np.array([pushes[name] - part[0] for name, part in self.actuators.items()])
         if np.linalg.cond(matrix) > 1.0 / SINGULAR:
             return None
         force, moment = np.linalg.solve(matrix, right).tolist()
         return self._told(force, moment, float(np.abs(right).max()))
 
-    def span(self, pushes: Mapping[str, float]) -> tuple[RoofForce, RoofForce] | None:
-        """The least and the largest roof force on the canopy that a single actuator holds with its push [N].
-
-        Force times lever is given, so that both are at ends of the canopy; the largest has no bound where the
-        actuator does not feel it. None if there is none on the canopy, or if two actuators determine one.
-        """
-        if len(self.actuators) != 1:
-            return None
-        ((name, (weight, press, shift)),) = self.actuators.items()
-        push = float(pushes[name] - weight)
-        rates = {x: float(press + shift * x) for x in (self.contact.rear, self.contact.front)}
-        ends = [RoofForce(push / rate, x) for x, rate in rates.items() if push > 0.0 and rate > self._unfelt]
-        if not ends:
-            return None
-        least = min(ends, key=lambda roof: roof.force)
-        if len(ends) < len(rates):
-            return least, RoofForce(math.inf, float(-press / shift))
-        return least, max(ends, key=lambda roof: roof.force)
-
-    @property
-    def _unfelt(self) -> float:
-        """Part of a roof force in an actuator's push that is nothing but rounding [-]."""
-        reach = max(abs(self.contact.rear), abs(self.contact.front))
-        return SLACK * max(
-            float(abs(press) + abs(shift) * reach) for _, press, shift in self.actuators.values()
-        )
-
-    @property
-    def unfelt_at(self) -> float | None:
-        """Where on the canopy a single actuator does not feel a roof force, x [m]; None if nowhere."""
-        if len(self.actuators) != 1:
-            return None
-        ((_, press, shift),) = self.actuators.values()
-        rear, front = (float(press + shift * x) for x in (self.contact.rear, self.contact.front))
-        if shift == 0.0 or min(rear, front) > self._unfelt or max(rear, front) < -self._unfelt:
-            return None
-        return float(-press / shift)
-
-    def unbounded(self, pin: str) -> bool:
-        """Whether roof forces that no actuator feels load a pin without bound."""
-        if self.unfelt_at is None:
-            return False
-        n = list(self.linkage.pins).index(pin)
-        found = (self._parts @ np.array([0.0, 1.0, self.unfelt_at]))[2 * n : 2 * n + 2]
-        return float(np.hypot(*found)) > SLACK
-
     def largest_at(self, x: float, limits: Mapping[str, Limits]) -> float:
-        """The largest roof force at x [m] that all actuators hold within their limits [N]; 0 if none.
-
-        Infinite if no actuator feels it.
-        """
-        most = np.inf
+        """The largest roof force at x [m] that all actuators hold within their limits [N]; 0 if none."""
+        most = math.inf
         for name, (weight, press, shift) in self.actuators.items():
             rate = press + shift * x
             limit = limits[name].high if rate > 0.0 else limits[name].low
-            if abs(rate) > self._unfelt:
+            if abs(rate) > SLACK * (abs(press) + abs(shift * x)):
                 most = min(most, (limit - weight) / rate)
         return max(float(most), 0.0)
 
