@@ -103,18 +103,6 @@ class FourBarShield(Machine, ABC):
         feet = [place for strut in cls.STRUTS.values() for _, place in strut]
         return (*FRAME[:-1], *feet, FRAME[-1], *TAIL_PLACES)
 
-    def joints(self) -> dict[str, list[str]]:
-        """Names of the pivots on each body."""
-        joints = {
-            "rear_link": ["rear_base", "rear_shield"],
-            "front_link": ["front_base", "front_shield"],
-            "shield": ["rear_shield", "front_shield", "hinge"],
-            "canopy": ["hinge", "tip"],
-        }
-        for body, pivot in (end for strut in self.STRUTS.values() for end in strut if end[0] != GROUND):
-            joints[body].append(pivot)
-        return joints
-
     @model_validator(mode="after")
     def _can_be_built(self) -> Self:
         for name in self.pivots():

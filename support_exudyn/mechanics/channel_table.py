@@ -26,6 +26,7 @@ from support_exudyn.mechanics.channels import (
     named,
     table,
 )
+from support_exudyn.mechanics.constraints import Distance, Shift, Turn
 from support_exudyn.mechanics.joint_channels import (
     AXES,
     IMPACT,
@@ -178,7 +179,8 @@ def _actuators_in_space(linkage: SpatialLinkage, parts: Parts) -> Iterable[Chann
     loads = _loads_of(linkage, parts)
     single: ChannelDefinitions = {}
     for name, actuator in linkage.actuators.items():
-        single |= _marked(_actuator(name, actuator.actuator in parts.oil, 3), ".force", loads.actuators([name]))
+        channels = _actuator(name, actuator.actuator in parts.oil, 3)
+        single |= _marked(channels, ".force", loads.determine(Distance, [name]))
     yield single
     for whole in dict.fromkeys(actuator.actuator for actuator in linkage.actuators.values()):
         each = linkage.parts_of_actuator(whole)
@@ -186,7 +188,7 @@ def _actuators_in_space(linkage: SpatialLinkage, parts: Parts) -> Iterable[Chann
             pair = _together(whole, each, single, "angle", np.mean, "direction from foot to head, mean of both")
             pair |= _together(whole, each, single, "length", np.mean, "distance of its ends, mean of both")
             pair |= _together(whole, each, single, "force", np.sum, f"{APART}, both together")
-            yield _marked(pair, ".force", loads.actuators(each))
+            yield _marked(pair, ".force", loads.determine(Distance, each))
 
 
 def _together(
@@ -227,12 +229,13 @@ def _joints_in_space(linkage: SpatialLinkage, parts: Parts) -> Iterable[ChannelD
     loads, loose = _loads_of(linkage, parts), _loose(parts)
     for name, bearing in linkage.bearings.items():
         channels = bearing_channels(name, with_clearance=bearing.pin in loose, is_guide=bearing.is_guide)
-        yield _marked(_marked(channels, ".force", loads.forces([name])), ".moment", loads.moment(name))
+        channels = _marked(channels, ".force", loads.determine(Shift, [name]))
+        yield _marked(channels, ".moment", loads.determine(Turn, [name]))
     for pin in dict.fromkeys(b.pin for b in linkage.bearings.values() if not b.is_guide):
         each = tuple(linkage.parts_of_pin(pin))
         if each != (pin,):
             together = force_channels(pin, JOINTS, _sum_of_bearings(each), axes=3)
-            yield _marked(together, ".force", loads.forces(each))
+            yield _marked(together, ".force", loads.determine(Shift, each))
 
 
 def _loose(parts: Parts) -> list[str]:

@@ -2,22 +2,27 @@
 
 What integrates, records and judges contacts goes by these places, and does not ask of which kind they are. What
 a contact did at the records follows from the motion of its bodies and what it remembers.
+
+A contact law that needs a mass has that of the start posture. The inverse effective mass W (2, 2) of a journal
+against its bore has all other clearance joints open and all actuators rigid. It depends on the direction. A
+pin's mass is 2 / trace(W), the harmonic mean over all directions; a guide's mass is the harmonic mean of that
+along the normals of its corners.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from support_exudyn.mechanics.body_motion import Motion
 from support_exudyn.mechanics.constraints import Shift, matrix
-from support_exudyn.mechanics.kinetics import Matrix
+from support_exudyn.mechanics.kinetics import Kinetics, Matrix
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
-from support_exudyn.model.guides import Guide
+from support_exudyn.model.guides import ClearanceGuide, Guide
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.falling_block import FallingBlock
 from support_exudyn.model.pins import ClearancePin
@@ -25,18 +30,11 @@ from support_exudyn.model.plane_geometry import plus, rotated
 from support_exudyn.model.to_space import at
 from user_forces.contact import SHALLOWEST, Contact
 from user_forces.contact_state import PinMemory
+from user_forces.normal.law import NormalLaw
 from user_forces.values.value import Vector2
 
 PLANE = np.eye(2)
 PLAY = 1e-3  # [m] of a falling block, as of a pin
-
-
-class HasValues(Protocol):
-    """A channel of a run."""
-
-    @property
-    def values(self) -> Series:
-        """Its values at the records (n,)."""
 
 
 class RelativeMotion(NamedTuple):
@@ -194,7 +192,7 @@ class ContactPlace:
         vectors[:, :2] = (contact.force_x, contact.force_y), (arm * x, arm * y)
         return vectors[0].T, point + vectors[1].T
 
-    def depth(self, channels: Mapping[str, HasValues]) -> Series | None:
+    def depth(self, channels: Mapping[str, Any]) -> Series | None:
         """The depth (n,) [m] among the channels of a run, which is a gap that is negative; None without."""
         gap = channels.get(f"{self.stem}.gap")
         found = channels.get(f"{self.stem}.depth")
@@ -277,3 +275,36 @@ def block_places(blocks: Mapping[str, FallingBlock], gravity: Vector2) -> dict[s
 def _dot(one: Series, other: Series) -> Series:
     found: Series = np.einsum("ni,ni->n", one, other)
     return found
+
+
+# --- masses of contact laws that need one ---
+
+
+def lacks_mass(law: NormalLaw) -> bool:
+    """Whether a law has a field `mass` without a number."""
+    return getattr(law, "mass", 0.0) is None
+
+
+def with_mass(pin: ClearancePin, name: str, linkage: Linkage, free: Kinetics) -> ClearancePin:
+    """The pin with a mass in its law; linkage: in the start posture. free: with all clearance joints open."""
+    law: Any = pin.contact.normal
+    places = contact_places(linkage, {name: pin}, {})
+    return replace(pin, contact=replace(pin.contact, normal=replace(law, mass=_mass(places.values(), free))))
+
+
+def guide_with_mass(guide: ClearanceGuide, name: str, linkage: Linkage, free: Kinetics) -> ClearanceGuide:
+    """The guide with a mass in its law, see `with_mass`."""
+    law: Any = guide.normal
+    guides: Mapping[str, Guide] = {name: guide}
+    return replace(guide, normal=replace(law, mass=_mass(contact_places(linkage, {}, guides).values(), free)))
+
+
+def _mass(places: Iterable[ContactPlace], free: Kinetics) -> float:
+    """The harmonic mean of the effective masses at places of contact in the start posture [kg]."""
+    still, found = np.zeros(3 * len(free.linkage.bodies)), []
+    for place in places:
+        inverse = free.inverse_mass(still, place.rate(free.motion(still)))
+        along = place.axes(free.linkage)
+        normal = np.array([-np.sin(along), np.cos(along)])
+        found.append(normal @ inverse @ normal if place.contact.bearing.is_slot else 0.5 * np.trace(inverse))
+    return 1.0 / float(np.mean(found))

@@ -5,10 +5,9 @@ guide: force = law(slip, force across), see `IdealGuide`
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
 
 import numpy as np
 
@@ -91,49 +90,29 @@ def _both(carried: Series) -> list[Carried]:
     return [(one[0], one[-1] if len(one) == 2 else 0.0) for one in carried.tolist()]
 
 
-class RubbingJoints(Protocol):
-    """Ideal joints with friction, by name."""
-
-    @property
-    def linkage(self) -> Linkage:
-        """The linkage that they are of."""
-        ...
-
-    @property
-    def friction_pins(self) -> dict[str, IdealPin]:
-        """The pins."""
-        ...
-
-    @property
-    def friction_guides(self) -> dict[str, IdealGuide]:
-        """The guides."""
-        ...
-
-
-def friction_joints(joints: RubbingJoints) -> dict[str, FrictionJoint]:
+def friction_joints(
+    linkage: Linkage, pins: Mapping[str, IdealPin], guides: Mapping[str, IdealGuide]
+) -> dict[str, FrictionJoint]:
     """Ideal pins with friction, then ideal guides, as "pins.NAME" and "guides.NAME"."""
     found: dict[str, FrictionJoint] = {}
-    for name, pin in joints.friction_pins.items():
-        place = joints.linkage.pins[name]
+    for name, pin in pins.items():
+        place = linkage.pins[name]
         found[f"pins.{name}"] = FrictionJoint(("pins", name), pin, place.first, place.second)
-    for name, guide in joints.friction_guides.items():
-        slide = joints.linkage.slides[name]
+    for name, guide in guides.items():
+        slide = linkage.slides[name]
         found[f"guides.{name}"] = FrictionJoint(("slides", name), guide, slide.against, slide.body, slide)
     return found
 
 
-def joint_slips(motion: BodyMotion, joints: RubbingJoints) -> Iterator[Series]:
-    """Slips (n,) [m/s] of ideal pins with friction, then of guides; of pins in slots without their turning."""
-    for joint in friction_joints(joints).values():
-        yield joint.slips(motion)
-
-
-def friction_series(joints: RubbingJoints, forces: Mapping[str, Series]) -> dict[str, Any]:
-    """Fields of a `Trajectory` from friction forces (n,) [N] by "pins.NAME" and "guides.NAME"; none without."""
-    if not forces:
-        return {}
-    pins, guides = joints.friction_pins, joints.friction_guides
-    return {
-        "friction_moments": {name: (pin.radius or 0.0) * forces[f"pins.{name}"] for name, pin in pins.items()},
-        "friction_forces": {name: forces[f"guides.{name}"] for name in guides},
-    }
+def friction_series(
+    joints: Mapping[str, FrictionJoint], forces: Mapping[str, Series]
+) -> dict[str, dict[str, Series]]:
+    """Fields of a `Trajectory` from friction forces (n,) [N] by the names of the joints."""
+    found: dict[str, dict[str, Series]] = {"friction_moments": {}, "friction_forces": {}}
+    for where, force in forces.items():
+        joint, name = joints[where], joints[where].owner[1]
+        if isinstance(joint.part, IdealPin):
+            found["friction_moments"][name] = (joint.part.radius or 0.0) * force
+        else:
+            found["friction_forces"][name] = force
+    return found

@@ -228,27 +228,11 @@ class Loads:
         left, sizes, _ = np.linalg.svd(matrix(self.start, self.held)[0])
         return np.asarray(left[:, int((sizes > SAME * sizes[0]).sum()) :])
 
-    def actuators(self, names: Sequence[str]) -> bool:
-        """Whether the force of rigid actuators together is determined."""
-        return self._fixed(
-            [float(constraint.part == "actuators" and constraint.name in names) for constraint in self.held]
-        )
+    def determine(self, kind: type[Constraint], names: Collection[str]) -> bool:
+        """Whether the sum of the loads of constraints of this kind and these names is determined, as a vector.
 
-    def forces(self, bearings: Sequence[str]) -> bool:
-        """Whether the force of bearings together is determined, as a vector."""
-        return self._fixed(self._map(bearings, moments=False))
-
-    def moment(self, bearing: str) -> bool:
-        """Whether the moment of a bearing is determined, as a vector."""
-        return self._fixed(self._map([bearing], moments=True))
-
-    def _map(self, bearings: Sequence[str], moments: bool) -> Series:
-        found = np.zeros((3, len(self.held)))
-        for n, constraint in enumerate(self.held):
-            if isinstance(constraint, Turn if moments else Shift) and constraint.name in bearings:
-                found[:, n] = constraint.direction
-        return found
-
-    def _fixed(self, load: Sequence[float] | Series) -> bool:
-        """Whether sums of L, as rows, are the same for all that balance."""
-        return bool(np.abs(np.asarray(load) @ self.unbalanced).max(initial=0.0) <= SAME)
+        kind: Distance of actuators' forces, Shift of bearings' forces, Turn of their moments.
+        """
+        rows = [n for n, held in enumerate(self.held) if type(held) is kind and held.name in names]
+        along = np.array([getattr(self.held[n], "direction", (1.0,)) for n in rows])
+        return bool(np.abs(along.T @ self.unbalanced[rows]).max(initial=0.0) <= SAME)

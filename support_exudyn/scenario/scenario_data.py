@@ -13,10 +13,16 @@ from pydantic import Field
 from support_exudyn.mechanics.channel_table import Parts, channel_definitions
 from support_exudyn.mechanics.channels import ALL_CHANNELS, ChannelDefinition
 from support_exudyn.mechanics.closing import Conditions, conditions_of
-from support_exudyn.mechanics.contact_places import ContactPlace, block_places, contact_places
-from support_exudyn.mechanics.joint_friction import friction_joints
+from support_exudyn.mechanics.contact_places import (
+    ContactPlace,
+    block_places,
+    contact_places,
+    guide_with_mass,
+    lacks_mass,
+    with_mass,
+)
+from support_exudyn.mechanics.joint_friction import FrictionJoint, friction_joints
 from support_exudyn.mechanics.kinetics import Kinetics, kinetics_of
-from support_exudyn.mechanics.law_masses import guide_with_mass, lacks_mass, with_mass
 from support_exudyn.mechanics.postures import eccentric
 from support_exudyn.model.actuators import (
     ActuatorModel,
@@ -327,7 +333,7 @@ class ScenarioData(Value, ABC):
 
     @cached_property
     def clearance_pins(self) -> dict[str, ClearancePin]:
-        """The pins that have clearance, by name, with the masses that their laws need, see `law_masses`."""
+        """The pins that have clearance, by name, with the masses that their laws need, see `contact_places`."""
         found = {name: pin for name, pin in self.pins.items() if isinstance(pin, ClearancePin)}
         for name, pin in found.items():
             if lacks_mass(pin.contact.normal) and name in self.linkage.pins:
@@ -361,9 +367,14 @@ class ScenarioData(Value, ABC):
         return {name: guide for name, guide in found.items() if guide.friction is not None}
 
     @property
+    def friction_joints(self) -> dict[str, FrictionJoint]:
+        """Ideal pins with friction, then ideal guides, as "pins.NAME" and "guides.NAME"."""
+        return friction_joints(self.linkage, self.friction_pins, self.friction_guides)
+
+    @property
     def friction_laws(self) -> dict[str, FrictionLaw]:
-        """Laws of ideal pins with friction, then of ideal guides, as "pins.NAME" and "guides.NAME"."""
-        return {name: joint.law for name, joint in friction_joints(self).items()}
+        """The laws of `friction_joints`."""
+        return {name: joint.law for name, joint in self.friction_joints.items()}
 
     @cached_property
     def legs(self) -> dict[str, HydraulicLeg]:

@@ -13,7 +13,6 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from support_exudyn.mechanics.closing import repeated_count
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.hydraulic_legs import preloaded_legs
-from support_exudyn.mechanics.joint_friction import friction_joints
 from support_exudyn.model.linkage import GROUND, Linkage
 from support_exudyn.model.loads.load import Load, StretchLoad, TimeFunction
 from support_exudyn.model.pins import IdealPin
@@ -341,7 +340,7 @@ def _loads(scenario: Scenario, build: _Builder, course: int) -> Records:
 
 def _rubbing(scenario: Scenario, build: _Builder, joints: Records, states: int) -> Records:
     """Friction of ideal pins, then of ideal guides; states: how many the state has without theirs."""
-    rubbing = friction_joints(scenario)
+    rubbing = scenario.friction_joints
     pins = dict(zip(scenario.held_pins, joints[joints["kind"] == arrays.PIN], strict=True))
     slides = dict(zip(scenario.guided_linkage.slides, joints[joints["kind"] == arrays.SLIDE], strict=True))
     found = np.zeros(len(rubbing), arrays.RUBBING)

@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from support_exudyn.mechanics.joint_friction import joint_slips
 from support_exudyn.mechanics.observed_run import Outcome
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scenario.scenario import Scenario
@@ -75,10 +74,9 @@ def _all_rubbing(scenario: Scenario, outcome: Outcome) -> Iterator[_Rubbing]:
         return
     forces = [np.hypot(*run.pins[name].T) for name in pins]
     forces += [run.slides[name].max(axis=1) for name in guides]
-    laws, slips = scenario.friction_laws.items(), joint_slips(run.motion, scenario)
-    for (where, law), slip, force in zip(laws, slips, forces, strict=True):
-        if not law.has_state:
-            yield _Rubbing(where, law, slip, force > 0.0)
+    for (where, joint), force in zip(scenario.friction_joints.items(), forces, strict=True):
+        if not joint.law.has_state:  # of pins in slots the slip is that without their turning
+            yield _Rubbing(where, joint.law, joint.slips(run.motion), force > 0.0)
 
 
 def _moments_left_out(scenario: Scenario, outcome: Outcome) -> list[str]:

@@ -26,7 +26,7 @@ from support_exudyn import (
     Steady,
     TracePoint,
 )
-from support_exudyn.mechanics.start_rates import set_moving
+from support_exudyn.mechanics.postures import set_moving
 from support_exudyn.model.linkage import GROUND, pinned
 from tests.drawn.fresh_legs import between
 from user_forces import JournalContact

@@ -221,18 +221,11 @@ DOUBTS = {
         "rear_link = 0.9\nfront_link = 0.7\nshield = 4.2\ncanopy = 5.2",
         "are they in tonnes?",
     ),
-    "heavy": ("canopy = 5200", "canopy = 52000", "is more than all others together"),
     "pull": ("front_head = [2300, 2480]", "front_head = [1400, 2480]", "rear_column pulls instead of pushing"),
     "bores": (
         "[masses_kg]",
         "[bore_radius_mm]\nrear_shield = 120\nfront_shield = 120\n[masses_kg]",
         "diameters?",
-    ),
-    "centre": (
-        "[masses_kg]\n\nrear_link = 900\nfront_link = 700\nshield = 4200\ncanopy = 5200",
-        "[[parts.canopy]]\nmass_kg = 5200\ncentre_mm = [9200, 2560]\nlength_mm = 3000\n"
-        "[masses_kg]\nrear_link = 900\nfront_link = 700\nshield = 4200",
-        "parts.canopy: its centre of mass, (8",
     ),
 }
 

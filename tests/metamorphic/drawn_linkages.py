@@ -23,7 +23,7 @@ from support_exudyn import (
     TorsionSpring,
     TracePoint,
 )
-from support_exudyn.mechanics.start_rates import set_moving
+from support_exudyn.mechanics.postures import set_moving
 from support_exudyn.model.linkage import GROUND, Linkage
 from tests.drawn.drawn_linkages import chain
 from tests.metamorphic.drawn import GRAVITY, IMPACT_STEPS, MS, TOLERANCE, between, with_clearance

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from studies.contact_laws import catalogue
-from support_exudyn.mechanics.law_masses import lacks_mass
+from support_exudyn.mechanics.contact_places import lacks_mass
 from tests.often import often
 from user_forces import (
     Ambrosio,

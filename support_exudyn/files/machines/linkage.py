@@ -28,7 +28,7 @@ from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.planar_linkage import PlanarLinkage
 from support_exudyn.machines.strength.strength_data import StrengthData
 from support_exudyn.mechanics.closure import assembled
-from support_exudyn.mechanics.start_rates import set_moving
+from support_exudyn.mechanics.postures import set_moving
 from support_exudyn.model.actuators import CylinderAndRod
 from support_exudyn.model.linkage import GROUND, Crank, Linkage, TracePoint
 from support_exudyn.model.loads.load import ActingLoad

@@ -82,7 +82,7 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         for name, load in scenario.elements.items()
         if DataNeeds.LOADS in needed
     }
-    losses = found.state[:, -LOSSES:]
+    losses, joints = found.state[:, -LOSSES:], scenario.friction_joints
     return Trajectory(
         linkage=linkage,
         gravity=scenario.gravity,
@@ -90,7 +90,7 @@ def trajectory(model: Model, rows: Matrix, oil_events: Mapping[str, tuple[OilEve
         motion=motion,
         acceleration=found.acceleration,
         sections=sections,
-        **friction_series(scenario, dict(zip(scenario.friction_laws, found.friction.T, strict=True))),
+        **friction_series(joints, dict(zip(joints, found.friction.T, strict=True))),
         **{**held, "actuators": {**held["actuators"], **actuators}},
         work=losses[:, 2],
         damping_loss=losses[:, 0],

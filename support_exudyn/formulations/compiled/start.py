@@ -7,7 +7,6 @@ import numpy as np
 from support_exudyn.formulations.compiled.recording import write_record
 from support_exudyn.formulations.compiled.step import evaluate
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.joint_friction import joint_slips
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.scenario.scenario import Scenario
 from support_exudyn.scene.arrays import JUMP_ENERGY, LOSSES, WORK, SceneArrays, Scratch, Vector
@@ -43,10 +42,9 @@ def _start_sliding(model: Model, y: Vector) -> None:
     scenario, count = model.scenario, 3 * model.scene.bodies.size
     still, rates = np.zeros((1, count)), y[count : 2 * count].reshape(1, -1)
     motion = BodyMotion(scenario.linkage, still, rates)
-    slips = joint_slips(motion, scenario)
-    for record, law, slip in zip(model.scene.rubbing, scenario.friction_laws.values(), slips, strict=True):
+    for record, joint in zip(model.scene.rubbing, scenario.friction_joints.values(), strict=True):
         if record["state"] >= 0:
-            y[record["state"]] = law.steady_deflection(float(slip[0]))
+            y[record["state"]] = joint.law.steady_deflection(float(joint.slips(motion)[0]))
 
 
 def _velocities(scenario: Scenario) -> Vector:

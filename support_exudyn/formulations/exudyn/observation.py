@@ -59,7 +59,7 @@ def trajectory(scene: EngineScene, history: History, needed: DataNeeds) -> Traje
         acceleration=acceleration,
         sections=sections,
         **held,
-        **friction_series(scenario, frictions),
+        **friction_series(scenario.friction_joints, frictions),
         work=history.work,
         damping_loss=history.damping_loss,
         friction_loss=history.friction_loss,

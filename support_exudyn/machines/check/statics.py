@@ -72,22 +72,18 @@ class DegreesOfFreedom:
     """Degrees of freedom of a linkage.
 
     Arguments:
-        bodies, pins, blocks, slots, gears, struts, driven: how many there are; a block does not turn in its
-            guide, a pin in a slot does; a strut is an actuator that no drive moves.
-        counted: by Gruebler's formula, 3 a body less 2 a pin or block and 1 a slot, gear or strut.
+        counted: by Gruebler's formula, 3 a body less 2 a pin or block and 1 a slot, gear or strut. A block does
+            not turn in its guide, a pin in a slot does; a strut is an actuator that no drive moves.
+        formula: that count with its numbers.
         free: by the rank of the constraints' Jacobian.
-        left: likewise with the driven parts held.
+        driven: how many parts are.
+        left: by the rank with the driven parts held.
     """
 
-    bodies: int
-    pins: int
-    blocks: int
-    slots: int
-    gears: int
-    struts: int
-    driven: int
     counted: int
+    formula: str
     free: int
+    driven: int
     left: int
 
     def data(self) -> dict[str, int]:
@@ -97,35 +93,31 @@ class DegreesOfFreedom:
     def said(self) -> str:
         """The count and the rank in a sentence."""
         return (
-            f"degrees of freedom: 3 x {self.bodies} bodies - 2 x {self.pins} pins"
-            + (f" - 2 x {self.blocks} guides" if self.blocks else "")
-            + (f" - {self.slots} slots" if self.slots else "")
-            + (f" - {self.gears} gears" if self.gears else "")
-            + (f" - {self.struts} struts" if self.struts else "")
-            + f" = {self.counted} (by the rank of the constraints: {self.free}); driven: {self.driven}; "
-            f"left: {self.left}"
+            f"degrees of freedom: {self.formula} = {self.counted} (by the rank of the constraints: "
+            f"{self.free}); driven: {self.driven}; left: {self.left}"
         )
 
 
 def mobility(linkage: Linkage) -> DegreesOfFreedom:
     """The degrees of freedom of a linkage in its start posture."""
-    bodies, pins, gears = len(linkage.bodies), len(linkage.pins), len(linkage.gears)
-    slots = sum(slide.turns for slide in linkage.slides.values())
-    blocks = len(linkage.slides) - slots
+    bodies, slots = len(linkage.bodies), sum(slide.turns for slide in linkage.slides.values())
+    struts = len(linkage.actuators) + len(linkage.cranks) - len(linkage.driven)
+    held = [  # freedoms that each takes, how many there are, and what
+        (2, len(linkage.pins), "pins"),
+        (2, len(linkage.slides) - slots, "guides"),
+        (1, slots, "slots"),
+        (1, len(linkage.gears), "gears"),
+        (1, struts, "struts"),
+    ]
+    terms = [f"{'2 x ' * (each == 2)}{count} {what}" for each, count, what in held if count or what == "pins"]
     conditions = conditions_of(linkage)
     rows, owners = conditions.rows(conditions.still), conditions.kinetics.owners()
-    held = np.array([kind in DRIVEN and name in linkage.driven for kind, name in owners], dtype=bool)
-    struts = len(linkage.actuators) + len(linkage.cranks) - len(linkage.driven)
+    driven = np.array([kind in DRIVEN and name in linkage.driven for kind, name in owners], dtype=bool)
     return DegreesOfFreedom(
-        bodies=bodies,
-        pins=pins,
-        blocks=blocks,
-        slots=slots,
-        gears=gears,
-        struts=struts,
+        counted=3 * bodies - sum(each * count for each, count, _ in held),
+        formula=" - ".join([f"3 x {bodies} bodies", *terms]),
+        free=3 * bodies - _rank(rows[~driven]),
         driven=len(linkage.driven),
-        counted=3 * bodies - 2 * pins - 2 * blocks - slots - gears - struts,
-        free=3 * bodies - _rank(rows[~held]),
         left=3 * bodies - _rank(rows),
     )
 

@@ -19,7 +19,6 @@ from support_exudyn.formulations.exudyn.scene.sections import SectionPlace, sect
 from support_exudyn.mechanics.constraints import frame_of
 from support_exudyn.mechanics.contact_places import ContactPlace
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg, preloaded_legs
-from support_exudyn.mechanics.joint_friction import friction_joints
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.hydraulics.leg import HydraulicCylinder
 from support_exudyn.model.linkage import GROUND
@@ -118,7 +117,7 @@ class SceneBuilder(JointBuilder):
         scenario, linkage, mbs = self.scenario, self.linkage, self.mbs
         rows, held, size = self.constraints()
         self.add_joints(rows)
-        frictions = {name: self.add_friction(joint) for name, joint in friction_joints(scenario).items()}
+        frictions = {name: self.add_friction(joint) for name, joint in scenario.friction_joints.items()}
         legs = [self.add_leg(leg) for leg in self.legs()]
         places = self.contact_places()
         connectors = {name: [self.add_contact(part) for part in parts[1:]] for name, parts in places.items()}
