@@ -6,8 +6,9 @@ of each, and under the planar name the force of both, and the mean of lengths an
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from operator import attrgetter
 from typing import Any
 
@@ -30,9 +31,9 @@ from support_exudyn.mechanics.constraints import Distance, Shift, Turn
 from support_exudyn.mechanics.joint_channels import (
     AXES,
     IMPACT,
-    TOWARDS,
     bearing_channels,
     column,
+    components,
     force_channels,
     guide_channels,
     pin_channels,
@@ -80,20 +81,29 @@ def channel_definitions(linkage: Linkage | SpatialLinkage, parts: Parts) -> Chan
 
     Raises InputError if two parts have a channel of the same name.
     """
-    axes = 3 if isinstance(linkage, SpatialLinkage) else 2
+    actuators: Iterable[ChannelDefinitions]
+    if isinstance(linkage, SpatialLinkage):
+        axes, loose = 3, [name for name, pin in parts.pins.items() if not pin.holds]
+        loads = Loads(linkage, loose, parts.oil)
+        actuators = _actuators_in_space(linkage, parts, loads)
+        joints = _joints_in_space(linkage, loose, loads)
+    else:
+        axes, joints = 2, _joints(linkage, parts)
+        actuators = (_actuator(name, name in parts.oil, 2) for name in linkage.actuators)
     groups = [
         {"time": ChannelDefinition("s", "time", DataNeeds.NOTHING, attrgetter("time"))},
         *(_body(name, linkage, axes) for name in linkage.bodies),
         *(_point(name, axes) for name in linkage.points),
-        *_actuators(linkage, parts),
+        *actuators,
         leg_channels(parts.legs, parts.pump),
-        *_joints(linkage, parts),
+        *joints,
         *(load_channels(name, load) for name, load in parts.loads.items()),
         *(table(name, CONTACT, named("sections", name), _BLOCK_ROWS) for name in parts.blocks),
         _energy(parts, axes),
     ]
     # a traced centre of mass may have the name of its body, as its place is the same
-    centres = {name for name in linkage.points if _is_centre(linkage, name)}
+    points, bodies = linkage.points.items(), linkage.bodies
+    centres = [name for name, one in points if one.body == name and one.point == bodies[name].centre]
     same = {f"{name}.{axis}" for name in centres for axis in AXES}
     found: ChannelDefinitions = {}
     for group in groups:
@@ -103,14 +113,8 @@ def channel_definitions(linkage: Linkage | SpatialLinkage, parts: Parts) -> Chan
     return found
 
 
-def _is_centre(linkage: Linkage | SpatialLinkage, name: str) -> bool:
-    """Whether a traced point is the centre of mass of the body of the same name."""
-    point = linkage.points[name]
-    return point.body == name and point.point == linkage.bodies[name].centre
-
-
 def _body(name: str, linkage: Linkage | SpatialLinkage, axes: int) -> ChannelDefinitions:
-    body, towards = linkage.bodies[name], list(zip(AXES[:axes], TOWARDS, strict=False))
+    body = linkage.bodies[name]
     # in space, velocities follow from the rates of Euler parameters and these
     velocity, about = (MOTION, " about z") if axes == 3 else (VELOCITY, "")
     spin = 3 * (axes - 1) * (list(linkage.bodies).index(name) + 1) - 1  # that about z among all velocities
@@ -118,30 +122,24 @@ def _body(name: str, linkage: Linkage | SpatialLinkage, axes: int) -> ChannelDef
     def centre(run: Trajectory) -> Series:
         return np.asarray(body.centre + run.motion.centre(name)[0])
 
-    places: list[Row] = [
-        (axis, "m", f"centre of mass, {to}", column(k)) for k, (axis, to) in enumerate(towards)
-    ]
-    rates: list[Row] = [
-        (f"velocity_{axis}", "m/s", f"velocity of the centre of mass, {to}", column(k))
-        for k, (axis, to) in enumerate(towards)
-    ]
+    rates = components("velocity_", "m/s", "velocity of the centre of mass", axes)
     turns: list[Row] = [
         ("angle", "rad", f"orientation{about} from +x", lambda motion: body.angle + motion.turn(name))
     ]
-    spins: list[Row] = [("angular_velocity", "rad/s", f"angular velocity{about}", np.asarray)]
+    about_z = column(2) if axes == 3 else np.asarray
+    spins: list[Row] = [("angular_velocity", "rad/s", f"angular velocity{about}", about_z)]
     if axes == 3:
         turns += [
             ("roll", "rad", "turn about x, the right side down", lambda motion: motion.turn(name, 0)),
             ("yaw", "rad", "turn about y, to the left", lambda motion: motion.turn(name, 1)),
         ]
-        spins = [
-            ("angular_velocity", "rad/s", "angular velocity about z", column(2)),
+        spins += [
             ("angular_velocity_x", "rad/s", "angular velocity about x", column(0)),
             ("angular_velocity_y", "rad/s", "angular velocity about y", column(1)),
         ]
     turning: list[Row] = [("angular_acceleration", "rad/s^2", f"angular acceleration{about}", column(spin))]
     return {
-        **table(name, POSITION, centre, places),
+        **table(name, POSITION, centre, components("", "m", "centre of mass", axes)),
         **table(name, velocity, lambda run: run.motion.centre(name)[1], rates),
         **table(name, POSITION, attrgetter("motion"), turns),
         **table(name, velocity, lambda run: run.motion.spin(name), spins),
@@ -150,8 +148,7 @@ def _body(name: str, linkage: Linkage | SpatialLinkage, axes: int) -> ChannelDef
 
 
 def _point(name: str, axes: int) -> ChannelDefinitions:
-    rows: list[Row] = [(AXES[k], "m", f"position, {TOWARDS[k]}", column(k)) for k in range(axes)]
-    return table(name, POSITION, lambda run: run.path(name), rows)
+    return table(name, POSITION, lambda run: run.path(name), components("", "m", "position", axes))
 
 
 # --- actuators ---
@@ -168,15 +165,7 @@ def _actuator(name: str, oil: bool, axes: int) -> ChannelDefinitions:
     return found | table(name, OIL if oil else JOINTS, lambda run: run, force)
 
 
-def _actuators(linkage: Linkage | SpatialLinkage, parts: Parts) -> Iterable[ChannelDefinitions]:
-    if isinstance(linkage, SpatialLinkage):
-        yield from _actuators_in_space(linkage, parts)
-        return
-    yield from (_actuator(name, name in parts.oil, 2) for name in linkage.actuators)
-
-
-def _actuators_in_space(linkage: SpatialLinkage, parts: Parts) -> Iterable[ChannelDefinitions]:
-    loads = _loads_of(linkage, parts)
+def _actuators_in_space(linkage: SpatialLinkage, parts: Parts, loads: Loads) -> Iterable[ChannelDefinitions]:
     single: ChannelDefinitions = {}
     for name, actuator in linkage.actuators.items():
         channels = _actuator(name, actuator.actuator in parts.oil, 3)
@@ -206,10 +195,7 @@ def _together(
 # --- joints ---
 
 
-def _joints(linkage: Linkage | SpatialLinkage, parts: Parts) -> Iterable[ChannelDefinitions]:
-    if isinstance(linkage, SpatialLinkage):
-        yield from _joints_in_space(linkage, parts)
-        return
+def _joints(linkage: Linkage, parts: Parts) -> Iterable[ChannelDefinitions]:
     of_crank: list[Row] = [("moment", "N m", "of the drive on the crank", np.asarray)]
     of_gear: list[Row] = [("moment", "N m", "of the gear on its second body", np.asarray)]
     yield from (table(name, JOINTS, named("cranks", name), of_crank) for name in linkage.cranks)
@@ -225,8 +211,9 @@ def _joints(linkage: Linkage | SpatialLinkage, parts: Parts) -> Iterable[Channel
             yield pin_channels(pin, name)
 
 
-def _joints_in_space(linkage: SpatialLinkage, parts: Parts) -> Iterable[ChannelDefinitions]:
-    loads, loose = _loads_of(linkage, parts), _loose(parts)
+def _joints_in_space(
+    linkage: SpatialLinkage, loose: Collection[str], loads: Loads
+) -> Iterable[ChannelDefinitions]:
     for name, bearing in linkage.bearings.items():
         channels = bearing_channels(name, with_clearance=bearing.pin in loose, is_guide=bearing.is_guide)
         channels = _marked(channels, ".force", loads.determine(Shift, [name]))
@@ -234,20 +221,13 @@ def _joints_in_space(linkage: SpatialLinkage, parts: Parts) -> Iterable[ChannelD
     for pin in dict.fromkeys(b.pin for b in linkage.bearings.values() if not b.is_guide):
         each = tuple(linkage.parts_of_pin(pin))
         if each != (pin,):
-            together = force_channels(pin, JOINTS, _sum_of_bearings(each), axes=3)
+            force = partial(_sum_of_bearings, each)
+            together = force_channels(pin, JOINTS, force, axes=3)
             yield _marked(together, ".force", loads.determine(Shift, each))
 
 
-def _loose(parts: Parts) -> list[str]:
-    return [name for name, pin in parts.pins.items() if not pin.holds]
-
-
-def _loads_of(linkage: SpatialLinkage, parts: Parts) -> Loads:
-    return Loads(linkage, _loose(parts), parts.oil)
-
-
-def _sum_of_bearings(parts: Iterable[str]) -> Callable[[Trajectory], Series]:
-    return lambda run: np.asarray(np.sum([run.pins[part] for part in parts], axis=0))
+def _sum_of_bearings(parts: Iterable[str], run: Trajectory) -> Series:
+    return np.asarray(np.sum([run.pins[part] for part in parts], axis=0))
 
 
 def _marked(channels: ChannelDefinitions, what: str, determined: bool) -> ChannelDefinitions:

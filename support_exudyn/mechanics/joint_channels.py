@@ -34,6 +34,11 @@ def column(k: int) -> Callable[[Series], Series]:
     return lambda vectors: vectors[:, k]
 
 
+def components(stem: str, unit: str, meaning: str, axes: int) -> list[Row]:
+    """Rows of the components of vectors (n, axes), named by what comes before the axis."""
+    return [(f"{stem}{AXES[k]}", unit, f"{meaning}, {TOWARDS[k]}", column(k)) for k in range(axes)]
+
+
 # --- pins ---
 
 
@@ -48,10 +53,7 @@ def force_channels(
 ) -> ChannelDefinitions:
     """The channels of a pin's force; force: of the first body on the second (n, axes) [N], from a run."""
     rows: list[Row] = [("force", "N", "magnitude of the pin force", sizes)]
-    rows += [
-        (f"force_{axis}", "N", f"force of the first body on the second, {towards}", column(k))
-        for k, (axis, towards) in enumerate(zip(AXES[:axes], TOWARDS, strict=False))
-    ]
+    rows += components("force_", "N", "force of the first body on the second", axes)
     return table(f"pin.{name}", needs, force, rows)
 
 
