@@ -166,11 +166,6 @@ class Conditions:
         return [(kind, name) for kind, name in self.names if kind in DRIVEN]
 
 
-def conditions_of(linkage: Linkage) -> Conditions:
-    """What a linkage meets as its driven parts move it: its pins stay as they are at the start."""
-    return Conditions(linkage)
-
-
 def newton(
     conditions: Conditions,
     near: Matrix,

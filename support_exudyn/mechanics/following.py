@@ -8,7 +8,7 @@ from itertools import pairwise, takewhile
 
 import numpy as np
 
-from support_exudyn.mechanics.closing import Conditions, conditions_of, moved_on
+from support_exudyn.mechanics.closing import Conditions, moved_on
 from support_exudyn.mechanics.kinetics import Matrix
 from support_exudyn.model.drives.drive import Drive
 from support_exudyn.model.linkage import Linkage
@@ -45,7 +45,7 @@ def follow(linkage: Linkage, drives: Mapping[str, Drive], duration: float) -> No
     """
     if not drives.keys() >= set(linkage.driven) or (linkage, drives, duration) in _followed:
         return
-    conditions = conditions_of(linkage)
+    conditions = Conditions(linkage)
     values = np.linalg.svd(conditions.rows(conditions.still), compute_uv=False)
     moving = {name: drive for name, drive in drives.items() if drive.span(duration) != (0.0, 0.0)}
     if moving and np.count_nonzero(values > DETERMINED) == conditions.still.size:

@@ -14,7 +14,7 @@ import numpy as np
 
 from support_exudyn.mechanics.acting_loads import add_load, load_series
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.mechanics.closing import conditions_of, moved_on, newton
+from support_exudyn.mechanics.closing import Conditions, moved_on, newton
 from support_exudyn.mechanics.constraints import constraints_of
 from support_exudyn.mechanics.drive_acceleration import accelerations
 from support_exudyn.mechanics.kinetics import Kinetics, Matrix, kinetics_of, weight_of
@@ -148,7 +148,7 @@ class _Way:
     def of(cls, scenario: Scenario, times: Sequence[float]) -> "_Way | None":
         """The postures at these times, as far as the linkage closes; None if there are none."""
         linkage = scenario.unloaded
-        closed, conditions = kinetics_of(linkage), conditions_of(linkage)
+        closed, conditions = kinetics_of(linkage), Conditions(linkage)
         moved = np.zeros(3 * len(linkage.bodies))
         if np.linalg.matrix_rank(closed.rows(moved)) < moved.size:
             return None
@@ -180,7 +180,7 @@ class _Way:
         The first equilibria follow from the postures with the journal in the middle; with it there the machine
         stands a little otherwise, and with it the load.
         """
-        position, sign, conditions = self.position, 1.0 if second else -1.0, conditions_of(self.closed.linkage)
+        position, sign, conditions = self.position, 1.0 if second else -1.0, Conditions(self.closed.linkage)
         for last in (False, True):
             journals = self._journals(name, second, position)
             found = [_slides(journal, contact) for journal in journals]

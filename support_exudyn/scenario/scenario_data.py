@@ -12,7 +12,7 @@ from pydantic import Field
 
 from support_exudyn.mechanics.channel_table import Parts, channel_definitions
 from support_exudyn.mechanics.channels import ALL_CHANNELS, ChannelDefinition
-from support_exudyn.mechanics.closing import Conditions, conditions_of
+from support_exudyn.mechanics.closing import Conditions
 from support_exudyn.mechanics.contact_places import (
     ContactPlace,
     block_places,
@@ -209,7 +209,7 @@ class ScenarioData(Value, ABC):
         linkage, oil = self.guided_linkage, self.compliant_actuators
         pins = {name: linkage.pins[name] for name in self.held_pins}
         rigid = {name: one for name, one in linkage.actuators.items() if name not in oil}
-        return conditions_of(replace(linkage, pins=pins, actuators=rigid))
+        return Conditions(replace(linkage, pins=pins, actuators=rigid))
 
     @cached_property
     def contact_places(self) -> dict[str, ContactPlace]:

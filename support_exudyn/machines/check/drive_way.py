@@ -169,7 +169,7 @@ def way_of(
     A crank that turns right round in one direction is not turned in the other.
 
     Arguments:
-        conditions: of `closing.conditions_of`, which hold as the linkage is moved.
+        conditions: which hold as the linkage is moved.
         linkage: whose forces are computed; its bodies are those of the conditions.
         drives: names of the driven parts; several actuators extend alike.
         goal: ends of the travel that are tried [rad], [m], at most 0 and at least 0.

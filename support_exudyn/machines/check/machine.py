@@ -29,7 +29,7 @@ from support_exudyn.machines.check.transmission import (
 )
 from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
-from support_exudyn.mechanics.closing import Conditions, beside, conditions_of
+from support_exudyn.mechanics.closing import Conditions, beside
 from support_exudyn.model.linkage import GROUND, Linkage
 from user_forces.values.value import InputError
 
@@ -58,7 +58,7 @@ def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport
     driven = [(name,) for name in linkage.driven] if support is None else [support.alike]
     if stroke is not None and not (len(driven) == 1 and driven[0][0] in linkage.actuators):
         raise InputError(f"stroke = {stroke} m: no single actuator drives this machine; allowed: none")
-    conditions = conditions_of(linkage if support is None else support.led_linkage())
+    conditions = Conditions(linkage if support is None else support.led_linkage())
     start = np.zeros(3 * len(linkage.bodies))
     loose = movements(conditions, start)
     aside = beside(conditions, [one.rates * conditions.arms for one in loose])
@@ -377,7 +377,7 @@ def _numbers(
 
 def _posture(linkage: Linkage, one: Moved) -> dict[str, Any]:
     """Traced points, angles of bodies, lengths and angles of actuators in a posture."""
-    closed = conditions_of(linkage).kinetics
+    closed = Conditions(linkage).kinetics
     points = {name: closed.point(one.position, it.body, it.point)[0] for name, it in linkage.points.items()}
     struts = {
         name: closed.point(one.position, it.head, it.head_point)[0]

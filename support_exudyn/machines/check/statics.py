@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.mechanics.acting_loads import forces_at_rest
-from support_exudyn.mechanics.closing import DRIVEN, conditions_of
+from support_exudyn.mechanics.closing import DRIVEN, Conditions
 from support_exudyn.mechanics.constraints import joints_held
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.model.linkage import Linkage
@@ -110,7 +110,7 @@ def mobility(linkage: Linkage) -> DegreesOfFreedom:
         (1, struts, "struts"),
     ]
     terms = [f"{'2 x ' * (each == 2)}{count} {what}" for each, count, what in held if count or what == "pins"]
-    conditions = conditions_of(linkage)
+    conditions = Conditions(linkage)
     rows, owners = conditions.rows(conditions.still), conditions.kinetics.owners()
     driven = np.array([kind in DRIVEN and name in linkage.driven for kind, name in owners], dtype=bool)
     return DegreesOfFreedom(

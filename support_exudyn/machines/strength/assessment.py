@@ -27,7 +27,7 @@ from support_exudyn.machines.strength.strength_data import (
     CylinderStrength,
     StrengthData,
 )
-from support_exudyn.mechanics.closing import conditions_of, moved_on
+from support_exudyn.mechanics.closing import Conditions, moved_on
 from support_exudyn.mechanics.kinetics import kinetics_of
 from support_exudyn.mechanics.postures import laid_out
 from support_exudyn.model.linkage import GROUND, Linkage
@@ -121,7 +121,7 @@ def used_postures(data: MachineData, count: int) -> list[UsedPosture]:
         stroke, led = machine.usual_stroke if stroke is None else stroke, machine.led_linkage()
     if stroke is None or not legs:
         return [UsedPosture(0.0, linkage)]
-    conditions, closed = conditions_of(led), kinetics_of(linkage)
+    conditions, closed = Conditions(led), kinetics_of(linkage)
     at, reached = np.zeros(3 * len(linkage.bodies)), 0.0
     postures: list[UsedPosture] = []
     for goal in np.linspace(0.0, stroke, count).tolist():

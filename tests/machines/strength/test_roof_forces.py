@@ -14,7 +14,7 @@ from support_exudyn.files.machines import shipped
 from support_exudyn.machines.check.statics import GRAVITY
 from support_exudyn.machines.strength.assessment import UsedPosture, used_postures
 from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, RoofStatics
-from support_exudyn.mechanics.closing import conditions_of, newton
+from support_exudyn.mechanics.closing import Conditions, newton
 from support_exudyn.model.linkage import GROUND, Body, LinearActuator, Linkage, TracePoint, pinned
 from user_forces import InputError
 
@@ -94,7 +94,7 @@ def test_the_work_of_actuators_is_that_against_roof_and_weight(
     forces = dict(zip(linkage.actuators, pushes, strict=True))
     roof = statics.balancing(forces)
     assert roof is not None
-    conditions = conditions_of(linkage)
+    conditions = Conditions(linkage)
     closed = conditions.kinetics
     step = 1e-4
     there = []
