@@ -45,7 +45,6 @@ class Statics:
 def statics(
     linkage: Linkage,
     position: Array,
-    gravity: Vector2 = GRAVITY,
     loads: Mapping[str, ActingLoad] = MappingProxyType({}),
 ) -> Statics:
     """The static forces of a linkage whose bodies have moved by `position` (3 bodies,) [m], [rad].
@@ -57,7 +56,7 @@ def statics(
     """
     kinetics = kinetics_of(linkage)
     rows = kinetics.rows(position)
-    weight = kinetics.weight(gravity) + forces_at_rest(kinetics, loads, position)
+    weight = kinetics.weight(GRAVITY) + forces_at_rest(kinetics, loads, position)
     forces = np.linalg.lstsq(rows.T, -weight, rcond=None)[0]
     residual = float(np.abs(rows.T @ forces + weight).max()) + np.finfo(float).eps * float(np.abs(weight).max())
     error = residual * float(np.linalg.norm(np.linalg.pinv(rows.T), 2)) * len(weight) ** 0.5

@@ -87,14 +87,11 @@ class RoofStatics:
         linkage: laid out in that posture.
         canopy: name of the body that carries the roof.
         friction: mu, horizontal part of the roof force by its vertical one, positive forward.
-        gravity: [m/s^2].
 
     Raises InputError where rigid parts do not determine the forces.
     """
 
-    def __init__(
-        self, linkage: Linkage, canopy: str, friction: float = 0.0, gravity: Vector2 = GRAVITY
-    ) -> None:
+    def __init__(self, linkage: Linkage, canopy: str, friction: float = 0.0) -> None:
         self.linkage, self.canopy, self.friction = linkage, canopy, friction
         self.contact = contact_of(linkage, canopy)
         kinetics = kinetics_of(linkage)
@@ -113,7 +110,7 @@ class RoofStatics:
         arm = self.contact.height - centre[1]
         press[i : i + 3] = friction, -1.0, centre[0] - friction * arm
         shift[i + 2] = -1.0
-        self._parts = np.linalg.solve(rows.T, -np.column_stack([kinetics.weight(gravity), press, shift]))
+        self._parts = np.linalg.solve(rows.T, -np.column_stack([kinetics.weight(GRAVITY), press, shift]))
         self._first = 2 * len(linkage.pins)
 
     @property
