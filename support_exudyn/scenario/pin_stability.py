@@ -29,6 +29,7 @@ from support_exudyn.mechanics.pin_stability import (
 from support_exudyn.mechanics.reactions import equations
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.model.drives.drive import Reciprocating
+from support_exudyn.model.linkage import Linkage
 from support_exudyn.model.pins import ClearancePin
 from support_exudyn.scenario.scenario import Scenario
 from user_forces.contact import JournalContact
@@ -138,7 +139,7 @@ class _Way:
     """
 
     scenario: Scenario
-    closed: Kinetics
+    conditions: Conditions
     times: Series
     travels: Series
     position: Series
@@ -147,30 +148,29 @@ class _Way:
     @classmethod
     def of(cls, scenario: Scenario, times: Sequence[float]) -> "_Way | None":
         """The postures at these times, as far as the linkage closes; None if there are none."""
-        linkage = scenario.unloaded
-        closed, conditions = kinetics_of(linkage), Conditions(linkage)
-        moved = np.zeros(3 * len(linkage.bodies))
-        if np.linalg.matrix_rank(closed.rows(moved)) < moved.size:
+        conditions = Conditions(scenario.unloaded)
+        moved, linkage = conditions.still, conditions.linkage
+        if np.linalg.matrix_rank(conditions.kinetics.rows(moved)) < moved.size:
             return None
         positions: list[Matrix] = []
         for time in times:
-            moved, share = moved_on(conditions, moved, _travels(scenario, closed, time))
+            moved, share = moved_on(conditions, moved, _travels(scenario, linkage, time))
             if share < 1.0:
                 break
             positions.append(moved / conditions.arms)
         if not positions:
             return None
         at = np.array(times[: len(positions)])
-        names = (*closed.actuators, *linkage.cranks)
+        names = (*linkage.actuators, *linkage.cranks)
         driven = [accelerations(scenario.drive_of(name), at, scenario.duration) for name in names]
         lead = scenario.drive_of(scenario.driven[0])
         travels = np.array([lead.extension(t) for t in at.tolist()])
-        return cls(scenario, closed, at, travels, np.array(positions), np.array(driven).T)
+        return cls(scenario, conditions, at, travels, np.array(positions), np.array(driven).T)
 
     @property
     def turns(self) -> bool:
         """Whether what moves it first is a crank."""
-        return self.scenario.driven[0] in self.closed.linkage.cranks
+        return self.scenario.driven[0] in self.conditions.linkage.cranks
 
     def loaded(
         self, name: str, second: bool, contact: JournalContact
@@ -180,7 +180,7 @@ class _Way:
         The first equilibria follow from the postures with the journal in the middle; with it there the machine
         stands a little otherwise, and with it the load.
         """
-        position, sign, conditions = self.position, 1.0 if second else -1.0, Conditions(self.closed.linkage)
+        position, sign, conditions = self.position, 1.0 if second else -1.0, self.conditions
         for last in (False, True):
             journals = self._journals(name, second, position)
             found = [_slides(journal, contact) for journal in journals]
@@ -189,7 +189,7 @@ class _Way:
             laid = []
             for at, time, pin in zip(position, self.times.tolist(), found, strict=True):
                 offset = {} if pin is None else {name: tuple((sign * pin.place).tolist())}
-                targets = conditions.targets(_travels(self.scenario, self.closed, time), offset)
+                targets = conditions.targets(_travels(self.scenario, conditions.linkage, time), offset)
                 moved = newton(conditions, conditions.arms * at, targets, conditions.size)
                 laid.append(at if moved is None else moved / conditions.arms)
             position = np.array(laid)
@@ -197,7 +197,7 @@ class _Way:
 
     def _journals(self, name: str, second: bool, position: Series) -> list[LoadedJournal]:
         """What the journal feels at all positions (n, 3 bodies), were it free in its bore and all else held."""
-        scenario, linkage = self.scenario, self.closed.linkage
+        scenario, linkage = self.scenario, self.conditions.linkage
         velocity = np.array(
             [self._velocity(at, t) for at, t in zip(position, self.times.tolist(), strict=True)]
         )
@@ -216,8 +216,9 @@ class _Way:
 
     def _velocity(self, position: Matrix, time: float) -> Matrix:
         """Of all bodies as they are driven (n,)."""
-        rates = self.closed.rates(lambda name: self.scenario.drive_of(name).speed(time))
-        return self.closed.respond(position, np.zeros_like(position), rates)[0]
+        closed = self.conditions.kinetics
+        rates = closed.rates(lambda name: self.scenario.drive_of(name).speed(time))
+        return closed.respond(position, np.zeros_like(position), rates)[0]
 
 
 def _journal(
@@ -247,8 +248,8 @@ def _slides(journal: LoadedJournal, contact: JournalContact) -> SlidingPin | Non
         return None
 
 
-def _travels(scenario: Scenario, closed: Kinetics, time: float) -> dict[str, float]:
-    names = (*closed.actuators, *closed.linkage.cranks)
+def _travels(scenario: Scenario, linkage: Linkage, time: float) -> dict[str, float]:
+    names = (*linkage.actuators, *linkage.cranks)
     return {name: scenario.drive_of(name).extension(time) for name in names}
 
 
