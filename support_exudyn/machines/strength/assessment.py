@@ -12,12 +12,12 @@ from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.machines.strength.off_middle import beside_the_middle
 from support_exudyn.machines.strength.parts import (
+    KnownPin,
     buckling_loads,
     cylinder_masses,
     pin_data,
     stresses,
     tipping_of,
-    without_data,
 )
 from support_exudyn.machines.strength.results import Buckling, PinLoad, StandReport, SupportForce
 from support_exudyn.machines.strength.roof_forces import Limits, RoofForce, RoofStatics
@@ -54,7 +54,7 @@ def stand(data: MachineData) -> StandReport:
     if statics[0.0][-1].contact.height < statics[0.0][0].contact.height:
         told, statics = told[::-1], {mu: every[::-1] for mu, every in statics.items()}
     linkage = data.machine.linkage()
-    legs = legs_of(linkage)
+    legs, pins = legs_of(linkage), {name: pin_data(data, name) for name in linkage.pins}
     for every in statics.values():
         _check_held(every, limits(strength.cylinders, legs))
     buckling, unbuckled = _buckling(told, strength.cylinders)
@@ -72,8 +72,8 @@ def stand(data: MachineData) -> StandReport:
         ],
         rated=rated or math.fsum(strength.cylinders[name].push for name in legs),
         rated_is_assumed=rated is None,
-        pins={name: _pin_load(data, name, statics, legs) for name in linkage.pins},
-        unknown_pins=without_data(data, linkage.pins),
+        pins={name: _pin_load(name, one, statics, strength.cylinders, legs) for name, one in pins.items()},
+        unknown_pins=[name for name, one in pins.items() if one is None],
         buckling=buckling,
         unbuckled=unbuckled,
         off_middle=beside_the_middle(
@@ -86,7 +86,7 @@ def stand(data: MachineData) -> StandReport:
         tipping=None
         if strength.base is None
         else [tipping_of(one.linkage, strength.base, cylinder_masses(data, one.linkage)) for one in told],
-        assumed=list(_assumed(data, strength)),
+        assumed=list(_assumed(data, strength, pins)),
         sources=list(_sources(data)),
     )
 
@@ -251,11 +251,12 @@ def _support_force(
 
 
 def _pin_load(
-    data: MachineData, pin: str, statics: Mapping[float, Sequence[RoofStatics]], legs: Sequence[str]
+    pin: str,
+    known: KnownPin | None,
+    statics: Mapping[float, Sequence[RoofStatics]],
+    cylinders: Mapping[str, CylinderStrength],
+    legs: Sequence[str],
 ) -> PinLoad:
-    assert data.strength is not None
-    cylinders = data.strength.cylinders
-
     def worst(frictions: Sequence[float], factor: float) -> float:
         within = limits(cylinders, legs, factor)
         return max(
@@ -270,7 +271,6 @@ def _pin_load(
         held = [(one, roof) for one in statics[0.0] if (roof := one.balancing(at_yield)) is not None]
         return max((float(np.hypot(*one.pins(roof)[pin])) for one, roof in held), default=math.nan)
 
-    known = pin_data(data, pin)
     smooth = {factor: worst([0.0], factor) for factor in FACTORS}
     rubbed = {factor: worst(list(statics), factor) for factor in FACTORS}
     told = None
@@ -304,7 +304,7 @@ def _buckling(
     return found, untold
 
 
-def _assumed(data: MachineData, strength: StrengthData) -> Iterator[str]:
+def _assumed(data: MachineData, strength: StrengthData, pins: Mapping[str, KnownPin | None]) -> Iterator[str]:
     """What was assumed because nothing says it."""
     linkage = data.machine.linkage()
     yield (
@@ -312,7 +312,7 @@ def _assumed(data: MachineData, strength: StrengthData) -> Iterator[str]:
         f"highest; rough: friction {FRICTION:g} either way"
     )
     yield "pins and cylinders without play and friction; legs only push, as rams without a rod do"
-    known = {name: one for name in linkage.pins if (one := pin_data(data, name)) is not None}
+    known = {name: one for name, one in pins.items() if one is not None}
     if eyes := [name for name, (_, _, assumed) in known.items() if assumed]:
         yield f"eyes of {', '.join(eyes)}: one of half the pin's length between two of a quarter"
     steels = {

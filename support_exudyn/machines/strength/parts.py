@@ -21,7 +21,7 @@ A support tips about an edge of its base when the common centre of mass stands a
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from support_exudyn.machines.four_bar_shield import FourBarShield
@@ -39,6 +39,7 @@ from user_forces.values.value import InputError, Vector2
 
 Segment = tuple[float, float]  # length [m] and bending stiffness [N m^2]
 Mass = tuple[float, Vector2]  # [kg], and its centre [m]
+KnownPin = tuple[PinStrength, float, bool]  # eyes, diameter [m], and whether the eyes are assumed
 CLOSE = 1e-12  # of the load
 
 
@@ -84,7 +85,7 @@ def stresses(pin: PinStrength, diameter: float, force: float) -> PinStresses:
     return PinStresses(force, bearing, shear, bending, safeties)
 
 
-def pin_data(data: MachineData, pin: str) -> tuple[PinStrength, float, bool] | None:
+def pin_data(data: MachineData, pin: str) -> KnownPin | None:
     """A pin's eyes, its diameter [m], and whether they are assumed; None if too little is known.
 
     Assumed of a pin whose length L alone is known: a middle eye of L/2 between two of L/4. A pin of a body that
@@ -104,11 +105,6 @@ def pin_data(data: MachineData, pin: str) -> tuple[PinStrength, float, bool] | N
     place = data.machine.linkage().pins[pin]
     count = 2 if {place.first, place.second} & width.pairs.keys() else 1
     return PinStrength(middle=0.5 * length, outer=0.25 * length, count=count), diameter, True
-
-
-def without_data(data: MachineData, pins: Iterable[str]) -> list[str]:
-    """Names of the pins of which too little is known."""
-    return [name for name in pins if pin_data(data, name) is None]
 
 
 # --- buckling ---
