@@ -355,7 +355,7 @@ def _numbers(
     shown = stations[sole.drive] if sole else [report.start]
     return {
         "degrees_of_freedom": mobility(linkage).data(),
-        "closure_m": _gaps(conditions_of(linkage), linkage),
+        "closure_m": _gaps(Conditions(linkage), linkage),
         "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in again],
         "movements": [one.data() for one in loose],
         "drive": sole.drive if sole else "",

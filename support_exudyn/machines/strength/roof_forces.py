@@ -128,6 +128,11 @@ class RoofStatics:
         found = self.all_forces(roof)
         return {name: found[2 * n : 2 * n + 2] for n, name in enumerate(self.linkage.pins)}
 
+    def pushes(self, roof: RoofForce) -> dict[str, float]:
+        """Pushes of the actuators under a roof force, by name [N]."""
+        found = self.all_forces(roof)
+        return {name: float(found[self._first + n]) for n, name in enumerate(self.linkage.actuators)}
+
     def balancing(self, pushes: Mapping[str, float]) -> RoofForce | None:
         """The roof force that two actuators hold with these pushes [N]; None if none does."""
         matrix = np.array([part[1:] for part in self.actuators.values()])
