@@ -74,7 +74,7 @@ def _all_rubbing(scenario: Scenario, outcome: Outcome) -> Iterator[_Rubbing]:
     if run.in_space or not (pins or guides):
         return
     forces = [np.hypot(*run.pins[name].T) for name in pins]
-    forces += [run.slides[name].max(axis=1) for name in guides]
+    forces += [np.abs(run.slides[name]).max(axis=1) for name in guides]
     laws, slips = scenario.friction_laws.items(), joint_slips(run.motion, scenario)
     for (where, law), slip, force in zip(laws, slips, forces, strict=True):
         if not law.has_state:
@@ -88,7 +88,7 @@ def _moments_left_out(scenario: Scenario, outcome: Outcome) -> list[str]:
         return []
     found = []
     for name, guide in scenario.friction_guides.items():
-        force, moment = run.slides[name].max(axis=0).tolist()
+        force, moment = np.abs(run.slides[name]).max(axis=0).tolist()
         if guide.block is None and moment > 0.0:
             found.append(
                 f"guides.{name}: friction by the moment of up to {moment:.4g} N m is left out, beside a force "
