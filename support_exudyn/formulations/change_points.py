@@ -80,7 +80,7 @@ def passed(scenario: Scenario, run: Trajectory) -> tuple[float, str] | None:
         return None
     motion, time = run.motion, run.time
     forces = {name: np.hypot(*force.T) for name, force in run.pins.items()}
-    forces |= {name: slide[:, 0] for name, slide in run.slides.items()}
+    forces |= {name: np.abs(slide[:, 0]) for name, slide in run.slides.items()}
     conditions = scenario.held
     last = len(conditions.counts) - repeated_count(conditions)[0] - 1
     if len(time) < 3 or not forces or not 0 <= last < motion.position.shape[1]:

@@ -50,12 +50,16 @@ def with_causes(needed: DataNeeds) -> DataNeeds:
 
 @dataclass(frozen=True)
 class ChannelDefinition:
-    """A channel before its run: unit, meaning, the parts of a run it needs, and its values (n,) from these."""
+    """A channel before its run: unit, meaning, the parts of a run it needs, and its values (n,) from these.
+
+    vector: of a magnitude the components (n, d), which have no kinks where it has them; else None.
+    """
 
     unit: str
     meaning: str
     needs: DataNeeds
     values: Callable[[Trajectory], Series]
+    vector: Callable[[Trajectory], Series] | None = None
 
 
 ChannelDefinitions = dict[str, ChannelDefinition]

@@ -9,7 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from support_exudyn.mechanics.channels import CONTACT, MOTION, ChannelDefinitions, DataNeeds, Row, named, table
+from support_exudyn.mechanics.channels import (
+    CONTACT,
+    MOTION,
+    ChannelDefinition,
+    ChannelDefinitions,
+    DataNeeds,
+    Row,
+    named,
+    table,
+)
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.trajectory import ContactSeries, Series
 from support_exudyn.model.guides import ClearanceGuide, Guide, IdealGuide
@@ -25,7 +34,7 @@ Sections = Sequence[ContactSeries]
 
 
 def sizes(vectors: Series) -> Series:
-    """Sizes (n,) of vectors (n, 2) or (n, 3)."""
+    """Sizes (n,) of vectors (n, d)."""
     return np.hypot(*vectors.T) if vectors.shape[1] == 2 else np.asarray(np.linalg.norm(vectors, axis=1))
 
 
@@ -52,9 +61,9 @@ def force_channels(
     name: str, needs: DataNeeds, force: Callable[[Any], Series], axes: int = 2
 ) -> ChannelDefinitions:
     """The channels of a pin's force; force: of the first body on the second (n, axes) [N], from a run."""
-    rows: list[Row] = [("force", "N", "magnitude of the pin force", sizes)]
-    rows += components("force_", "N", "force of the first body on the second", axes)
-    return table(f"pin.{name}", needs, force, rows)
+    size = ChannelDefinition("N", "magnitude of the pin force", needs, lambda run: sizes(force(run)), force)
+    rows: list[Row] = components("force_", "N", "force of the first body on the second", axes)
+    return {f"pin.{name}.force": size} | table(f"pin.{name}", needs, force, rows)
 
 
 @pin_channels.register
@@ -148,11 +157,17 @@ def guide_channels(guide: Guide, name: str, slide: Slide) -> ChannelDefinitions:
 
 
 def _ideal_guide_channels(name: str) -> ChannelDefinitions:
-    rows: list[Row] = [
-        ("force", "N", "magnitude of the guide's force, across it", column(0)),
-        ("moment", "N m", "magnitude of the guide's moment", column(1)),
-    ]
-    return table(name, DataNeeds.JOINTS, lambda run: run.slides[name], rows)
+    def magnitude(unit: str, what: str, k: int) -> ChannelDefinition:
+        def signed(run: Trajectory) -> Series:
+            return run.slides[name][:, k : k + 1]
+
+        meaning = f"magnitude of the guide's {what}"
+        return ChannelDefinition(unit, meaning, DataNeeds.JOINTS, lambda run: sizes(signed(run)), signed)
+
+    return {
+        f"{name}.force": magnitude("N", "force, across it", 0),
+        f"{name}.moment": magnitude("N m", "moment", 1),
+    }
 
 
 @guide_channels.register

@@ -35,9 +35,9 @@ class Trajectory:
     friction_loss: so far (n,) [J].
 
     Forces of joints, by name. pins: of ideal pins and of all bearings, of the first body on the second (n, d)
-    [N]. pin_moments: of bearings about their middle (n, 3) [N m]. slides: magnitudes of force and moment of
-    guides (n, 2). actuators: force (n,) [N] that pushes the ends apart. cranks: moment of the drive on the
-    crank (n,) [N m]. gears: moment on the second body (n,) [N m]. friction_moments: of ideal pins with
+    [N]. pin_moments: of bearings about their middle (n, 3) [N m]. slides: force and moment of guides (n, 2), in
+    space their magnitudes. actuators: force (n,) [N] that pushes the ends apart. cranks: moment of the drive on
+    the crank (n,) [N m]. gears: moment on the second body (n,) [N m]. friction_moments: of ideal pins with
     friction, on the second body (n,) [N m]. friction_forces: of ideal guides with friction, on the body along
     the guide (n,) [N].
 

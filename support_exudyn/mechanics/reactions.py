@@ -177,7 +177,7 @@ def joint_forces(held: Sequence[Constraint], multipliers: Series) -> Mapping[str
     """Forces of all joints of the plane by the field of the linkage and their names, from L (n, rows).
 
     Of pins on the second body (n, 2) [N], of actuators, pushing their ends apart (n,) [N], of cranks on the
-    crank and of gears on the second body (n,) [N m], of guides sizes of force and moment (n, 2) [N], [N m].
+    crank and of gears on the second body (n,) [N m], of guides force and moment (n, 2) [N], [N m].
     """
     parts = ("pins", "actuators", "cranks", "slides", "gears")
     found: dict[str, dict[str, Series]] = {part: {} for part in parts}
@@ -186,7 +186,7 @@ def joint_forces(held: Sequence[Constraint], multipliers: Series) -> Mapping[str
         force = -multipliers[:, rows]
         if part == "slides":  # with no moment where the body may turn
             found[part][name] = np.zeros((len(force), 2))
-            found[part][name][:, : force.shape[1]] = np.abs(force)
+            found[part][name][:, : force.shape[1]] = force
         else:
             found[part][name] = force if part == "pins" else force[:, 0]
     return found

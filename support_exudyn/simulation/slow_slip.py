@@ -73,7 +73,7 @@ def _all_rubbing(scenario: Scenario, outcome: Outcome) -> Iterator[_Rubbing]:
     if run.in_space or not (pins or guides):
         return
     forces = [np.hypot(*run.pins[name].T) for name in pins]
-    forces += [run.slides[name].max(axis=1) for name in guides]
+    forces += [np.abs(run.slides[name]).max(axis=1) for name in guides]
     for (where, joint), force in zip(scenario.friction_joints.items(), forces, strict=True):
         if not joint.law.has_state:  # of pins in slots the slip is that without their turning
             yield _Rubbing(where, joint.law, joint.slips(run.motion), force > 0.0)
@@ -86,7 +86,7 @@ def _moments_left_out(scenario: Scenario, outcome: Outcome) -> list[str]:
         return []
     found = []
     for name, guide in scenario.friction_guides.items():
-        force, moment = run.slides[name].max(axis=0).tolist()
+        force, moment = np.abs(run.slides[name]).max(axis=0).tolist()
         if guide.block is None and moment > 0.0:
             found.append(
                 f"guides.{name}: friction by the moment of up to {moment:.4g} N m is left out, beside a force "

@@ -333,41 +333,27 @@ def test_estimates_cover_the_true_errors_without_much_overstatement(
     assert everything["numbers"] > (10_000 if request.node.callspec.params["checked"] == 1 else 1_500)
     # what is promised
     assert everything["covered"] >= 0.98
-    # as far as runs are not as close as rounding, which is added to every estimate; measured: 12.9. Extremes,
+    # as far as runs are not as close as rounding, which is added to every estimate; measured: 11.6. Extremes,
     # which steps of other lengths meet at other points, are overstated by 19 to 33: 99 of 100 are covered
     more = 1.0 if request.node.callspec.params["checked"] == 1 else 1.25  # samples scatter from 11.5 to 15.6
     assert figures([case for case in checked if case.goal > GOALS[-1]])["overstated"] <= 13.0 * more
-    assert everything["overstated"] <= 14.0 * more  # measured: 13.8
+    assert everything["overstated"] <= 14.0 * more  # measured: 11.7
 
 
-@pytest.mark.xfail(
-    strict=False,
-    reason="the worst, of a slider-crank at 1e-4, is off by 10.7 times its error. The embedded "
-    "pair shows 1/11 of the error of a step in which a force begins as the power 1.5 of time, and 3 % where a "
-    "force has a corner within the step, so errors of runs do not fall as their tolerances do",
-)
 def test_no_number_is_off_by_more_than_five_errors(checked: list[Case]) -> None:
-    assert figures(checked)["worst"] < 5.0
+    assert figures(checked)["worst"] < 5.0  # measured: 4.3
 
 
 @pytest.mark.parametrize("checked", [ALL], indirect=True)  # of a few scenes it would be chance
 def test_no_kind_of_scene_and_no_goal_is_much_worse_than_all(checked: list[Case]) -> None:
     chosen = [[case for case in checked if case.kind == kind] for kind in cases()]
     chosen += [[case for case in checked if case.goal == goal] for goal in GOALS]
-    few = 1.0
     for some in chosen:
         # some thousand numbers of a few dozen scenes hang together
         known = figures(some)
-        # measured: 17.8, of a goal of 1e-6, where rounding counts, of least values as a share of the largest
+        assert known["covered"] >= 0.97  # measured: 0.986 and more
+        # measured: 15.0, of a goal of 1e-4
         assert known["overstated"] <= 21.0
-        if {case.goal for case in some} == {GOALS[0]}:
-            few = known["covered"]
-        else:
-            assert known["covered"] >= 0.97  # measured: 0.975 and more
-    if few < 0.97:
-        # The first step of an impact is wrong by 11 times its estimated error. If its error counts 12 times,
-        # 0.988 are covered, but errors of all goals are overstated by 17 in place of 13.
-        pytest.xfail(f"of a goal of {GOALS[0]:g} errors cover {few:.4f} of the numbers; allowed: 0.97 and more")
 
 
 def test_a_goal_that_is_said_to_be_met_is_met(checked: list[Case]) -> None:

@@ -25,6 +25,7 @@ from support_exudyn import (
 from support_exudyn.files.hdf5 import BLOCK, with_checksum
 from support_exudyn.files.series.own_runs import OLDER
 from support_exudyn.formulations.statistics.collected import StepStatistics
+from support_exudyn.formulations.statistics.magnitudes import divided
 from support_exudyn.formulations.statistics.steps import NODES
 from support_exudyn.mechanics.time_statistics import TimeStatistics, statistics_of_records
 from tests.cases.run_cases import FORCE, support
@@ -191,3 +192,19 @@ def test_records_follow_the_machine_unless_their_period_is_given(
     scenario = support(**{"record_period": None} | changes)
     assert scenario.recorded_every == period
     assert scenario.refined().recorded_every == period
+
+
+@pytest.mark.parametrize("tip", [0.0, 1e-3, 0.1])
+def test_the_mean_of_a_magnitude_is_right_where_its_vector_passes_zero_within_a_step(tip: float) -> None:
+    time = np.arange(3.0)[:, None] + NODES
+    for zero in np.linspace(1.01, 1.99, 23):
+        vector = np.stack([time.ravel() - zero, np.full(time.size, tip)], axis=1)
+        values = {"size": np.hypot(*vector.T), "cubic": time.ravel() ** 3}
+        found = StepStatistics(np.array([0.0, 1.3, 3.0]))
+        found.add(*divided(time, values, {"size": vector}))
+        whole = found.finished()
+        expected = quad(lambda t, zero=zero: math.hypot(t - zero, tip), 0.0, 3.0, points=[zero])[0] / 3.0
+        # without pieces 9e-3 off
+        assert whole.window("size", 0.0, 3.0).mean == pytest.approx(expected, rel=2e-5)
+        assert whole.window("size", 0.0, 3.0).least[0] == pytest.approx(tip, abs=1e-3)
+        assert whole.window("cubic", 0.0, 3.0).mean == pytest.approx(27.0 / 4.0, rel=1e-13)

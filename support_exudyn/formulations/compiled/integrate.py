@@ -31,10 +31,22 @@ from support_exudyn.formulations.compiled.oil_events import (
     land_on_gap,
     pass_gap,
 )
-from support_exudyn.formulations.compiled.recording import begin_nodes, note_peaks, write_nodes, write_records
+from support_exudyn.formulations.compiled.recording import (
+    begin_nodes,
+    end_nodes,
+    note_peaks,
+    write_nodes,
+    write_records,
+)
 from support_exudyn.formulations.compiled.start import begin_run, jump
 from support_exudyn.formulations.compiled.step import evaluate
-from support_exudyn.formulations.compiled.step_control import AFTER_IMPACT, CLOSE, SHORTEN, SMALLEST_STEP
+from support_exudyn.formulations.compiled.step_control import (
+    AFTER_IMPACT,
+    CLOSE,
+    SHORTEN,
+    SMALLEST_STEP,
+    factor_over_corner,
+)
 from support_exudyn.scene.arrays import (
     ACCEPTED,
     AT,
@@ -217,6 +229,8 @@ def accept(
 ) -> int:
     """End a step of h [s] from t at its first event, keep what is asked for, and choose the next step.
 
+    If a force has too much of a corner within the step, leave a shorter step to try.
+
     follow: length of the next step [s] by the error of this one. Returns FINISHED, or why the run cannot go on.
     """
     going, report, now, then = room.going, room.report, room.now, room.then
@@ -228,7 +242,12 @@ def accept(
     last, quiet = h >= stop - t, what == NOTHING and events.oil == NONE
     keep_gaps(scene.legs)
     copy_contacts(then, scene.contacts)
-    write_nodes(scene, room, t, h)
+    off = write_nodes(scene, room, t, h)
+    if not off <= 1.0:
+        begin_step(scene, room, t, y)
+        going[NEXT_STEP] = h * factor_over_corner(off)
+        return FINISHED
+    end_nodes(room)
     note_peaks(scene, room, t, h)
     report[ACCEPTED] += 1
     report[CUTS] += what != NOTHING or passes

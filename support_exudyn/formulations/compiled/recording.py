@@ -4,10 +4,12 @@ import math
 
 from support_exudyn.formulations.compiled.events import look
 from support_exudyn.formulations.compiled.landing import copy_contacts
-from support_exudyn.formulations.compiled.step import close_joints, evaluate, within
+from support_exudyn.formulations.compiled.stabilised import square_of
+from support_exudyn.formulations.compiled.step import WEIGHTS, close_joints, combine, evaluate, within
 from support_exudyn.formulations.statistics.steps import INNER, OF_STEP
 from support_exudyn.scene.arrays import (
     CLAMPED,
+    DECAY,
     MEMORY,
     NODES,
     RECORDS,
@@ -20,6 +22,8 @@ from support_exudyn.scene.arrays import (
 from support_exudyn.scene.compilation import compiled, once
 from support_exudyn.scene.motion import follow_courses
 from user_forces.roots import NEAR_PEAK, NEAR_TOP, PEAK_LOOKS, PEAK_SAMPLES, StepPeak, peak_place, peak_with
+
+LOBATTO_END, LOBATTO_INNER = 1 / 12, 5 / 12  # weights of Lobatto's rule with four nodes
 
 
 @compiled
@@ -71,10 +75,10 @@ def write_record(scene: SceneArrays, t: float, y: Vector, slope: Vector, row: Ve
 
 
 @compiled
-def evaluate_record(scene: SceneArrays, room: Scratch, t: float) -> None:
-    """Let the scene stand as in `room.probe`, within the last step at t [s], with forces if they are needed."""
+def evaluate_record(scene: SceneArrays, room: Scratch, t: float, forced: bool) -> None:
+    """Let the scene stand as in `room.probe`, within the last step at t [s]; forced: with forces."""
     copy_contacts(room.then, scene.contacts)
-    if room.forces:
+    if forced:
         evaluate(scene, t, room.probe, room.slope, room.right)
     else:
         follow_courses(scene, t)
@@ -88,22 +92,45 @@ def begin_nodes(scene: SceneArrays, room: Scratch, t: float, y: Vector) -> None:
 
 
 @once
-def write_nodes(scene: SceneArrays, room: Scratch, t: float, h: float) -> None:
-    """Write the other nodes of a step of h [s] from t, whose end stands in the scene, and begin the next."""
-    nodes = room.nodes
-    if nodes.size == 0:
-        return
+def write_nodes(scene: SceneArrays, room: Scratch, t: float, h: float) -> float:
+    """Write the other nodes of a step of h [s] from t, whose end stands in the scene.
+
+    Returns by how much an explicit step is away from Lobatto's integral of its own rates at the nodes, in units
+    of what is allowed; 0 of a stabilised step. Where a force has a corner within the step, that is half of the
+    true error in the median of all places; the embedded pair shows 5 %. Of smooth rates it is of order 6.
+    """
+    nodes, rates, explicit = room.nodes, room.rates, room.going[DECAY] == 0.0
+    if nodes.size == 0 and not explicit:
+        return 0.0
     first = OF_STEP * int(room.report[NODES])
-    write_record(scene, t + h, room.end, room.rates[STAGES - 1], nodes[first + 3])
+    if nodes.size > 0:
+        write_record(scene, t + h, room.end, rates[STAGES - 1], nodes[first + 3])
+    off = rates[1]  # which the interpolation has no weight for
+    if explicit:
+        combine(WEIGHTS[STAGES - 1], rates, STAGES - 1, off.size, room.probe)
+        for i in range(off.size):
+            off[i] = room.probe[i] - LOBATTO_END * (rates[0, i] + rates[STAGES - 1, i])
     for n in range(1, 3):
         x = INNER if n == 1 else 1.0 - INNER
         within(room.path, x, 0, room.probe.size, room.probe)
-        evaluate_record(scene, room, t + x * h)
-        write_record(scene, t + x * h, room.probe, room.slope, nodes[first + n])
+        evaluate_record(scene, room, t + x * h, explicit or room.forces)
+        if nodes.size > 0:
+            write_record(scene, t + x * h, room.probe, room.slope, nodes[first + n])
+        for i in range(off.size):
+            off[i] -= LOBATTO_INNER * room.slope[i]
     copy_contacts(room.then, scene.contacts)
-    for i in range(nodes.shape[1]):
-        nodes[first + OF_STEP, i] = nodes[first + 3, i]
-    room.report[NODES] += 1
+    return h * math.sqrt(square_of(off, room.weights) / off.size) if explicit else 0.0
+
+
+@once
+def end_nodes(room: Scratch) -> None:
+    """Keep the nodes of a step that stands, and begin the next with its last."""
+    nodes = room.nodes
+    if nodes.size > 0:
+        first = OF_STEP * int(room.report[NODES])
+        for i in range(nodes.shape[1]):
+            nodes[first + OF_STEP, i] = nodes[first + 3, i]
+        room.report[NODES] += 1
 
 
 @once
@@ -128,7 +155,7 @@ def write_records(scene: SceneArrays, room: Scratch, t: float, h: float, until: 
     while n < times.size and times[n] <= until:
         within(room.path, min(1.0, (times[n] - t) / h), 0, room.probe.size, room.probe)
         close_joints(scene, times[n], room.probe, room.right)
-        evaluate_record(scene, room, times[n])
+        evaluate_record(scene, room, times[n], room.forces)
         write_record(scene, times[n], room.probe, room.slope, room.rows[n])
         n += 1
     room.report[RECORDS] = n

@@ -1,5 +1,7 @@
 """How long steps are: by their error, and to end where something happens."""
 
+import math
+
 from support_exudyn.scene.compilation import compiled
 
 SAFETY, SLOWEST, FASTEST = 0.9, 0.2, 8.0  # change of the step: margin, smallest and largest factor
@@ -22,3 +24,9 @@ def factor(error: float, before: float) -> float:
         return SLOWEST
     wanted: float = SAFETY * max(error, 1e-9) ** -ORDER * before**STEADY
     return min(FASTEST, max(SLOWEST, wanted))
+
+
+@compiled
+def factor_over_corner(error: float) -> float:
+    """By which a step is shorter that is made again because of a corner within it: an error of order 2."""
+    return max(SLOWEST, SAFETY / math.sqrt(error)) if error < 1e30 else SLOWEST

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from support_exudyn.formulations.statistics.ends import between_ends
+from support_exudyn.formulations.statistics.magnitudes import divided
 from support_exudyn.formulations.statistics.steps import NODES, OF_STEP, add_steps
 from support_exudyn.mechanics.observed_run import Trajectory
 from support_exudyn.mechanics.time_statistics import COLUMNS, LAST, TimeStatistics
@@ -59,6 +60,7 @@ class RunStatistics:
     def __init__(self, scenario: Scenario) -> None:
         self._scenario = scenario
         self.wanted = {name: one for name, one in asked_definitions(scenario).items() if name != "time"}
+        self._vectors = {name: one.vector for name, one in self.wanted.items() if one.vector is not None}
         self._steps = StepStatistics(intervals(scenario.duration))
 
     def add(self, time: Series, run: Trajectory) -> None:
@@ -68,7 +70,8 @@ class RunStatistics:
             time: of the nodes of each step (steps, 4) [s].
             run: at the start, by which energies are told, and at all of these nodes.
         """
-        self._steps.add(time, self._values(run))
+        vectors = {name: of(run)[1:] for name, of in self._vectors.items()}
+        self._steps.add(*divided(time, self._values(run), vectors))
 
     def add_ends(self, time: Series, begins: npt.NDArray[np.bool_], run: Trajectory) -> None:
         """Add steps of which the ends are known, and follow those before.
