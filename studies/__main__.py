@@ -1,61 +1,60 @@
 """`python -m studies`: the studies of the paper on Exudyn; other studies by name; and the report on them."""
 
-import argparse
 import sys
 import time
 import traceback
 from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
-from pathlib import Path
 
 from studies.adams import run as adams
 from studies.benchmarking import benchmark
 from studies.catalogue import DEFAULT, STUDIES
-from studies.common.options import Options, add_options, read_options
+from studies.common.options import Options, OptionWords
 from studies.common.study import Study, output_folder, say_short
 from studies.common.witness import compiling
 from studies.report import rebuild
 from studies.reporting.arranged import PAGE
-from support_exudyn.commands.command_line import Parser, answered, say, warn
+from support_exudyn.commands.command_line import answered, carry_out, new_app, say, warn
 from support_exudyn.simulation.at_start import EXIT_CODE
 from support_exudyn.sweeps.workers import Workers, worker_pool
 from user_forces.values.value import InputError, short
 
 BENCHMARK, ADAMS = "benchmark", "adams"  # the commands that stand beside the studies
-ABOUT = (
-    f"Run studies and write the report on them. {BENCHMARK} --help: how fast the program is beside others. "
-    f"{ADAMS} --help: the paper's model for ADAMS."
-)
+app = new_app("python -m studies", "Run studies and write the report on them.", version_flags=())
+app.command(benchmark.benchmark, name=BENCHMARK)
+app.command(adams.adams, name=ADAMS)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
+    """Entry of `python -m studies`. Returns the exit code."""
+    return carry_out(app, argv)
+
+
+@app.default
+def run_studies(
+    *names: str,
+    all: bool = False,  # noqa: A002, the option's name
+    list: bool = False,  # noqa: A002, the option's name
+    words: OptionWords | None = None,
+) -> int:
     """Run studies and write the report after each.
+
+    Args:
+        names: Studies to run (the paper's answer).
+        all: Run all studies.
+        list: Print all studies, their questions and times.
 
     Returns the exit code: 0, or 1 if any study failed or the report could not be written.
     """
-    words = sys.argv[1:] if argv is None else list(argv)
-    if words[:1] == [BENCHMARK]:
-        return benchmark.main(words[1:])
-    if words[:1] == [ADAMS]:
-        return adams.main(words[1:])
-    parser = Parser(prog="python -m studies", description=ABOUT)
-    add_options(parser, Path("results"))
-    parser.add_argument("names", nargs="*", metavar="NAME", help="studies to run (the paper's answer)")
-    parser.add_argument("--all", action="store_true", help="run all studies")
-    parser.add_argument("--list", action="store_true", help="print all studies, their questions and times")
-    given = parser.parse_intermixed_args(words)
-    if given.list:
-        return answered(_list)
-    codes: list[int] = []
-
-    def work() -> None:
-        names = _chosen(given)
-        options = replace(read_options(given), thorough=given.all)
-        with output_folder(given.out), worker_pool(options.workers) as pool:
-            codes.append(_run(names, options, pool))
-
-    return answered(work) or codes[0]
+    if list:
+        _list()
+        return 0
+    words = words or OptionWords()
+    chosen = _chosen(names, all, words.machine is not None)
+    options = replace(words.options(), thorough=all)
+    with output_folder(options.out), worker_pool(options.workers) as pool:
+        return _run(chosen, options, pool)
 
 
 def _list() -> None:
@@ -73,19 +72,19 @@ def _list() -> None:
         say(f"{name:20} {_seconds(seconds):>8}  {question} (alone, not in the report)")
 
 
-def _chosen(given: argparse.Namespace) -> list[str]:
-    unknown = [name for name in given.names if name not in STUDIES]
+def _chosen(names: Sequence[str], every: bool, has_machine: bool) -> list[str]:
+    unknown = [name for name in names if name not in STUDIES]
     if unknown:
         raise InputError(f"{short(unknown[0])}: no such study; allowed: {', '.join(STUDIES)}")
-    if given.names and given.all:
+    if names and every:
         raise InputError("--all: allowed: without names of studies")
-    if given.all:
+    if every:
         return list(STUDIES)
-    if given.machine and not given.names:
+    if has_machine and not names:
         papers = [name for name in DEFAULT if not STUDIES[name].own_machine]
         warn(f"left out, for they are about the paper's machine alone: {', '.join(papers)}")
         return [name for name in DEFAULT if STUDIES[name].own_machine]
-    return given.names or list(DEFAULT)
+    return list(names or DEFAULT)
 
 
 def _run(names: Sequence[str], options: Options, pool: Workers) -> int:

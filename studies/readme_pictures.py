@@ -3,14 +3,14 @@
 `python -m studies.readme_pictures` writes them to studies/pictures; with names only those.
 """
 
-import argparse
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Annotated
 
 from matplotlib.figure import Figure
 from PIL import Image
@@ -25,7 +25,7 @@ from studies.extremes import figures as extremes_figures
 from studies.extremes.judge import judge_all
 from studies.extremes.scenes import STEP_STIFFNESS, mapped
 from support_exudyn import Result
-from support_exudyn.commands.command_line import Parser, answered, count, folder
+from support_exudyn.commands.command_line import among, at_most, carry_out, new_app, warn
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.figures import style
 from support_exudyn.postprocessing.figures.orbit import orbit
@@ -106,28 +106,31 @@ PICTURES: dict[str, Callable[[Runs, Path], None]] = {
 }
 
 
-def draw(chosen: argparse.Namespace) -> None:
-    """Make the pictures that were asked for."""
-    runs = Runs(chosen.workers)
-    with output_folder(chosen.out), style.look():
-        for name in chosen.names or PICTURES:
-            print(chosen.out / name, file=sys.stderr)
-            PICTURES[name](runs, chosen.out / name)
+app = new_app("python -m studies.readme_pictures", (__doc__ or "").splitlines()[0], version_flags=())
+
+
+@app.default
+def draw(
+    *names: Annotated[str, among(PICTURES, f"Which (all): {', '.join(PICTURES)}.")],
+    out: Path = FOLDER,
+    workers: Annotated[int, at_most(MOST_WORKERS)] = os.cpu_count() or 1,
+) -> None:
+    """Make the pictures that were asked for.
+
+    Args:
+        out: Folder (studies/pictures).
+        workers: Processes (all cores).
+    """
+    runs = Runs(workers)
+    with output_folder(out), style.look():
+        for name in names or PICTURES:
+            warn(str(out / name))
+            PICTURES[name](runs, out / name)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.readme_pictures`."""
-    description = (__doc__ or "").splitlines()[0]
-    parser = Parser(prog="python -m studies.readme_pictures", description=description)
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"which (all): {', '.join(PICTURES)}")
-    parser.add_argument("--out", type=folder, default=FOLDER, metavar="DIR", help=f"folder ({FOLDER})")
-    workers = partial(count, most=MOST_WORKERS)
-    parser.add_argument("--workers", type=workers, default=os.cpu_count() or 1, metavar="N", help="processes")
-    given = parser.parse_args(argv)
-    for name in given.names:
-        if name not in PICTURES:
-            parser.error(f"{name}: no such picture; allowed: {', '.join(PICTURES)}")
-    return answered(lambda: draw(given))
+    return carry_out(app, argv)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from studies.catalogue import DEFAULT, STUDIES
 from studies.common.words import FILE
 from studies.reporting.arranged import PAGE, pages
 from studies.reporting.content import ReportSection
-from support_exudyn.commands.command_line import Parser, folder, say, warn
+from support_exudyn.commands.command_line import carry_out, new_app, say, warn
 from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError
 
@@ -62,13 +62,22 @@ def rebuild(out: Path, order: Sequence[str]) -> int:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Entry of `python -m studies.report`."""
-    about = "Write the report from the results that are there."
-    parser, out = Parser(prog="python -m studies.report", description=about), Path("results")
-    parser.add_argument("--out", type=folder, default=out, metavar="DIR", help=f"folder of results ({out})")
-    out = parser.parse_args(argv).out
+    return carry_out(app, argv)
+
+
+app = new_app("python -m studies.report", "Write the report from the results that are there.", version_flags=())
+
+
+@app.default
+def report(*, out: Path = Path("results")) -> int:
+    """Write the report.
+
+    Args:
+        out: Folder of results (results).
+    """
     code = rebuild(out, list(STUDIES))
     if not code:
-        say(str(out / PAGE))
+        say(out / PAGE)
     return code
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from studies.common.paper_machine import CLEARANCE_PIN, STEP, clearance_joint, ideal_rise, oil_columns
 from support_exudyn import CubicStep, Scenario, simulate
-from support_exudyn.commands.command_line import Parser, answered, folder, say
+from support_exudyn.commands.command_line import carry_out, new_app, say
 from support_exudyn.postprocessing.instruments.station import measure, read_station, write_measured
 
 EXAMPLES = Path(__file__).parent / "examples"
@@ -35,19 +35,23 @@ def measured_scenario() -> Scenario:
     )
 
 
+app = new_app("python -m studies.synthetic_measurement", (__doc__ or "").partition("\n")[0], version_flags=())
+
+
+@app.default
+def measurement(*, out: Path = EXAMPLES / MEASURED) -> None:
+    """Make the measurement.
+
+    Args:
+        out: The CSV.
+    """
+    station = read_station(EXAMPLES / INSTRUMENTS)
+    say(write_measured(measure(simulate(measured_scenario()), station), out))
+
+
 def main(argv: Sequence[str] | None = None) -> int:
-    """Make the measurement; returns the exit code."""
-    parser = Parser(
-        prog="python -m studies.synthetic_measurement", description=(__doc__ or "").partition("\n")[0]
-    )
-    parser.add_argument("--out", type=folder, default=EXAMPLES / MEASURED, metavar="FILE", help="the CSV")
-    given = parser.parse_args(argv)
-
-    def work() -> None:
-        station = read_station(EXAMPLES / INSTRUMENTS)
-        say(str(write_measured(measure(simulate(measured_scenario()), station), given.out)))
-
-    return answered(work)
+    """Entry of the command; returns the exit code."""
+    return carry_out(app, argv)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ Three files: the dataset and the commands for ADAMS/Solver, and the mapping by w
 channels in the results. The paper's rise is written as a scenario, too; one of yours stays as it is.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from studies.adams.dataset import adams_dataset, solver_commands
 from studies.common.paper_machine import PAPERS_LAW, SLIDING_COEFFICIENT, STEP, clearance_rise
 from studies.common.study import work_in_folder
 from support_exudyn import Scenario
-from support_exudyn.commands.command_line import Parser, folder, say
+from support_exudyn.commands.command_line import say
 from support_exudyn.files import read_scenario, save_scenario
 from support_exudyn.files.whole_file import whole_file
 from user_forces.values.value import InputError
@@ -59,27 +59,25 @@ def write(scenario: Scenario, name: str, out: Path) -> list[Path]:
     return [out / file for file in texts]
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Entry of `python -m studies adams`; returns the exit code."""
-    parser = Parser(prog="python -m studies adams", description=(__doc__ or "").partition("\n\n")[0])
-    parser.add_argument(
-        "scenario", nargs="?", type=folder, metavar="SCENARIO", help="a scenario's TOML file (the paper's rise)"
-    )
-    out = Path("results") / "adams"
-    parser.add_argument("--out", type=folder, default=out, metavar="DIR", help=f"folder for output ({out})")
-    given = parser.parse_args(argv)
+def adams(scenario: Path | None = None, /, *, out: Path = Path("results") / "adams") -> int:
+    """Write the paper's model, or a scenario of yours, for ADAMS. The command `python -m studies adams`.
+
+    Args:
+        scenario: A scenario's TOML file (the paper's rise).
+        out: Folder for output (results/adams).
+    """
 
     def work(out: Path) -> None:
-        scenario = paper_rise() if given.scenario is None else read_scenario(given.scenario)
-        name = PAPER if given.scenario is None else _name(given.scenario)
-        written = write(scenario, name, out)
-        if given.scenario is None:
-            written.append(save_scenario(scenario, out / f"{name}.toml"))
+        written_for = paper_rise() if scenario is None else read_scenario(scenario)
+        name = PAPER if scenario is None else _name(scenario)
+        written = write(written_for, name, out)
+        if scenario is None:
+            written.append(save_scenario(written_for, out / f"{name}.toml"))
         for path in written:
             say(str(path))
         say("not run in ADAMS here; see studies/adams/README.md")
 
-    return work_in_folder(work, given.out)
+    return work_in_folder(work, out)
 
 
 def _name(path: Path) -> str:

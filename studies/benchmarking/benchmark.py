@@ -24,7 +24,7 @@ from studies.benchmarking.trade import COMPILED, ENGINE, OURS_COMPILED, OURS_ENG
 from studies.common import paper_machine
 from studies.common.study import print_table, work_in_folder
 from support_exudyn import CubicStep, Held, Scenario, SolverSettings, simulate
-from support_exudyn.commands.command_line import Parser, folder, say, warn
+from support_exudyn.commands.command_line import say, warn
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.formulations.registry import FormulationName
 from support_exudyn.postprocessing.figures import style
@@ -260,10 +260,10 @@ def markdown(sheet: Sheet) -> str:
     return "\n".join([f"**{sheet.title}**", "", *lines, "", sheet.caption]).rstrip()
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Entry of `python -m studies benchmark`."""
-    parser = Parser(prog="python -m studies benchmark", description=(__doc__ or "").splitlines()[0])
-    parser.add_argument(
-        "--out", type=folder, default=HERE, metavar="DIR", help="folder for RESULTS.md and its figure (here)"
-    )
-    return work_in_folder(study, parser.parse_args(argv).out)
+def benchmark(*, out: Path = HERE) -> int:
+    """How fast is the program among others? The command `python -m studies benchmark`.
+
+    Args:
+        out: Folder for RESULTS.md and its figure (here).
+    """
+    return work_in_folder(study, out)

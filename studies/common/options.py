@@ -1,14 +1,14 @@
 """How studies are run: where, by how many processes, how large, and on whose machine."""
 
-import argparse
 import os
 from dataclasses import dataclass, field, replace
-from functools import partial
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from studies.common.subject import Subject, own_subject, paper_subject
-from support_exudyn.commands.command_line import count, folder, warn
-from support_exudyn.commands.parser import add_imports, import_modules
+from support_exudyn.commands.command_line import Imports, at_most, import_modules, warn
 from support_exudyn.sweeps.workers import Workers
 from user_forces.values.value import InputError
 
@@ -45,36 +45,35 @@ class Options:
         return replace(self, out=self.out / name, workers=workers)
 
 
-def add_options(parser: argparse.ArgumentParser, out: Path) -> None:
-    """Add the options of studies to a command line; out: the default of the folder for output."""
-    add = parser.add_argument
-    add("--out", type=folder, default=out, metavar="DIR", help=f"folder for output ({out})")
-    workers = partial(count, most=MOST_WORKERS)
-    add("--workers", type=workers, default=os.cpu_count() or 1, metavar="N", help="processes (all cores)")
-    machines = partial(count, most=MOST_MACHINES)
-    add("--machines", type=machines, metavar="N", help="machines that claims draws (80; with --all more)")
-    add(
-        "--runs",
-        type=partial(count, most=MOST_RUNS),
-        metavar="N",
-        help="scenes that extremes draws; blow: its small form",
-    )
-    own = "your machine or scenario in place of the paper's: a TOML file, or a shipped machine's name"
-    add("--machine", type=folder, metavar="FILE", help=own)
-    add_imports(parser)
-    add("--pin", metavar="PIN", help="the pin of your machine that gets clearance (rear_base)")
+@Parameter(name="*")
+@dataclass(frozen=True)
+class OptionWords:
+    """How studies are run, as their command line says it.
 
-
-def read_options(given: argparse.Namespace) -> Options:
-    """The options of a command line.
-
-    Raises InputError or OSError if the machine cannot be read.
+    Args:
+        out: Folder for output (results).
+        workers: Processes (all cores).
+        machines: Machines that claims draws (80; with --all more).
+        runs: Scenes that extremes draws; blow: its small form.
+        machine: Your machine or scenario in place of the paper's: a TOML file, or a shipped machine's name.
+        pin: The pin of your machine that gets clearance (rear_base).
     """
-    if given.machine is None and given.pin is not None:
-        raise InputError(f"--pin {given.pin}: allowed: together with --machine FILE")
-    import_modules(given.imports)
-    subject = own_subject(given.machine, given.pin) if given.machine else paper_subject()
-    if subject.is_slow:
-        only = "only the Exudyn formulation covers it: minutes where --list tells seconds"
-        warn(f"--machine {given.machine}: {only}")
-    return Options(given.out, given.workers, given.out / KEPT, given.machines, given.runs, subject)
+
+    out: Path = Path("results")
+    workers: Annotated[int, at_most(MOST_WORKERS)] = os.cpu_count() or 1
+    machines: Annotated[int | None, at_most(MOST_MACHINES)] = None
+    runs: Annotated[int | None, at_most(MOST_RUNS)] = None
+    machine: Path | None = None
+    pin: str | None = None
+    imports: Imports = ()
+
+    def options(self) -> Options:
+        """The options that are meant. Raises InputError or OSError if the machine cannot be read."""
+        if self.machine is None and self.pin is not None:
+            raise InputError(f"--pin {self.pin}: allowed: together with --machine FILE")
+        import_modules(self.imports)
+        subject = own_subject(self.machine, self.pin) if self.machine else paper_subject()
+        if subject.is_slow:
+            only = "only the Exudyn formulation covers it: minutes where --list tells seconds"
+            warn(f"--machine {self.machine}: {only}")
+        return Options(self.out, self.workers, self.out / KEPT, self.machines, self.runs, subject)

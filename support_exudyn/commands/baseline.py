@@ -1,79 +1,76 @@
 """`baseline make|check|update DIR [NAME...]`: the results of scenarios, kept, and what has changed since."""
 
-import argparse
 import math
 from collections import Counter
-from collections.abc import Sequence
-from typing import Any
+from pathlib import Path
+from typing import Any, Literal
 
-from support_exudyn.commands.command_line import add_json, answer, folder, refusing, say, shown_progress, warn
+from support_exudyn.commands.command_line import Json, answer, answered, say, shown_progress, warn
 from support_exudyn.postprocessing.comparing.baselines import BaselineFolder, CheckedScenario, lines
 from user_forces.values.value import InputError
 
-EPILOG = """
-make runs the scenarios of DIR that have no baseline yet and writes DIR/baseline/NAME.json: numbers and thinned
-curves with their numerical errors. check runs all again and reports what has changed by more than both
-errors, what is new, and what is gone. update reports the same, and writes the scenarios that are named. Exit
-codes of all three: 0 nothing changed, 1 something did, or a run cannot be finished, 2 an input is wrong.
-"""
 CHANGED, WRONG = 1, 2  # exit codes
-MAKE, CHECK, UPDATE = "make", "check", "update"
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """What is done, with which folder, and of update which scenarios."""
-    add = parser.add_argument
-    parser.epilog = EPILOG
-    add("action", choices=(MAKE, CHECK, UPDATE), metavar="ACTION", help=f"{MAKE}, {CHECK} or {UPDATE}")
-    add("folder", type=folder, metavar="DIR", help="a folder of scenarios, *.toml")
-    add("names", nargs="*", default=[], metavar="NAME", help="of update: scenarios that are written")
-    add_json(parser)
+def baseline(
+    action: Literal["make", "check", "update"], folder: Path, /, *names: str, json: Json = False
+) -> int:
+    """Make, check or update the baselines of scenarios.
+
+    make runs the scenarios of FOLDER that have no baseline yet and writes FOLDER/baseline/NAME.json: numbers
+    and thinned curves with their numerical errors. check runs all again and reports what has changed by more
+    than both errors, what is new, and what is gone. update reports the same, and writes the scenarios that are
+    named. Exit
+    codes: 0 nothing changed, 1 something did, or a run cannot be finished, 2 an input is wrong.
+
+    Args:
+        action: make, check or update.
+        folder: Of scenarios, `*.toml`.
+        names: Of update: scenarios that are written.
+    """
+
+    def work() -> int:
+        if action != "update" and names:
+            raise InputError(f"{action} takes FOLDER alone; allowed: names with update")
+        kept = BaselineFolder(folder)
+        if action == "make":
+            return _make(kept, json)
+        with shown_progress(action) as progress:
+            checked = list(kept.check(list(dict.fromkeys(names)) or kept.names, progress))
+        if json:
+            answer({one.name: _data(one) for one in checked})
+        else:
+            _report(checked)
+        left = [one for one in checked if one.state != "same"]
+        if action == "update":
+            left = _update(kept, left, names, json)
+            if left:
+                warn(f"{len(left)} not written; to write one, name it: update {folder} NAME")
+        return CHANGED if left else 0
+
+    return answered(work, WRONG)
 
 
-def run(given: argparse.Namespace) -> None:
-    """Do it; ends with exit code 1 if something has changed, and 2 if an input is wrong."""
-    with refusing(WRONG):
-        if given.action != UPDATE and given.names:
-            raise InputError(f"{given.action} takes DIR alone; allowed: names with {UPDATE}")
-        kept = BaselineFolder(given.folder)
-        if given.action == MAKE:
-            _make(kept, given)
-            return
-        found: list[CheckedScenario] = []
-        with shown_progress(given.action) as progress:
-            found += kept.check(list(dict.fromkeys(given.names)) or kept.names, progress)
-    if given.json:
-        answer({one.name: _object(one) for one in found})
-    else:
-        _report(found)
-    left = [one for one in found if one.state != "same"]
-    if given.action == UPDATE:
-        left = _update(kept, left, given)
-    if left:
-        raise SystemExit(CHANGED)
-
-
-def _make(kept: BaselineFolder, given: argparse.Namespace) -> None:
-    """Write what has no baseline yet; each as soon as it is run."""
+def _make(kept: BaselineFolder, json: bool) -> int:
+    """Write what has no baseline yet, each as soon as it is run; returns the exit code."""
     missing = [name for name in kept.scenarios if name not in kept.baselines]
     written: dict[str, Any] = {}
-    with shown_progress(MAKE) as progress:
+    with shown_progress("make") as progress:
         for one in kept.check(missing, progress):
             written[one.name] = None if one.failed else kept.write(one)
             if one.failed:
                 warn(f"{one.name}: not made, its run cannot be finished: {one.failed}")
-            elif not given.json:
-                say(f"{written[one.name]}: {_kept_of(one)}")
+            elif not json:
+                say(f"{written[one.name]}: {_counts(one)}")
     there = [name for name in kept.scenarios if name in kept.baselines]
-    if given.json:
+    if json:
         answer({"made": written, "there": there})
     elif there:
-        say(f"left as they are: {', '.join(there)}; `check` compares them, `{UPDATE}` changes them")
-    if None in written.values():
-        raise SystemExit(CHANGED)
+        say(f"left as they are: {', '.join(there)}; `check` compares them, `update` changes them")
+    return CHANGED if None in written.values() else 0
 
 
-def _kept_of(one: CheckedScenario) -> str:
+def _counts(one: CheckedScenario) -> str:
     assert one.now is not None
     words = f"{len(one.now.numbers)} numbers, {len(one.now.curves)} channels"
     if math.isfinite(one.now.horizon):
@@ -81,27 +78,25 @@ def _kept_of(one: CheckedScenario) -> str:
     return words
 
 
-def _report(found: Sequence[CheckedScenario]) -> None:
-    """The state of each scenario, and what has changed."""
-    for one in found:
-        if one.state == "changed":
-            say(f"{one.name}: {len(one.changes)} changed by more than both errors, new, or gone")
-            for line in lines(one.changes):
-                say(f"  {line}")
-            if words := _versions(one):
-                say(f"  made with {words}")
-            continue
+def _report(checked: list[CheckedScenario]) -> None:
+    """Print the state of each scenario, and what has changed."""
+    for one in checked:
         states = {
+            "changed": f"{len(one.changes)} changed by more than both errors, new, or gone",
             "failed": f"its run cannot be finished: {one.failed}",
             "new": "new, it has no baseline",
             "gone": "gone, there is a baseline and no such scenario",
         }
-        say(f"{one.name}: {states.get(one.state) or f'nothing changed ({_kept_of(one)})'}")
-    counts = Counter(one.state for one in found)
+        say(f"{one.name}: {states.get(one.state) or f'nothing changed ({_counts(one)})'}")
+        if one.state == "changed":
+            others = _other_versions(one)
+            for line in (*lines(one.changes), *([f"made with {others}"] if others else [])):
+                say(f"  {line}")
+    counts = Counter(one.state for one in checked)
     say(", ".join(f"{number} {state}" for state, number in counts.items()))
 
 
-def _versions(one: CheckedScenario) -> str:
+def _other_versions(one: CheckedScenario) -> str:
     """With what else the baseline was made, what was and what is; empty if with the same."""
     if one.was is None or one.now is None:
         return ""
@@ -111,22 +106,18 @@ def _versions(one: CheckedScenario) -> str:
 
 
 def _update(
-    kept: BaselineFolder, changed: Sequence[CheckedScenario], given: argparse.Namespace
+    kept: BaselineFolder, changed: list[CheckedScenario], names: tuple[str, ...], json: bool
 ) -> list[CheckedScenario]:
     """Write the scenarios that are named; returns those that are left. A run that failed is never written."""
-    left = [one for one in changed if one.state == "failed" or one.name not in given.names]
-    for one in changed:
-        if one not in left:
-            with refusing(WRONG):
-                path = kept.write(one)
-            if not given.json:
-                say(f"{path}: {'removed' if one.now is None else 'written'}")
-    if left:
-        warn(f"{len(left)} not written; to write one, name it: {UPDATE} {given.folder} NAME")
-    return left
+    chosen = [one for one in changed if one.state != "failed" and one.name in names]
+    for one in chosen:
+        path = kept.write(one)
+        if not json:
+            say(f"{path}: {'removed' if one.now is None else 'written'}")
+    return [one for one in changed if one not in chosen]
 
 
-def _object(one: CheckedScenario) -> dict[str, Any]:
+def _data(one: CheckedScenario) -> dict[str, Any]:
     """A scenario for scripts."""
     changed = [change._asdict() for change in one.changes]
     return {"state": one.state, "failed": one.failed or None, "changes": changed}

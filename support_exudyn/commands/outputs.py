@@ -1,252 +1,252 @@
-"""Commands that make something of a run: `report`, `view`, `measure`, `export`."""
+"""Commands that make something of a run: `report`, `render`, `view`, `measure`, `export`."""
 
-import argparse
-import sys
-import time
-from collections.abc import Callable
-from functools import partial
+import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Annotated, Any, Literal
 
-from support_exudyn.commands.command_line import (
-    add_json,
-    add_out,
-    add_run,
-    add_times,
-    answer,
-    count,
-    folder,
-    meant,
-    number,
-    say,
-    shown_progress,
-    warn,
-)
-from support_exudyn.commands.runs import named_runs, runs_and_channels
+from cyclopts import Parameter
+from cyclopts.validators import Number
+
+from support_exudyn.commands.command_line import After, Json, Until, answer, at_most, say, shown_progress, warn
+from support_exudyn.commands.runs import by_name, files_and_channels
 from support_exudyn.files.whole_file import whole_file
 from support_exudyn.scene.contract import Progress
 from support_exudyn.simulation.result import Result
 from user_forces.values.value import InputError, short
 
-# --- report ---
-
-
-FILE = "report.html"
-
-
-def add_report(parser: argparse.ArgumentParser) -> None:
-    """The runs' files, what is drawn, and where to."""
-    parser.add_argument(
-        "names",
-        nargs="+",
-        metavar="RUN|CHANNEL",
-        help="files of runs, as Result.save writes them, then channels that are drawn over time: names, or "
-        "patterns as 'pin.*.force' (clearance pins, their bodies, traced points)",
-    )
-    add_out(parser, f"folder for {FILE}, or a file .html (RUN_{FILE} next to the first run)")
-    add_json(parser)
-
-
-def run_report(given: argparse.Namespace) -> None:
-    """Write the page, and print its name."""
-    paths, channels = runs_and_channels(given.names)
-    results = {name: Result.load(path) for name, path in named_runs(paths).items()}
-    from support_exudyn.postprocessing.run_report import run_report
-
-    page = run_report(results, channels)
-    first = paths[0]
-    out = given.out or first.with_name(f"{first.stem}_{FILE}")
-    path = out if out.suffix == ".html" else out / FILE
-    with whole_file(path) as temporary:
-        temporary.write_text(page, encoding="utf-8")
-    if given.json:
-        answer({"report": path})
-    else:
-        say(str(path))
-
-
-# --- view ---
-
-
-def add_view(parser: argparse.ArgumentParser) -> None:
-    """The run's file, and what of it is shown."""
-    add = parser.add_argument
-    add_run(parser)
-    add(
-        "--solution",
-        type=folder,
-        metavar="FILE",
-        help="show this solution file of Exudyn, of the same run, in place of its records",
-    )
-    add(
-        "--every",
-        type=count,
-        metavar="N",
-        help="records from frame to frame, up to 200; by default the run takes about 10 s",
-    )
-
-
-def run_view(given: argparse.Namespace) -> None:
-    """Open it, and wait until it is closed."""
-    result = Result.load(given.run)
-    from support_exudyn.postprocessing.viewer.view import (
-        open_viewer,  # libraries of shapes, which refusing a file has no use for
-    )
-
-    open_viewer(result, solution=given.solution, every=given.every, name=given.run.name)
-
-
-# --- measure ---
-
-
-def add_measure(parser: argparse.ArgumentParser) -> None:
-    """The run's file, that of the instruments, and where to."""
-    add_run(parser)
-    parser.add_argument(
-        "instruments",
-        nargs="?",
-        type=folder,
-        metavar="INSTRUMENTS",
-        help="TOML file of the instruments; without it perfect ones, 10 times a second: pressure and extension "
-        "of all columns, tilt of all bodies and of the base",
-    )
-    add_out(parser, "the table, CSV; by default RUN_measured.csv next to the run", "FILE")
-    add_json(parser)
-
-
-def run_measure(given: argparse.Namespace) -> None:
-    """Write the table, and print what is in it."""
-    from support_exudyn.postprocessing.instruments.station import (
-        measure,
-        read_station,
-        usual_station,
-        write_measured,
-    )
-
-    result = Result.load(given.run)
-    if given.instruments is None:
-        station, refused = usual_station(result.scenario)
-    else:
-        station, refused = read_station(given.instruments), {}
-    measured = measure(result, station)
-    out = given.out or given.run.with_name(f"{given.run.stem}_measured.csv")
-    write_measured(measured, out)
-    for name, reason in refused.items():
-        warn(f"{name}: left out: {reason}")
-    if given.json:
-        sizes = {name: one.time.size for name, one in measured.items()}
-        answer(
-            {"written": out, "samples": sizes, "left_out": {name: str(one) for name, one in refused.items()}}
-        )
-        return
-    say(f"{out}: {len(measured)} instruments, {max(one.time.size for one in measured.values())} samples")
-
-
-# --- export ---
-
-
 USUAL = ("xdmf", "vtu", "csv", "hdf5")
 FORMATS = (*USUAL, "solution")
-SLOWEST, FASTEST = 1e-9, 1e9  # frames a second
+Every = Annotated[int | None, at_most(10**9)]  # records
+Positive = Annotated[float, Parameter(validator=Number(gte=1e-9, lte=1e9))]
 
 
-def add_export(parser: argparse.ArgumentParser) -> None:
-    """The run's file, what to write of it, and where to."""
-    add_run(parser)
-    parser.add_argument(
-        "--to",
-        action="extend",
-        type=formats,
-        metavar="FORMAT[,FORMAT]",
-        help="xdmf: NAME.xdmf and NAME_pins.xdmf, with one HDF5 file for both; vtu: a folder NAME_vtu with a "
-        "file per step, machine.pvd and pins.pvd; csv: NAME.csv; hdf5: NAME_channels.h5 for MATLAB and others; "
-        "solution: NAME_solution.txt, Exudyn's own solution file, all records; by default all but the last "
-        "that the run has recorded enough for",
-    )
-    add_out(parser, "where to; by default NAME_export beside the run")
-    density = parser.add_mutually_exclusive_group()
-    density.add_argument("--every", type=count, metavar="N", help="one in N records")
-    density.add_argument(
-        "--frames-per-second",
-        type=partial(number, low=SLOWEST, high=FASTEST),
-        metavar="F",
-        help="the records nearest to F times per second of the run; by default 25 for meshes, and all records "
-        "for tables",
-    )
-    add_json(parser)
-    add_times(parser, 0.0)
+def report(run: str, /, *others: str, out: Path | None = None, json: Json = False) -> None:
+    """Write the page, and print its name.
+
+    Args:
+        run: File of a run.
+        others: Files of more runs, then channels that are drawn over time: names, or patterns as `pin.*.force`.
+        out: Folder for report.html, or a file .html (RUN_report.html next to the first run).
+    """
+    from support_exudyn.postprocessing.run_report import run_report
+
+    paths, channels = files_and_channels([run, *others])
+    page = run_report({name: Result.load(path) for name, path in by_name(paths).items()}, channels)
+    path = out or paths[0].with_name(f"{paths[0].stem}_report.html")
+    path = path if path.suffix == ".html" else path / "report.html"
+    with whole_file(path) as temporary:
+        temporary.write_text(page, encoding="utf-8")
+    answer({"report": path}) if json else say(path)
 
 
-def formats(text: str) -> list[str]:
-    """Formats from the command line, with commas between them."""
-    found = [one.strip() for one in text.split(",")]
-    for one in found:
-        if one not in FORMATS:
-            raise argparse.ArgumentTypeError(f"{short(one)}: no such format; {meant(one, FORMATS)}")
-    return found
+def _size(type_: object, tokens: Any) -> tuple[int, int]:
+    """Width and height from the command line."""
+    del type_
+    found = re.fullmatch(r"(\d{1,5})[xX](\d{1,5})", tokens[0].value)
+    if found is None:
+        raise ValueError("allowed: width and height in pixels, such as 1280x720")
+    return int(found[1]), int(found[2])
 
 
-def run_export(given: argparse.Namespace) -> None:
-    """Write what was asked for, and print what was written."""
+Size = Annotated[tuple[int, int] | None, Parameter(converter=_size, n_tokens=1)]
+
+
+def render(
+    run: Path,
+    /,
+    *,
+    out: Path | None = None,
+    frames_per_second: Annotated[float, Parameter(name=("--frames-per-second", "--fps"))] = 25.0,
+    after: After | None = None,
+    until: Until | None = None,
+    speed: float = 1.0,
+    movie: Literal["gif", "mp4", "none"] = "gif",
+    size: Size = None,
+    pin: str | None = None,
+    still: float | None = None,
+    json: Json = False,
+) -> None:
+    """Draw frames and a movie, or a picture.
+
+    Args:
+        run: File of a run.
+        out: Folder for the frames, with the movie beside it (RUN_frames). With --still the file of the picture.
+        frames_per_second: Of the movie, 0.1 to 240 (25).
+        speed: Seconds of the run in a second of the movie (1); 0.01 is a hundred times slower, for impacts. A
+            frame shows the record next to its time.
+        movie: Kind of the movie (gif: at most 960 pixels wide); mp4 needs the extra [movie].
+        size: WxH of frames in pixels, even (960x540 of a gif, else 1280x720).
+        pin: Whose force is shown, and journal first of all (the first clearance pin).
+        still: Time of a single picture [s]; no movie.
+    """
+    from support_exudyn.postprocessing import render as rendering
+
+    if still is not None and (after is not None or until is not None):
+        raise InputError("--still: is one picture; allowed: without --after and --until")
+    result = Result.load(run)
+    if still is not None:
+        _draw_still(result, still, out or run.with_name(f"{run.stem}_{still:g}s.png"), size, pin, json)
+        return
+    folder = out or run.with_name(f"{run.stem}_frames")
+    with shown_progress(f"rendering {run.name}") as progress:
+        written = rendering.render(
+            result,
+            folder,
+            frames_per_second=frames_per_second,
+            after=after,
+            until=until,
+            speed=speed,
+            movie=movie,
+            size=size,
+            pin=pin,
+            progress=progress,
+        )
+    if json:
+        answer({"frames": written.frames, "movie": written.movie})
+        return
+    say(f"{_counted(len(written.frames), 'frame')} in {folder}")
+    if written.movie is not None:
+        say(f"{written.movie} ({written.movie.stat().st_size / 1e6:.3g} MB)")
+
+
+def _draw_still(
+    result: Result, time: float, path: Path, size: tuple[int, int] | None, pin: str | None, json: bool
+) -> None:
+    """Draw a single picture at a time [s]."""
+    from PIL import Image
+
+    from support_exudyn.postprocessing import render as rendering
+
+    if path.suffix.lower() != ".png":
+        raise InputError(f"--out {path}: allowed with --still: a name that ends in .png")
+    picture = rendering.still(result, time, size=size or rendering.SIZE, pin=pin)
+    with whole_file(path) as temporary:
+        Image.fromarray(picture).save(temporary, format="PNG")
+    answer({"frames": [path], "movie": None}) if json else say(path)
+
+
+def view(run: Path, /, *, solution: Path | None = None, every: Every = None) -> None:
+    """Open the viewer, and wait until it is closed.
+
+    Args:
+        run: File of a run.
+        solution: Show this solution file of Exudyn, of the same run, in place of its records.
+        every: Records from frame to frame, up to 200 (the run takes about 10 s).
+    """
+    result = Result.load(run)
+    from support_exudyn.postprocessing.viewer.view import open_viewer  # which refusing a file has no use for
+
+    open_viewer(result, solution=solution, every=every, name=run.name)
+
+
+def measure(
+    run: Path, instruments: Path | None = None, /, *, out: Path | None = None, json: Json = False
+) -> None:
+    """Write the table of what instruments read, and print what is in it.
+
+    Args:
+        run: File of a run.
+        instruments: TOML file of the instruments (perfect instruments, 10 times a second: pressure and
+            extension of all columns, tilt of all bodies and of the base).
+        out: The table, CSV (RUN_measured.csv next to the run).
+    """
+    from support_exudyn.postprocessing.instruments import station as stations
+
+    result, refused = Result.load(run), dict[str, InputError]()
+    if instruments is None:
+        station, refused = stations.usual_station(result.scenario)
+    else:
+        station = stations.read_station(instruments)
+    measured = stations.measure(result, station)
+    out = out or run.with_name(f"{run.stem}_measured.csv")
+    stations.write_measured(measured, out)
+    _warn_of(refused)
+    sizes = {name: one.time.size for name, one in measured.items()}
+    if json:
+        answer({"written": out, "samples": sizes, "left_out": _reasons(refused)})
+    else:
+        say(f"{out}: {_counted(len(measured), 'instrument')}, {max(sizes.values())} samples")
+
+
+def export(
+    run: Path,
+    /,
+    *,
+    to: str = "",
+    out: Path | None = None,
+    every: Every = None,
+    frames_per_second: Positive | None = None,
+    after: After = 0.0,
+    until: Until | None = None,
+    json: Json = False,
+) -> None:
+    """Write meshes and tables of a run, and print which.
+
+    Args:
+        run: File of a run.
+        to: FORMAT,FORMAT,... (all but the last that the run has recorded enough for). xdmf: NAME.xdmf and
+            NAME_pins.xdmf, with one HDF5 file for both; vtu: a folder NAME_vtu with a file per step,
+            machine.pvd and pins.pvd; csv: NAME.csv; hdf5: NAME_channels.h5 for MATLAB and others; solution:
+            NAME_solution.txt, Exudyn's own solution file, all records.
+        out: Folder (NAME_export beside the run).
+        every: One in so many records.
+        frames_per_second: The records nearest to so many times per second of the run (25 for meshes, all
+            records for tables).
+    """
     from support_exudyn.postprocessing.export.mesh_files import MESHES, to_vtu, to_xdmf  # and meshio
     from support_exudyn.postprocessing.export.sampling import Sampling
     from support_exudyn.postprocessing.export.solution_file import save_solution
     from support_exudyn.postprocessing.export.tables import TABLES, to_csv, to_hdf5
 
-    if given.until is not None and given.until < given.after:
-        raise InputError(
-            f"--after {given.after:g} --until {given.until:g}: allowed: --until not before --after"
-        )
-    result = Result.load(given.run)
-    name, out = given.run.stem, given.out or given.run.parent / f"{given.run.stem}_export"
+    result, name, folder = Result.load(run), run.stem, out or run.parent / f"{run.stem}_export"
+    kinds = [kind.strip() for kind in to.split(",")] if to else []
+    for kind in kinds:
+        if kind not in FORMATS:
+            raise InputError(f"--to {short(kind)}: no such format; allowed: {', '.join(FORMATS)}")
 
     def sampling(usual: Sampling) -> Sampling:
-        said = given.every is not None or given.frames_per_second is not None
-        return Sampling(
-            every=given.every,
-            frames_per_second=given.frames_per_second if said else usual.frames_per_second,
-            after=given.after,
-            until=given.until,
-        )
+        rate = usual.frames_per_second if every is None and frames_per_second is None else frames_per_second
+        return Sampling(every=every, frames_per_second=rate, after=after, until=until)
 
+    meshes, tables = sampling(MESHES), sampling(TABLES)
     work: dict[str, Callable[[Progress], tuple[Path, ...]]] = {
-        "xdmf": lambda progress: to_xdmf(result, out / f"{name}.xdmf", sampling(MESHES), progress),
-        "vtu": lambda progress: to_vtu(result, out / f"{name}_vtu", sampling(MESHES), progress),
-        "csv": lambda progress: to_csv(result, out / f"{name}.csv", sampling(TABLES), progress),
-        "hdf5": lambda progress: to_hdf5(result, out / f"{name}_channels.h5", sampling(TABLES)),
-        "solution": lambda progress: (save_solution(result, out / f"{name}_solution.txt"),),
+        "xdmf": lambda progress: to_xdmf(result, folder / f"{name}.xdmf", meshes, progress),
+        "vtu": lambda progress: to_vtu(result, folder / f"{name}_vtu", meshes, progress),
+        "csv": lambda progress: to_csv(result, folder / f"{name}.csv", tables, progress),
+        "hdf5": lambda progress: to_hdf5(result, folder / f"{name}_channels.h5", tables),
+        "solution": lambda progress: (save_solution(result, folder / f"{name}_solution.txt"),),
     }
     refused: dict[str, InputError] = {}
     written: dict[str, tuple[Path, ...]] = {}
-    for kind in dict.fromkeys(given.to or USUAL):
-        started = time.perf_counter()
+    for kind in dict.fromkeys(kinds or USUAL):
         try:
             with shown_progress(kind) as progress:
-                files = work[kind](progress)
+                written[kind] = work[kind](progress)
         except InputError as error:
-            if given.to:
+            if kinds:
                 raise
             refused[kind] = error
             continue
-        written[kind] = files
-        if not given.json:
-            size = sum(file.stat().st_size for file in files)
-            took = time.perf_counter() - started
-            say(f"{kind}: {files[0]} ({_counted(len(files))}, {size / 1e6:.3g} MB, {took:.2g} s)")
-        if kind in ("xdmf", "vtu") and given.until != given.after and result.time.size > 1:
-            _tell_of_a_single_step(len(sampling(MESHES).records(result.time)), kind)
-    if len(refused) == len(USUAL):
+        if not json:
+            size = sum(file.stat().st_size for file in written[kind])
+            say(f"{kind}: {written[kind][0]} ({_counted(len(written[kind]), 'file')}, {size / 1e6:.3g} MB)")
+    if not written:
         raise refused[USUAL[0]]
-    for kind, reason in refused.items():
-        warn(f"{kind}: left out: {reason}")
-    if given.json:
-        answer({"written": written, "left_out": {kind: str(reason) for kind, reason in refused.items()}})
+    _warn_of(refused)
+    if json:
+        answer({"written": written, "left_out": _reasons(refused)})
 
 
-def _tell_of_a_single_step(steps: int, kind: str) -> None:
-    """Say so if a mesh has a single step, which the user may not have meant."""
-    if steps == 1:
-        print(f"{kind}: a single step; more by a larger --frames-per-second or by --every", file=sys.stderr)
+def _warn_of(refused: Mapping[str, InputError]) -> None:
+    """Print what is left out, and why."""
+    for name, reason in refused.items():
+        warn(f"{name}: left out: {reason}")
 
 
-def _counted(files: int) -> str:
-    return "1 file" if files == 1 else f"{files} files"
+def _reasons(refused: Mapping[str, InputError]) -> dict[str, str]:
+    return {name: str(reason) for name, reason in refused.items()}
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'s' * (number != 1)}"

@@ -1,100 +1,104 @@
 """`run FILE`: a scenario's file, simulated and saved."""
 
-import argparse
-import sys
 from pathlib import Path
+from typing import Annotated, Literal
 
 import numpy as np
-from rich.console import Console
+from cyclopts import Parameter
 
-from support_exudyn.commands.command_line import add_json, add_out, answer, folder, shown_progress, warn
-from support_exudyn.commands.tables import facts, first_impacts, printed, show_fitting, show_numbers, show_table
-from support_exudyn.files import ScenarioFile, read_scenario_file
+from support_exudyn.commands.command_line import Json, answer, say, shown_progress, warn
+from support_exudyn.commands.show import show_run
+from support_exudyn.commands.tables import WHOLE, facts, in_short
+from support_exudyn.files import read_scenario_file
 from support_exudyn.files.whole_file import check_may_be_replaced, named, real_path
 from support_exudyn.machines.check.joint_warnings import guide_warnings, joint_warnings
 from support_exudyn.mechanics.body_motion import BodyMotion
-from support_exudyn.postprocessing import summary as summary
-from support_exudyn.postprocessing.figures import selection
-from support_exudyn.postprocessing.joint_tables import leg_table
+from support_exudyn.postprocessing.summary import unmet
 from support_exudyn.scenario.scenario_data import ACCURACIES, LARGEST_GOAL, SMALLEST_GOAL
 from support_exudyn.simulation.result import Result
 from support_exudyn.simulation.simulate import simulate
-from user_forces.values.value import InputError, short
+from user_forces.values.value import InputError
 
-WHOLE = (0.0, float("inf"))  # run
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The scenario's file, and where the run goes."""
-    add = parser.add_argument
-    add("file", type=folder, metavar="FILE", help="a scenario, as TOML")
-    add_out(parser, "file of the run (beside the scenario, with the ending .h5)", "RUN")
-    add(
-        "--accuracy",
-        type=accuracy,
-        metavar="A",
-        help=f"in place of the file's: {', '.join(ACCURACIES)}, or a relative error from {SMALLEST_GOAL:g} to "
-        f"{LARGEST_GOAL:g}",
-    )
-    add(
-        "--solution",
-        type=folder,
-        metavar="FILE",
-        help="also write Exudyn's own solution file of the run, with the ending .sol in its binary format",
-    )
-    add_json(parser)
+GOALS = f"{', '.join(ACCURACIES)}, or a relative error from {SMALLEST_GOAL:g} to {LARGEST_GOAL:g}"
 
 
-def accuracy(text: str) -> str | float:
-    """An accuracy from the command line."""
-    if text in ACCURACIES:
-        return text
-    try:
-        number = float(text)
-    except ValueError:
-        number = 0.0
-    if not SMALLEST_GOAL <= number <= LARGEST_GOAL:
-        raise argparse.ArgumentTypeError(
-            f"{short(text)}: allowed: {', '.join(ACCURACIES)}, or from {SMALLEST_GOAL:g} to {LARGEST_GOAL:g}"
-        )
-    return number
+def _check_goal(type_: object, goal: str | float | None) -> None:
+    """Raise ValueError if an accuracy is a number that cannot be reached."""
+    del type_
+    if isinstance(goal, float) and not SMALLEST_GOAL <= goal <= LARGEST_GOAL:
+        raise ValueError(f"allowed: {GOALS}")
 
 
-def run(given: argparse.Namespace) -> None:
-    """Simulate it, save the run, and tell what came out."""
-    file = read_scenario_file(given.file)
-    out: Path = given.out or given.file.with_suffix(".h5")
-    solution: Path | None = given.solution
-    files = {"--out": out} | ({} if solution is None else {"--solution": solution})
-    for option, path in files.items():  # now, and not when all is computed
-        if real_path(path) == real_path(given.file):
-            raise InputError(f"{option} {path}: is the scenario itself; allowed: another file")
-        try:
-            check_may_be_replaced(real_path(path))
-        except OSError as error:
-            raise named(error, path) from None
+Goal = Annotated[
+    Literal["draft", "standard", "reference"] | float | None,
+    Parameter(validator=_check_goal, help=f"In place of the file's: {GOALS}."),
+]
+
+
+def run(
+    file: Path,
+    /,
+    *,
+    out: Path | None = None,
+    accuracy: Goal = None,
+    solution: Path | None = None,
+    all: bool = False,  # noqa: A002, the option's name
+    json: Json = False,
+) -> None:
+    """Simulate a scenario, save the run, and print what came out in short.
+
+    Args:
+        file: A scenario, as TOML.
+        out: File of the run (beside the scenario, with the ending .h5).
+        solution: Also write Exudyn's own solution file of the run; with the ending .sol in its binary format.
+        all: Print all that came out, as `show RUN` does.
+    """
+    scenario_file = read_scenario_file(file)
+    out = out or file.with_suffix(".h5")
+    _check_outputs(file, {"--out": out} | ({} if solution is None else {"--solution": solution}))
     if solution is not None:
-        if real_path(solution) == real_path(out):
-            raise InputError(f"--solution {solution}: is the file of the run; allowed: another file")
         from support_exudyn.postprocessing.export import solution_file  # and the engine
 
-        solution_file.check_recorded(file.scenario)
-    with shown_progress(given.file.stem) as progress:
-        result = simulate(file.scenario, accuracy=given.accuracy, errors=file.errors, progress=progress)
+        solution_file.check_recorded(scenario_file.scenario)
+    with shown_progress(file.stem) as progress:
+        result = simulate(
+            scenario_file.scenario, accuracy=accuracy, errors=scenario_file.errors, progress=progress
+        )
     result.save(out)
     if solution is not None:
         solution_file.save_solution(result, solution)
-    warnings = [*file.warnings, *joint_warnings_of(result)]
-    if given.json:
+    warnings = [*scenario_file.warnings, *joint_warnings_of(result)]
+    if json:
         impacts = {pin: len(onsets) for pin, onsets in result.onsets.items()}
-        said = {"run": out, **facts(result, *WHOLE), "impacts": impacts}
-        answer(said | {"warnings": warnings} | ({} if solution is None else {"solution": solution}))
+        found = {"run": out, **facts(result, WHOLE), "impacts": impacts, "warnings": warnings}
+        answer(found | ({} if solution is None else {"solution": solution}))
     else:
-        printed(lambda console: _tell(console, result, file, list(files.values())))
+        if all:
+            show_run(result)
+        else:
+            for name, words in in_short(result):
+                say(f"{name}: {words}")
+        for sentence in scenario_file.assumed if all else ():
+            say(f"assumed: {sentence}")
+        say(f"saved: {out}; all numbers: --all, or support-exudyn show {out}")
         for warning in warnings:
             warn(f"warning: {warning}")
     if result.goal is not None and not result.met:
-        print(summary.unmet(result), file=sys.stderr)
+        warn(unmet(result))
+
+
+def _check_outputs(scenario: Path, files: dict[str, Path]) -> None:
+    """Raise InputError or OSError if a file cannot be written: now, and not when all is computed."""
+    taken = {real_path(scenario): "the scenario itself"}
+    for option, path in files.items():
+        real = real_path(path)
+        if real in taken:
+            raise InputError(f"{option} {path}: is {taken[real]}; allowed: another file")
+        taken[real] = "the file of the run"
+        try:
+            check_may_be_replaced(real)
+        except OSError as error:
+            raise named(error, path) from None
 
 
 def joint_warnings_of(result: Result) -> list[str]:
@@ -115,28 +119,3 @@ def joint_warnings_of(result: Result) -> list[str]:
         position = np.column_stack([result[name] - start for name, start in starts.items()])
         found += guide_warnings(BodyMotion(linkage, position, np.zeros_like(position)))
     return found
-
-
-def _tell(console: Console, result: Result, file: ScenarioFile, written: list[Path]) -> None:
-    """A short account."""
-    show_numbers(console, file.name or "what came out", "errors = true", result, *WHOLE)
-    linkage = result.scenario.linkage
-    points = [name for name in summary.telling(result) if name.rpartition(".")[0] in linkage.points]
-    if points:
-        paths = [row[:-1] for row in summary.of_channels(result, points, *WHOLE)]
-        show_table(
-            console,
-            f"paths, {selection.said(result, *WHOLE)}",
-            ("channel", "unit", ">min", ">mean", ">max"),
-            paths,
-        )
-    pressures = [name for name in result.channels if name.endswith("pressure")]
-    if result.oil_events and pressures:
-        pressed = [row[:-1] for row in summary.of_channels(result, pressures, *WHOLE)]
-        show_table(console, "pressures", ("channel", "unit", ">min", ">mean", ">max"), pressed)
-    show_fitting(console, leg_table(result))
-    first_impacts(console, result)
-    assumed = [("assumed", sentence) for sentence in file.assumed]
-    show_table(console, "how", (), [*summary.how(result)[:-1], *assumed])
-    for path in written:
-        print(path)

@@ -1,69 +1,53 @@
-"""Files of runs on a command line: how they are told from channels, and what they are called."""
+"""Words of a command line that are files, channels, or parts of a figure's name."""
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
-from support_exudyn.commands.command_line import folder
 from support_exudyn.files.series.matlab import is_matlab
 from support_exudyn.files.series.own_runs import is_exported, is_run
 from user_forces.values.value import InputError
 
-ENDING = ".h5"  # of runs
-CSV, TOML = ".csv", ".toml"
-HEAD = 600  # bytes by which runs are told from series of others
+RUN, CSV, TOML = ".h5", ".csv", ".toml"
+# a word with such an ending is a file even if it is not there, and no channel
+ENDINGS = (RUN, CSV, ".txt", ".tab", ".tsv", ".dat", ".res", ".req", ".mat", ".parquet", ".xml")
+HEAD = 600  # bytes by which runs are distinguished from series of others
 NO_NAME = re.compile(r"[^\w.-]+")  # what is left out of a file's name
 LONGEST = 80  # letters of what a file's name says of channels
 
 
-def named_runs(paths: Sequence[Path]) -> dict[str, Path]:
-    """Names of runs, of their files; with the folder where two have one name.
+def files_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:
+    """The files and the channels among words: the first is a file, others are if they are there or end so."""
+    are_files = [
+        n == 0 or Path(word).is_file() or (word.lower().endswith(ENDINGS) and not set(word) & set("*?"))
+        for n, word in enumerate(words)
+    ]
+    pairs = list(zip(words, are_files, strict=True))
+    return [Path(word) for word, is_file in pairs if is_file], [word for word, is_file in pairs if not is_file]
 
-    Raises InputError if a run is given twice.
+
+def is_of_others(path: Path) -> bool:
+    """Whether a file is a series of others, and neither a run, whole or damaged, nor a text of ours."""
+    if not path.is_file() or path.suffix.lower() == TOML:
+        return path.suffix.lower() == CSV
+    with path.open("rb") as file:
+        head = file.read(HEAD)
+    return not is_run(head) and (path.suffix.lower() != RUN or is_exported(head) or is_matlab(head))
+
+
+def by_name(paths: Sequence[Path]) -> dict[str, Path]:
+    """Files by their names: without the ending or the folder where that distinguishes them.
+
+    Raises InputError if a file is given twice.
     """
     found: dict[str, Path] = {}
-    for path in paths:
-        same = [other for other in paths if other.stem == path.stem]
-        name = path.stem if len(same) == 1 else str(path.with_suffix(""))
-        if name in found:
-            raise InputError(f"{path}: is given twice; allowed: every run once")
-        found[name] = path
-    return found
-
-
-def named_curves(paths: Sequence[Path], taken: Collection[str]) -> dict[str, Path]:
-    """Names of files of others: with the ending where that tells two apart, or with the folder.
-
-    taken: names of runs. Raises InputError if a file is given twice.
-    """
-    found: dict[str, Path] = {}
-    stems = [*taken, *(path.stem for path in paths)]
     for path in paths:
         if path in found.values():
             raise InputError(f"{path}: is given twice; allowed: every file once")
-        name = path.stem if stems.count(path.stem) == 1 else path.name
-        found[name if name not in found else str(path)] = path
+        others = [other for other in paths if other != path]
+        name = path.name if any(other.stem == path.stem for other in others) else path.stem
+        found[str(path) if any(other.name == name for other in others) else name] = path
     return found
-
-
-def files_of_curves(words: Sequence[str]) -> list[Path]:
-    """The files among words that are series of others; a table that is missing is one, too."""
-    return [folder(word) for word in words if word.lower().endswith(CSV) or _is_of_others(folder(word))]
-
-
-def _is_of_others(path: Path) -> bool:
-    """Whether a path is a file, and neither a run, whole or damaged, nor a text of ours."""
-    if not path.is_file() or path.suffix.lower() == TOML:
-        return False
-    with path.open("rb") as file:
-        head = file.read(HEAD)
-    return not is_run(head) and (path.suffix.lower() != ENDING or is_exported(head) or is_matlab(head))
-
-
-def runs_and_channels(words: Sequence[str]) -> tuple[list[Path], list[str]]:
-    """The runs and the channels among words: the first is a run, others are if they end so or are files."""
-    runs = [word for n, word in enumerate(words) if n == 0 or word.endswith(ENDING) or folder(word).is_file()]
-    return list(map(folder, runs)), [word for word in words if word not in runs]
 
 
 def file_name(*parts: str) -> str:

@@ -50,11 +50,7 @@ def scenes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def called(capsys: pytest.CaptureFixture[str], words: str) -> tuple[int, str, str]:
     """The exit code, and what was printed on standard output and standard error."""
-    try:
-        code = main(["baseline", *words.split()])
-    except SystemExit as ended:
-        code = int(ended.code or 0)
-    return code, *capsys.readouterr()
+    return main(["baseline", *words.split()]), *capsys.readouterr()
 
 
 def kept(scenes: Path) -> dict[str, bytes]:
@@ -126,7 +122,7 @@ def test_a_run_that_cannot_be_finished_or_is_interrupted(
     [
         ("check nowhere", "nowhere: is no folder; allowed:"),
         ("check empty", "empty: has no scenario; allowed:"),
-        ("check scenes slow", "check takes DIR alone; allowed:"),
+        ("check scenes slow", "check takes FOLDER alone; allowed:"),
         ("update scenes slwo", "slwo: no such scenario in scenes; allowed: fast, slow"),
         ("check broken", "broken"),
     ],

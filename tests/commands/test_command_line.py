@@ -11,17 +11,22 @@ from pathlib import Path
 import pytest
 
 from support_exudyn.__main__ import main
+from support_exudyn.commands.app import COMMANDS, app
 from support_exudyn.commands.command_line import answer
-from support_exudyn.commands.parser import NAMES, parser
 
 
-def test_help_tells_of_every_command_and_exit_code(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as end:
-        main(["--help"])
-    told = capsys.readouterr().out
-    assert end.value.code == 0
-    assert [name for name in NAMES if f"\n    {name} " not in told] == []
-    assert [code for code in ("0", "1", "2", "130") if f"\n  {code} " not in told] == []
+def test_help_lists_every_command_in_its_group_and_every_exit_code(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--help"]) == 0
+    printed = capsys.readouterr().out
+    for group, commands in COMMANDS.items():
+        panel = printed.partition(f"─ {group} ")[2].partition("╰")[0]
+        assert [name for name in commands if f"│ {name} " not in panel] == []
+    assert [code for code in ("0", "1", "2", "3", "130") if f" {code}: " not in printed] == []
+
+
+def test_completion_is_written_for_shells() -> None:
+    script = app.generate_completion(shell="bash")
+    assert [word for word in ("--difference", "--tolerance", "baseline") if word not in script] == []
 
 
 def test_the_installed_command_is_the_module() -> None:
@@ -36,26 +41,41 @@ def test_the_installed_command_is_the_module() -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "message"),
+    ("words", "code", "message"),
     [
-        (["show", "run.h5", "--untl", "3"], "'--untl': no such option; did you mean --until"),
-        (["render", "run.h5", "--movie", "git"], "--movie 'git': no such movie; did you mean gif"),
+        ("show run.h5 --untl 3", 2, "--untl. Did you mean --until?"),
+        ("shaw run.h5", 2, 'Did you mean "show"?'),
+        ("show", 2, "RUN requires an argument"),
+        ("show run.h5 --after soon", 2, '--after: unable to convert "soon"'),
+        ("run a.toml --accuracy 5", 2, "allowed: draft, standard, reference, or a relative error from"),
+        ("render run.h5 --movie git", 2, 'Did you mean "gif"?'),
+        ("render run.h5 --size big", 2, "allowed: width and height in pixels, such as 1280x720"),
+        ("sweep a.toml --workers 0", 2, "--workers. Must be >= 1"),
+        ("init four_column", 2, "did you mean four_column_support? allowed: four_column_support, two_leg"),
+        ("view run.h5 tip.x", 2, "tip.x"),
+        ("show no.h5", 1, "no.h5: no such file"),
+        ("sweep a.toml --workers 2 --scheduler tcp://x:1", 1, "allowed: without --scheduler"),
+        ("chart no tip.x --tornado --histogram", 1, "allowed: one of them"),
+        ("plot no.csv", 1, "is no run; allowed: a run beside which it is drawn"),
+        ("compare no.h5", 2, "allowed: two files or more, the first is the reference"),
+        ("--import gone.py show no.h5", 1, "--import 'gone.py': there is no such file"),
+        ("show no.h5 --import gone.py", 1, "--import 'gone.py': there is no such file"),
     ],
 )
-def test_a_wrong_word_is_told_with_those_that_look_like_it(
-    words: list[str], message: str, capsys: pytest.CaptureFixture[str]
+def test_what_is_wrong_is_a_line_on_standard_error_and_an_exit_code(
+    words: str, code: int, message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with pytest.raises(SystemExit) as end:
-        main(words)
-    assert end.value.code == 2
-    assert message in capsys.readouterr().err
+    assert main(words.split()) == code
+    printed = capsys.readouterr()
+    assert (printed.out, len(printed.err.splitlines())) == ("", 1)
+    assert message in printed.err
 
 
 @pytest.mark.parametrize("place", [1, 2, 3])
 def test_options_stand_before_between_and_behind_names(place: int) -> None:
     words = ["show", "rise.h5", "tip.*"]
-    given = parser().parse_args([*words[:place], "--after", "3", *words[place:]])
-    assert (given.run, given.channels, given.after) == (Path("rise.h5"), ["tip.*"], 3.0)
+    _, bound, _ = app.parse_args([*words[:place], "--after", "3", *words[place:]])
+    assert (bound.args, bound.kwargs) == ((Path("rise.h5"), "tip.*"), {"after": 3.0})
 
 
 def test_json_has_no_number_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:

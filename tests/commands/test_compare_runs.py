@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -46,14 +45,6 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def ended(words: Sequence[str]) -> int:
-    """The exit code of a command line."""
-    try:
-        return main(words)
-    except SystemExit as error:
-        return int(error.code or 0)
-
-
 def one(runs: Path, first: str, second: str, channel: str, **more: Any) -> ComparedChannel:
     """A channel of two runs, compared."""
     files = (runs / f"{name}.h5" for name in (first, second))
@@ -63,7 +54,7 @@ def one(runs: Path, first: str, second: str, channel: str, **more: Any) -> Compa
 @pytest.mark.parametrize(
     ("files", "words", "code", "said"),
     [
-        ("ideal with_clearance", "--from 0.1", 0, "0.1 to 0.2 s (± numerical errors of ideal.h5 and with"),
+        ("ideal with_clearance", "--after 0.1", 0, "0.1 to 0.2 s (± numerical errors of ideal.h5 and with"),
         ("plain changed", f"--tolerance tip.*=1um,{FORCE}=5%", 0, "All channels are within"),
         ("plain changed", f"{FORCE} --tolerance pin.*=10N", 1, "Not all channels are within their tolerances."),
         ("with_clearance fine", f"{FORCE} --tolerance pin.*=1e-9N", 1, "not decided"),
@@ -80,7 +71,7 @@ def one(runs: Path, first: str, second: str, channel: str, **more: Any) -> Compa
 def test_what_is_said_of_runs(
     files: str, words: str, code: int, said: str, runs: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert ended(["compare", *(str(runs / f"{name}.h5") for name in files.split()), *words.split()]) == code
+    assert main(["compare", *(str(runs / f"{name}.h5") for name in files.split()), *words.split()]) == code
     told = capsys.readouterr()
     assert said in (told.err if code == 2 else told.out)
     assert bool(told.out) == (code != 2)
@@ -147,11 +138,11 @@ def test_an_adams_file_is_three_quarters_of_a_percent_off_free_fall_at_its_first
     np.savetxt("fall.csv", fall, delimiter=",", fmt="%.16g", header=f"time_s,height [{unit}]", comments="")
     Path("compare.toml").write_text('[files."free_fall.res".columns]\nheight = "PART_2_XFORM.Y"\n', "utf-8")
     words = ["compare", "fall.csv", str(DATA / "free_fall.res"), "--map", "compare.toml"]
-    assert ended([*words, "--until", "0.015", "--tolerance", "height=1um"]) == 1
+    assert main([*words, "--until", "0.015", "--tolerance", "height=1um"]) == 1
     told = capsys.readouterr().out
     # (0.0194492123535125 - 0.019304429135) inch; the first is the file's, the second g t^2 / 2
     assert "differs by 3.677 µm" in told
-    assert ended([*words, "--json"]) == 0
+    assert main([*words, "--json"]) == 0
     height = json.loads(capsys.readouterr().out)["files"]["free_fall.res"]["channels"]["height"]
     assert height["largest"]["value"] == pytest.approx(0.0254 * 0.0001447832185125, rel=1e-9)
     # of all later steps it is off by as much: a start that is not repeated
@@ -169,10 +160,10 @@ def test_the_four_bar_of_siconos_is_compared_through_its_table_alone(
     text = text.replace("duration_s = 1\n", f"duration_s = {seconds}\n").replace("../", f"{FOUR_BAR.parent}/")
     scene, run = tmp_path / "four_bar_run.toml", tmp_path / "four_bar_run.h5"
     scene.write_text(text, encoding="utf-8")
-    assert ended(["--import", str(FOUR_BAR.parent / "computed_torque.py"), "run", str(scene)]) == 0
+    assert main(["--import", str(FOUR_BAR.parent / "computed_torque.py"), "run", str(scene)]) == 0
     capsys.readouterr()
     mapping, files = FOUR_BAR / "compare.toml", [str(FOUR_BAR / "siconos.csv"), str(run)]
-    assert ended(["compare", *files, "--map", str(mapping), "--json"]) == 0
+    assert main(["compare", *files, "--map", str(mapping), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["verdict"] == "within"
     channels = told["files"]["four_bar_run.h5"]["channels"]
@@ -185,7 +176,7 @@ def test_the_four_bar_of_siconos_is_compared_through_its_table_alone(
     # a wrong sign in the mapping is caught
     right, wrong = '"crank.angular_velocity" = "v0"', '"crank.angular_velocity" = { column = "v0", sign = -1 }'
     (tmp_path / "wrong.toml").write_text(mapping.read_text("utf-8").replace(right, wrong), "utf-8")
-    assert ended(["compare", *files, "--map", str(tmp_path / "wrong.toml")]) == 1
+    assert main(["compare", *files, "--map", str(tmp_path / "wrong.toml")]) == 1
 
 
 # --- runs with a horizon ---
@@ -207,14 +198,14 @@ def test_two_accuracies_are_equal_up_to_their_horizon_and_in_statistics_after_it
     horizon = Result.load(draft).horizon
     assert 0.03 < horizon < 0.2  # they part well within the run
     words = ["compare", str(draft), str(fine), "pin.*.force", "tip.*"]
-    assert ended([*words, "--page", str(page), "--figure", str(parted / "a.png")]) == 0
+    assert main([*words, "--page", str(page), "--figure", str(parted / "a.png")]) == 0
     told = " ".join(capsys.readouterr().out.split())
     found = re.search(r"point by point up to ([\d.]+) s, the horizon of (draft|reference)\.h5", told)
     assert found is not None
     assert float(found[1]) <= horizon * (1.0 + 1e-5)
     assert re.search(r"after it 0 of \d+ statistics differ", told)
     assert "Point by point up to" in page.read_text(encoding="utf-8")
-    assert ended([*words, "--json"]) == 0
+    assert main([*words, "--json"]) == 0
     pair = json.loads(capsys.readouterr().out)["files"]["reference.h5"]
     for name, channel in pair["channels"].items():
         assert channel["over_errors"] <= 1.0, name

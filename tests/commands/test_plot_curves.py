@@ -10,7 +10,7 @@ import pytest
 from pyarrow import parquet
 
 from support_exudyn.__main__ import main
-from support_exudyn.commands.runs import files_of_curves
+from support_exudyn.commands.runs import files_and_channels, is_of_others
 from support_exudyn.postprocessing.export.tables import to_hdf5
 from tests import synthetic
 from tests.cases.run_cases import loose_support
@@ -32,8 +32,9 @@ def test_runs_are_told_from_curves_by_their_content(run: Path, tmp_path: Path) -
     (tmp_path / "broken.h5").write_bytes(b"nothing")
     (tmp_path / "run.toml").write_text("a = 1\n", encoding="utf-8")
     names = ["run.h5", "broken.h5", "run.toml", "exported.h5", "measured.parquet", "measured.csv", "none.csv"]
-    found = files_of_curves([str(tmp_path / name) for name in [*names, "none.h5"]] + ["tip.*"])
-    assert [path.name for path in found] == names[3:]
+    files, channels = files_and_channels([str(tmp_path / name) for name in [*names, "none.h5"]] + ["tip.*"])
+    assert channels == ["tip.*"]
+    assert [path.name for path in files if is_of_others(path)] == names[3:]
 
 
 def test_any_readable_file_is_drawn_beside_a_run(

@@ -73,7 +73,7 @@ def saved(tmp_path: Path) -> Path:
 
 
 def test_the_command_writes_everything_beside_the_run(saved: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["export", str(saved), "--from", "0.02", "--until", "0.06"]) == 0
+    assert main(["export", str(saved), "--after", "0.02", "--until", "0.06"]) == 0
     out = saved.parent / "rise_export"
     names = {"rise.xdmf", "rise_pins.xdmf", "rise_mesh.h5", "rise_names.csv", "rise_vtu", "rise.csv"}
     assert {path.name for path in out.iterdir()} == names | {"rise_channels.h5"}

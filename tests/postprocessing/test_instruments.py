@@ -264,7 +264,7 @@ def test_the_command_writes_the_table(tmp_path: Path, capsys: pytest.CaptureFixt
     run = pushed(np.full(TIME.size, 1e6)).save(tmp_path / "run.h5")
     (tmp_path / "instruments.toml").write_text(FILE)
     assert main(["measure", str(run), str(tmp_path / "instruments.toml")]) == 0
-    assert "1 instruments, 6 samples" in capsys.readouterr().out
+    assert "1 instrument, 6 samples" in capsys.readouterr().out
     series = read_series(tmp_path / "run_measured.csv").series
     exact = 1.0 / bore_area(0.25, 2)
     assert np.abs(converted(series["front_column.pressure"], "MPa") - exact).max() < 5 * 0.05 + 0.05

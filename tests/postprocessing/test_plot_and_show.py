@@ -57,7 +57,9 @@ def test_several_runs_are_drawn_one_upon_another(runs: Path, tmp_path: Path) -> 
     assert main(["plot", "--until", "0.1", *words]) == 0
     # the option between the names
     assert main(["plot", *words[:2], "--difference", *words[2:]]) == 0
-    expected = both("ideal_and_with_clearance_tip_until_0.1_s", "with_clearance_less_ideal_tip")
+    # a file by its name is all that is written
+    assert main(["plot", *words[:2], "tip.*", "--out", str(tmp_path / "both.png")]) == 0
+    expected = both("ideal_and_with_clearance_tip_until_0.1_s", "with_clearance_less_ideal_tip") | {"both.png"}
     assert names(tmp_path) == expected
 
 
@@ -67,7 +69,7 @@ def test_several_runs_are_drawn_one_upon_another(runs: Path, tmp_path: Path) -> 
         ("with_clearance", ["pin.rear_base.forse"], "pin.rear_base.force"),
         ("with_clearance", ["--orbit", "--pin", "front_base"], "no clearance pin"),
         ("ideal", ["--orbit"], "no clearance pin"),
-        ("with_clearance", ["tip.x", "--from", "7"], "0 records lie between"),
+        ("with_clearance", ["tip.x", "--after", "7"], "0 records lie between"),
         ("with_clearance", ["--section", "tip.x", "tip.y"], "periods of the drive"),
         ("nothing", [], "no such file"),
     ],

@@ -14,6 +14,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from studies.__main__ import app
 from studies.common import rise
 from studies.common import runs as runs_module
 from studies.common.numbers import (
@@ -25,11 +26,10 @@ from studies.common.numbers import (
     measured,
     rounded,
 )
-from studies.common.options import Options, add_options, read_options
+from studies.common.options import Options, OptionWords
 from studies.common.rise import Series
 from studies.common.runs import halvings, run_cases, run_with_errors
 from support_exudyn import CubicStep, IdealPin, Result, Scenario, Steady, ravn_slider_crank
-from support_exudyn.commands.command_line import Parser
 from support_exudyn.files import save_scenario
 from tests.cases.run_cases import loose_support
 from user_forces.values.value import InputError
@@ -104,9 +104,8 @@ def test_the_error_of_records_covers_what_lies_between_them() -> None:
 
 
 def read(*words: str) -> Options:
-    parser = Parser()
-    add_options(parser, Path("results"))
-    return read_options(parser.parse_args(words))
+    _, bound, _ = app.parse_args(words)
+    return bound.arguments.get("words", OptionWords()).options()
 
 
 # --- one's own machine ---

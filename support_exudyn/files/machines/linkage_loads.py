@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from support_exudyn.model.linkage import GROUND
-from support_exudyn.model.loads.applied import AppliedForce, AppliedTorque, LoadCourse
+from support_exudyn.model.loads.applied import AppliedForce, AppliedTorque, ComingOn
 from support_exudyn.model.loads.springs import SpringDamper, TorsionSpring
 from user_forces.values.units import (
     Metres,
@@ -16,7 +16,6 @@ from user_forces.values.units import (
     NewtonSecondsPerMetre,
     NewtonsPerMetre,
     Radians,
-    Seconds,
 )
 from user_forces.values.value import NonNegative, Real, Value, Vector2, value
 
@@ -84,23 +83,19 @@ class LinkageTorsionData(Value):
 
 
 @value
-class LinkageTorqueData(Value):
+class LinkageTorqueData(ComingOn):
     """A torque on a body.
 
-    Arguments:
+    Arguments: those of `ComingOn`, and
+
         body: on which it acts.
         against: the body on which the opposite acts, or "ground".
         torque: in the end, positive anticlockwise [N m].
-        start, end: between which it comes on smoothly [s]; both 0: it is there from the start on.
-        course: by which it is multiplied over time, in place of both.
     """
 
     body: str
     against: str = GROUND
     torque: NewtonMetres[Real]
-    start: Seconds[NonNegative] = 0.0
-    end: Seconds[NonNegative] = 0.0
-    course: LoadCourse | None = None
 
     def load(self) -> AppliedTorque:
         """The torque."""
@@ -115,23 +110,19 @@ class LinkageTorqueData(Value):
 
 
 @value
-class LinkageForceData(Value):
+class LinkageForceData(ComingOn):
     """A force on a point of a body, which keeps its direction.
 
-    Arguments:
+    Arguments: those of `ComingOn`, and
+
         body: on which it acts.
         at: the point of it.
         force: in the end, to the right and up [N].
-        start, end: between which it comes on smoothly [s]; both 0: it is there from the start on.
-        course: by which it is multiplied over time, in place of both.
     """
 
     body: str
     at: str
     force: Newtons[Vector2]
-    start: Seconds[NonNegative] = 0.0
-    end: Seconds[NonNegative] = 0.0
-    course: LoadCourse | None = None
 
     def load(self, point: Vector2) -> AppliedForce:
         """The force at a place of the start posture [m]."""

@@ -1,0 +1,136 @@
+"""The commands of `support-exudyn`, in groups, and how a command line is carried out.
+
+A command is a function of its name in a module of this room. Its arguments are those of the command line:
+positional arguments are names, keyword-only arguments are options, and their help stands in its docstring. It
+raises InputError, OSError or SimulationError, and returns an exit code or nothing. Its module is imported when
+the command line names it.
+"""
+
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Annotated
+
+from cyclopts import Group, Parameter
+
+from support_exudyn.commands.command_line import (
+    Imports,
+    carry_out,
+    import_modules,
+    mendable,
+    new_app,
+    warn,
+)
+from support_exudyn.scene.contract import told
+from support_exudyn.simulation.at_start import INSTALLED, be_interruptible
+from user_forces.values.texts import InputError
+
+COMMANDS = {  # by group: of every command its module and a line of what it does
+    "Before a run": {
+        "init": ("inputs", "write a commented set of files to start from: machine, scenarios, sweep"),
+        "check": (
+            "machines",
+            "draw a machine and report its mobility, dead centres, static forces, and doubts",
+        ),
+        "stand": (
+            "machines",
+            "what a support must stand: support force, yield, buckling, tipping, on one page",
+        ),
+        "channels": ("inputs", "all channels of a scenario or a machine: names, units, meanings"),
+        "schema": ("inputs", "all keys of scenario or machine files, as a table or a JSON Schema for editors"),
+    },
+    "Run": {
+        "run": ("run", "simulate a scenario's file and save the run"),
+        "sweep": ("sweeps", "run a scenario with fields of it varied, into a store that can be continued"),
+    },
+    "Look at runs": {
+        "show": ("show", "tables of what a run or a sweep was and what came out of it"),
+        "plot": (
+            "plot",
+            "figures of runs: channels over time, journal orbit, Poincare section, force spectrum",
+        ),
+        "report": ("outputs", "a page on runs: what was run, numbers with errors, live figures, a picture"),
+        "render": ("outputs", "ray-traced frames and a movie of a run, without a display"),
+        "view": ("outputs", "open Exudyn's solution viewer on a run"),
+    },
+    "Look at sweeps": {
+        "chart": ("sweeps", "figure of a sweep: a number over a varied field, a histogram, or a tornado"),
+        "table": ("sweeps", "table of a sweep's runs for a text, as Markdown, CSV or LaTeX"),
+    },
+    "Compare": {
+        "compare": (
+            "compare",
+            "by how much runs, measurements and other programs' results differ from a first",
+        ),
+        "baseline": ("baseline", "keep what scenarios come out at, and report what has changed since"),
+    },
+    "Write for other programs": {
+        "export": ("outputs", "moving meshes for ParaView (XDMF, VTU) and tables of channels (CSV, HDF5)"),
+        "measure": ("outputs", "what instruments on the machine read of a run, as a table (CSV)"),
+        "scenario": ("inputs", "the scenario of a run as a TOML file, which `run` takes"),
+        "docs": ("inputs", "build the documentation as a site; needs the extra [docs]"),
+    },
+}
+EPILOGUE = """\
+COMMAND --help lists what a command takes; options may stand before, between and behind its names. Results go to
+standard output, progress and warnings to standard error. Files are written whole or not at all.
+
+Exit codes:
+
+- 0: done
+- 1: not done, for a reason that is printed in one line; of compare: something is not within its tolerance
+- 2: the command line cannot be read; of compare: nothing was compared
+- 3: a sweep is done, but some of its runs failed
+- 130: interrupted
+"""
+
+
+def _versions() -> str:
+    from support_exudyn.simulation.provenance import versions
+
+    return "\n".join(f"{name} {number}" for name, number in versions().items())
+
+
+app = new_app(
+    INSTALLED,
+    "Dynamics of linkages with clearance in their joints.",
+    help_epilogue=EPILOGUE,
+    version=_versions,
+    version_format="plaintext",
+)
+for _title, _commands in COMMANDS.items():
+    _group = Group.create_ordered(_title)
+    for _name, (_module, _does) in _commands.items():
+        _place = f"{__package__}.{_module}:{_name}"
+        app.command(_place, name=_name, help=f"{_does[:1].upper()}{_does[1:]}.", group=_group, help_epilogue="")
+app.register_install_completion_command(name="--install-completion", group="Completion")
+
+
+@app.meta.default
+def _launch(
+    *words: Annotated[str, Parameter(show=False, allow_leading_hyphen=True)], imports: Imports = ()
+) -> int | None:
+    """Carry out a command; its libraries are imported before it may be interrupted with an exception."""
+    command, bound, _ = app.parse_args(words)
+    be_interruptible()
+    import_modules(imports)
+    with _at_work(imports), warnings.catch_warnings():
+        warnings.showwarning = lambda message, *_: warn(f"warning: {message}")
+        code: int | None = command(*bound.args, **bound.kwargs)
+    return code
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Do what the command line asks for. Returns the exit code."""
+    return carry_out(app.meta, argv)
+
+
+@contextmanager
+def _at_work(names: Sequence[str]) -> Iterator[None]:
+    """While a command works with modules of the user's own, an unexpected error is an InputError."""
+    try:
+        yield
+    except Exception as error:
+        if not names or isinstance(error, (*mendable(), MemoryError)):
+            raise
+        raise InputError(f"{', '.join(f'--import {name}' for name in names)}: {told(error)}") from error

@@ -1,0 +1,214 @@
+"""Commands about sweeps: `sweep` runs one, `chart` and `table` show its numbers, and `show` its summary."""
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+from support_exudyn.commands.command_line import Json, answer, at_most, say, shown_progress, warn
+from support_exudyn.commands.runs import file_name
+from support_exudyn.commands.tables import show_table
+from support_exudyn.files.whole_file import whole_file
+from support_exudyn.postprocessing import sweep_summary, sweep_table
+from support_exudyn.postprocessing.figures.selection import matching
+from support_exudyn.postprocessing.sweep_runs import SweepRuns
+from support_exudyn.sweeps import read_sweep, read_table
+from support_exudyn.sweeps import sweep as run_sweep
+from support_exudyn.sweeps.run import SweepOutcome, known
+from support_exudyn.sweeps.table import is_sampled
+from user_forces.values.value import InputError
+
+FAILURES = 3  # exit code
+BOUNDING = 72  # runs that bound the percentiles of 5 and 95 %: 0.95^72 < 0.025
+MOST = 8  # numbers that are shown unless all or some are asked for
+FORMATS = {"md": sweep_table.as_markdown, "csv": sweep_table.as_csv, "latex": sweep_table.as_latex}
+Store = Annotated[Path, Parameter(help="Folder of a sweep, or the table.parquet in it.")]
+Workers = Annotated[int | None, at_most(1024)]
+
+
+def sweep(
+    file: Path,
+    /,
+    *,
+    out: Path | None = None,
+    workers: Workers = None,
+    scheduler: str = "",
+    retry_failed: bool = False,
+    prune: bool = False,
+    dry_run: bool = False,
+    json: Json = False,
+) -> int:
+    """Run what is missing, and print how many runs there are of each kind, and where the table is.
+
+    The store is a folder with a file for every run, and table.parquet and table.csv with a row for every run.
+    The same command resumes an interrupted sweep; after a change of FILE only those runs are made that it
+    lacks.
+
+    Args:
+        file: What is varied, as TOML.
+        out: The store (FILE_sweep beside FILE).
+        workers: Processes on this machine (as many as there are cores).
+        scheduler: Address of a Dask scheduler, such as tcp://10.0.0.5:8786, whose workers have this program,
+            too; needs `pip install 'support-exudyn[cluster]'`.
+        retry_failed: Run again what has failed before.
+        prune: Remove runs from the store that FILE no longer asks for.
+        dry_run: Only print how many runs there are to do.
+    """
+    if workers and scheduler:
+        raise InputError(f"--workers {workers}: allowed: without --scheduler")
+    plan = read_sweep(file)
+    store = out or plan.store or Path()
+    if dry_run:
+        outcome = known(plan, store, retry_failed)
+    else:
+        with shown_progress(file.stem) as progress:
+            outcome = run_sweep(
+                plan,
+                store,
+                workers=workers,
+                scheduler=scheduler,
+                retry_failed=retry_failed,
+                prune=prune,
+                progress=lambda so_far: progress(so_far.finished / so_far.runs),
+            )
+    for name in outcome.missing:
+        warn(f"{name}: no run has this number")
+    to_do = outcome.runs - outcome.finished
+    if json:
+        answer(asdict(outcome) | {"to_do": to_do})
+    else:
+        say(f"{outcome.runs} runs, {to_do} to do: {_counts(outcome)}")
+        if not dry_run:
+            say(f"{outcome.table}\nnext: support-exudyn show {outcome.table.parent}")
+    if dry_run:
+        return 0
+    if outcome.unmet:
+        warn(f"{outcome.unmet} runs are less accurate than asked for; the table's reason names them")
+    if outcome.done < outcome.runs:
+        warn("some runs have failed; their reasons are in the table")
+        return FAILURES
+    return 0
+
+
+def _counts(outcome: SweepOutcome) -> str:
+    counts = {"done": outcome.done, "failed": outcome.failed, "killed": outcome.killed}
+    words = ", ".join(f"{number} {kind}" for kind, number in counts.items() if number) or "none done"
+    pruned = f", {outcome.pruned} others removed from the store" if outcome.pruned else ""
+    return f"{words} ({outcome.found} of them were in the store){pruned}"
+
+
+def chart(
+    store: Store,
+    /,
+    *names: str,
+    by: str | None = None,
+    histogram: bool = False,
+    tornado: bool = False,
+    out: Path | None = None,
+) -> None:
+    """Draw, write, and print the names of the files.
+
+    Args:
+        names: [X] Y: what was varied, such as pins.rear_base.clearance_mm, and a number of the table, such as
+            pin.rear_base.force.mean. A number alone is drawn over what was varied, or as histogram if the runs
+            were drawn from distributions; without names the only number that was recorded.
+        by: Something else that was varied, a curve for each of its values.
+        histogram: Draw how Y is distributed, with percentiles.
+        tornado: Draw by how much each varied field moves Y.
+        out: Folder of the figure (figures in the store).
+    """
+    from support_exudyn.postprocessing.figures import style, sweep_chart, sweep_distribution
+
+    if len(names) > 2:
+        raise InputError(f"{' '.join(names)}: allowed: what was varied and a number, or a number alone")
+    if histogram + tornado + len(names[:-1]) > 1:
+        raise InputError("--histogram, --tornado: allowed: one of them, and a number alone")
+    runs = SweepRuns(read_table(store))
+    *before, y = names or [_only_number(list(runs.numbers))]
+    with style.look():
+        if tornado:
+            drawing, name = sweep_distribution.tornado(runs.table, y), file_name(y, "tornado")
+        elif histogram or (not before and is_sampled(runs.table)):
+            drawing, name = sweep_distribution.histogram(runs.table, y), file_name(y, "histogram")
+        elif (x := before[0] if before else runs.usual_input) is None:
+            raise InputError(
+                f"{y}: over which field? allowed: chart STORE X Y with X one of {', '.join(runs.varied)}; or "
+                "--histogram, --tornado"
+            )
+        else:
+            drawing = sweep_chart.sweep_chart(runs.table, x, y, by)
+            name = file_name(y, "over", x, f"by_{by}" if by else "")
+        folder = _folder(store)
+        style.named(drawing, folder.resolve().name)
+        for path in style.save(drawing, out or folder / "figures", name):
+            say(path)
+
+
+def _only_number(known: Sequence[str]) -> str:
+    """The number that is drawn where none is named."""
+    if len(known) != 1:
+        raise InputError(f"Y: which number? allowed: {', '.join(known) or 'none was recorded'}")
+    return known[0]
+
+
+def _folder(store: Path) -> Path:
+    return store if store.is_dir() else store.parent
+
+
+def table(
+    store: Store,
+    /,
+    *numbers: str,
+    format: Literal["md", "csv", "latex"] = "md",  # noqa: A002, the option's name
+    out: Path | None = None,
+) -> None:
+    """Print the table of the runs, or write it.
+
+    Args:
+        numbers: Only these: names or patterns, such as `tip.*.mean` (all).
+        format: Markdown (md), CSV with errors, or LaTeX (booktabs).
+        out: File for the table (standard output).
+    """
+    runs = SweepRuns(read_table(store))
+    chosen = _chosen(runs, numbers) or list(runs.numbers.values())
+    text = FORMATS[format](runs, chosen)
+    if out is None:
+        say(text.rstrip("\n"))
+        return
+    with whole_file(out) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+    say(out)
+
+
+def _chosen(runs: SweepRuns, words: Sequence[str]) -> list[str]:
+    """The columns of the numbers that are asked for by names or patterns."""
+    return [runs.numbers[name] for name in matching(runs.numbers, words, "number")]
+
+
+def show_sweep(store: Path, words: Sequence[str], every: bool, json: bool) -> None:
+    """Print what varied, how many runs there are, what came out, what it follows, and what to type next."""
+    runs = SweepRuns(read_table(store))
+    names = runs.numbers
+    filled = [column for column in names.values() if runs.number(column).rows.size]
+    chosen = _chosen(runs, words) or filled[: len(names) if every or json else MOST]
+    if json:
+        answer(sweep_summary.data_of(runs, chosen))
+        return
+    say(f"{sweep_summary.counts(runs)}\n")
+    show_table("what varied", ("input", ">values", "remark"), sweep_summary.what_varied(runs))
+    show_table("what went wrong", (">runs", "remark"), sweep_summary.reasons(runs))
+    more = len(names) - len(chosen)
+    rest = f" ({more} more: --all)" if more > 0 and not words else ""
+    band = ", percentiles with their 95 % confidence intervals" if is_sampled(runs.table) else ""
+    header, rows = sweep_summary.what_came_out(runs, chosen)
+    if any("- to" in cell or "to -" in cell for row in rows for cell in row):
+        band += f" (-: not bounded by so few runs; {BOUNDING} do)"
+    show_table(f"what came out{rest}{band}", header, rows)
+    title = "what it follows: Spearman's rank correlation, -1 to 1, with its 95 % confidence interval"
+    header = ("number", "input", ">correlation", ">interval", "remark")
+    show_table(title, header, sweep_summary.what_it_follows(runs, chosen))
+    if chosen:
+        folder, number = _folder(store), next(name for name, column in names.items() if column == chosen[0])
+        say(f"next: support-exudyn chart {folder} {number}, or table {folder} --format md")
