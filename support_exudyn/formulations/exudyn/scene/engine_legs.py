@@ -14,11 +14,12 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import exudyn
 import numpy as np
 
+from support_exudyn.formulations.exudyn.scene.driven_parts import supply_at
 from support_exudyn.formulations.exudyn.scene.leg_events import LegEvents
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
 from support_exudyn.mechanics.trajectory import LegSeries, OilEvent, Series
@@ -41,7 +42,6 @@ from support_exudyn.scene.hydraulics.implicit import (
 from support_exudyn.scene.hydraulics.leg import evaluate_legs
 from support_exudyn.scene.hydraulics.rest import rest_legs
 from support_exudyn.scene.hydraulics.series import INPUTS, leg_series
-from user_forces.lawful import LawError
 
 CURRENT, INITIAL = exudyn.ConfigurationType.Current, exudyn.ConfigurationType.Initial
 OUTPUT = exudyn.OutputVariableType
@@ -49,31 +49,6 @@ FORCE = "springForceUserFunction"  # the engine's name, of its springs
 ENERGY, PLAY = 1e3, 1e-3  # [J], [m] that states are weighed by
 NO_STATES = np.zeros(0, np.int64), np.empty((0, 1))
 LENGTHS = 4  # that are rounded, each by up to half a unit in its last place, until there is a force
-
-
-class Supply(NamedTuple):
-    """What lets oil in, at an instant: extension by a drive [m] and its rate [m/s], opening of an inlet."""
-
-    inflow: float
-    inflow_rate: float
-    opening: float
-
-
-def supply_at(source: Drive | Inlet, t: float, after: bool = False) -> Supply:
-    """What a drive or an inlet lets in at t [s], at the start just after it; after: just after a break.
-
-    Raises LawError if that is no number.
-    """
-    if isinstance(source, Inlet):
-        found = Supply(0.0, 0.0, source.opening(t) + (source.opening_jump(t) if after else 0.0))
-    elif t > 0.0:
-        speed = source.speed(t) + (source.speed_jump(t) if after else 0.0)
-        found = Supply(source.extension(t), speed, 0.0)
-    else:
-        found = Supply(source.extension(t), source.initial_speed, 0.0)
-    if not math.isfinite(sum(found)):
-        raise LawError(f"{type(source).__name__} is no finite number at {t:.9g} s")
-    return found
 
 
 @dataclass(frozen=True)
@@ -232,10 +207,10 @@ class EngineLegs:
             for n, item in enumerate(self.items):
                 if item.source == source:
                     record = self.records[n]
-                    moved = record["inflow"] != supply.inflow
+                    moved = record["inflow"] != supply.extension
                     record["inflow"], record["inflow_rate"], record["opening"] = supply
                     if moved and n in self._springs:
-                        self._let_into_spring(n, supply.inflow)
+                        self._let_into_spring(n, supply.extension)
 
     def switch(self, t: float) -> None:
         """Let drives and inlets be as they are just after a break t [s]."""

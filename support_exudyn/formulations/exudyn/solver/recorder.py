@@ -248,8 +248,7 @@ class Recorder:
         """Power [W] of the drive, of damping and of friction at the end of a step."""
         driving = damping = friction = 0.0
         for part in self._driven:
-            _, speed = part.at(t)
-            if speed != 0.0:
+            if (speed := part.speed(t)) != 0.0:
                 # the multiplier of a distance is the tension, that of a crank's angle the moment against it
                 driving -= speed * float(self._data.GetAECoordinates()[part.multiplier])
         for load in self._loads:

@@ -1,6 +1,7 @@
 """Why a run could not go on, in words: reason and advice."""
 
 from support_exudyn.formulations import change_points
+from support_exudyn.formulations.exudyn.scene.driven_parts import supply_at
 from support_exudyn.formulations.exudyn.scene.engine_scene import EngineScene
 from support_exudyn.mechanics.trajectory import Series
 from support_exudyn.scene.contract import ENGINE_ADVICE, explained, first_line
@@ -75,7 +76,7 @@ def unlawful(scene: EngineScene, ahead: float) -> tuple[str, str] | None:
     try:
         scene.legs.follow(ahead)
         for part in scene.driven:
-            part.look(ahead)
+            supply_at(part.drive, ahead)
         motion = scene.instant(()).motion
         for load in scene.loads.values():
             load.probe(ahead, motion)
