@@ -19,7 +19,7 @@ from typing import Any
 import exudyn
 import numpy as np
 
-from support_exudyn.formulations.exudyn.scene.driven_parts import supply_at
+from support_exudyn.formulations.exudyn.scene.driven_parts import Supply, supply_at
 from support_exudyn.formulations.exudyn.scene.leg_events import LegEvents
 from support_exudyn.mechanics.hydraulic_legs import PreloadedLeg
 from support_exudyn.mechanics.trajectory import LegSeries, OilEvent, Series
@@ -115,7 +115,7 @@ class EngineLegs:
         if items:
             pressure = weight / float(legs.records["bore"].max())
             weigh_states(legs, self.known[WEIGHT], pressure, ENERGY, PLAY)
-        self._springs = [n for n, item in enumerate(items) if item.is_spring]
+        self._springs: dict[int, Supply | None] = {n: None for n, item in enumerate(items) if item.is_spring}
         solved = [n for n in range(len(items)) if n not in self._springs]
         self._together = pump is not None
         self._places = {n: self._places_of(n) for n in solved}
@@ -126,6 +126,7 @@ class EngineLegs:
         for item in items:
             if item.source not in self._sources:
                 self._sources.append(item.source)
+        self._source_of = [self._sources.index(item.source) for item in items]
         self.happenings = LegEvents(legs, self.known, self._evaluate)
         for n in solved:
             items[n].mbs.SetObjectParameter(items[n].object, FORCE, self._pull(n))
@@ -169,7 +170,7 @@ class EngineLegs:
         """Force of leg n, which has no states, that pulls its ends together [N], at a length [m]."""
         return float(pull_of_leg(self.arrays, 0.0, self.known, *NO_STATES, n, False, length, 0.0))
 
-    def _let_into_spring(self, n: int, inflow: float) -> None:
+    def _set_spring(self, n: int, inflow: float) -> None:
         """Give the engine's spring of leg n the stiffness [N/m] and the free length [m] of its oil."""
         item = self.items[n]
         leg, length = item.preloaded.model, item.preloaded.actuator.start_length + inflow
@@ -193,7 +194,7 @@ class EngineLegs:
 
     def begin(self) -> None:
         """The bodies stand where the run begins."""
-        self.records["inflow"] = math.nan  # of no drive: the engine's springs are set anew
+        self._springs = dict.fromkeys(self._springs)
         self.switch(0.0)
         if self.solves:
             self._tell(INITIAL)
@@ -202,15 +203,17 @@ class EngineLegs:
 
     def follow(self, t: float, after: bool = False) -> None:
         """Let drives and inlets be as they are at t [s], or just after it."""
-        for source in self._sources:
-            supply = supply_at(source, t, after)
-            for n, item in enumerate(self.items):
-                if item.source == source:
-                    record = self.records[n]
-                    moved = record["inflow"] != supply.extension
-                    record["inflow"], record["inflow_rate"], record["opening"] = supply
-                    if moved and n in self._springs:
-                        self._let_into_spring(n, supply.extension)
+        supplies = [supply_at(source, t, after) for source in self._sources]
+        for n, k in enumerate(self._source_of):
+            if supplies[k] != self._springs.get(n):
+                self._tell_supply(n, supplies[k])
+                if n in self._springs:
+                    self._springs[n] = supplies[k]
+                    self._set_spring(n, supplies[k].extension)
+
+    def _tell_supply(self, n: int, supply: Supply) -> None:
+        record = self.records[n]
+        record["inflow"], record["inflow_rate"], record["opening"] = supply
 
     def switch(self, t: float) -> None:
         """Let drives and inlets be as they are just after a break t [s]."""
@@ -268,12 +271,15 @@ class EngineLegs:
     def powers(self) -> tuple[float, float, float]:
         """Powers [W] of what gives oil, of flows and dampers, and of seals, now."""
         of_springs = 0.0
-        for n in self._springs:
-            if self.records[n]["inflow_rate"] != 0.0:
+        for n, supply in self._springs.items():
+            if supply is not None and supply.rate != 0.0:
+                self._tell_supply(n, supply)
                 self._press_spring(n, self._mbs.GetObjectOutput(self.items[n].object, OUTPUT.Distance))
                 of_springs += float(self.records[n]["work"])
-            self.records[n]["work"] = 0.0
-        work, loss, friction = powers_of_legs(self.arrays) if self.solves else (0.0, 0.0, 0.0)
+        if not self.solves:
+            return of_springs, 0.0, 0.0
+        self.records["work"][[*self._springs]] = 0.0  # which is counted
+        work, loss, friction = powers_of_legs(self.arrays)
         return work + of_springs, loss, friction
 
     @property
@@ -319,7 +325,6 @@ class EngineLegs:
         """All legs at the records, and the pump; motion: length [m] and its rate [m/s] of each leg (n,)."""
         supplies = [np.array([supply_at(source, t) for t in time.tolist()]).T for source in self._sources]
         told = {}
-        for name, item in zip(self.names, self.items, strict=True):
-            supply = supplies[self._sources.index(item.source)]
-            told[name] = dict(zip(INPUTS, (*motion[name], *supply), strict=True))
+        for name, k in zip(self.names, self._source_of, strict=True):
+            told[name] = dict(zip(INPUTS, (*motion[name], *supplies[k]), strict=True))
         return leg_series(self.legs, time, told, states, self.events)
