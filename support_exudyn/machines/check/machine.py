@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -31,6 +30,7 @@ from support_exudyn.machines.four_bar_shield import FourBarShield
 from support_exudyn.machines.machine_data import MachineData
 from support_exudyn.mechanics.closing import Conditions, beside
 from support_exudyn.model.linkage import GROUND, Linkage
+from support_exudyn.model.loads.load import ActingLoad
 from user_forces.values.value import InputError
 
 STEPS, TOLD = 180, 12  # postures to each end of a way, and rows of its table less one
@@ -64,47 +64,49 @@ def check_machine(data: MachineData, stroke: float | None = None) -> CheckReport
     aside = beside(conditions, [one.rates * conditions.arms for one in loose])
     singular = len(movements(conditions, aside)) < len(loose)
     again = repeated(conditions, aside if singular else start)
-    used = stroke or data.stroke
+    used = stroke or data.stroke or (support.usual_stroke if support else None)
+    steps = STEPS_OF_SUPPORTS if support else STEPS_OF_SEVERAL if len(driven) > 1 else STEPS
+    farther, count = (FARTHER * support.shortest_column, TOLD_OF_SUPPORTS) if support else (0.0, TOLD)
     ways: list[DriveWay] = []
     if not loose and not any(one.driven for one in again):
-        if support is None:
-            steps = STEPS_OF_SEVERAL if len(driven) > 1 else STEPS
-            ways = [
-                way_of(conditions, linkage, one, _goal(linkage, one[0], used), steps, loads) for one in driven
-            ]
-        else:
-            used = support.usual_stroke if used is None else used
-            goal, farther = (min(0.0, used), max(0.0, used)), FARTHER * support.shortest_column
-            ways = [way_of(conditions, linkage, driven[0], goal, STEPS_OF_SUPPORTS, loads, farther)]
+        goals = [_goal(linkage, one[0], used) for one in driven]
+        ways = [
+            way_of(conditions, linkage, one, goal, steps, loads, farther)
+            for one, goal in zip(driven, goals, strict=True)
+        ]
     at_rest = Moved(0.0, start, statics(linkage, start, loads=loads))
+    transmission = {way.drive: list(transmission_angles(conditions, way)) for way in ways}
     found = support_findings(data, support, ways[0]) if support and ways else Findings()
-    report = CheckReport(
+    numbers = {
+        "degrees_of_freedom": mobility(linkage).data(),
+        "closure_m": _gaps(conditions, linkage),
+        "movements": [one.data() for one in loose],
+        **_numbers(linkage, ways, transmission, [] if loose else [at_rest], count),
+        "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in again],
+        **({"stroke_m": used} if used is not None and not linkage.cranks else {}),
+        **found.numbers,
+        "file_numbers": {key: one.data() for key, one in data.sourced.items()},
+    }
+    moved = [one for way in ways for one in way.moved] or ([] if loose else [at_rest])
+    facts, warnings = _sentences(data, conditions, moved, again, loose, singular)
+    for way in ways:
+        angles = transmission[way.drive]
+        facts += [*_way_facts(way), *(one.said(way) for one in angles)]
+        warnings += [*_way_warnings(way), *_poor_angles(way, angles)]
+    return CheckReport(
         name=data.name,
         kind=data.kind or type(machine).__name__,
-        facts=[],
-        sheets=[],
-        warnings=[],
+        facts=[*facts, *[DEFINITION] * any(transmission.values()), *_static_facts(loads, moved), *found.facts],
+        sheets=[*_sheets(ways, numbers), *_sourced(data)],
+        warnings=[*warnings, *found.warnings],
         notes=[*_notes(data, linkage, ways, stroke), *found.notes, *_sources(data)],
-        numbers={},
+        numbers=numbers,
         linkage=linkage,
         start=at_rest,
         loads=loads,
         ways=ways,
-        transmission={way.drive: list(transmission_angles(conditions, way)) for way in ways},
+        transmission=transmission,
         blocks=data.blocks,
-    )
-    stations = {way.drive: _stations(way, support is not None) for way in ways}
-    facts, warnings = _sentences(report, data, conditions, again, loose, singular)
-    return replace(
-        report,
-        facts=[*facts, *found.facts],
-        warnings=[*warnings, *found.warnings],
-        sheets=[*_sheets(report, stations, bool(loose)), *_sourced(data)],
-        numbers={
-            **_numbers(report, stations, again, loose, used),
-            **found.numbers,
-            "file_numbers": {key: one.data() for key, one in data.sourced.items()},
-        },
     )
 
 
@@ -118,9 +120,8 @@ def _goal(linkage: Linkage, drive: str, stroke: float | None) -> tuple[float, fl
     return min(0.0, stroke), max(0.0, stroke)
 
 
-def _stations(way: DriveWay, support: bool) -> list[Moved]:
-    """The postures of a table: the first, the last, and some between."""
-    count = TOLD_OF_SUPPORTS if support else TOLD
+def _stations(way: DriveWay, count: int) -> list[Moved]:
+    """The postures of a table: the first, the last, and so many more less one between."""
     near = 1e-6 * (way.ends[1] - way.ends[0])
     singular = [one.travel for one in way.points if one.what != "turns back"]  # where forces have no bound
     moved = [one for one in way.moved if all(abs(one.travel - end) > near for end in singular)] or way.moved
@@ -132,20 +133,21 @@ def _stations(way: DriveWay, support: bool) -> list[Moved]:
 
 
 def _sentences(
-    report: CheckReport,
     data: MachineData,
     conditions: Conditions,
+    moved: Sequence[Moved],
     again: Sequence[RepeatedConditions],
     loose: Sequence[Movement],
     singular: bool,
 ) -> tuple[list[str], list[str]]:
-    """Facts and warnings.
+    """Facts and warnings on the linkage.
 
     Arguments:
+        moved: postures in which forces are known.
         again: conditions that repeat others.
         loose: movements with all driven parts held; singular: they end beside the start posture.
     """
-    linkage, loads, ways = report.linkage, report.loads, report.ways
+    linkage, loads = data.machine.linkage(), data.machine.loads
     opened = _gaps(conditions, linkage)
     facts, warnings = [mobility(linkage).said()], []
     if opened:
@@ -161,21 +163,16 @@ def _sentences(
     freedoms = _freedoms(linkage, loose, singular, under_loads)
     warned = singular or (linkage.driven and not under_loads)
     (warnings if warned else facts).extend(freedoms)
-    moved = [one for way in ways for one in way.moved] or ([] if loose else [report.start])
     more, doubts = of_joints(linkage, moved)
-    facts += more
-    warnings += [*data.warnings, *doubts]
-    for way in ways:
-        angles = report.transmission[way.drive]
-        facts += [*_way_facts(way), *(one.said(way) for one in angles)]
-        warnings += [*_way_warnings(way), *_poor_angles(way, angles)]
-    if any(report.transmission.values()):
-        facts.append(DEFINITION)
-    if not loose:
+    return [*facts, *more], [*warnings, *data.warnings, *doubts]
+
+
+def _static_facts(loads: Mapping[str, ActingLoad], moved: Sequence[Moved]) -> Iterator[str]:
+    """Under what the static forces are, if there are any, and how exact."""
+    if moved:
         error = float(np.median([one.forces.error for one in moved]))  # at a dead centre forces have no bound
         under = f"weight and {listed(list(loads))}, once come on" if loads else "weight alone"
-        facts.append(f"static forces: under {under}; numerical error below {max(error, 1e-12):.0e} N")
-    return facts, warnings
+        yield f"static forces: under {under}; numerical error below {max(error, 1e-12):.0e} N"
 
 
 def _gaps(conditions: Conditions, linkage: Linkage) -> dict[str, float]:
@@ -291,45 +288,42 @@ def _sources(data: MachineData) -> Iterator[str]:
 # --- tables and numbers ---
 
 
-def _sheets(report: CheckReport, stations: Mapping[str, Sequence[Moved]], loose: bool) -> list[CheckTable]:
-    """Postures of a single way, and static forces over each way."""
-    if not report.ways and not loose:
-        return [_forces(report.linkage, "start", [("", report.start)])]
-    sheets = []
-    for way in report.ways:
-        rows = [(f"{way.shown(one.travel):.1f}", one) for one in stations[way.drive]]
+def _sheets(ways: Sequence[DriveWay], numbers: Mapping[str, Any]) -> Iterator[CheckTable]:
+    """Postures of a single way, and static forces over each way; numbers: of `_numbers`."""
+    if not ways and numbers["stations"]:
+        yield _forces("start", [("", numbers["stations"][0])])
+    for way in ways:
+        rows = [(f"{way.shown(one['travel']):.1f}", one) for one in numbers["drives"][way.drive]["stations"]]
         first = f"{way.label} [{way.unit}]"
-        if len(report.ways) == 1:
-            sheets.append(_postures(report.linkage, first, rows))
-        sheets.append(_forces(report.linkage, first, rows))
-    return sheets
+        if len(ways) == 1:
+            yield _postures(first, rows)
+        yield _forces(first, rows)
 
 
-def _postures(linkage: Linkage, first: str, rows: Sequence[tuple[str, Moved]]) -> CheckTable:
-    heads = [f"{name} {axis}" for name in linkage.points for axis in "xy"]
-    heads += [*linkage.bodies, *(f"{name} [mm]" for name in linkage.actuators)]
+def _postures(first: str, rows: Sequence[tuple[str, Mapping[str, Any]]]) -> CheckTable:
+    one = rows[0][1]
+    heads = [f"{name} {axis}" for name in one["points_m"] for axis in "xy"]
+    heads += [*one["angles_rad"], *(f"{name} [mm]" for name in one["lengths_m"])]
     table = []
     for where, one in rows:
-        data = _posture(linkage, one)
-        cells = [f"{round(1e3 * x, 1) + 0.0:.1f}" for point in data["points_m"].values() for x in point]
-        cells += [f"{round(math.degrees(angle), 2) + 0.0:.2f}" for angle in data["angles_rad"].values()]
-        cells += [f"{1e3 * length:.1f}" for length in data["lengths_m"].values()]
+        cells = [f"{round(1e3 * x, 1) + 0.0:.1f}" for point in one["points_m"].values() for x in point]
+        cells += [f"{round(math.degrees(angle), 2) + 0.0:.2f}" for angle in one["angles_rad"].values()]
+        cells += [f"{1e3 * length:.1f}" for length in one["lengths_m"].values()]
         table.append((where, *cells))
     return CheckTable("postures: points [mm], bodies [degrees from +x]", (first, *heads), table)
 
 
-def _forces(linkage: Linkage, first: str, rows: Sequence[tuple[str, Moved]]) -> CheckTable:
-    held = (*linkage.actuators, *linkage.cranks, *linkage.slides, *linkage.gears)
+def _forces(first: str, rows: Sequence[tuple[str, Mapping[str, Any]]]) -> CheckTable:
     title = (
         "static forces [N]; of actuators their push, of cranks and gears the moment [N m], of guides the force "
         "across"
     )
     table = []
     for where, one in rows:
-        forces = {**one.forces.actuators, **one.forces.cranks, **one.forces.slides, **one.forces.gears}
-        pins = (f"{float(np.hypot(*one.forces.pins[name])):.4g}" for name in linkage.pins)
-        table.append((where, *pins, *(f"{forces[name]:.4g}" for name in held)))
-    return CheckTable(title, (first, *linkage.pins, *held), table)
+        forces = {name: math.hypot(*force) for name, force in one["pins_N"].items()}
+        cells = {**forces, **one["actuators_N"], **one["cranks_N_m"], **one["guides_N"], **one["gears_N_m"]}
+        table.append((where, *(f"{force:.4g}" for force in cells.values())))
+    return CheckTable(title, (first, *cells), table)
 
 
 def _sourced(data: MachineData) -> Iterator[CheckTable]:
@@ -343,35 +337,29 @@ def _sourced(data: MachineData) -> Iterator[CheckTable]:
 
 
 def _numbers(
-    report: CheckReport,
-    stations: Mapping[str, Sequence[Moved]],
-    again: Sequence[RepeatedConditions],
-    loose: Sequence[Movement],
-    stroke: float | None,
+    linkage: Linkage,
+    ways: Sequence[DriveWay],
+    transmission: Mapping[str, Sequence[TransmissionAngle]],
+    start: Sequence[Moved],
+    count: int,
 ) -> dict[str, Any]:
-    """The results as plain data."""
-    linkage, ways = report.linkage, report.ways
+    """The ways of driven parts as plain data, or the start posture; count: of postures less one of a way."""
+    drives = {
+        way.drive: {
+            **way.data(),
+            "transmission_angles": [one.data() for one in transmission[way.drive]],
+            "stations": [_data(linkage, one) for one in _stations(way, count)],
+        }
+        for way in ways
+    }
     sole = ways[0] if len(ways) == 1 else None
-    shown = stations[sole.drive] if sole else [report.start]
     return {
-        "degrees_of_freedom": mobility(linkage).data(),
-        "closure_m": _gaps(Conditions(linkage), linkage),
-        "repeated_conditions": [[f"{kind}.{name}" for kind, name in one.parts] for one in again],
-        "movements": [one.data() for one in loose],
         "drive": sole.drive if sole else "",
         "cranks": {name: {"body": one.body, "on": GROUND} for name, one in linkage.cranks.items()},
-        **({"stroke_m": stroke} if stroke is not None and not linkage.cranks else {}),
         "locks": any(way.locks for way in ways),
         "travel": list(sole.ends) if sole else [0.0, 0.0],
-        "stations": [] if loose else [_data(linkage, one) for one in shown],
-        "drives": {
-            way.drive: {
-                **way.data(),
-                "transmission_angles": [one.data() for one in report.transmission[way.drive]],
-                "stations": [_data(linkage, one) for one in stations[way.drive]],
-            }
-            for way in ways
-        },
+        "stations": drives[sole.drive]["stations"] if sole else [_data(linkage, one) for one in start],
+        "drives": drives,
     }
 
 
