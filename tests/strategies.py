@@ -58,7 +58,6 @@ else:
 # How often each property is tried in a run of the tests, 1000 times and more in all; see `tried`.
 EXAMPLES = {
     "normal laws": 120,
-    "friction laws": 100,
     "contacts": 60,
     "drives": 60,
     "machines": 100,
@@ -66,12 +65,10 @@ EXAMPLES = {
     "runs": 60,
     "machine text": 80,
     "machine tree": 120,
-    "recommend": 30,
     "files of values": 250,
     "files of scenarios": 60,
     "scenario text": 100,
     "scenario tree": 150,
-    "drive tables": 60,
 }
 
 

@@ -10,20 +10,16 @@ import pytest
 
 import user_forces
 from studies.common.paper_machine import bearing
-from support_exudyn import ClearancePin, CubicStep, Scenario, UniformSpeed, reference_support
+from support_exudyn import ClearancePin, Scenario, reference_support
 from support_exudyn.files import parsed, read_value, scenario_of, table_of, toml_text
-from support_exudyn.files.scenarios.short_forms import DriveFile, DriveMode, DrivesFile
-from support_exudyn.files.scenarios.short_joints import ShortGuide, ShortPin, simple_laws
+from support_exudyn.files.scenarios.short_joints import ShortPin, simple_laws
 from support_exudyn.files.toml.shapes import GroupShape, field_shapes
-from support_exudyn.model.drives.table_drive import TableDrive
-from support_exudyn.model.guides import ClearanceGuide
 from support_exudyn.model.simple_laws import USUAL_RESTITUTION
 from tests import strategies as some
 from user_forces import (
     STEEL,
     STEEL_35CRMO,
     InputError,
-    JournalBearing,
     JournalContact,
     NormalLaw,
     Value,
@@ -34,30 +30,6 @@ OUR_SIMPLE_LAWS = [law for law in simple_laws() if hasattr(user_forces, law)]  #
 TOP = 'machine = "reference"\nduration_s = 5\n'
 WITH_CLEARANCE = "[pins.rear_base]\nclearance_mm = 1.5\nbore_radius_mm = 65.5\n"
 some.kinds()  # imports all modules: not while something is drawn
-# what a short form makes, and which of its fields have no default there
-MADE: dict[type[Value], tuple[tuple[type[Value], ...], set[str]]] = {
-    ShortPin: (
-        (
-            ClearancePin,
-            JournalContact,
-            JournalBearing,
-            *(GroupShape((NormalLaw,)).kinds[law] for law in simple_laws()),
-        ),
-        {"clearance", "bore_radius", "restitution", "stiffness", "bore_material", "journal_material"}
-        | {"law", "friction_law", "backing_stiffness"},
-    ),
-    ShortGuide: (
-        (
-            ClearanceGuide,
-            *(GroupShape((NormalLaw,)).kinds[law] for law in simple_laws() if hasattr(user_forces, law)),
-        ),
-        {"clearance", "restitution", "stiffness", "corner_radius", "wall_material", "block_material"}
-        | {"law", "friction_law"},
-    ),
-    DriveMode: ((CubicStep, UniformSpeed), {"mode"}),
-    DriveFile: ((TableDrive,), {"table", "column"}),
-    DrivesFile: ((TableDrive,), {"table"}),
-}
 
 
 def read(text: str) -> Scenario:
@@ -82,20 +54,6 @@ def test_a_pin_in_short_is_what_python_makes_of_the_same_inputs(law: str) -> Non
     expected = Scenario(machine=reference_support(), duration=5.0, pins={"rear_base": pin})
     stiffness = 'stiffness = "paper"' if "stiffness" in some.fields_of(kind) else ""
     assert read(f'{TOP}{WITH_CLEARANCE}law = "{law}"\n{stiffness}') == expected
-
-
-@pytest.mark.parametrize("short", MADE, ids=lambda cls: cls.__name__)
-def test_every_default_of_a_short_form_is_that_of_what_it_makes(short: type[Value]) -> None:
-    made, own = MADE[short]
-    shared = [(name, cls) for name in some.fields_of(short) if name not in own for cls in made]
-    for name, item in defaults(short).items():
-        if name in own:
-            continue
-        there = [defaults(cls)[name] for cls in made if name in defaults(cls)]
-        assert there, f"{short.__name__}.{name} has a default that nothing in Python has"
-        usual = {None, *([0.0] if name == "friction" else [])}  # which mean: whatever the class has
-        assert item in usual or all(one == item for one in there), name
-    assert shared
 
 
 def test_a_simple_pin_in_python_has_the_defaults_of_files() -> None:

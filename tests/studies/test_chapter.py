@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import json
-import re
 from dataclasses import replace
 from pathlib import Path
 
-import pytest
-
 from studies.common.words import Chapter, JudgedClaim, Picture, Tile
 from support_exudyn.postprocessing.page.pieces import Sheet
-from user_forces.values.value import InputError
 
 HOSTILE = "<script>alert('x')</script> | [red]no[/red] *a* `b`\n_c_ [d](http://e) &lt; back\\slash"
 SHEET = Sheet(
@@ -42,23 +38,3 @@ def test_a_chapter_is_read_back_as_it_was(tmp_path: Path) -> None:
     del older["claims"], older["sheets"][0]["wide"]
     (tmp_path / "chapter.json").write_text(json.dumps(older), encoding="utf-8")
     assert Chapter.load(tmp_path) == CHAPTER.model_copy(update={"claims": ()})
-
-
-@pytest.mark.parametrize(
-    ("change", "complaint"),
-    [
-        ({"title": 3}, "title: Input should be a valid string"),
-        ({"method": "One."}, "method: Input should be a valid"),
-        ({"colour": "red"}, "colour: Extra inputs are not permitted"),
-        ({"pictures": [{"stem": "../x", "caption": ""}]}, "pictures.0: .*stem = '../x': allowed: a file name"),
-        (
-            {"sheets": [{"title": "", "header": ["a"], "rows": [["1", "2"]]}]},
-            "sheets.0: .*row 0 has 2 cells; allowed: 1",
-        ),
-    ],
-)
-def test_a_wrong_chapter_says_file_and_place(tmp_path: Path, change: dict[str, object], complaint: str) -> None:
-    path = CHAPTER.save(tmp_path)
-    path.write_text(json.dumps(json.loads(path.read_text(encoding="utf-8")) | change), encoding="utf-8")
-    with pytest.raises(InputError, match=f"{re.escape(str(path))}: {complaint}"):
-        Chapter.load(tmp_path)

@@ -5,8 +5,6 @@ from __future__ import annotations
 import faulthandler
 import os
 import signal
-import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,7 +14,6 @@ import pytest
 from support_exudyn.sweeps.workers import ProcessEndedError, Workers, worker_pool
 from tests import processes
 from tests.hostile import posix_only
-from tests.processes import ROOT, environment, linux_only, session_of, wait_until
 
 pytestmark = posix_only
 
@@ -46,7 +43,7 @@ def times_begun(folder: Path) -> dict[int, int]:
 
 @pytest.fixture(scope="module", autouse=True)
 def soon_started() -> Iterator[None]:
-    """Processes come from one that has imported everything; spawned ones are in test_workers.py and below."""
+    """Processes come from one that has imported everything; spawned ones are in test_workers.py."""
     with processes.soon_started(__name__):
         yield
 
@@ -55,10 +52,6 @@ def soon_started() -> Iterator[None]:
 def pool() -> Iterator[Workers]:
     with worker_pool(2) as pool:
         yield pool
-
-
-def silent(shares: list[float]) -> None:
-    del shares
 
 
 # --- one that ends ---
@@ -80,50 +73,3 @@ def test_the_job_whose_process_ends_is_told_and_all_others_are_done(pool: Worker
     begun = times_begun(tmp_path)
     assert begun[0] == begun[1] == 2
     assert {begun[n] for n in (2, 3, 4, 5, 8)} <= {1, 2}  # again if they stood beside one that ended
-
-
-# --- interruptions ---
-
-INTERRUPTED = """
-import sys, time
-from pathlib import Path
-from support_exudyn.sweeps.workers import worker_pool
-from tests.sweeps.test_dying_workers import end, silent
-if __name__ == "__main__":
-    try:
-        with worker_pool(2) as pool:
-            pool.run([("at work", Path(sys.argv[1]))] * 2, end, silent)
-    except KeyboardInterrupt:
-        print("interrupted")
-"""
-
-
-@linux_only
-@pytest.mark.parametrize("when", [pytest.param("at work", marks=pytest.mark.slow), "starting"])
-def test_workers_say_nothing_when_the_console_interrupts_all(tmp_path: Path, when: str) -> None:
-    script, marks = tmp_path / "script.py", tmp_path / "marks"
-    script.write_text(INTERRUPTED, encoding="utf-8")
-    marks.mkdir()
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with subprocess.Popen(
-        [sys.executable, str(script), str(marks)],
-        cwd=ROOT,
-        env=environment(),
-        text=True,
-        start_new_session=True,
-        **pipes,  # type: ignore[call-overload]
-    ) as process:
-        try:
-            if when == "at work":
-                assert wait_until(lambda: len(list(marks.iterdir())) == 2, 30.0)
-            else:  # the script, two of its workers, which import, and the tracker of what they share
-                assert wait_until(lambda: len(session_of(process.pid)) >= 3, 30.0)
-            os.killpg(process.pid, signal.SIGINT)
-            sent = time.perf_counter()
-            out, errors = process.communicate(timeout=30)
-            assert (out, errors, process.returncode) == ("interrupted\n", "", 0)
-            assert time.perf_counter() - sent < 10.0  # a third of what they would work
-            assert wait_until(lambda: not session_of(process.pid), 10.0)
-        finally:
-            for pid in session_of(process.pid):
-                os.kill(pid, signal.SIGKILL)
