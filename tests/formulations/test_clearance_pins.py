@@ -75,6 +75,28 @@ def test_the_compiled_formulation_and_space_start_and_go_on_alike(bore: str, ove
             assert other[name][0] == pytest.approx(flat[name][0], abs=1e-11)
 
 
+@BORES
+@pytest.mark.parametrize("gap", [0.0, 9e-13])
+def test_a_journal_put_on_its_bore_within_rounding_has_no_impact_in_either_formulation(
+    bore: str, gap: float
+) -> None:
+    scenario = eccentric(0.0, sense(bore) * (CLEARANCE - gap), bore, duration=0.01)
+    engine, compiled = (simulate(replace(scenario, formulation=name)) for name in ("exudyn", "compiled"))
+    assert engine.onsets[PIN] == compiled.onsets[PIN] == ()
+    assert compiled.largest_force[PIN] == pytest.approx(engine.largest_force[PIN], rel=1e-3)  # measured: 2e-4
+
+
+@BORES
+@pytest.mark.parametrize("gap", [0.0, 9e-13])
+def test_a_journal_put_on_its_bore_leaves_it_at_once_if_it_falls_away(bore: str, gap: float) -> None:
+    scenario = eccentric(0.0, sense(bore) * (gap - CLEARANCE), bore, duration=0.03)
+    engine, compiled = (simulate(replace(scenario, formulation=name)) for name in ("exudyn", "compiled"))
+    theirs, first = engine.onsets[PIN][0], compiled.onsets[PIN][0]
+    assert first.time == pytest.approx(theirs.time, abs=1e-7)
+    assert first.speed == pytest.approx(theirs.speed, rel=1e-6)
+    assert compiled[FORCE][compiled["time"] < first.time].max() < 1e-12  # a depth of 1e-18 m by rounding
+
+
 # --- any pin ---
 
 PINS = tuple(reference_support().linkage().pins)

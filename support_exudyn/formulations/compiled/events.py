@@ -127,6 +127,8 @@ def closed(
 ) -> Found:
     """What happens in a step that begins in contact, see `in_flight` for the arguments."""
     one, two = start[n], end[n]
+    if max(one.depth, one.rate, two.depth) <= 0.0:  # it touches without depth at the start, and leaves
+        return SEPARATION, 1.0
     if cut_twice(scene, n, h, start, end, path, y, slope):
         return TOO_LONG, 0.0
     what, x = passes(SEPARATION, DepthPath(min(-one.depth, 0.0), -one.rate, -two.depth, -two.rate, h))

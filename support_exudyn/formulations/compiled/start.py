@@ -103,11 +103,15 @@ def error_weights(model: Model, y: Vector, tolerance: float) -> Vector:
 
 @once
 def begin_run(scene: SceneArrays, room: Scratch, y: Vector) -> bool:
-    """Write the first record at 0 s, with the contacts that are closed then; whether the linkage moves."""
+    """Write the first record at 0 s, with the contacts that are closed then; whether the linkage moves.
+
+    Surfaces that touch within rounding are separated if they approach, so that their impact is located, and
+    closed otherwise: a journal that is put on its bore at rest has no impact.
+    """
     least = evaluate(scene, 0.0, y, room.slope, room.right)
     for n in range(scene.contacts.size):
         contact = scene.contacts[n]
-        if contact.depth > (STILL if contact.rate > 0.0 else 0.0):  # else it meets just now
+        if contact.depth > (STILL if contact.rate > 0.0 else -STILL):
             contact.closed, contact.impact_velocity = 1.0, max(0.0, contact.rate)
     evaluate(scene, 0.0, y, room.slope, room.right)
     write_record(scene, 0.0, y, room.slope, room.rows[0])
