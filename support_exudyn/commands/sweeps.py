@@ -7,10 +7,9 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from support_exudyn.commands.command_line import Json, answer, at_most, say, shown_progress, warn
+from support_exudyn.commands.command_line import Json, answer, at_most, say, shown_progress, warn, write_or_say
 from support_exudyn.commands.runs import file_name
 from support_exudyn.commands.tables import show_table
-from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing import sweep_summary, sweep_table
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.sweep_runs import SweepRuns
@@ -173,13 +172,7 @@ def table(
     """
     runs = SweepRuns(read_table(store))
     chosen = _chosen(runs, numbers) or list(runs.numbers.values())
-    text = FORMATS[format](runs, chosen)
-    if out is None:
-        say(text.rstrip("\n"))
-        return
-    with whole_file(out) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    say(out)
+    write_or_say(FORMATS[format](runs, chosen), out)
 
 
 def _chosen(runs: SweepRuns, words: Sequence[str]) -> list[str]:
