@@ -95,7 +95,8 @@ def _counts(outcome: SweepOutcome) -> str:
     counts = {"done": outcome.done, "failed": outcome.failed, "killed": outcome.killed}
     words = ", ".join(f"{number} {kind}" for kind, number in counts.items() if number) or "none done"
     pruned = f", {outcome.pruned} others removed from the store" if outcome.pruned else ""
-    return f"{words} ({outcome.found} of them were in the store){pruned}"
+    stored = f" ({outcome.found} of them were in the store)" if outcome.found else ""
+    return f"{words}{stored}{pruned}"
 
 
 def chart(
