@@ -115,6 +115,18 @@ def say(text: object) -> None:
         os.close(nowhere)
 
 
+def write_or_say(text: str, out: Path | None) -> None:
+    """Write a text into a file and print its name; without a file print the text."""
+    if out is None:
+        say(text.rstrip("\n"))
+        return
+    from support_exudyn.files.whole_file import whole_file
+
+    with whole_file(out) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    say(out)
+
+
 def warn(text: str) -> None:
     """Print a line on standard error; what it would do to a terminal is not done."""
     print(cleaned(text), file=sys.stderr, flush=True)

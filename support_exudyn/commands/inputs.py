@@ -7,12 +7,11 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from support_exudyn.commands.command_line import Json, among, answer, say
+from support_exudyn.commands.command_line import Json, among, answer, say, write_or_say
 from support_exudyn.commands.tables import show_table
-from support_exudyn.files import save_scenario, scenario_schema, scenario_text
+from support_exudyn.files import scenario_schema, scenario_text
 from support_exudyn.files.machines import machine_schema
 from support_exudyn.files.starters import KINDS, write_starter
-from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing.known_channels import ALLOWED, HEADER
 from support_exudyn.postprocessing.known_channels import channels as known_channels
 from support_exudyn.scenario.scenario import Scenario
@@ -61,10 +60,7 @@ def scenario(run: Path, /, *, out: Path | None = None) -> None:
         out: File for the scenario (standard output).
     """
     again, errors = asked(Result.load(run))
-    if out is None:
-        say(scenario_text(again, errors=errors).rstrip("\n"))
-    else:
-        say(save_scenario(again, out, errors=errors))
+    write_or_say(scenario_text(again, errors=errors), out)
 
 
 def asked(result: Result) -> tuple[Scenario, bool]:
@@ -104,13 +100,7 @@ def schema(
         for name, rows in key_tables(found).items():
             show_table(name or f"a {kind}'s file", ("key", "default", "meaning"), rows)
         return
-    text = json.dumps(found, indent=1, ensure_ascii=False)
-    if out is None:
-        say(text)
-        return
-    with whole_file(out) as temporary:
-        temporary.write_text(f"{text}\n", encoding="utf-8")
-    say(out)
+    write_or_say(f"{json.dumps(found, indent=1, ensure_ascii=False)}\n", out)
 
 
 def docs(*, out: Path = Path("site")) -> None:

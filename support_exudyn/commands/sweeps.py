@@ -7,10 +7,9 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from support_exudyn.commands.command_line import Json, answer, at_most, say, shown_progress, warn
+from support_exudyn.commands.command_line import Json, answer, at_most, say, shown_progress, warn, write_or_say
 from support_exudyn.commands.runs import file_name
 from support_exudyn.commands.tables import show_table
-from support_exudyn.files.whole_file import whole_file
 from support_exudyn.postprocessing import sweep_summary, sweep_table
 from support_exudyn.postprocessing.figures.selection import matching
 from support_exudyn.postprocessing.sweep_runs import SweepRuns
@@ -96,7 +95,8 @@ def _counts(outcome: SweepOutcome) -> str:
     counts = {"done": outcome.done, "failed": outcome.failed, "killed": outcome.killed}
     words = ", ".join(f"{number} {kind}" for kind, number in counts.items() if number) or "none done"
     pruned = f", {outcome.pruned} others removed from the store" if outcome.pruned else ""
-    return f"{words} ({outcome.found} of them were in the store){pruned}"
+    stored = f" ({outcome.found} of them were in the store)" if outcome.found else ""
+    return f"{words}{stored}{pruned}"
 
 
 def chart(
@@ -173,13 +173,7 @@ def table(
     """
     runs = SweepRuns(read_table(store))
     chosen = _chosen(runs, numbers) or list(runs.numbers.values())
-    text = FORMATS[format](runs, chosen)
-    if out is None:
-        say(text.rstrip("\n"))
-        return
-    with whole_file(out) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-    say(out)
+    write_or_say(FORMATS[format](runs, chosen), out)
 
 
 def _chosen(runs: SweepRuns, words: Sequence[str]) -> list[str]:

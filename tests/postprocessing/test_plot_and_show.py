@@ -10,6 +10,7 @@ import pytest
 
 from support_exudyn import Result, simulate
 from support_exudyn.__main__ import main
+from support_exudyn.files import save_scenario
 from tests.cases.run_cases import loose_slider_crank, loose_support, support
 from user_forces.values.value import Value
 
@@ -84,7 +85,24 @@ def test_what_cannot_be_drawn_is_said_in_a_sentence(
     assert not (tmp_path / "new").exists()
 
 
-# --- show ---
+# --- run and show ---
+
+
+def test_run_prints_five_lines_and_all_on_request(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = save_scenario(loose_support(1.5, 0.25, duration=0.2), tmp_path / "fall.toml")
+    assert main(["run", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    result = Result.load(tmp_path / "fall.h5")
+    force, impacts = result.window("pin.rear_base.force"), result.onsets["rear_base"]
+    peak = result.largest_force["rear_base"]
+    assert len(lines) == 5
+    for line, what, value in zip(lines, ("mean", "peak", "fluct"), (force.mean, peak, force.std), strict=False):
+        assert line.startswith(f"pin.rear_base: {what}")
+        assert float(line.split()[-2]) == pytest.approx(value / 1e3, rel=1e-4)
+    assert lines[3] == f"pin.rear_base: impacts: {len(impacts)}"
+    assert lines[4].endswith(f"--all, or support-exudyn show {tmp_path / 'fall.h5'}")
+    assert main(["run", str(path), "--all"]) == 0
+    assert "what came out" in capsys.readouterr().out
 
 
 def shown(path: Path, capsys: pytest.CaptureFixture[str], *args: str) -> str:
