@@ -39,6 +39,7 @@ HEAD = 64  # bytes by which a run is recognised
 # were compared: with these, 49 of 7701 curves differ anywhere by more than both errors, the worst 9.7 times.
 AROUND = 5  # records to either side of which the largest error is taken
 SINGLE = 3.0  # times what is estimated of numbers, which average
+JUMPING = ".impact_velocity"  # end of the names of channels that are steps in time
 ARM = 1.0  # [m], of a body, by which places become angles
 # Share of the largest value of a unit, of the whole run, that a safe error is at least: what is nothing in
 # truth, as the force of a pin that carries nothing or what is missing of an energy, is rounding of others.
@@ -191,7 +192,8 @@ def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
     the `AROUND` records to either side, and no less than a step may be wrong by; all of it `SINGLE` times. An
     error is at least the largest before: of thousands of records none is to differ by chance, and in chaos
     what is behind an impact is not more certain than that is. Rounding on other processors is added. From the
-    horizon on errors are infinite; NaN if the run has none.
+    horizon on errors are infinite; NaN if the run has none. Impact velocities jump at impacts and
+    separations, whose times have errors: the error at both records about a jump is at least the jump.
     """
     errors = {name: np.full(result.time.size, math.nan) for name in names}
     if result.coarser is None:
@@ -204,6 +206,10 @@ def curve_errors(result: Result, names: Iterable[str]) -> dict[str, Values]:
             near = ndimage.maximum_filter1d(single, 2 * AROUND + 1) + least.get(unit, 0.0)
             growing = np.maximum.accumulate(np.where(beyond, math.inf, SINGLE * near))
             errors[name] = growing + ROUNDED * largest[unit]
+            if name.endswith(JUMPING):
+                jumps = np.abs(np.diff(result[name]))
+                errors[name][:-1] = np.maximum(errors[name][:-1], jumps)
+                errors[name][1:] = np.maximum(errors[name][1:], jumps)
     return errors
 
 
