@@ -25,7 +25,7 @@ except ImportError:  # Windows
     _fcntl = None  # type: ignore[assignment]
 
 fcntl: Any = _fcntl
-SECONDS = {"compiled": 10}  # that compiling takes on a quiet machine of 2020
+SECONDS = {"compiled": 30}  # that compiling takes
 COMPILED = ("scene", "formulations/compiled", "formulations/statistics")  # folders with compiled functions
 CONSTANTS_OF = (elements,)  # modules of which compiled functions use constants
 UNCOUNTED = {"_nrt": False}  # numba then counts no references to arrays, which takes most of the time else
