@@ -1,4 +1,4 @@
-"""Strategies for fuzzing: values of every class there is, data that were valid once, and what is no data.
+"""Strategies for drawn values of every class there is.
 
 Classes are found in the register and their fields in what they declare, so that a new law is tried without a
 line here.
@@ -6,19 +6,15 @@ line here.
 
 from __future__ import annotations
 
-import copy
 import dataclasses
 import importlib
 import inspect
-import json
 import math
 import pkgutil
-import sys
 import types
 import typing
 from collections.abc import Callable, Mapping
 from functools import cache
-from importlib import resources
 from typing import Any
 
 import annotated_types
@@ -48,14 +44,8 @@ from support_exudyn import (
 from tests.cases.machine_cases import contact
 from tests.often import often
 from user_forces import CubicCoulomb, InputError, LuGre, Value
-from user_forces.values.value import DEEPEST
 
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
-# How often each property is tried in a run of the tests, 1000 times and more in all; see `tried`.
+# How often each property is tried in a run of the tests; see `tried`.
 EXAMPLES = {
     "normal laws": 120,
     "contacts": 60,
@@ -63,12 +53,8 @@ EXAMPLES = {
     "machines": 100,
     "scenarios": 120,
     "runs": 60,
-    "machine text": 80,
-    "machine tree": 120,
     "files of values": 250,
     "files of scenarios": 60,
-    "scenario text": 100,
-    "scenario tree": 150,
 }
 
 
@@ -81,36 +67,9 @@ def tried(name: str) -> Callable[[Any], Any]:
     )
 
 
-# --- extreme data ---
-
-EXTREMES: tuple[float, ...] = (
-    *(0.0, -0.0, 5e-324, -5e-324, 2.2e-308, 1e-300, 1e-30, 1e-9, 1.0, -1.0, 1e9, 1e17, 1e30, 1e154),
-    *(1e300, -1e300, 1.7976931348623157e308, math.nan, math.inf, -math.inf),
-)
-# plain data, as a file may hold
-SCRAPS: tuple[Any, ...] = (
-    *EXTREMES,
-    *(0, 1, -1, 2, 3, 10**20, 10**400, -(10**400), True, False, None),
-    *("", "0.1", "nan", "type", "x" * 10000, "\x00", "\ud800", "ground", "self", "*", "[", "draft", "\n\n"),
-    *([], {}, [1.0, 2.0], [1.0, 2.0, 3.0], [[]], {"type": "Held"}, {"type": "Drive"}, {"a": {"type": 3}}),
-    *({"type": "Steady", "rate": 1e300}, {"type": "NormalLaw"}, {"type": "Stroke"}, {"type": "PowerLaw"}),
-    *({"type": "ActuatorModel"}, {"type": ""}, {"type": None}, {"type": []}, {"type": "Scenario"}),
-)
-numbers = (
-    st.sampled_from(EXTREMES)
-    | st.floats()
-    | st.floats(1e-9, 1e9)
-    | st.integers(-3, 3)
-    | st.integers(-(10**20), 10**20)
-)
-
-
 def one_of(items: typing.Sequence[Any]) -> st.SearchStrategy[Any]:
     """One of some items; `sampled_from` for those that are long in a report."""
     return st.integers(0, len(items) - 1).map(lambda n: items[n])
-
-
-scraps = one_of(SCRAPS).map(copy.deepcopy) | numbers | st.text(max_size=8)
 
 
 # --- values of every class ---
@@ -316,109 +275,3 @@ def attempt(kind: type, given: Mapping[str, Any]) -> Any:
         return kind(**given)
     except InputError:
         return None
-
-
-# --- data that were valid ---
-
-
-def _places(data: Any, here: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
-    """Ways to all nodes of a tree."""
-    found = [here]
-    if len(here) > DEEPEST:  # into an endless one
-        return found
-    if isinstance(data, dict):
-        for key, item in data.items():
-            found += _places(item, (*here, key))
-    elif isinstance(data, list):
-        for n, item in enumerate(data):
-            found += _places(item, (*here, n))
-    return found
-
-
-def _at(data: Any, place: tuple[Any, ...]) -> Any:
-    for key in place:
-        data = data[key]
-    return data
-
-
-@st.composite
-def mutated(draw: st.DrawFn, trees: st.SearchStrategy[Any], odd: st.SearchStrategy[Any] = scraps) -> Any:
-    """A tree with some nodes replaced, left out, added, renamed, moved or repeated."""
-    whole = draw(trees)
-    tree = copy.deepcopy(whole)
-    for _ in range(draw(st.integers(1, 3))):
-        places = [place for place in _places(tree) if place]
-        if not places:
-            return draw(odd)
-        # first among the keys, so that shallow nodes are met as often as those in long lists
-        depth = draw(st.integers(1, max(map(len, places))))
-        place = draw(one_of([one for one in places if len(one) == depth]))
-        parent, key = _at(tree, place[:-1]), place[-1]
-        match draw(
-            st.sampled_from(("replace", "replace", "replace", "delete", "add", "rename", "move", "scale"))
-        ):
-            case "replace":
-                parent[key] = draw(odd)
-            case "delete":
-                del parent[key]
-            case "add":
-                if isinstance(parent, dict):
-                    parent[draw(names)] = draw(odd)
-                else:
-                    parent.insert(draw(st.integers(0, len(parent))), draw(odd))
-            case "rename":
-                if isinstance(parent, dict):
-                    parent[draw(names)] = parent.pop(key)
-            case "move":
-                parent[key] = copy.deepcopy(_at(whole, draw(one_of(_places(whole)))))
-            case "scale":
-                if isinstance(parent[key], float):
-                    parent[key] *= draw(st.sampled_from((0.0, -1.0, 1e-3, 1e3, 1e-9, 1e9, 1e25, 1e-25)))
-    return tree
-
-
-@st.composite
-def mangled(draw: st.DrawFn, texts: st.SearchStrategy[str]) -> str:
-    """A text with some stretches left out, repeated, or replaced."""
-    text = draw(texts)
-    for _ in range(draw(st.integers(1, 4))):
-        start = draw(st.integers(0, len(text)))
-        end = min(len(text), start + draw(st.integers(0, 30)))
-        new = draw(
-            st.text(max_size=4)
-            | st.sampled_from(("[", "]", '"', "=", "{", "}", "\n", ".", "1e999", "nan", "-inf", "[[", "\x00"))
-            | st.just(text[start:end] * 2)
-        )
-        text = text[:start] + new + text[end:]
-    return text
-
-
-def data_of(seed: Value) -> Any:
-    """Plain data, as they come out of a file."""
-    return json.loads(json.dumps(seed.to_data()))
-
-
-@cache
-def machine_tree() -> Any:
-    """The reference support's file as a tree."""
-    shipped = resources.files("support_exudyn.files.machines")
-    return tomllib.loads((shipped / "reference.toml").read_text("utf-8"))
-
-
-def toml(tree: Any) -> str:
-    """A tree as TOML, tables inline; what TOML has no form for is left as it is written in Python."""
-    return "\n".join(f"{_key(key)} = {_inline(item)}" for key, item in tree.items()) if tree else ""
-
-
-def _inline(item: Any) -> str:
-    if isinstance(item, dict):
-        return "{" + ", ".join(f"{_key(key)} = {_inline(one)}" for key, one in item.items()) + "}"
-    if isinstance(item, list):
-        return "[" + ", ".join(map(_inline, item)) + "]"
-    if isinstance(item, str):
-        return json.dumps(item, ensure_ascii=False)
-    return str(item).lower() if isinstance(item, bool) else repr(item)
-
-
-def _key(key: Any) -> str:
-    return json.dumps(str(key), ensure_ascii=False)

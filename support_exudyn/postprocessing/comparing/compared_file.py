@@ -53,7 +53,7 @@ class ComparedFile:
     name: by which tables and figures call it. path: of it. kind: of file, in words.
     columns: by the names of channels, at shifted times: those that are mapped first.
     run: with its errors, if it is a run of this program. mapped: the columns of channels that a mapping names.
-    shift: was added to the times [s]. notes: what a reader of the numbers has to know.
+    shift: was added to the times [s]. notes: what a reader of the numbers has to know. known: see `_numbers`.
     """
 
     name: str
@@ -64,6 +64,7 @@ class ComparedFile:
     mapped: Mapping[str, str] = field(default_factory=dict)
     shift: float = 0.0
     notes: tuple[str, ...] = ()
+    known: dict[tuple[float, float], Mapping[str, Estimate]] = field(default_factory=dict, compare=False)
 
     @property
     def has_errors(self) -> bool:
@@ -78,14 +79,25 @@ class ComparedFile:
     def mean(self, channel: str, unit: str, after: float, until: float) -> Estimate | None:
         """The mean of a channel over time with its error, from every step of a run between two times [s].
 
-        None if this is no run, or has the channel mapped or in another unit.
+        The error is that of the run's own numbers, if the mean is among them. None if this is no run, or has
+        the channel mapped or in another unit.
         """
         run, ends = self.run, (channel, after - self.shift, until - self.shift)
         if run is None or channel in self.mapped or self.columns[channel].unit != unit:
             return None
         window = run.window(*ends)
-        error = run.estimate(lambda run: run.window(*ends).mean).error if self.has_errors else math.nan
+        error = math.nan
+        if self.has_errors:
+            usual = self._numbers(ends[1:]).get(f"{channel}.mean")
+            error = usual.error if usual else run.estimate(lambda run: run.window(*ends).mean).error
         return Estimate(window.mean, error + window.mean_doubt, unit)
+
+    def _numbers(self, window: tuple[float, float]) -> Mapping[str, Estimate]:
+        """The usual numbers of the run between two times [s], computed once."""
+        if window not in self.known:
+            assert self.run is not None
+            self.known[window] = self.run.numbers(*window)
+        return self.known[window]
 
     def shifted(self, seconds: float) -> ComparedFile:
         """The file with a time [s] added to all of its times."""
