@@ -20,11 +20,6 @@ def test_one_in_so_many_from_the_first_that_lies_inside() -> None:
     assert Sampling(every=40, after=0.095).records(TIME) == [10, 50, 90]
 
 
-def test_frames_are_the_nearest_records() -> None:
-    assert Sampling(frames_per_second=25.0).records(TIME) == list(range(0, 101, 4))
-    assert Sampling(frames_per_second=3.0).records(TIME) == [0, 33, 67, 100]
-
-
 times = st.lists(st.floats(0.0, 10.0, width=32), min_size=1, max_size=50, unique=True).map(sorted)
 
 
