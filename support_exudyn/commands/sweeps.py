@@ -78,7 +78,8 @@ def sweep(
     if json:
         answer(asdict(outcome) | {"to_do": to_do})
     else:
-        say(f"{outcome.runs} runs, {to_do} to do: {_counts(outcome)}")
+        left = f", {to_do} to do" if dry_run else ""
+        say(f"{outcome.runs} runs{left}: {_counts(outcome)}")
         if not dry_run:
             say(f"{outcome.table}\nnext: support-exudyn show {outcome.table.parent}")
     if dry_run:
