@@ -32,6 +32,8 @@ from exudyn.itemInterface import (
     ObjectJointGeneric,
     ObjectJointPrismatic2D,
     ObjectJointRevolute2D,
+    ObjectJointRevoluteZ,
+    ObjectJointSpherical,
     ObjectRigidBody,
     ObjectRigidBody2D,
 )
@@ -59,6 +61,7 @@ from support_exudyn.scenario.scenario import Scenario
 from user_forces.values.value import Vector2
 
 TURN = np.array([0.0, 0.0, 1.0])  # takes the angle out of a body's coordinates
+TILTS: tuple[Kind, ...] = ("tilt_1", "tilt_2")
 
 
 @dataclass(frozen=True)
@@ -232,10 +235,15 @@ class JointBuilder:
         )
 
     def add_bearing(self, bearing: Bearing, held: Collection[Kind]) -> Any:
-        """The joint of space that holds these."""
+        """The joint of space with the fewest constraints that holds these."""
         markers = [self.frame(end.body, end.point, frame_of(end.axis)) for end in ends(bearing, "first")]
-        axes = [int(kind in held) for kind in (*SHIFTS, "tilt_1", "tilt_2", "turn")]
-        return ObjectJointGeneric(markerNumbers=markers, constrainedAxes=axes)
+        if all(kind in held for kind in SHIFTS + TILTS):
+            return ObjectJointRevoluteZ(markerNumbers=markers)
+        shifts = [int(kind in held) for kind in SHIFTS]
+        tilts = [int(kind in held) for kind in TILTS]
+        if not any(tilts) and _in_ground_axes(bearing, held):
+            return ObjectJointSpherical(markerNumbers=markers, constrainedAxes=shifts)
+        return ObjectJointGeneric(markerNumbers=markers, constrainedAxes=[*shifts, *tilts, int("turn" in held)])
 
     def ends(self, actuator: Any) -> list[Any]:
         """The markers of foot and head."""
@@ -271,3 +279,14 @@ def placed(axes: Matrix, place: Series) -> list[list[float]]:
     found[:3, :3], found[:3, 3] = axes, place
     rows: list[list[float]] = found.tolist()
     return rows
+
+
+def _in_ground_axes(bearing: Bearing, held: Collection[Kind]) -> bool:
+    """Whether its directions may be those of the ground, in which the spherical joint counts.
+
+    They are if the first body is the ground; if it turns, both directions across z span the same plane as long
+    as it turns about z, which a body does whose bearing has nothing to hold along it.
+    """
+    if not np.array_equal(frame_of(bearing.first_axis), np.eye(3)):
+        return False
+    return bearing.first == GROUND or "along" not in held

@@ -10,6 +10,7 @@ from user_forces.connector.item import INITIAL, JointItem
 from user_forces.contact import Contact
 from user_forces.contact_state import InverseMass, Onset, PinMemory
 from user_forces.impact_steps import ImpactSteps
+from user_forces.roots import NEAR_PEAK, has_a_top, peak
 from user_forces.values.value import Vector2
 
 
@@ -28,8 +29,10 @@ class SectionJournal:
         self._inverse_mass: InverseMass | None = None
         self.sections: list[SectionPin] = []
         self.onsets: list[Onset] = []  # of the journal, all sections of which were separated
-        self.largest_force = 0.0  # [N], of all sections together at the end of any step
-        self.largest_force_time = 0.0  # [s]
+        self.largest_force = 0.0  # [N], at any time
+        self.largest_force_time = 0.0  # end of the step that has it [s]
+        self._bound = 0.0  # of the force at the end of the last step [N]
+        self._places: list[Vector2] = []  # of the sections in the bore at its end, bore's axes [m]
 
     def moved(self) -> None:
         """The bodies are elsewhere now."""
@@ -54,14 +57,21 @@ class SectionJournal:
         if impacts and all(pin.struck is not None for pin in self.sections if pin.was_in_contact):
             self.onsets.append(min(impacts))
         self._look_for_separation(t)
-        total_x = total_y = 0.0
+        before, bound = self._bound, 0.0
         for pin in self.sections:
-            (x, y), force = pin.place, pin.force
-            away = math.hypot(x, y) or 1.0
-            total_x += (-force.normal_force * x - force.friction_force * y) / away
-            total_y += (-force.normal_force * y + force.friction_force * x) / away
-        if (size := math.hypot(total_x, total_y)) > self.largest_force:
-            self.largest_force, self.largest_force_time = size, t
+            force = pin.force
+            bound += force.normal_force + abs(force.friction_force)
+        self._bound = bound
+        near = max(before, self._bound) > NEAR_PEAK * self.largest_force
+        has = near and has_a_top(self._bound_within, before, self._bound)
+        if has or self._bound > self.largest_force:
+            self._places = [pin.place for pin in self.sections]
+            was_largest = self.largest_force
+            self.largest_force = max(self.largest_force, self._resultant(1.0))
+            if has:
+                self.largest_force = peak(self._resultant, self.largest_force)
+            if self.largest_force > was_largest:
+                self.largest_force_time = t
 
     def _look_for_separation(self, t: float) -> None:
         """If in the step to t [s] the last sections have separated: note when, and their highest speed."""
@@ -73,6 +83,22 @@ class SectionJournal:
         separated = [-pin.kept.rate for pin in self.sections if pin.was_in_contact]
         if separated:
             self.onsets[-1] = self.onsets[-1].separated(t, max(separated))
+
+    def _bound_within(self, fraction: float) -> float:
+        """What the force is at most [N] at a fraction of the step just accepted."""
+        forces = [pin.force_within(fraction) for pin in self.sections]
+        return sum(force.normal_force + abs(force.friction_force) for force in forces)
+
+    def _resultant(self, fraction: float) -> float:
+        """Magnitude of the force of all sections together [N] at a fraction of the step just accepted."""
+        total_x = total_y = 0.0
+        for pin, (x, y) in zip(self.sections, self._places, strict=True):
+            away = math.hypot(x, y) or 1.0
+            force = pin.force_within(fraction)
+            normal, friction = force.normal_force, force.friction_force
+            total_x += (-normal * x - friction * y) / away
+            total_y += (-normal * y + friction * x) / away
+        return math.hypot(total_x, total_y)
 
 
 class SectionPin(ContactConnector):
